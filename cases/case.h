@@ -1,0 +1,44 @@
+// A case: a scene, how to run it, what the truth is, and the gates it must pass. One TOML file of cases/suite/ each.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+struct StepSize {
+  double seconds;
+  std::string text;  // as it was written, "1/30": what tables and file names show
+};
+
+// What a metric's value is held against. Exactly one of the bounds is set, or min and max together.
+struct Gate {
+  std::string metric;                // a row of metrics.cpp
+  std::vector<std::string> engines;  // run names; empty: every engine that supports the scene
+  std::vector<StepSize> dt;          // empty: every dt of the run
+  std::optional<double> max, min, equals, at_least_order;
+  std::string because;
+  std::string where;  // "file:line:column" of the gate
+};
+
+struct Case {
+  std::string id;      // "springs/fixed-spring": its path in the suite; or the path as given, for a file elsewhere
+  std::string title;
+  std::string source;
+  Scene scene;
+  double duration = 0;         // s
+  std::vector<StepSize> dt;
+  std::string truth = "none";  // a row of truths.cpp, or "none"
+  std::string truth_where;     // "file:line:column" of truth.kind
+  std::vector<Gate> gates;
+  std::string text;            // the file itself
+};
+
+// Reads a duration or step size in seconds, "0.01" or "1/30". Throws InputError unless positive and finite and, for a
+// fraction, made of two plain numbers. `what` begins the message: "--dt".
+StepSize parse_step_size(const std::string& text, const std::string& what);
+
+}  // namespace rigor

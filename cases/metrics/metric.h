@@ -1,0 +1,60 @@
+// What is measured of one run: a number, the instant at which it is worst, and its course over time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/truth/truth.h"
+#include "core/engine/trajectory.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// The truth at the instants of a trajectory's samples, so that every metric reads it and none recomputes it.
+struct TruthSamples {
+  std::vector<BodyTable> bodies;   // one for each sample of the trajectory
+  std::vector<double> error;       // the truth's own error at each, see Truth::error
+  double largest_kinetic_energy;   // J, over the whole run
+};
+
+// A run, ready to be judged. The trajectory ends before the first sample that is not finite.
+struct JudgedRun {
+  const Scene& scene;
+  const Trajectory& trajectory;
+  const TruthSamples* truth;  // null where the case has none
+  double velocity_lag;        // in steps, see MethodInfo
+};
+
+// Where a metric is worst. Body kWorld: the system as a whole.
+struct Instant {
+  double time = 0;  // s
+  int body = kWorld;
+  std::string component;  // what was compared: "position", "energy", "L.x"
+  double found = 0, expected = 0;
+};
+
+struct Measurement {
+  double value = 0;             // in the metric's unit
+  Instant worst;
+  std::vector<double> series;   // the value at each sample compared; may be shorter than the trajectory
+  double compared_until = 0;    // s: the end of the run, or the horizon of the truth
+};
+
+// Either a measurement or the reason why there can be none.
+struct MetricResult {
+  std::optional<Measurement> measurement;
+  std::string not_applicable;
+};
+
+// A row of the table in metrics.cpp.
+struct MetricRow {
+  std::string name;
+  std::string unit;     // "m", "rad", "1"
+  std::string summary;  // one line
+  MetricResult (*measure)(const JudgedRun& run);
+};
+
+const std::vector<MetricRow>& metrics();  // alphabetical
+
+}  // namespace rigor

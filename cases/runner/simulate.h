@@ -1,0 +1,33 @@
+// One run of one engine on one scene: steps it, records it, stops where it is no longer finite.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/engine/engine.h"
+#include "core/engine/trajectory.h"
+
+namespace rigor {
+
+struct NotFinite {
+  double time;  // s, of the first sample with a number that is not finite
+  int body;
+};
+
+struct Simulation {
+  Trajectory trajectory;  // finite samples only, t = 0 first
+  SettingsInForce settings;
+  std::optional<NotFinite> not_finite;
+  std::string complaint;      // the first one of the world, with its time; empty if none
+  double complaint_time = 0;  // s
+  double cpu_seconds = 0;     // of the steps alone, without recording
+};
+
+// Steps that fit into the duration, one that ends within rounding (1e-9 of a step) of it included.
+long steps_in(double duration, double dt);
+
+// Every step is recorded, or every n-th where the whole would pass kLargestTrajectory bytes.
+inline constexpr double kLargestTrajectory = 512e6;
+Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration);
+
+}  // namespace rigor

@@ -1,0 +1,17 @@
+// Energy and momenta of a scene's bodies, from their states and the scene alone: never asked of an engine.
+#pragma once
+
+#include "core/engine/body_table.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+double kinetic_energy(const Scene& scene, BodyColumns bodies);    // J
+double potential_energy(const Scene& scene, BodyColumns bodies);  // J, gravity (zero at W's origin) and springs
+inline double energy(const Scene& scene, BodyColumns bodies) {
+  return kinetic_energy(scene, bodies) + potential_energy(scene, bodies);
+}
+Vec3 linear_momentum(const Scene& scene, BodyColumns bodies);                          // kg m/s, in W
+Vec3 angular_momentum(const Scene& scene, BodyColumns bodies, const Vec3& about_W);    // kg m²/s, in W
+
+}  // namespace rigor

@@ -1,0 +1,40 @@
+// The forces and torques that a scene's gravity, springs and timed forces put on its bodies. Used by the core's own
+// integrators and, before each step, by every adapter whose engine has no such spring: the same law for all.
+#pragma once
+
+#include <vector>
+
+#include "core/engine/body_table.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// Force [N] and torque about the centre of mass [N m], both in W.
+struct Wrench {
+  Vec3 force = Vec3::Zero();
+  Vec3 torque = Vec3::Zero();
+};
+using Wrenches = std::vector<Wrench>;  // one for each body of the scene
+
+class Loads {
+ public:
+  explicit Loads(const Scene& scene);
+
+  // Springs and timed forces, without gravity, over a step [t, t + dt] that begins with `bodies`. A timed force counts
+  // with its mean over the step, so that its impulse is right whatever dt is. dt = 0 takes its value at t.
+  void evaluate(BodyColumns bodies, double t, double dt, Wrenches& out) const;
+  // The same, with m g added for every body that is not fixed.
+  void evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenches& out) const;
+
+  bool empty() const { return springs_.empty() && forces_.empty(); }
+  bool damped() const { return damped_; }
+
+ private:
+  Vec3 gravity_;
+  std::vector<double> masses_;  // kg; 0 for a fixed body
+  std::vector<Spring> springs_;
+  std::vector<TimedForce> forces_;
+  bool damped_ = false;
+};
+
+}  // namespace rigor

@@ -1,0 +1,24 @@
+#include "core/engine/body_table.h"
+
+#include <algorithm>
+
+namespace rigor {
+
+void BodyTable::resize(std::size_t size, bool has_rotation) {
+  constexpr std::size_t kDoublesPerCacheLine = 8;
+  size_ = size;
+  has_rotation_ = has_rotation;
+  stride_ = (size + kDoublesPerCacheLine - 1) / kDoublesPerCacheLine * kDoublesPerCacheLine;
+  data_.assign(stride_ * (has_rotation ? 22 : 13), 0.0);
+}
+
+BodyTable& BodyTable::operator=(BodyColumns source) {
+  if (size_ != source.size() || has_rotation_ != source.has_rotation() || data_.empty()) {
+    resize(source.size(), source.has_rotation());
+  }
+  const int count = has_rotation_ ? 22 : 13;
+  for (int c = 0; c < count; ++c) std::copy_n(source.column(c), size_, columns().column(c));
+  return *this;
+}
+
+}  // namespace rigor

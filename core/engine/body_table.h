@@ -1,0 +1,105 @@
+// The motion of all bodies at one instant, as thirteen columns of doubles (a structure of arrays), optionally with nine
+// more for an engine whose own orientation is a matrix. The core's state, an engine's snapshot and a trajectory's samples
+// all have this layout: the core hands its columns out without a copy.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/math.h"
+
+namespace rigor {
+
+struct BodyState {
+  Vec3 position = Vec3::Zero();          // m, p_WB
+  Quat orientation = Quat::Identity();   // B to W, as the engine holds it: not normalised here
+  Vec3 velocity = Vec3::Zero();          // m/s, in W
+  Vec3 angular_velocity = Vec3::Zero();  // rad/s, in W
+};
+
+// In the order of the trajectory file.
+inline constexpr std::array<const char*, 13> kColumnNames = {"px", "py", "pz", "qw", "qx", "qy", "qz",
+                                                             "vx", "vy", "vz", "wx", "wy", "wz"};
+enum Column { kPosition = 0, kOrientation = 3, kVelocity = 7, kAngularVelocity = 10, kRotation = 13 };
+
+// A view that owns nothing: column c of body i is column(c)[i]. Columns kRotation.. (row-major) are there only if
+// has_rotation(). Valid as long as what it was taken from.
+template <typename Scalar>
+class BodyColumnsOf {
+ public:
+  BodyColumnsOf() = default;
+  // `stride` doubles lie between the starts of two columns.
+  BodyColumnsOf(Scalar* first, std::size_t stride, std::size_t size, bool has_rotation)
+      : first_(first), stride_(stride), size_(size), has_rotation_(has_rotation) {}
+
+  std::size_t size() const { return size_; }
+  bool has_rotation() const { return has_rotation_; }
+  Scalar* column(int c) const { return first_ + c * stride_; }
+
+  Vec3 position(std::size_t i) const { return vector(kPosition, i); }
+  Vec3 velocity(std::size_t i) const { return vector(kVelocity, i); }
+  Vec3 angular_velocity(std::size_t i) const { return vector(kAngularVelocity, i); }
+  Quat orientation(std::size_t i) const {
+    return {column(3)[i], column(4)[i], column(5)[i], column(6)[i]};
+  }
+  // The engine's own matrix where it keeps one (it need not be orthonormal), else the quaternion's.
+  Mat3 rotation(std::size_t i) const {
+    if (!has_rotation_) return matrix_of(orientation(i));
+    Mat3 m;
+    for (int k = 0; k < 9; ++k) m(k / 3, k % 3) = column(kRotation + k)[i];
+    return m;
+  }
+  BodyState body(std::size_t i) const { return {position(i), orientation(i), velocity(i), angular_velocity(i)}; }
+
+  void set_position(std::size_t i, const Vec3& p) const { set_vector(kPosition, i, p); }
+  void set_velocity(std::size_t i, const Vec3& v) const { set_vector(kVelocity, i, v); }
+  void set_angular_velocity(std::size_t i, const Vec3& w) const { set_vector(kAngularVelocity, i, w); }
+  void set_orientation(std::size_t i, const Quat& q) const {
+    column(3)[i] = q.w(), column(4)[i] = q.x(), column(5)[i] = q.y(), column(6)[i] = q.z();
+  }
+  void set_rotation(std::size_t i, const Mat3& m) const {
+    for (int k = 0; k < 9; ++k) column(kRotation + k)[i] = m(k / 3, k % 3);
+  }
+  void set_body(std::size_t i, const BodyState& s) const {
+    set_position(i, s.position), set_orientation(i, s.orientation);
+    set_velocity(i, s.velocity), set_angular_velocity(i, s.angular_velocity);
+  }
+
+  operator BodyColumnsOf<const Scalar>() const { return {first_, stride_, size_, has_rotation_}; }
+
+ private:
+  Vec3 vector(int c, std::size_t i) const { return {column(c)[i], column(c + 1)[i], column(c + 2)[i]}; }
+  void set_vector(int c, std::size_t i, const Vec3& v) const {
+    column(c)[i] = v.x(), column(c + 1)[i] = v.y(), column(c + 2)[i] = v.z();
+  }
+
+  Scalar* first_ = nullptr;
+  std::size_t stride_ = 0, size_ = 0;
+  bool has_rotation_ = false;
+};
+using BodyColumns = BodyColumnsOf<const double>;
+using MutableBodyColumns = BodyColumnsOf<double>;
+
+// Owns its columns.
+class BodyTable {
+ public:
+  BodyTable() = default;
+  explicit BodyTable(std::size_t size, bool has_rotation = false) { resize(size, has_rotation); }
+  explicit BodyTable(BodyColumns source) { *this = source; }
+  BodyTable& operator=(BodyColumns source);  // copies what the view shows
+
+  void resize(std::size_t size, bool has_rotation = false);
+  std::size_t size() const { return size_; }
+  bool has_rotation() const { return has_rotation_; }
+
+  BodyColumns columns() const { return {data_.data(), stride_, size_, has_rotation_}; }
+  MutableBodyColumns columns() { return {data_.data(), stride_, size_, has_rotation_}; }
+
+ private:
+  std::vector<double, Eigen::aligned_allocator<double>> data_;
+  std::size_t size_ = 0, stride_ = 0;  // the stride is the size rounded up to a whole cache line
+  bool has_rotation_ = false;
+};
+
+}  // namespace rigor

@@ -1,0 +1,103 @@
+// The seam between Rigor and a simulator. An adapter implements Engine and World and nothing else; whole scenes are
+// converted, nobody exposes an engine's own interface. The in-house core enters by the same door (adapters/core/).
+#pragma once
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/engine/body_table.h"
+#include "core/scene/features.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// `matched` sets the engine to the scene's physics as truly as it can; `stock` leaves every setting as it ships.
+enum class Track { matched, stock };
+
+// A key=value that a run's name may carry.
+struct OptionInfo {
+  std::string name;
+  std::string meaning;               // with its unit
+  std::vector<std::string> choices;  // the words allowed; empty: a number
+  double min = 0, max = 0;           // the numbers allowed, where there are no choices
+  bool whole = false;                // only whole numbers
+};
+
+struct MethodInfo {
+  std::string name;
+  std::string summary;       // one line
+  int order = 1;             // the global error falls as dt^order on smooth scenes
+  bool symplectic = false;   // on undamped smooth scenes
+  // Steps by which the velocities read lag behind the positions (1/2 for a semi-implicit step): the judge brings them to
+  // the positions' time before it speaks of lost energy.
+  double velocity_lag = 0;
+  std::vector<OptionInfo> options;
+};
+
+struct EngineInfo {
+  std::string name;
+  std::string version;
+  std::string precision;             // "double", "single"
+  Features features;                 // what it expresses; see features.h
+  std::vector<MethodInfo> methods;   // the first is the default
+  double max_rotation_per_step = std::numeric_limits<double>::infinity();  // rad; beyond it the engine clamps
+};
+
+struct Settings {
+  std::string method;                          // a name of EngineInfo::methods
+  std::map<std::string, std::string> options;  // checked against the method's options before load
+  Track track = Track::matched;
+};
+
+// Every body at the world's current time. An engine that holds the columns itself lends them; another fills own(). A
+// borrowed snapshot is valid until the world's next step.
+class Snapshot {
+ public:
+  double time = 0;  // s
+  BodyColumns bodies() const { return bodies_; }
+
+  void borrow(BodyColumns columns) { bodies_ = columns; }
+  // Columns to fill, one row a body of the scene, in the scene's order.
+  MutableBodyColumns own(std::size_t size, bool has_rotation = false) {
+    if (storage_.size() != size || storage_.has_rotation() != has_rotation) storage_.resize(size, has_rotation);
+    bodies_ = storage_.columns();
+    return storage_.columns();
+  }
+
+  Snapshot() = default;
+  Snapshot(const Snapshot&) = delete;  // copy the columns into a BodyTable instead
+  Snapshot& operator=(const Snapshot&) = delete;
+
+ private:
+  BodyTable storage_;
+  BodyColumns bodies_;
+};
+
+// A setting in force, read back from the engine after loading: ("gyroscopic", "implicit, body frame").
+using SettingsInForce = std::vector<std::pair<std::string, std::string>>;
+
+class World {
+ public:
+  virtual ~World() = default;
+  virtual void step(double dt) = 0;                    // exactly one step of dt seconds
+  virtual void read(Snapshot& out) const = 0;          // every body, at the world's current time
+  virtual SettingsInForce settings_in_force() const = 0;
+  // Why the last step did not do what its method promises (an iteration that did not converge, say); empty if it did.
+  virtual std::string complaint() const = 0;
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual EngineInfo info() const = 0;
+  virtual std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const = 0;
+};
+
+// Why this engine cannot run this scene at this dt; empty if it can. The sentence names the feature and what in the
+// scene asks for it.
+std::string why_unsupported(const EngineInfo& engine, const Scene& scene, double dt);
+
+}  // namespace rigor

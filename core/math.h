@@ -1,0 +1,42 @@
+// The vector types of the whole project. Everything is double precision and SI.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace rigor {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;  // (w, x, y, z); takes the body frame B to the world frame W
+
+// The matrix of a cross product: cross_matrix(a) * b == a x b.
+inline Mat3 cross_matrix(const Vec3& a) {
+  Mat3 m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+// The unit quaternion of a rotation by the vector `angle` [rad], about its direction, by its length.
+inline Quat rotation_by(const Vec3& angle) {
+  const double theta = angle.norm();
+  // sin(theta/2)/theta from its series where the quotient would lose digits; the next term is below 1e-17 there.
+  const double s = theta < 1e-4 ? 0.5 - theta * theta / 48.0 : std::sin(0.5 * theta) / theta;
+  return {std::cos(0.5 * theta), s * angle.x(), s * angle.y(), s * angle.z()};
+}
+
+// The matrix that takes B to W of a quaternion of any length: (w² - u·u) I + 2 u uᵀ + 2 w [u]x. For a unit quaternion
+// it is a rotation; for another it is |q|² times one, so that a lost norm is seen and not hidden.
+inline Mat3 matrix_of(const Quat& q) {
+  const Vec3 u = q.vec();
+  return (q.w() * q.w() - u.squaredNorm()) * Mat3::Identity() + 2.0 * u * u.transpose() + 2.0 * q.w() * cross_matrix(u);
+}
+
+// Angle [rad], in [0, pi], of the rotation between two orientations; a quaternion and its negative are the same one.
+inline double angle_between(const Quat& a, const Quat& b) {
+  const Quat d = a.conjugate() * b;
+  return 2.0 * std::atan2(d.vec().norm(), std::abs(d.w()));
+}
+
+}  // namespace rigor

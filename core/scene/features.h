@@ -1,0 +1,29 @@
+// What a scene needs of an engine, and what an engine declares. Compared before a scene is loaded, so that what an engine
+// cannot express ends as `unsupported`, with the reason, and is never approximated in silence.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// A feature is a word: "spring", "timed-force", "fixed-body", "joint:hinge", "contact:box-plane", "restitution",
+// "friction:none", "friction:coulomb", "friction:infinite". The two shapes of a contact stand in alphabetical order.
+using Features = std::set<std::string>;
+
+struct Need {
+  std::string feature;
+  std::string because;  // what in the scene asks for it, e.g. "bodies 'ball' and 'ground' may touch"
+};
+
+// Each feature once, with the first thing that asks for it. Contact features come from the pairs of colliding bodies
+// of which at least one can move.
+std::vector<Need> needs_of(const Scene& scene);
+
+// "contact:sphere-plane" and the like, for two shapes in either order.
+std::string contact_feature(const std::string& shape_a, const std::string& shape_b);
+
+}  // namespace rigor

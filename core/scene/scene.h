@@ -1,0 +1,117 @@
+// A scene: what is simulated, as plain data, independent of any engine. SI units; world frame W, body frame B with its
+// origin at the centre of mass. The reader (scene_reader.h) has checked every value before an engine sees it.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/math.h"
+
+namespace rigor {
+
+inline constexpr int kWorld = -1;  // stands where a body's index would: the world itself, its points in W
+inline constexpr double kInfiniteFriction = std::numeric_limits<double>::infinity();
+
+// Shapes are centred on the body's origin.
+struct Sphere {
+  double radius;  // m
+};
+struct Box {
+  Vec3 size;  // m, full edge lengths along B's axes
+};
+struct Capsule {
+  double radius;  // m
+  double length;  // m, of the cylinder between the two half-spheres, along B's z axis
+};
+struct Plane {
+  Vec3 normal;    // unit, in W; the solid half-space lies behind it
+  double offset;  // m; the plane is normal · x = offset
+};
+using Shape = std::variant<Sphere, Box, Capsule, Plane>;
+
+struct Body {
+  std::string name;
+  double mass = 1;                           // kg; of no meaning if fixed
+  Mat3 inertia = Mat3::Identity();           // kg m², about the centre of mass, in B; of no meaning if fixed
+  Vec3 position = Vec3::Zero();              // m, p_WB
+  Quat orientation = Quat::Identity();       // unit, B to W
+  Vec3 velocity = Vec3::Zero();              // m/s, in W
+  Vec3 angular_velocity = Vec3::Zero();      // rad/s, in W
+  std::optional<Shape> shape;
+  bool collides = false;                     // takes part in contact; needs a shape
+  bool fixed = false;                        // static; a plane always is
+};
+
+// A straight spring and damper between two points: the force on b's point is -(k (d - d0) + c d') along the line from
+// a's point to b's, the opposite acts on a.
+struct Spring {
+  int a = kWorld, b = kWorld;                // body index or kWorld
+  Vec3 point_a = Vec3::Zero();               // m, in a's frame
+  Vec3 point_b = Vec3::Zero();               // m, in b's frame
+  double stiffness = 0;                      // N/m
+  double damping = 0;                        // N s/m
+  double rest_length = 0;                    // m
+};
+
+struct BallJoint {
+  Vec3 anchor;  // m, in W at t = 0
+};
+struct HingeJoint {
+  Vec3 anchor;  // m, in W at t = 0
+  Vec3 axis;    // unit, in W at t = 0
+};
+struct SliderJoint {
+  Vec3 axis;  // unit, in W at t = 0
+};
+struct FixedJoint {};
+struct DistanceJoint {
+  Vec3 point_a, point_b;  // m, in the bodies' frames
+};
+struct Joint {
+  int a = kWorld, b = kWorld;
+  std::variant<BallJoint, HingeJoint, SliderJoint, FixedJoint, DistanceJoint> type;
+};
+
+// Values of a pair of bodies, for engines combine per-body values by different rules.
+struct ContactLaw {
+  double restitution = 0;  // normal speed after over before, 0..1
+  double friction = 0;     // Coulomb's coefficient, >= 0, may be kInfiniteFriction
+};
+struct ContactPair {
+  int a, b;
+  ContactLaw law;
+};
+
+// Constant in W while from <= t < until.
+struct TimedForce {
+  int body;
+  Vec3 force = Vec3::Zero();   // N, in W
+  Vec3 torque = Vec3::Zero();  // N m, in W
+  Vec3 point = Vec3::Zero();   // m, in B: where the force acts
+  double from = 0;             // s
+  double until = std::numeric_limits<double>::infinity();  // s
+};
+
+struct Scene {
+  Vec3 gravity = Vec3::Zero();  // m/s²
+  std::vector<Body> bodies;
+  std::vector<Spring> springs;
+  std::vector<Joint> joints;
+  std::vector<ContactPair> contact_pairs;
+  ContactLaw contact_default;  // for each pair without a row of its own
+  std::vector<TimedForce> forces;
+
+  ContactLaw contact_law(int a, int b) const;  // the order of a and b does not matter
+  std::string body_name(int index) const { return index == kWorld ? "world" : bodies[index].name; }
+};
+
+// The inertia about the centre of mass [kg m², in B] of a solid body of even density. A plane has none.
+Mat3 inertia_of(const Shape& shape, double mass);
+
+// "sphere", "box", "capsule", "plane": the word the case file uses.
+std::string shape_name(const Shape& shape);
+
+}  // namespace rigor
