@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cassert>
 
+#include "adapters/bullet/bullet_engine.h"
+#include "adapters/ode/ode_engine.h"
+
 namespace rigor {
 
 // One row an engine, alphabetical.
 const EngineTable& engines() {
   static const EngineTable table = [] {
     EngineTable rows;
+    rows.push_back(std::make_unique<BulletEngine>());
+    rows.push_back(std::make_unique<OdeEngine>());
     return rows;
   }();
   return table;
