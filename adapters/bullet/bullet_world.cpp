@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "adapters/bullet/bullet_pair_laws.h"
@@ -17,6 +18,7 @@ const std::map<std::string, int> kGyroscopicFlags = {{"implicit-body", BT_ENABLE
                                                      {"implicit-world", BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD},
                                                      {"explicit", BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT},
                                                      {"off", 0}};
+constexpr int kCorners = 4;  // of a box's face
 constexpr int kCollideWithAll = -1, kCollideWithNone = 0;
 
 std::string gyroscopic_mode(const btRigidBody& body) {
@@ -26,12 +28,17 @@ std::string gyroscopic_mode(const btRigidBody& body) {
   return fmt::format("flags {}", body.getFlags());
 }
 
+bool something_bounces(const Scene& scene) {
+  const std::vector<Need> needs = needs_of(scene);
+  return std::any_of(needs.begin(), needs.end(), [](const Need& need) { return need.feature == "restitution"; });
+}
+
 std::string on_off(bool on) { return on ? "on" : "off"; }
 
 }  // namespace
 
 BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
-    : laws_(scene), loads_(scene), matched_(settings.track == Track::matched) {
+    : laws_(scene), loads_(scene), matched_(settings.track == Track::matched), bounces_(something_bounces(scene)) {
   bullet::install_pair_laws();
   world_.setGravity(to_bullet(scene.gravity));
   apply(settings);
@@ -45,7 +52,9 @@ void BulletWorld::apply(const Settings& settings) {
     solver.m_restitutionVelocityThreshold = 0;         // m/s: slower impacts bounce too
     solver.m_splitImpulsePenetrationThreshold = 1e30;  // m: no penetration is corrected by adding velocity
     solver.m_maxGyroscopicForce = 1e30;                // N m: the explicit gyroscopic torque is not cut off
-    solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+    // A box on a plane touches with all its corners at once; as shipped Bullet finds one a step, and the box tips over
+    // it.
+    configuration_.setPlaneConvexMultipointIterations(kCorners, kCorners);
   }
   solver.m_numIterations = static_cast<int>(number_option(settings, "iterations", solver.m_numIterations));
   solver.m_splitImpulse = word_option(settings, "split-impulse", on_off(solver.m_splitImpulse)) == "on";
@@ -81,7 +90,9 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
   if (matched_) {
     if (row.moves) row.body->setActivationState(DISABLE_DEACTIVATION);
     row.body->setDamping(0, 0);
-    row.body->setContactProcessingThreshold(0);  // m: no impulse across a gap
+    // m: no impulse across a gap, which would brake a body before its bounce. Where nothing bounces that impulse is
+    // right.
+    if (bounces_) row.body->setContactProcessingThreshold(0);
   }
   world_.addRigidBody(row.body.get(), btBroadphaseProxy::DefaultFilter,
                       body.collides ? kCollideWithAll : kCollideWithNone);
@@ -155,6 +166,8 @@ SettingsInForce BulletWorld::settings_in_force() const {
       {"friction directions", solver.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS
                                   ? "two, the first along the sliding velocity"
                                   : "one, along the sliding velocity"},
+      {"corners found a step",
+       matched_ ? fmt::format("up to {}, of a box on a plane", kCorners) : "one, of a box on a plane"},
       {"contact breaking threshold", fmt::format("{:g} m", gContactBreakingThreshold)},
       {"springs and timed forces", "user forces, recomputed before each step"},
   };

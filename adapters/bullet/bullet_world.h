@@ -41,7 +41,7 @@ class BulletWorld : public World {
 
   ContactLaws laws_;
   ExternalLoads loads_;
-  bool matched_;
+  bool matched_, bounces_;
   Clock clock_;
 
   // In the order in which Bullet needs them: each outlives those below it.
