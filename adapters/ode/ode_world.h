@@ -29,6 +29,7 @@ class OdeWorld : public World {
   void apply(const Settings& settings);
   void add_body(const Body& body, const Settings& settings);
   void add_geometry(const Body& body, dBodyID moving);
+  int quick_step(double dt);  // 0 if it could not
   void add_loads(double dt);
   void find_contacts();
   static void touch(void* self, dGeomID a, dGeomID b);  // ODE calls it for each pair whose bounding boxes overlap
@@ -41,6 +42,7 @@ class OdeWorld : public World {
   bool can_touch_, matched_, quick_;
   Clock clock_;
   std::string complaint_;
+  unsigned long random_seed_ = 0;  // ODE's own at its start
 
   dWorldID world_;
   dSpaceID moving_, fixed_;  // two spaces: fixed shapes are never tried against each other
