@@ -33,12 +33,12 @@ std::string percent_text(const Cell& cell, const std::string& name) {
   const double percent = 100 * std::copysign(drift.value, drift.worst.found - drift.worst.expected);
   if (!std::isfinite(percent)) return "not finite";
   if (std::abs(percent) < 1e-9) return "0";  // rounding
-  return (percent > 0 ? "+" : "") + rounded(percent);
+  return fmt::format("{}{}", percent > 0 ? "+" : "", rounded(percent));
 }
 
 std::string stable_text(const StableStepResult& stable) {
   if (stable.status != Status::pass) return stable.status == Status::unsupported ? "-" : word_of(stable.status);
-  return (stable.step.is_cap ? ">=" : stable.step.is_floor ? "<" : "") + rounded(stable.step.dt);
+  return fmt::format("{}{}", stable.step.is_cap ? ">=" : stable.step.is_floor ? "<" : "", rounded(stable.step.dt));
 }
 
 std::string verdict_text(const Cell& cell, const Scene& scene) {
