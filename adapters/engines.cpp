@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cassert>
 
+#include "adapters/core/core_engine.h"
+
 namespace rigor {
 
 // One row an engine, alphabetical.
 const EngineTable& engines() {
   static const EngineTable table = [] {
     EngineTable rows;
+    rows.push_back(make_core_engine());
     return rows;
   }();
   return table;
