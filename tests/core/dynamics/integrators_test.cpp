@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(each_converges_at_its_stated_order) {
                                                   {"coupled bodies with damping", test::coupled_bodies(3)}};
   for (const auto& [what, scene] : scenes) {
     for (const Method& method : every_method()) {
-      const int steps = method.integrator->order >= 4 ? 25 : 1600;
+      const int steps = method.integrator->order >= 4 ? 50 : 1600;
       const double order = observed_order(scene, method, 1.0, steps);
       BOOST_TEST(std::abs(order - method.integrator->order) < 0.25,
                  method.name() << " on " << what << ": observed order " << order);
