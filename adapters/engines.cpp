@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "adapters/bullet/bullet_engine.h"
 #include "adapters/core/core_engine.h"
+#include "adapters/ode/ode_engine.h"
 
 namespace rigor {
 
@@ -11,7 +13,9 @@ namespace rigor {
 const EngineTable& engines() {
   static const EngineTable table = [] {
     EngineTable rows;
-    rows.push_back(make_core_engine());
+    rows.push_back(std::make_unique<BulletEngine>());
+    rows.push_back(std::make_unique<CoreEngine>());
+    rows.push_back(std::make_unique<OdeEngine>());
     return rows;
   }();
   return table;

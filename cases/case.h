@@ -41,4 +41,7 @@ struct Case {
 // fraction, made of two plain numbers. `what` begins the message: "--dt".
 StepSize parse_step_size(const std::string& text, const std::string& what);
 
+// Throws InputError, its message begun by `what`, for a step longer than the run or one that a run has too many of.
+void check_step_size(const StepSize& dt, double duration, const std::string& what);
+
 }  // namespace rigor

@@ -39,6 +39,7 @@ std::optional<std::string> near_match(std::string_view word, const std::vector<s
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
+    if (candidate.size() >= wanted.size() + best_distance) continue;  // as many letters at least are to insert
     const std::size_t distance = edit_distance(wanted, lower(candidate));
     if (distance < best_distance) {
       best_distance = distance;

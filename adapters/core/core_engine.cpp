@@ -83,24 +83,20 @@ MethodInfo method_info(const Integrator& integrator) {
   return info;
 }
 
-class CoreEngine : public Engine {
- public:
-  EngineInfo info() const override {
-    EngineInfo info{.name = "core", .version = kVersion, .precision = "double"};
-    info.features = {"spring", "timed-force", "fixed-body"};
-    for (const ContactMethod& method : contact_methods())
-      info.features.insert(method.features.begin(), method.features.end());
-    for (const Integrator& row : integrators()) info.methods.push_back(method_info(row));
-    return info;
-  }
-
-  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {
-    return std::make_unique<CoreWorld>(scene, settings);
-  }
-};
-
 }  // namespace
 
-std::unique_ptr<Engine> make_core_engine() { return std::make_unique<CoreEngine>(); }
+EngineInfo CoreEngine::info() const {
+  EngineInfo info{.name = "core", .version = kVersion, .precision = "double"};
+  info.features = {"spring", "timed-force", "fixed-body"};
+  for (const ContactMethod& method : contact_methods()) {
+    info.features.insert(method.features.begin(), method.features.end());
+  }
+  for (const Integrator& row : integrators()) info.methods.push_back(method_info(row));
+  return info;
+}
+
+std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& settings) const {
+  return std::make_unique<CoreWorld>(scene, settings);
+}
 
 }  // namespace rigor

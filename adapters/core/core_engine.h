@@ -7,6 +7,10 @@
 
 namespace rigor {
 
-std::unique_ptr<Engine> make_core_engine();
+class CoreEngine : public Engine {
+ public:
+  EngineInfo info() const override;
+  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override;
+};
 
 }  // namespace rigor

@@ -20,10 +20,10 @@ enum class Track { matched, stock };
 // A key=value that a run's name may carry.
 struct OptionInfo {
   std::string name;
-  std::string meaning;               // with its unit
-  std::vector<std::string> choices;  // the words allowed; empty: a number
-  double min = 0, max = 0;           // the numbers allowed, where there are no choices
-  bool whole = false;                // only whole numbers
+  std::string meaning;                    // with its unit
+  std::vector<std::string> choices = {};  // the words allowed; empty: a number
+  double min = 0, max = 0;                // the numbers allowed, where there are no choices
+  bool whole = false;                     // only whole numbers
 };
 
 struct MethodInfo {
@@ -34,15 +34,15 @@ struct MethodInfo {
   // Steps by which the velocities read lag behind the positions (1/2 for a semi-implicit step): the judge brings them
   // to the positions' time before it speaks of lost energy.
   double velocity_lag = 0;
-  std::vector<OptionInfo> options;
+  std::vector<OptionInfo> options = {};
 };
 
 struct EngineInfo {
   std::string name;
   std::string version;
   std::string precision;                                                   // "double", "single"
-  Features features;                                                       // what it expresses; see features.h
-  std::vector<MethodInfo> methods;                                         // the first is the default
+  Features features = {};                                                  // what it expresses; see features.h
+  std::vector<MethodInfo> methods = {};                                    // the first is the default
   double max_rotation_per_step = std::numeric_limits<double>::infinity();  // rad; beyond it the engine clamps
 };
 

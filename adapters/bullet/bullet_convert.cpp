@@ -1,0 +1,46 @@
+#include "adapters/bullet/bullet_convert.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace rigor::bullet {
+namespace {
+
+// Ours: a box by full edge lengths, Bullet's by half ones. Both: a capsule along z by the length of the cylinder alone,
+// without its caps; a plane by n · x = d with the solid behind it.
+struct MakeShape {
+  std::unique_ptr<btCollisionShape> operator()(const Sphere& s) const {
+    return std::make_unique<btSphereShape>(s.radius);
+  }
+  std::unique_ptr<btCollisionShape> operator()(const Box& b) const {
+    return std::make_unique<btBoxShape>(to_bullet(Vec3(0.5 * b.size)));
+  }
+  std::unique_ptr<btCollisionShape> operator()(const Capsule& c) const {
+    return std::make_unique<btCapsuleShapeZ>(c.radius, c.length);
+  }
+  std::unique_ptr<btCollisionShape> operator()(const Plane& p) const {
+    return std::make_unique<btStaticPlaneShape>(to_bullet(p.normal), p.offset);
+  }
+};
+
+}  // namespace
+
+PrincipalFrame principal_frame(const Mat3& inertia_B) {
+  if (inertia_B.isDiagonal(0)) return {inertia_B.diagonal(), Mat3::Identity(), false};
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(inertia_B);
+  Mat3 axes = solver.eigenvectors();              // its columns are P's axes in B
+  if (axes.determinant() < 0) axes.col(0) *= -1;  // right-handed
+  return {solver.eigenvalues(), axes, true};
+}
+
+btCollisionShape* add_shape(const Shape& shape, const PrincipalFrame& frame, Shapes& shapes) {
+  shapes.push_back(std::visit(MakeShape{}, shape));
+  btCollisionShape* made = shapes.back().get();
+  if (!frame.turned) return made;
+  // A child turned from B into P; without a tree of bounding boxes, which one child does not need.
+  auto compound = std::make_unique<btCompoundShape>(false);
+  compound->addChildShape(btTransform(to_bullet(Mat3(frame.R_BP.transpose()))), made);
+  shapes.push_back(std::move(compound));
+  return shapes.back().get();
+}
+
+}  // namespace rigor::bullet

@@ -1,0 +1,50 @@
+#include "adapters/bullet/bullet_pair_laws.h"
+
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+
+#include <algorithm>
+
+namespace rigor::bullet {
+namespace {
+
+// Stands for an infinite coefficient: beyond any force, and times a normal impulse of zero still zero, not "not a
+// number".
+constexpr btScalar kInfinite = 1e30;
+
+CalculateCombinedCallback bullets_friction = nullptr, bullets_restitution = nullptr;
+
+// The pair's law, or null if the two do not belong to one Rigor world.
+const ContactLaw* law_of(const btCollisionObject* a, const btCollisionObject* b) {
+  if (!a->getUserPointer() || a->getUserPointer() != b->getUserPointer()) return nullptr;
+  return &static_cast<const ContactLaws*>(a->getUserPointer())->of(a->getUserIndex(), b->getUserIndex());
+}
+
+btScalar friction_of(const btCollisionObject* a, const btCollisionObject* b) {
+  const ContactLaw* law = law_of(a, b);
+  return law ? std::min(law->friction, kInfinite) : bullets_friction(a, b);
+}
+
+btScalar restitution_of(const btCollisionObject* a, const btCollisionObject* b) {
+  const ContactLaw* law = law_of(a, b);
+  return law ? law->restitution : bullets_restitution(a, b);
+}
+
+}  // namespace
+
+void install_pair_laws() {
+  static const bool installed = [] {
+    bullets_friction = gCalculateCombinedFrictionCallback;
+    bullets_restitution = gCalculateCombinedRestitutionCallback;
+    gCalculateCombinedFrictionCallback = friction_of;
+    gCalculateCombinedRestitutionCallback = restitution_of;
+    return true;
+  }();
+  static_cast<void>(installed);
+}
+
+void follow_laws(btRigidBody& body, const ContactLaws& laws, int index) {
+  body.setUserPointer(const_cast<ContactLaws*>(&laws));  // Bullet keeps it as void*; it is only read through
+  body.setUserIndex(index);
+}
+
+}  // namespace rigor::bullet

@@ -1,0 +1,17 @@
+// Bullet combines two bodies' friction (product, at most 10) and restitution (product) by functions that are global to
+// the process. Ours look up the scene's law of the pair, for bodies of a Rigor world, and leave all others to Bullet.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include "adapters/contact_laws.h"
+
+namespace rigor::bullet {
+
+// Once in a process; any number of times is the same.
+void install_pair_laws();
+
+// From now on the body's contacts follow the laws, which must outlive it.
+void follow_laws(btRigidBody& body, const ContactLaws& laws, int index);
+
+}  // namespace rigor::bullet

@@ -1,0 +1,188 @@
+#include "adapters/bullet/bullet_world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "adapters/bullet/bullet_pair_laws.h"
+#include "adapters/option_values.h"
+
+namespace rigor {
+namespace {
+
+using bullet::to_bullet;
+using bullet::to_rigor;
+
+const std::map<std::string, int> kGyroscopicFlags = {{"implicit-body", BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY},
+                                                     {"implicit-world", BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD},
+                                                     {"explicit", BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT},
+                                                     {"off", 0}};
+constexpr int kCorners = 4;  // of a box's face
+constexpr int kCollideWithAll = -1, kCollideWithNone = 0;
+
+std::string gyroscopic_mode(const btRigidBody& body) {
+  for (const auto& [name, flag] : kGyroscopicFlags) {
+    if (body.getFlags() == flag) return name;
+  }
+  return fmt::format("flags {}", body.getFlags());
+}
+
+bool something_bounces(const Scene& scene) {
+  const std::vector<Need> needs = needs_of(scene);
+  return std::any_of(needs.begin(), needs.end(), [](const Need& need) { return need.feature == "restitution"; });
+}
+
+std::string on_off(bool on) { return on ? "on" : "off"; }
+
+}  // namespace
+
+BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
+    : laws_(scene), loads_(scene), matched_(settings.track == Track::matched), bounces_(something_bounces(scene)) {
+  bullet::install_pair_laws();
+  world_.setGravity(to_bullet(scene.gravity));
+  apply(settings);
+  rows_.reserve(scene.bodies.size());
+  for (const Body& body : scene.bodies) add_body(body, settings);
+}
+
+void BulletWorld::apply(const Settings& settings) {
+  btContactSolverInfo& solver = world_.getSolverInfo();
+  if (matched_) {
+    solver.m_restitutionVelocityThreshold = 0;         // m/s: slower impacts bounce too
+    solver.m_splitImpulsePenetrationThreshold = 1e30;  // m: no penetration is corrected by adding velocity
+    solver.m_maxGyroscopicForce = 1e30;                // N m: the explicit gyroscopic torque is not cut off
+    // A box on a plane touches with all its corners at once; as shipped Bullet finds one a step, and the box tips over
+    // it.
+    configuration_.setPlaneConvexMultipointIterations(kCorners, kCorners);
+  }
+  solver.m_numIterations = static_cast<int>(number_option(settings, "iterations", solver.m_numIterations));
+  solver.m_splitImpulse = word_option(settings, "split-impulse", on_off(solver.m_splitImpulse)) == "on";
+}
+
+void BulletWorld::add_body(const Body& body, const Settings& settings) {
+  Row& row = rows_.emplace_back();
+  row.moves = !body.fixed;
+  row.standing = {body.position, body.orientation, Vec3::Zero(), Vec3::Zero()};
+  if (body.fixed && !body.collides) return;
+
+  const bullet::PrincipalFrame frame = body.fixed ? bullet::PrincipalFrame{} : bullet::principal_frame(body.inertia);
+  row.turned = frame.turned;
+  row.R_PB = frame.R_BP.transpose();
+  btCollisionShape* shape = body.collides ? bullet::add_shape(*body.shape, frame, shapes_) : &no_shape_;
+  const bool is_plane = body.collides && std::holds_alternative<Plane>(*body.shape);
+
+  // A mass of zero is Bullet's word for fixed.
+  btRigidBody::btRigidBodyConstructionInfo start(body.fixed ? 0 : body.mass, nullptr, shape, to_bullet(frame.moments));
+  start.m_startWorldTransform.setIdentity();
+  if (!is_plane) {
+    const Mat3 R_WP = body.orientation.toRotationMatrix() * frame.R_BP;
+    start.m_startWorldTransform = btTransform(to_bullet(R_WP), to_bullet(body.position));
+  }
+  row.body = std::make_unique<btRigidBody>(start);
+  bullet::follow_laws(*row.body, laws_, static_cast<int>(rows_.size()) - 1);
+  if (row.moves) {
+    row.body->setLinearVelocity(to_bullet(body.velocity));
+    row.body->setAngularVelocity(to_bullet(body.angular_velocity));
+    const std::string gyroscopic = word_option(settings, "gyroscopic", gyroscopic_mode(*row.body));
+    row.body->setFlags(kGyroscopicFlags.at(gyroscopic));
+  }
+  if (matched_) {
+    if (row.moves) row.body->setActivationState(DISABLE_DEACTIVATION);
+    row.body->setDamping(0, 0);
+    // m: no impulse across a gap, which would brake a body before its bounce. Where nothing bounces that impulse is
+    // right.
+    if (bounces_) row.body->setContactProcessingThreshold(0);
+  }
+  world_.addRigidBody(row.body.get(), btBroadphaseProxy::DefaultFilter,
+                      body.collides ? kCollideWithAll : kCollideWithNone);
+}
+
+void BulletWorld::step(double dt) {
+  if (!loads_.empty()) add_loads(dt);
+  // No sub-steps: with them Bullet would advance by whole multiples of 1/60 s, whatever dt is.
+  world_.stepSimulation(dt, 0);
+  clock_.advance(dt);
+}
+
+void BulletWorld::add_loads(double dt) {
+  const Wrenches& wrenches = loads_.over_step(*this, dt);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!rows_[i].moves) continue;
+    rows_[i].body->applyCentralForce(to_bullet(wrenches[i].force));  // in the world frame; cleared after the step
+    rows_[i].body->applyTorque(to_bullet(wrenches[i].torque));
+  }
+}
+
+void BulletWorld::read(Snapshot& out) const {
+  out.time = clock_.time();
+  const MutableBodyColumns columns = out.own(rows_.size(), true);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    if (!row.moves) {
+      columns.set_body(i, row.standing);
+      columns.set_rotation(i, matrix_of(row.standing.orientation));
+      continue;
+    }
+    const btTransform& pose = row.body->getWorldTransform();
+    columns.set_position(i, to_rigor(pose.getOrigin()));
+    const Mat3 R_WP = to_rigor(pose.getBasis());
+    if (row.turned) {
+      const Mat3 R_WB = R_WP * row.R_PB;
+      columns.set_orientation(i, Quat(R_WB));
+      columns.set_rotation(i, R_WB);
+    } else {
+      columns.set_orientation(i, to_rigor(pose.getRotation()));
+      columns.set_rotation(i, R_WP);
+    }
+    columns.set_velocity(i, to_rigor(row.body->getLinearVelocity()));
+    columns.set_angular_velocity(i, to_rigor(row.body->getAngularVelocity()));
+  }
+}
+
+const btRigidBody* BulletWorld::first_moving() const {
+  for (const Row& row : rows_) {
+    if (row.moves) return row.body.get();
+  }
+  return nullptr;
+}
+
+SettingsInForce BulletWorld::settings_in_force() const {
+  // Bullet has no const getter for what its solver works with.
+  const btContactSolverInfo& solver = const_cast<btDiscreteDynamicsWorld&>(world_).getSolverInfo();
+  const btVector3 g = world_.getGravity();
+  SettingsInForce in_force = {
+      {"precision", sizeof(btScalar) == sizeof(double) ? "double" : "single"},
+      {"solver", "sequential impulse"},
+      {"iterations", fmt::format("{}", solver.m_numIterations)},
+      {"gravity", fmt::format("{:g}, {:g}, {:g} m/s^2", g.x(), g.y(), g.z())},
+      {"sub-steps", "none: one step of dt (as shipped, stepSimulation would advance by multiples of 1/60 s)"},
+      {"erp", fmt::format("{:g}, contacts {:g}", solver.m_erp, solver.m_erp2)},
+      {"cfm", fmt::format("{:g}", solver.m_globalCfm)},
+      {"split impulse", on_off(solver.m_splitImpulse)},
+      {"split impulse threshold", fmt::format("{:g} m", solver.m_splitImpulsePenetrationThreshold)},
+      {"restitution threshold", fmt::format("{:g} m/s", solver.m_restitutionVelocityThreshold)},
+      {"warm starting", on_off(solver.m_solverMode & SOLVER_USE_WARMSTARTING)},
+      {"friction directions", solver.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS
+                                  ? "two, the first along the sliding velocity"
+                                  : "one, along the sliding velocity"},
+      {"corners found a step",
+       matched_ ? fmt::format("up to {}, of a box on a plane", kCorners) : "one, of a box on a plane"},
+      {"contact breaking threshold", fmt::format("{:g} m", gContactBreakingThreshold)},
+      {"springs and timed forces", "user forces, recomputed before each step"},
+  };
+  if (const btRigidBody* body = first_moving()) {  // all moving bodies are set alike
+    in_force.emplace_back("gyroscopic", gyroscopic_mode(*body));
+    in_force.emplace_back(
+        "damping", fmt::format("linear {:g}, angular {:g}", body->getLinearDamping(), body->getAngularDamping()));
+    in_force.emplace_back("sleeping",
+                          body->getActivationState() == DISABLE_DEACTIVATION
+                              ? "off"
+                              : fmt::format("on, after {:g} s below {:g} m/s and {:g} rad/s", gDeactivationTime,
+                                            body->getLinearSleepingThreshold(), body->getAngularSleepingThreshold()));
+    in_force.emplace_back("contact processing threshold", fmt::format("{:g} m", body->getContactProcessingThreshold()));
+  }
+  return in_force;
+}
+
+}  // namespace rigor

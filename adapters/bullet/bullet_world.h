@@ -1,0 +1,58 @@
+// A scene as Bullet's own objects: a btRigidBody for each body that moves, and for each fixed one that collides.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <vector>
+
+#include "adapters/bullet/bullet_convert.h"
+#include "adapters/contact_laws.h"
+#include "adapters/external_loads.h"
+#include "core/engine/clock.h"
+#include "core/engine/engine.h"
+
+namespace rigor {
+
+class BulletWorld : public World {
+ public:
+  BulletWorld(const Scene& scene, const Settings& settings);
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
+
+  void step(double dt) override;
+  void read(Snapshot& out) const override;
+  SettingsInForce settings_in_force() const override;
+  std::string complaint() const override { return ""; }  // Bullet reports nothing of a step
+
+ private:
+  struct Row {
+    std::unique_ptr<btRigidBody> body;  // null for a fixed body that touches nothing
+    bool moves = false;
+    bool turned = false;           // whether Bullet's frame P is not the body frame B
+    Mat3 R_PB = Mat3::Identity();  // B to P
+    BodyState standing;            // of a fixed body
+  };
+
+  void apply(const Settings& settings);
+  void add_body(const Body& body, const Settings& settings);
+  void add_loads(double dt);
+  const btRigidBody* first_moving() const;
+
+  ContactLaws laws_;
+  ExternalLoads loads_;
+  bool matched_, bounces_;
+  Clock clock_;
+
+  // In the order in which Bullet needs them: each outlives those below it.
+  bullet::Shapes shapes_;
+  btEmptyShape no_shape_;  // Bullet moves only bodies that have a shape
+  std::vector<Row> rows_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+};
+
+}  // namespace rigor

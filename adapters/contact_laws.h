@@ -1,0 +1,34 @@
+// The scene's contact law of each pair of bodies, found in constant time however many pairs have a row of their own.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+class ContactLaws {
+ public:
+  explicit ContactLaws(const Scene& scene);
+
+  const ContactLaw& of(int a, int b) const {  // the order of a and b does not matter
+    if (laws_.empty()) return default_;
+    const auto found = laws_.find(key(a, b));
+    return found == laws_.end() ? default_ : found->second;
+  }
+
+ private:
+  static std::uint64_t key(int a, int b) {
+    const auto low = static_cast<std::uint32_t>(a < b ? a : b), high = static_cast<std::uint32_t>(a < b ? b : a);
+    return (std::uint64_t{high} << 32) | low;
+  }
+
+  ContactLaw default_;
+  std::unordered_map<std::uint64_t, ContactLaw> laws_;
+};
+
+// Whether any two bodies of the scene can touch: if not, an adapter need not look for contacts.
+bool anything_can_touch(const Scene& scene);
+
+}  // namespace rigor

@@ -1,0 +1,25 @@
+// Springs and timed forces for an engine that has none: recomputed by the core's own law from the engine's current
+// state before each step, and handed over as constant forces for that step.
+#pragma once
+
+#include "core/dynamics/loads.h"
+#include "core/engine/engine.h"
+
+namespace rigor {
+
+class ExternalLoads {
+ public:
+  explicit ExternalLoads(const Scene& scene) : loads_(scene) {}
+
+  bool empty() const { return loads_.empty(); }
+  // Force and torque about the centre of mass, in W, on each body over the step of dt that begins now. Valid until the
+  // next call.
+  const Wrenches& over_step(const World& world, double dt);
+
+ private:
+  Loads loads_;
+  Snapshot now_;
+  Wrenches wrenches_;
+};
+
+}  // namespace rigor

@@ -1,0 +1,72 @@
+// How ODE's contacts are made from the scene's pair laws. A contact joint lives for one step; its friction limit
+// follows the normal force of the step (dContactApprox1): without that flag mu is a force [N], not a coefficient.
+#include <cmath>
+#include <cstdint>
+
+#include "adapters/ode/ode_world.h"
+
+namespace rigor {
+namespace {
+
+constexpr int kMaxContacts = 16;   // of one pair; two boxes have at most eight
+constexpr double kSlowest = 1e-9;  // m/s: below it a sliding velocity is rounding and has no direction
+
+Vec3 vector_of(const dReal* v) { return {v[0], v[1], v[2]}; }
+
+Vec3 velocity_at(dBodyID body, const Vec3& point) {
+  if (!body) return Vec3::Zero();
+  const Vec3 arm = point - vector_of(dBodyGetPosition(body));
+  return vector_of(dBodyGetLinearVel(body)) + vector_of(dBodyGetAngularVel(body)).cross(arm);
+}
+
+dSurfaceParameters surface_of(const ContactLaw& law) {
+  dSurfaceParameters surface = {};
+  // An infinite coefficient is its own limit; multiplied by a normal force of zero it would be no number.
+  const bool infinite = law.friction == kInfiniteFriction;
+  surface.mu = infinite ? dInfinity : law.friction;
+  if (!infinite) surface.mode |= dContactApprox1;
+  if (law.restitution > 0) {
+    surface.mode |= dContactBounce;
+    surface.bounce = law.restitution;
+    surface.bounce_vel = 0;  // m/s: a threshold below which nothing would bounce
+  }
+  return surface;
+}
+
+// ODE's friction is a pyramid. Its first axis along the sliding velocity makes it act as the cone does while sliding.
+void align_friction(dContact& contact, dBodyID a, dBodyID b) {
+  const Vec3 point = vector_of(contact.geom.pos), normal = vector_of(contact.geom.normal);
+  const Vec3 relative = velocity_at(a, point) - velocity_at(b, point);
+  const Vec3 sliding = relative - normal.dot(relative) * normal;
+  const double speed = sliding.norm();
+  if (speed < kSlowest) return;
+  contact.surface.mode |= dContactFDir1;
+  for (int k = 0; k < 3; ++k) contact.fdir1[k] = sliding[k] / speed;
+}
+
+}  // namespace
+
+void OdeWorld::find_contacts() {
+  dSpaceCollide(moving_, this, &OdeWorld::touch);
+  dSpaceCollide2(reinterpret_cast<dGeomID>(moving_), reinterpret_cast<dGeomID>(fixed_), this, &OdeWorld::touch);
+}
+
+void OdeWorld::touch(void* self, dGeomID a, dGeomID b) { static_cast<OdeWorld*>(self)->add_contacts(a, b); }
+
+void OdeWorld::add_contacts(dGeomID a, dGeomID b) {
+  dContact found[kMaxContacts];
+  const int count = dCollide(a, b, kMaxContacts, &found[0].geom, sizeof(dContact));
+  if (count == 0) return;
+  const auto index_of = [](dGeomID geom) {
+    return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom)));
+  };
+  const dSurfaceParameters surface = surface_of(laws_.of(index_of(a), index_of(b)));
+  const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
+  for (int i = 0; i < count; ++i) {
+    found[i].surface = surface;
+    if (matched_ && surface.mu > 0) align_friction(found[i], body_a, body_b);
+    dJointAttach(dJointCreateContact(world_, contacts_, &found[i]), body_a, body_b);
+  }
+}
+
+}  // namespace rigor

@@ -1,0 +1,59 @@
+#include "adapters/ode/ode_engine.h"
+
+#include <ode/ode.h>
+#include <ode/version.h>
+
+#include "adapters/ode/ode_world.h"
+#include "adapters/option_values.h"
+#include "core/engine/run_name.h"
+
+namespace rigor {
+namespace {
+
+std::vector<OptionInfo> options_of_both() {
+  return {{"gyroscopic", "the implicit gyroscopic torque", {"on", "off"}},
+          {"rotation",
+           "update of the orientation: the exact turn, or an added quaternion rate",
+           {"finite", "infinitesimal"}},
+          {"erp", "share of a constraint's error corrected in one step", {}, 0, 1},
+          {"cfm", "constraint force mixing: softness of constraints", {}, 0, 1}};
+}
+
+MethodInfo worldstep() {
+  return {.name = "worldstep",
+          .summary = "semi-implicit Euler, contacts by a direct (Dantzig) solver",
+          .velocity_lag = 0.5,
+          .options = options_of_both()};
+}
+
+MethodInfo quickstep() {
+  MethodInfo method = {.name = "quickstep",
+                       .summary = "semi-implicit Euler, contacts by successive over-relaxation",
+                       .velocity_lag = 0.5,
+                       .options = options_of_both()};
+  method.options.push_back({"iterations", "sweeps a step", {}, 1, 10000, true});
+  method.options.push_back({"sor", "over-relaxation factor", {}, 0.01, 2});
+  return method;
+}
+
+}  // namespace
+
+EngineInfo OdeEngine::info() const {
+  return {.name = "ode",
+          .version = dODE_VERSION,
+          .precision = dCheckConfiguration("ODE_double_precision") ? "double" : "single",
+          .features = {"spring", "timed-force", "fixed-body", "restitution", "friction:none", "friction:coulomb",
+                       "friction:infinite", "contact:box-box", "contact:box-capsule", "contact:box-plane",
+                       "contact:box-sphere", "contact:capsule-capsule", "contact:capsule-plane",
+                       "contact:capsule-sphere", "contact:plane-sphere", "contact:sphere-sphere"},
+          .methods = {worldstep(), quickstep()}};
+}
+
+std::unique_ptr<World> OdeEngine::load(const Scene& scene, const Settings& settings) const {
+  const EngineInfo engine = info();
+  refuse_unsupported(engine, scene);
+  method_of(engine, settings);  // throws for a method that is not there
+  return std::make_unique<OdeWorld>(scene, settings);
+}
+
+}  // namespace rigor

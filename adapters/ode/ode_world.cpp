@@ -1,0 +1,190 @@
+#include "adapters/ode/ode_world.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "adapters/ode/ode_library.h"
+#include "adapters/option_values.h"
+
+namespace rigor {
+namespace {
+
+Vec3 vector_of(const dReal* v) { return {v[0], v[1], v[2]}; }
+
+// ODE's quaternion is (w, x, y, z), body to world, as ours.
+void copy_to(const Quat& q, dQuaternion out) { out[0] = q.w(), out[1] = q.x(), out[2] = q.y(), out[3] = q.z(); }
+
+dMass mass_of(const Body& body) {
+  // About the centre of mass (at the body's origin in both), in the body frame in both; ODE takes any symmetric matrix.
+  // ODE's order of the products is 12, 13, 23; its sign is that of the matrix entry, as ours.
+  dMass mass;
+  const Mat3& I = body.inertia;
+  dMassSetParameters(&mass, body.mass, 0, 0, 0, I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
+  return mass;
+}
+
+// Ours and ODE's: a box by full edge lengths; a capsule along z by the length of the cylinder alone, without its caps;
+// a plane by n · x = d with the solid behind it.
+struct MakeGeom {
+  dSpaceID space;
+  dGeomID operator()(const Sphere& s) const { return dCreateSphere(space, s.radius); }
+  dGeomID operator()(const Box& b) const { return dCreateBox(space, b.size.x(), b.size.y(), b.size.z()); }
+  dGeomID operator()(const Capsule& c) const { return dCreateCapsule(space, c.radius, c.length); }
+  dGeomID operator()(const Plane& p) const {
+    return dCreatePlane(space, p.normal.x(), p.normal.y(), p.normal.z(), p.offset);
+  }
+};
+
+}  // namespace
+
+OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
+    : laws_(scene),
+      loads_(scene),
+      can_touch_(anything_can_touch(scene)),
+      matched_(settings.track == Track::matched),
+      quick_(settings.method == "quickstep") {
+  ode_library::start();
+  world_ = dWorldCreate();
+  moving_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
+  fixed_ = dSimpleSpaceCreate(nullptr);
+  contacts_ = dJointGroupCreate(0);
+  dWorldSetGravity(world_, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
+  apply(settings);
+  for (const Body& body : scene.bodies) add_body(body, settings);
+}
+
+OdeWorld::~OdeWorld() {
+  dJointGroupDestroy(contacts_);
+  dSpaceDestroy(moving_);  // with the geometries in it
+  dSpaceDestroy(fixed_);
+  dWorldDestroy(world_);
+}
+
+void OdeWorld::apply(const Settings& settings) {
+  if (matched_) {
+    dWorldSetAutoDisableFlag(world_, 0);
+    dWorldSetDamping(world_, 0, 0);
+  }
+  dWorldSetERP(world_, number_option(settings, "erp", dWorldGetERP(world_)));
+  dWorldSetCFM(world_, number_option(settings, "cfm", dWorldGetCFM(world_)));
+  dWorldSetQuickStepNumIterations(
+      world_, static_cast<int>(number_option(settings, "iterations", dWorldGetQuickStepNumIterations(world_))));
+  dWorldSetQuickStepW(world_, number_option(settings, "sor", dWorldGetQuickStepW(world_)));
+}
+
+void OdeWorld::add_body(const Body& body, const Settings& settings) {
+  dBodyID id = nullptr;
+  if (!body.fixed) {
+    id = dBodyCreate(world_);
+    const dMass mass = mass_of(body);
+    dBodySetMass(id, &mass);
+    dQuaternion q;
+    copy_to(body.orientation, q);
+    dBodySetPosition(id, body.position.x(), body.position.y(), body.position.z());
+    dBodySetQuaternion(id, q);
+    // Both velocities are in the world frame, of the centre of mass, in ODE as here.
+    dBodySetLinearVel(id, body.velocity.x(), body.velocity.y(), body.velocity.z());
+    dBodySetAngularVel(id, body.angular_velocity.x(), body.angular_velocity.y(), body.angular_velocity.z());
+    const std::string rotation = word_option(settings, "rotation", matched_ ? "finite" : "infinitesimal");
+    dBodySetFiniteRotationMode(id, rotation == "finite");
+    dBodySetGyroscopicMode(id, word_option(settings, "gyroscopic", "on") == "on");
+  }
+  bodies_.push_back(id);
+  standing_.push_back({body.position, body.orientation, Vec3::Zero(), Vec3::Zero()});
+  if (can_touch_ && body.collides) add_geometry(body, id);
+}
+
+void OdeWorld::add_geometry(const Body& body, dBodyID moving) {
+  const dGeomID geom = std::visit(MakeGeom{moving ? moving_ : fixed_}, *body.shape);
+  const auto index = static_cast<std::intptr_t>(bodies_.size()) - 1;
+  dGeomSetData(geom, reinterpret_cast<void*>(index));
+  if (moving) {
+    dGeomSetBody(geom, moving);
+  } else if (!std::holds_alternative<Plane>(*body.shape)) {  // a plane is given in the world frame, in ODE as here
+    dQuaternion q;
+    copy_to(body.orientation, q);
+    dGeomSetPosition(geom, body.position.x(), body.position.y(), body.position.z());
+    dGeomSetQuaternion(geom, q);
+  }
+}
+
+void OdeWorld::step(double dt) {
+  if (!loads_.empty()) add_loads(dt);
+  if (can_touch_) find_contacts();
+  const int done = quick_ ? quick_step(dt) : dWorldStep(world_, dt);
+  if (can_touch_) dJointGroupEmpty(contacts_);
+  clock_.advance(dt);
+  complaint_ = ode_library::take_messages();
+  if (!done) complaint_ = "ODE had no memory for the step";
+}
+
+// QuickStep shuffles its constraints by a random sequence that is global to the process. Each world continues its own,
+// so that a run gives the same bits whatever else has run.
+int OdeWorld::quick_step(double dt) {
+  dRandSetSeed(random_seed_);
+  const int done = dWorldQuickStep(world_, dt);
+  random_seed_ = dRandGetSeed();
+  return done;
+}
+
+void OdeWorld::add_loads(double dt) {
+  const Wrenches& wrenches = loads_.over_step(*this, dt);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i]) continue;
+    const auto& [force, torque] = wrenches[i];  // in the world frame; ODE clears both after the step
+    dBodyAddForce(bodies_[i], force.x(), force.y(), force.z());
+    dBodyAddTorque(bodies_[i], torque.x(), torque.y(), torque.z());
+  }
+}
+
+void OdeWorld::read(Snapshot& out) const {
+  out.time = clock_.time();
+  const MutableBodyColumns columns = out.own(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i]) {
+      columns.set_body(i, standing_[i]);
+      continue;
+    }
+    const dReal* q = dBodyGetQuaternion(bodies_[i]);
+    columns.set_position(i, vector_of(dBodyGetPosition(bodies_[i])));
+    columns.set_orientation(i, {q[0], q[1], q[2], q[3]});
+    columns.set_velocity(i, vector_of(dBodyGetLinearVel(bodies_[i])));
+    columns.set_angular_velocity(i, vector_of(dBodyGetAngularVel(bodies_[i])));
+  }
+}
+
+SettingsInForce OdeWorld::settings_in_force() const {
+  dVector3 g;
+  dWorldGetGravity(world_, g);
+  SettingsInForce in_force = {
+      {"precision", dCheckConfiguration("ODE_double_precision") ? "double" : "single"},
+      {"solver", quick_ ? "quickstep (SOR)" : "worldstep (Dantzig)"},
+      {"gravity", fmt::format("{:g}, {:g}, {:g} m/s^2", g[0], g[1], g[2])},
+      {"erp", fmt::format("{:g}", dWorldGetERP(world_))},
+      {"cfm", fmt::format("{:g}", dWorldGetCFM(world_))},
+      {"damping",
+       fmt::format("linear {:g}, angular {:g}", dWorldGetLinearDamping(world_), dWorldGetAngularDamping(world_))},
+      {"auto-disable", dWorldGetAutoDisableFlag(world_) ? "on" : "off"},
+      {"largest angular speed", fmt::format("{:g} rad/s", dWorldGetMaxAngularSpeed(world_))},
+      {"contact correcting speed", fmt::format("at most {:g} m/s", dWorldGetContactMaxCorrectingVel(world_))},
+      {"contact surface layer", fmt::format("{:g} m", dWorldGetContactSurfaceLayer(world_))},
+      {"friction", matched_ ? "pyramid, its first direction along the sliding velocity"
+                            : "pyramid, its directions chosen by the engine"},
+      {"bounce threshold", "0 m/s"},
+      {"springs and timed forces", "user forces, recomputed before each step"},
+  };
+  if (quick_) {
+    in_force.emplace_back("iterations", fmt::format("{}", dWorldGetQuickStepNumIterations(world_)));
+    in_force.emplace_back("sor", fmt::format("{:g}", dWorldGetQuickStepW(world_)));
+  }
+  for (const dBodyID body : bodies_) {
+    if (!body) continue;  // all moving bodies are set alike
+    in_force.emplace_back("gyroscopic", dBodyGetGyroscopicMode(body) ? "on, implicit" : "off");
+    in_force.emplace_back("rotation", dBodyGetFiniteRotationMode(body) ? "finite" : "infinitesimal");
+    break;
+  }
+  return in_force;
+}
+
+}  // namespace rigor

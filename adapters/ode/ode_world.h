@@ -1,0 +1,52 @@
+// A scene as ODE's own objects: a dBody for each body that moves, a dGeom for each that collides.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <string>
+#include <vector>
+
+#include "adapters/contact_laws.h"
+#include "adapters/external_loads.h"
+#include "core/engine/clock.h"
+#include "core/engine/engine.h"
+
+namespace rigor {
+
+class OdeWorld : public World {
+ public:
+  OdeWorld(const Scene& scene, const Settings& settings);
+  ~OdeWorld() override;
+  OdeWorld(const OdeWorld&) = delete;
+  OdeWorld& operator=(const OdeWorld&) = delete;
+
+  void step(double dt) override;
+  void read(Snapshot& out) const override;
+  SettingsInForce settings_in_force() const override;
+  std::string complaint() const override { return complaint_; }
+
+ private:
+  void apply(const Settings& settings);
+  void add_body(const Body& body, const Settings& settings);
+  void add_geometry(const Body& body, dBodyID moving);
+  int quick_step(double dt);  // 0 if it could not
+  void add_loads(double dt);
+  void find_contacts();
+  static void touch(void* self, dGeomID a, dGeomID b);  // ODE calls it for each pair whose bounding boxes overlap
+  void add_contacts(dGeomID a, dGeomID b);
+
+  std::vector<dBodyID> bodies_;      // null for a fixed body
+  std::vector<BodyState> standing_;  // where a fixed body stands, by body index
+  ContactLaws laws_;
+  ExternalLoads loads_;
+  bool can_touch_, matched_, quick_;
+  Clock clock_;
+  std::string complaint_;
+  unsigned long random_seed_ = 0;  // ODE's own at its start
+
+  dWorldID world_;
+  dSpaceID moving_, fixed_;  // two spaces: fixed shapes are never tried against each other
+  dJointGroupID contacts_;   // lives for one step
+};
+
+}  // namespace rigor
