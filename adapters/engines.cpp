@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "adapters/bullet/bullet_engine.h"
+#include "adapters/core/core_engine.h"
 #include "adapters/ode/ode_engine.h"
 
 namespace rigor {
@@ -13,6 +14,7 @@ const EngineTable& engines() {
   static const EngineTable table = [] {
     EngineTable rows;
     rows.push_back(std::make_unique<BulletEngine>());
+    rows.push_back(std::make_unique<CoreEngine>());
     rows.push_back(std::make_unique<OdeEngine>());
     return rows;
   }();

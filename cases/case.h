@@ -25,16 +25,16 @@ struct Gate {
 };
 
 struct Case {
-  std::string id;      // "springs/fixed-spring": its path in the suite; or the path as given, for a file elsewhere
+  std::string id;  // "springs/fixed-spring": its path in the suite; or the path as given, for a file elsewhere
   std::string title;
   std::string source;
   Scene scene;
-  double duration = 0;         // s
+  double duration = 0;  // s
   std::vector<StepSize> dt;
   std::string truth = "none";  // a row of truths.cpp, or "none"
   std::string truth_where;     // "file:line:column" of truth.kind
   std::vector<Gate> gates;
-  std::string text;            // the file itself
+  std::string text;  // the file itself
 };
 
 // Reads a duration or step size in seconds, "0.01" or "1/30". Throws InputError unless positive and finite and, for a

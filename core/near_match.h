@@ -8,8 +8,8 @@
 
 namespace rigor {
 
-// The word of `known` nearest to `word` by edit distance (insert, delete, replace, swap of neighbours; case ignored), if
-// it is near enough to be what was meant: at most a third of the word's length, and at least one, edits away.
+// The word of `known` nearest to `word` by edit distance (insert, delete, replace, swap of neighbours; case ignored),
+// if it is near enough to be what was meant: at most a third of the word's length, and at least one, edits away.
 std::optional<std::string> near_match(std::string_view word, const std::vector<std::string>& known);
 
 // " (did you mean 'x'?)" or "", ready to append to a message.

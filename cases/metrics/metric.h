@@ -13,9 +13,9 @@ namespace rigor {
 
 // The truth at the instants of a trajectory's samples, so that every metric reads it and none recomputes it.
 struct TruthSamples {
-  std::vector<BodyTable> bodies;   // one for each sample of the trajectory
-  std::vector<double> error;       // the truth's own error at each, see Truth::error
-  double largest_kinetic_energy;   // J, over the whole run
+  std::vector<BodyTable> bodies;  // one for each sample of the trajectory
+  std::vector<double> error;      // the truth's own error at each, see Truth::error
+  double largest_kinetic_energy;  // J, over the whole run
 };
 
 // A run, ready to be judged. The trajectory ends before the first sample that is not finite.
@@ -35,10 +35,10 @@ struct Instant {
 };
 
 struct Measurement {
-  double value = 0;             // in the metric's unit
+  double value = 0;  // in the metric's unit
   Instant worst;
-  std::vector<double> series;   // the value at each sample compared; may be shorter than the trajectory
-  double compared_until = 0;    // s: the end of the run, or the horizon of the truth
+  std::vector<double> series;  // the value at each sample compared; may be shorter than the trajectory
+  double compared_until = 0;   // s: the end of the run, or the horizon of the truth
 };
 
 // Either a measurement or the reason why there can be none.

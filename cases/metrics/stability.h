@@ -21,15 +21,16 @@ struct Stability {
 };
 
 // Blown up: a number is not finite, or |E - E0| > 10 x the truth's largest kinetic energy. Drifting: see stability.cpp.
-Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy, double velocity_lag);
+Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy,
+                          double velocity_lag);
 
 // J, of the truth over [0, duration]; without a truth, of the run itself at its start.
 double largest_kinetic_energy(const Scene& scene, const Truth* truth, double duration);
 
 // The largest step at which `engine` does not blow up over `horizon` seconds, by bisection in log dt to 1 %.
 struct StableStep {
-  double dt = 0;        // s
-  bool is_cap = false;  // still stable at the largest step tried: dt is that one
+  double dt = 0;          // s
+  bool is_cap = false;    // still stable at the largest step tried: dt is that one
   bool is_floor = false;  // blows up at the smallest step tried: dt is that one
 };
 StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,

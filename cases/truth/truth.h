@@ -17,8 +17,8 @@ class Truth {
   virtual ~Truth() = default;
   // The state of every body at t [s], 0 <= t <= the duration it was made for, into columns of the scene's size.
   virtual void at(double t, MutableBodyColumns out) const = 0;
-  // Estimated error of at(t): the largest over all bodies of the position's [m] and the orientation's [rad]. Never falls
-  // as t grows.
+  // Estimated error of at(t): the largest over all bodies of the position's [m] and the orientation's [rad]. Never
+  // falls as t grows.
   virtual double error(double t) const = 0;
 };
 

@@ -11,7 +11,7 @@ double potential_energy(const Scene& scene, BodyColumns bodies);  // J, gravity 
 inline double energy(const Scene& scene, BodyColumns bodies) {
   return kinetic_energy(scene, bodies) + potential_energy(scene, bodies);
 }
-Vec3 linear_momentum(const Scene& scene, BodyColumns bodies);                          // kg m/s, in W
-Vec3 angular_momentum(const Scene& scene, BodyColumns bodies, const Vec3& about_W);    // kg m²/s, in W
+Vec3 linear_momentum(const Scene& scene, BodyColumns bodies);                        // kg m/s, in W
+Vec3 angular_momentum(const Scene& scene, BodyColumns bodies, const Vec3& about_W);  // kg m²/s, in W
 
 }  // namespace rigor

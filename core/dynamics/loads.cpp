@@ -5,25 +5,14 @@
 namespace rigor {
 namespace {
 
-struct PointMotion {
-  Vec3 arm = Vec3::Zero();       // from the centre of mass, in W; the point itself for the world
-  Vec3 position = Vec3::Zero();  // in W
-  Vec3 velocity = Vec3::Zero();  // in W
-};
-
-PointMotion motion_of(BodyColumns bodies, int body, const Vec3& point) {
-  if (body == kWorld) return {point, point, Vec3::Zero()};
-  const Vec3 arm = bodies.rotation(body) * point;
-  return {arm, bodies.position(body) + arm, bodies.velocity(body) + bodies.angular_velocity(body).cross(arm)};
-}
-
 void add_force(int body, const Vec3& force, const Vec3& arm, Wrenches& out) {
   if (body == kWorld) return;
   out[body].force += force;
   out[body].torque += arm.cross(force);
 }
 
-// The force on b's point. Where the two points meet the line has no direction, and a spring of some rest length no force.
+// The force on b's point. Where the two points meet the line has no direction, and a spring of some rest length no
+// force.
 Vec3 spring_force(const Spring& spring, const PointMotion& a, const PointMotion& b) {
   const Vec3 line = b.position - a.position;
   const double length = line.norm();
@@ -33,14 +22,19 @@ Vec3 spring_force(const Spring& spring, const PointMotion& a, const PointMotion&
   return -(spring.stiffness * (length - spring.rest_length) + spring.damping * stretching) * direction;
 }
 
-// The share of [t, t + dt] in which the force acts.
+}  // namespace
+
+PointMotion point_motion(BodyColumns bodies, int body, const Vec3& point) {
+  if (body == kWorld) return {point, point, Vec3::Zero()};
+  const Vec3 arm = bodies.rotation(body) * point;
+  return {arm, bodies.position(body) + arm, bodies.velocity(body) + bodies.angular_velocity(body).cross(arm)};
+}
+
 double share_of_step(const TimedForce& force, double t, double dt) {
   if (dt == 0) return t >= force.from && t < force.until ? 1 : 0;
   const double overlap = std::min(force.until, t + dt) - std::max(force.from, t);
   return std::clamp(overlap / dt, 0.0, 1.0);
 }
-
-}  // namespace
 
 Loads::Loads(const Scene& scene) : gravity_(scene.gravity), springs_(scene.springs), forces_(scene.forces) {
   for (const Body& body : scene.bodies) masses_.push_back(body.fixed ? 0 : body.mass);
@@ -50,7 +44,8 @@ Loads::Loads(const Scene& scene) : gravity_(scene.gravity), springs_(scene.sprin
 void Loads::evaluate(BodyColumns bodies, double t, double dt, Wrenches& out) const {
   out.assign(bodies.size(), Wrench{});
   for (const Spring& spring : springs_) {
-    const PointMotion a = motion_of(bodies, spring.a, spring.point_a), b = motion_of(bodies, spring.b, spring.point_b);
+    const PointMotion a = point_motion(bodies, spring.a, spring.point_a),
+                      b = point_motion(bodies, spring.b, spring.point_b);
     const Vec3 force = spring_force(spring, a, b);
     add_force(spring.a, -force, a.arm, out);
     add_force(spring.b, force, b.arm, out);

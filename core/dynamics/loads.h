@@ -16,6 +16,17 @@ struct Wrench {
 };
 using Wrenches = std::vector<Wrench>;  // one for each body of the scene
 
+// A point of a body, or of the world, as it moves.
+struct PointMotion {
+  Vec3 arm = Vec3::Zero();       // m, from the centre of mass, in W; the point itself for the world
+  Vec3 position = Vec3::Zero();  // m, in W
+  Vec3 velocity = Vec3::Zero();  // m/s, in W
+};
+PointMotion point_motion(BodyColumns bodies, int body, const Vec3& point);
+
+// The share of the step [t, t + dt] in which the force acts; at dt = 0, whether it does.
+double share_of_step(const TimedForce& force, double t, double dt);
+
 class Loads {
  public:
   explicit Loads(const Scene& scene);
@@ -26,6 +37,8 @@ class Loads {
   // The same, with m g added for every body that is not fixed.
   void evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenches& out) const;
 
+  const std::vector<Spring>& springs() const { return springs_; }
+  const std::vector<TimedForce>& forces() const { return forces_; }
   bool empty() const { return springs_.empty() && forces_.empty(); }
   bool damped() const { return damped_; }
 

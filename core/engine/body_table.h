@@ -1,6 +1,6 @@
 // The motion of all bodies at one instant, as thirteen columns of doubles (a structure of arrays), optionally with nine
-// more for an engine whose own orientation is a matrix. The core's state, an engine's snapshot and a trajectory's samples
-// all have this layout: the core hands its columns out without a copy.
+// more for an engine whose own orientation is a matrix. The core's state, an engine's snapshot and a trajectory's
+// samples all have this layout: the core hands its columns out without a copy.
 #pragma once
 
 #include <array>
@@ -40,9 +40,7 @@ class BodyColumnsOf {
   Vec3 position(std::size_t i) const { return vector(kPosition, i); }
   Vec3 velocity(std::size_t i) const { return vector(kVelocity, i); }
   Vec3 angular_velocity(std::size_t i) const { return vector(kAngularVelocity, i); }
-  Quat orientation(std::size_t i) const {
-    return {column(3)[i], column(4)[i], column(5)[i], column(6)[i]};
-  }
+  Quat orientation(std::size_t i) const { return {column(3)[i], column(4)[i], column(5)[i], column(6)[i]}; }
   // The engine's own matrix where it keeps one (it need not be orthonormal), else the quaternion's.
   Mat3 rotation(std::size_t i) const {
     if (!has_rotation_) return matrix_of(orientation(i));

@@ -20,29 +20,29 @@ enum class Track { matched, stock };
 // A key=value that a run's name may carry.
 struct OptionInfo {
   std::string name;
-  std::string meaning;               // with its unit
-  std::vector<std::string> choices;  // the words allowed; empty: a number
-  double min = 0, max = 0;           // the numbers allowed, where there are no choices
-  bool whole = false;                // only whole numbers
+  std::string meaning;                    // with its unit
+  std::vector<std::string> choices = {};  // the words allowed; empty: a number
+  double min = 0, max = 0;                // the numbers allowed, where there are no choices
+  bool whole = false;                     // only whole numbers
 };
 
 struct MethodInfo {
   std::string name;
-  std::string summary;       // one line
-  int order = 1;             // the global error falls as dt^order on smooth scenes
-  bool symplectic = false;   // on undamped smooth scenes
-  // Steps by which the velocities read lag behind the positions (1/2 for a semi-implicit step): the judge brings them to
-  // the positions' time before it speaks of lost energy.
+  std::string summary;      // one line
+  int order = 1;            // the global error falls as dt^order on smooth scenes
+  bool symplectic = false;  // on undamped smooth scenes
+  // Steps by which the velocities read lag behind the positions (1/2 for a semi-implicit step): the judge brings them
+  // to the positions' time before it speaks of lost energy.
   double velocity_lag = 0;
-  std::vector<OptionInfo> options;
+  std::vector<OptionInfo> options = {};
 };
 
 struct EngineInfo {
   std::string name;
   std::string version;
-  std::string precision;             // "double", "single"
-  Features features;                 // what it expresses; see features.h
-  std::vector<MethodInfo> methods;   // the first is the default
+  std::string precision;                                                   // "double", "single"
+  Features features = {};                                                  // what it expresses; see features.h
+  std::vector<MethodInfo> methods = {};                                    // the first is the default
   double max_rotation_per_step = std::numeric_limits<double>::infinity();  // rad; beyond it the engine clamps
 };
 
@@ -82,8 +82,8 @@ using SettingsInForce = std::vector<std::pair<std::string, std::string>>;
 class World {
  public:
   virtual ~World() = default;
-  virtual void step(double dt) = 0;                    // exactly one step of dt seconds
-  virtual void read(Snapshot& out) const = 0;          // every body, at the world's current time
+  virtual void step(double dt) = 0;            // exactly one step of dt seconds
+  virtual void read(Snapshot& out) const = 0;  // every body, at the world's current time
   virtual SettingsInForce settings_in_force() const = 0;
   // Why the last step did not do what its method promises (an iteration that did not converge, say); empty if it did.
   virtual std::string complaint() const = 0;

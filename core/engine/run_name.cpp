@@ -40,8 +40,8 @@ void check_value(const OptionInfo& option, const std::string& value, const std::
   double number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
   const bool read_whole = error == std::errc() && end == value.data() + value.size();
-  const bool good = read_whole && number >= option.min && number <= option.max &&
-                    (!option.whole || number == std::floor(number));
+  const bool good =
+      read_whole && number >= option.min && number <= option.max && (!option.whole || number == std::floor(number));
   if (!good) {
     throw InputError(fmt::format("'{}': {} cannot be '{}'; it is a {} from {} to {}", run, option.name, value,
                                  option.whole ? "whole number" : "number", option.min, option.max));
@@ -72,8 +72,8 @@ void parse_options(std::string rest, const MethodInfo& method, RunName& run, con
     std::string key = pair;
     const std::string value = cut_tail(key, '=');
     if (key == pair) throw InputError(fmt::format("'{}': '{}' has no value; a run is named {}", text, pair, kForm));
-    check_value(find_row(method.options, key, fmt::format("option of {}:{} called", run.engine, method.name), text), value,
-                text);
+    check_value(find_row(method.options, key, fmt::format("option of {}:{} called", run.engine, method.name), text),
+                value, text);
     if (!run.settings.options.emplace(key, value).second) {
       throw InputError(fmt::format("'{}': '{}' is given twice", text, key));
     }

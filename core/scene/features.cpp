@@ -63,12 +63,13 @@ void add_contacts(const Scene& scene, NeedList& needs) {
   for (const ContactPair& pair : scene.contact_pairs) {
     if (!may_touch(scene.bodies[pair.a], scene.bodies[pair.b])) continue;
     ++laws_given;
-    add_contact_law(pair.law,
-                    fmt::format("the contact of '{}' and '{}'", scene.body_name(pair.a), scene.body_name(pair.b)), needs);
+    add_contact_law(
+        pair.law, fmt::format("the contact of '{}' and '{}'", scene.body_name(pair.a), scene.body_name(pair.b)), needs);
   }
   std::size_t moving = 0, standing = 0;
   for (const auto& [key, members] : groups) (key.second ? standing : moving) += members.size();
-  if (laws_given < moving * (moving - 1) / 2 + moving * standing) add_contact_law(scene.contact_default, because, needs);
+  if (laws_given < moving * (moving - 1) / 2 + moving * standing)
+    add_contact_law(scene.contact_default, because, needs);
 }
 
 }  // namespace
@@ -86,7 +87,8 @@ std::vector<Need> needs_of(const Scene& scene) {
   }
   if (!scene.springs.empty()) {
     const Spring& spring = scene.springs.front();
-    needs.add("spring", fmt::format("a spring between '{}' and '{}'", scene.body_name(spring.a), scene.body_name(spring.b)));
+    needs.add("spring",
+              fmt::format("a spring between '{}' and '{}'", scene.body_name(spring.a), scene.body_name(spring.b)));
   }
   if (!scene.forces.empty()) {
     needs.add("timed-force", fmt::format("a force on '{}'", scene.body_name(scene.forces.front().body)));

@@ -1,5 +1,5 @@
-// What a scene needs of an engine, and what an engine declares. Compared before a scene is loaded, so that what an engine
-// cannot express ends as `unsupported`, with the reason, and is never approximated in silence.
+// What a scene needs of an engine, and what an engine declares. Compared before a scene is loaded, so that what an
+// engine cannot express ends as `unsupported`, with the reason, and is never approximated in silence.
 #pragma once
 
 #include <set>

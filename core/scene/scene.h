@@ -34,26 +34,26 @@ using Shape = std::variant<Sphere, Box, Capsule, Plane>;
 
 struct Body {
   std::string name;
-  double mass = 1;                           // kg; of no meaning if fixed
-  Mat3 inertia = Mat3::Identity();           // kg m², about the centre of mass, in B; of no meaning if fixed
-  Vec3 position = Vec3::Zero();              // m, p_WB
-  Quat orientation = Quat::Identity();       // unit, B to W
-  Vec3 velocity = Vec3::Zero();              // m/s, in W
-  Vec3 angular_velocity = Vec3::Zero();      // rad/s, in W
+  double mass = 1;                       // kg; of no meaning if fixed
+  Mat3 inertia = Mat3::Identity();       // kg m², about the centre of mass, in B; of no meaning if fixed
+  Vec3 position = Vec3::Zero();          // m, p_WB
+  Quat orientation = Quat::Identity();   // unit, B to W
+  Vec3 velocity = Vec3::Zero();          // m/s, in W
+  Vec3 angular_velocity = Vec3::Zero();  // rad/s, in W
   std::optional<Shape> shape;
-  bool collides = false;                     // takes part in contact; needs a shape
-  bool fixed = false;                        // static; a plane always is
+  bool collides = false;  // takes part in contact; needs a shape
+  bool fixed = false;     // static; a plane always is
 };
 
 // A straight spring and damper between two points: the force on b's point is -(k (d - d0) + c d') along the line from
 // a's point to b's, the opposite acts on a.
 struct Spring {
-  int a = kWorld, b = kWorld;                // body index or kWorld
-  Vec3 point_a = Vec3::Zero();               // m, in a's frame
-  Vec3 point_b = Vec3::Zero();               // m, in b's frame
-  double stiffness = 0;                      // N/m
-  double damping = 0;                        // N s/m
-  double rest_length = 0;                    // m
+  int a = kWorld, b = kWorld;   // body index or kWorld
+  Vec3 point_a = Vec3::Zero();  // m, in a's frame
+  Vec3 point_b = Vec3::Zero();  // m, in b's frame
+  double stiffness = 0;         // N/m
+  double damping = 0;           // N s/m
+  double rest_length = 0;       // m
 };
 
 struct BallJoint {
@@ -88,10 +88,10 @@ struct ContactPair {
 // Constant in W while from <= t < until.
 struct TimedForce {
   int body;
-  Vec3 force = Vec3::Zero();   // N, in W
-  Vec3 torque = Vec3::Zero();  // N m, in W
-  Vec3 point = Vec3::Zero();   // m, in B: where the force acts
-  double from = 0;             // s
+  Vec3 force = Vec3::Zero();                               // N, in W
+  Vec3 torque = Vec3::Zero();                              // N m, in W
+  Vec3 point = Vec3::Zero();                               // m, in B: where the force acts
+  double from = 0;                                         // s
   double until = std::numeric_limits<double>::infinity();  // s
 };
 

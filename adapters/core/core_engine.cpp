@@ -1,0 +1,102 @@
+#include "adapters/core/core_engine.h"
+
+#include "core/dynamics/integrators/integrator.h"
+#include "core/engine/clock.h"
+
+namespace rigor {
+namespace {
+
+constexpr const char* kVersion = "0.1.0";
+
+std::string option(const Settings& settings, const std::string& key, const std::string& fallback) {
+  const auto found = settings.options.find(key);
+  return found == settings.options.end() ? fallback : found->second;
+}
+
+class CoreWorld : public World {
+ public:
+  CoreWorld(const Scene& scene, const Settings& settings)
+      : system_(scene),
+        integrator_(integrator(settings.method)),
+        contact_method_(contact_method(option(settings, "contact", contact_methods().front().name))) {
+    if (!integrator_.default_orientation.empty()) {
+      orientation_ = &orientation_update(option(settings, "orientation", integrator_.default_orientation));
+    }
+    contact_ = contact_method_.make(scene, system_);
+    state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
+    set_initial_state(scene, state_.columns());
+    stepper_ = integrator_.make({system_, contact_.get(), orientation_});
+  }
+
+  void step(double dt) override {
+    stepper_->step(state_.columns(), clock_.time(), dt);
+    clock_.advance(dt);
+  }
+
+  void read(Snapshot& out) const override {
+    out.time = clock_.time();
+    out.borrow(state_.columns());
+  }
+
+  SettingsInForce settings_in_force() const override {
+    SettingsInForce settings = {{"integrator", integrator_.name}, {"gyroscopic term", "on"}};
+    if (orientation_) settings.emplace_back("orientation", orientation_->name);
+    settings.emplace_back("contact", contact_ ? contact_method_.name : "none in this scene");
+    return settings;
+  }
+
+  std::string complaint() const override { return stepper_->complaint(); }
+
+ private:
+  System system_;
+  const Integrator& integrator_;
+  const ContactMethod& contact_method_;
+  const OrientationUpdate* orientation_ = nullptr;
+  std::unique_ptr<Contact> contact_;
+  BodyTable state_;
+  std::unique_ptr<Stepper> stepper_;
+  Clock clock_;
+};
+
+template <typename Rows>
+std::vector<std::string> names_of(const Rows& rows) {
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.push_back(row.name);
+  return names;
+}
+
+MethodInfo method_info(const Integrator& integrator) {
+  MethodInfo info{
+      .name = integrator.name,
+      .summary = integrator.summary,
+      .order = integrator.order,
+      .symplectic = integrator.symplectic,
+      .velocity_lag = integrator.velocity_lag,
+      .options = {
+          {.name = "contact", .meaning = "how touching bodies are treated", .choices = names_of(contact_methods())}}};
+  if (!integrator.default_orientation.empty()) {
+    info.options.push_back(
+        {.name = "orientation",
+         .meaning = "how a rotation is carried over a step; default " + integrator.default_orientation,
+         .choices = names_of(orientation_updates())});
+  }
+  return info;
+}
+
+}  // namespace
+
+EngineInfo CoreEngine::info() const {
+  EngineInfo info{.name = "core", .version = kVersion, .precision = "double"};
+  info.features = {"spring", "timed-force", "fixed-body"};
+  for (const ContactMethod& method : contact_methods()) {
+    info.features.insert(method.features.begin(), method.features.end());
+  }
+  for (const Integrator& row : integrators()) info.methods.push_back(method_info(row));
+  return info;
+}
+
+std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& settings) const {
+  return std::make_unique<CoreWorld>(scene, settings);
+}
+
+}  // namespace rigor

@@ -1,0 +1,45 @@
+#include "core/dynamics/block_system.h"
+
+#include <Eigen/LU>
+
+namespace rigor {
+
+BlockSystem::BlockSystem(std::size_t bodies) : size_(6 * static_cast<Eigen::Index>(bodies)) {
+  if (is_dense()) dense_.resize(size_, size_);
+}
+
+// Up to ten bodies a dense factorisation takes less time than a sparse one needs to order its unknowns.
+bool BlockSystem::is_dense() const { return size_ <= 60; }
+
+void BlockSystem::clear() {
+  dense_.setZero();
+  triplets_.clear();
+}
+
+void BlockSystem::add(std::size_t row, std::size_t column, const Mat6& block) {
+  const Eigen::Index r = 6 * static_cast<Eigen::Index>(row), c = 6 * static_cast<Eigen::Index>(column);
+  if (is_dense()) {
+    dense_.block<6, 6>(r, c) += block;
+    return;
+  }
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      triplets_.emplace_back(static_cast<int>(r + i), static_cast<int>(c + j), block(i, j));
+    }
+  }
+}
+
+bool BlockSystem::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
+  if (is_dense()) {
+    solution = dense_.partialPivLu().solve(right_side);
+    return solution.allFinite();
+  }
+  sparse_.resize(size_, size_);
+  sparse_.setFromTriplets(triplets_.begin(), triplets_.end());
+  sparse_lu_.compute(sparse_);
+  if (sparse_lu_.info() != Eigen::Success) return false;
+  solution = sparse_lu_.solve(right_side);
+  return solution.allFinite();
+}
+
+}  // namespace rigor

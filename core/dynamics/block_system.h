@@ -1,0 +1,31 @@
+// A linear system whose unknowns are six numbers a body, given block by block and solved directly: dense while it is
+// small, sparse where there are many bodies of which each meets few others.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <vector>
+
+#include "core/dynamics/load_jacobian.h"
+
+namespace rigor {
+
+class BlockSystem {
+ public:
+  explicit BlockSystem(std::size_t bodies);
+  void clear();
+  void add(std::size_t row, std::size_t column, const Mat6& block);
+  // False if the matrix is singular.
+  bool solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution);
+
+ private:
+  bool is_dense() const;
+
+  Eigen::Index size_;
+  Eigen::MatrixXd dense_;
+  std::vector<Eigen::Triplet<double>> triplets_;
+  Eigen::SparseMatrix<double> sparse_;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_lu_;
+};
+
+}  // namespace rigor

@@ -1,0 +1,52 @@
+// What every integration method of the core offers: its facts, and a stepper. One method, one file; integrators.cpp is
+// the table.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/contact.h"
+#include "core/dynamics/orientation_updates.h"
+#include "core/dynamics/system.h"
+#include "core/engine/engine.h"
+
+namespace rigor {
+
+// Steps one system. May keep scratch space, but nothing that later steps depend on: the state is all there is.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  // Takes `state` from t to t + dt.
+  virtual void step(MutableBodyColumns state, double t, double dt) = 0;
+  // Why the last step is not what the method promises; empty if it is.
+  virtual std::string complaint() const { return ""; }
+};
+
+// What a stepper is made from. Outlives it.
+struct StepperParts {
+  const System& system;
+  const Contact* contact;                // null where nothing can touch
+  const OrientationUpdate* orientation;  // for methods with that option; null for the others
+};
+
+struct Integrator {
+  std::string name;
+  std::string summary;
+  int order;                        // the global error falls as dt^order on smooth scenes
+  bool symplectic;                  // on undamped smooth scenes
+  double velocity_lag;              // in steps, see MethodInfo
+  std::string default_orientation;  // "" where the method has one way only
+  std::unique_ptr<Stepper> (*make)(const StepperParts& parts);
+};
+
+const std::vector<Integrator>& integrators();           // alphabetical
+const Integrator& integrator(const std::string& name);  // the name must be there
+
+// A row's `make` for a stepper that is built from its parts.
+template <typename S>
+std::unique_ptr<Stepper> make_stepper(const StepperParts& parts) {
+  return std::make_unique<S>(parts);
+}
+
+}  // namespace rigor

@@ -1,0 +1,82 @@
+#include "core/scene/scene.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include <random>
+
+#include "core/scene/features.h"
+#include "tests/scenes.h"
+
+using namespace rigor;
+
+namespace {
+
+bool inside(const Shape& shape, const Vec3& p) {
+  if (const auto* s = std::get_if<Sphere>(&shape)) return p.norm() <= s->radius;
+  if (const auto* b = std::get_if<Box>(&shape)) return (p.cwiseAbs().array() <= 0.5 * b->size.array()).all();
+  const auto& c = std::get<Capsule>(shape);
+  const Vec3 nearest(0, 0, std::clamp(p.z(), -0.5 * c.length, 0.5 * c.length));
+  return (p - nearest).norm() <= c.radius;
+}
+
+std::set<std::string> features_of(const Scene& scene) {
+  std::set<std::string> features;
+  for (const Need& need : needs_of(scene)) features.insert(need.feature);
+  return features;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(core_scene_scene)
+
+// A second derivation of each inertia: points strewn evenly through the shape. A million points give three digits.
+BOOST_AUTO_TEST_CASE(inertias_are_those_of_solid_bodies) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
+  for (const Shape& shape : {Shape(Sphere{1.2}), Shape(Box{{0.5, 2, 1.1}}), Shape(Capsule{0.6, 1.5})}) {
+    Mat3 sum = Mat3::Zero();
+    int count = 0;
+    for (int k = 0; k < 1'000'000; ++k) {
+      const Vec3 p(coordinate(random), coordinate(random), coordinate(random));
+      if (!inside(shape, p)) continue;
+      sum += p.squaredNorm() * Mat3::Identity() - p * p.transpose();
+      ++count;
+    }
+    const Mat3 inertia = inertia_of(shape, 7);
+    BOOST_TEST((7 * sum / count - inertia).norm() < 5e-3 * inertia.norm(), shape_name(shape));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_pair_s_law_does_not_depend_on_the_order_and_falls_back_on_the_default) {
+  Scene scene;
+  scene.contact_default = {0.1, 0.2};
+  scene.contact_pairs = {{3, 5, {0.7, 0.8}}};
+  BOOST_TEST(scene.contact_law(3, 5).restitution == 0.7);
+  BOOST_TEST(scene.contact_law(5, 3).friction == 0.8);
+  BOOST_TEST(scene.contact_law(3, 4).friction == 0.2);
+}
+
+BOOST_AUTO_TEST_CASE(a_scene_asks_for_what_it_uses_and_no_more) {
+  BOOST_TEST((features_of(test::tumbling_body()) == std::set<std::string>{}));
+  BOOST_TEST((features_of(test::fixed_spring()) == std::set<std::string>{"spring"}));
+  BOOST_TEST((features_of(test::coupled_bodies(1)) == std::set<std::string>{"spring", "timed-force"}));
+  BOOST_TEST(
+      (features_of(test::dropped_sphere(0)) == std::set<std::string>{"contact:plane-sphere", "friction:infinite"}));
+  BOOST_TEST((features_of(test::dropped_sphere(1)) ==
+              std::set<std::string>{"contact:plane-sphere", "friction:infinite", "restitution"}));
+
+  Scene scene = test::dropped_sphere(0);
+  scene.bodies[0].collides = false;
+  BOOST_TEST(features_of(scene).empty());
+
+  scene = test::dropped_sphere(0);
+  scene.contact_pairs = {{0, 1, {0.5, 0.3}}};  // the only pair: the default plays no part
+  BOOST_TEST((features_of(scene) == std::set<std::string>{"contact:plane-sphere", "friction:coulomb", "restitution"}));
+  scene.bodies.push_back(scene.bodies[0]);
+  BOOST_TEST((features_of(scene) == std::set<std::string>{"contact:plane-sphere", "contact:sphere-sphere",
+                                                          "friction:coulomb", "friction:infinite", "restitution"}));
+  scene.joints = {{0, 1, HingeJoint{{0, 0, 0}, {0, 0, 1}}}};
+  BOOST_TEST(features_of(scene).contains("joint:hinge"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
