@@ -1,1 +1,48 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "cases/truth/truth.h"
+#include "core/error.h"
+#include "core/near_match.h"
+
+namespace rigor {
+
+// One declaration and one row a truth, alphabetical; each is defined in the file of its name.
+TruthRow bounce_truth();
+TruthRow projectile_truth();
+TruthRow reference_truth();
+
+const std::vector<TruthRow>& truths() {
+  static const std::vector<TruthRow> table = {
+      bounce_truth(),
+      projectile_truth(),
+      reference_truth(),
+  };
+  return table;
+}
+
+std::unique_ptr<Truth> make_truth(const std::string& kind, const Scene& scene, double duration) {
+  if (kind == "none") return nullptr;
+  std::vector<std::string> names = {"none"};
+  for (const TruthRow& row : truths()) {
+    if (row.name == kind) return row.make(scene, duration);
+    names.push_back(row.name);
+  }
+  throw InputError(
+      fmt::format("there is no truth '{}'{}; there is: {}", kind, did_you_mean(kind, names), listed(names)));
+}
+
+double horizon(const Truth& truth, double tolerance, double duration) {
+  if (truth.error(duration) <= tolerance) return duration;
+  if (truth.error(0) > tolerance) return 0;
+  double within = 0, beyond = duration;
+  constexpr int kHalvings = 60;  // down to the spacing of doubles
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (within + beyond);
+    (truth.error(middle) <= tolerance ? within : beyond) = middle;
+  }
+  return within;
+}
+
+}  // namespace rigor
