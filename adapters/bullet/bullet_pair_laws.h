@@ -4,7 +4,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "adapters/contact_laws.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor::bullet {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "adapters/bullet/bullet_convert.h"
-#include "adapters/contact_laws.h"
+#include "core/scene/contact_laws.h"
 #include "adapters/external_loads.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"

@@ -1,5 +1,6 @@
 #include "adapters/core/core_engine.h"
 
+#include "adapters/option_values.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/engine/clock.h"
 
@@ -8,19 +9,14 @@ namespace {
 
 constexpr const char* kVersion = "0.1.0";
 
-std::string option(const Settings& settings, const std::string& key, const std::string& fallback) {
-  const auto found = settings.options.find(key);
-  return found == settings.options.end() ? fallback : found->second;
-}
-
 class CoreWorld : public World {
  public:
   CoreWorld(const Scene& scene, const Settings& settings)
       : system_(scene),
         integrator_(integrator(settings.method)),
-        contact_method_(contact_method(option(settings, "contact", contact_methods().front().name))) {
+        contact_method_(contact_method(word_option(settings, "contact", contact_methods().front().name))) {
     if (!integrator_.default_orientation.empty()) {
-      orientation_ = &orientation_update(option(settings, "orientation", integrator_.default_orientation));
+      orientation_ = &orientation_update(word_option(settings, "orientation", integrator_.default_orientation));
     }
     contact_ = contact_method_.make(scene, system_);
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
@@ -96,6 +92,7 @@ EngineInfo CoreEngine::info() const {
 }
 
 std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& settings) const {
+  refuse_unsupported(info(), scene);
   return std::make_unique<CoreWorld>(scene, settings);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/contact_laws.h"
+#include "core/scene/contact_laws.h"
 #include "adapters/external_loads.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"

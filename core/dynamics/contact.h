@@ -16,13 +16,13 @@ class Contact {
  public:
   virtual ~Contact() = default;
   // Changes velocities so that touching bodies no longer approach each other, at the positions of `state`.
-  virtual void resolve(MutableBodyColumns state) const = 0;
+  virtual void resolve(MutableBodyColumns state) = 0;
 };
 
 struct ContactMethod {
   std::string name;
   std::string summary;
-  Features features;                                     // the contacts it expresses; see features.h
+  Features features;  // the contacts it expresses; see features.h
   // Null where nothing in the scene can touch. The system outlives what is made.
   std::unique_ptr<Contact> (*make)(const Scene& scene, const System& system);
 };

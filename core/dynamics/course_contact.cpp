@@ -1,78 +1,121 @@
-// The course's impulse collision of a sphere and the ground (Computational Models of Motion 2021, assignment 5,
-// exercise 3): where the sphere overlaps the plane and its lowest point approaches it, the impulse j = K⁻¹ (u' - u)
-// takes that point's velocity u to u' = -e u_n n, without any tangential part (infinite friction). K is the inverse
-// effective mass of the point. The position is left alone: the overlap is what the coarse step makes of it.
+// The course's impulse collision (Computational Models of Motion 2021, assignment 5, exercise 3), for spheres on planes
+// and on each other: where two bodies overlap and the contact point's relative velocity u approaches, the impulse j =
+// K⁻¹ (u' - u) takes it to u' = -e u_n n, without any tangential part (infinite friction). K is the inverse effective
+// mass of the two bodies at the point. Positions are left alone: the overlap is what the coarse step makes of it.
+// Contacts are taken one after another, each once: a single body's bounce, not a pile.
 #include <Eigen/LU>
+#include <algorithm>
 
+#include "core/dynamics/broad_phase.h"
 #include "core/dynamics/contact.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
 
-struct SphereOnPlane {
-  int sphere;
-  double radius;  // m
+struct Ground {
+  int body;
   Plane plane;
-  double restitution;  // 0..1
+};
+
+// One body's share in a contact: its point's velocity, and what an impulse at the point does to it.
+struct Side {
+  int body;
+  Vec3 arm;  // from the centre of mass to the point, in W
 };
 
 class CourseContact : public Contact {
  public:
-  CourseContact(const Scene& scene, const System& system) : system_(system) {
-    for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) add_pairs_of(scene, i);
-  }
-
-  bool can_touch() const { return !pairs_.empty(); }
-
-  void resolve(MutableBodyColumns state) const override {
-    for (const SphereOnPlane& pair : pairs_) resolve(pair, state);
-  }
-
- private:
-  void add_pairs_of(const Scene& scene, int i) {
-    const Body& body = scene.bodies[i];
-    if (!body.collides || body.fixed) return;
-    for (int k = 0; k < static_cast<int>(scene.bodies.size()); ++k) {
-      const Body& other = scene.bodies[k];
-      if (!other.collides || !std::holds_alternative<Plane>(*other.shape)) continue;
-      pairs_.push_back({i, std::get<Sphere>(*body.shape).radius, std::get<Plane>(*other.shape),
-                        scene.contact_law(i, k).restitution});
+  CourseContact(const Scene& scene, const System& system) : system_(system), laws_(scene) {
+    for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+      const Body& body = scene.bodies[i];
+      if (!body.collides) continue;
+      if (const auto* plane = std::get_if<Plane>(&*body.shape))
+        grounds_.push_back({i, *plane});
+      else
+        balls_.push_back({i, body.position, std::get<Sphere>(*body.shape).radius});
     }
   }
 
-  void resolve(const SphereOnPlane& pair, MutableBodyColumns state) const {
-    const Vec3 n = pair.plane.normal;
-    const double gap = n.dot(state.position(pair.sphere)) - pair.plane.offset - pair.radius;
-    const Vec3 arm = -pair.radius * n;
-    const Vec3 v = state.velocity(pair.sphere), w = state.angular_velocity(pair.sphere);
-    const Vec3 u = v + w.cross(arm);
-    if (gap >= 0 || n.dot(u) >= 0) return;
+  void resolve(MutableBodyColumns state) override {
+    for (Ball& ball : balls_) ball.centre = state.position(ball.body);
+    for (const Ground& ground : grounds_) {
+      for (const Ball& ball : balls_) resolve_on_ground(ball, ground, state);
+    }
+    if (balls_.size() < 2) return;
+    for (const auto& [a, b] : broad_phase_.overlaps(balls_)) resolve_balls(balls_[a], balls_[b], state);
+  }
 
-    const Inertia& body = system_.bodies[pair.sphere];
-    const Mat3 R = state.rotation(pair.sphere);
-    const Mat3 inverse_inertia_W = R * body.inverse_inertia_B * R.transpose();
-    const Mat3 arm_cross = cross_matrix(arm);
-    const Mat3 K = body.inverse_mass * Mat3::Identity() - arm_cross * inverse_inertia_W * arm_cross;
-    const Vec3 wanted = -pair.restitution * n.dot(u) * n;
+ private:
+  void resolve_on_ground(const Ball& ball, const Ground& ground, MutableBodyColumns state) const {
+    const Vec3& n = ground.plane.normal;
+    const double gap = n.dot(ball.centre) - ground.plane.offset - ball.radius;
+    if (gap >= 0) return;
+    const Vec3 arm = -ball.radius * n;
+    bounce({ball.body, arm}, {ground.body, ball.centre + arm - state.position(ground.body)}, n, state);
+  }
+
+  void resolve_balls(const Ball& a, const Ball& b, MutableBodyColumns state) const {
+    const Vec3 line = a.centre - b.centre;
+    const double distance = line.norm();
+    if (distance == 0) return;  // no direction to part in
+    const Vec3 n = line / distance;
+    // One point for both, in the middle of the overlap, so that the pair keeps its angular momentum.
+    const double half_depth = 0.5 * (a.radius + b.radius - distance);
+    bounce({a.body, (half_depth - a.radius) * n}, {b.body, (b.radius - half_depth) * n}, n, state);
+  }
+
+  // n points from b to a.
+  void bounce(const Side& a, const Side& b, const Vec3& n, MutableBodyColumns state) const {
+    const Vec3 u = point_velocity(a, state) - point_velocity(b, state);
+    if (n.dot(u) >= 0) return;
+    const Mat3 K = inverse_effective_mass(a, state) + inverse_effective_mass(b, state);
+    if (K.isZero(0)) return;  // two fixed bodies
+    const Vec3 wanted = -laws_.of(a.body, b.body).restitution * n.dot(u) * n;
     const Vec3 impulse = K.inverse() * (wanted - u);
-    state.set_velocity(pair.sphere, v + body.inverse_mass * impulse);
-    state.set_angular_velocity(pair.sphere, w + inverse_inertia_W * arm.cross(impulse));
+    push(a, impulse, state);
+    push(b, -impulse, state);
+  }
+
+  static Vec3 point_velocity(const Side& side, BodyColumns state) {
+    return state.velocity(side.body) + state.angular_velocity(side.body).cross(side.arm);
+  }
+
+  Mat3 inverse_inertia_in_world(int body, BodyColumns state) const {
+    const Mat3 R = state.rotation(body);
+    return R * system_.bodies[body].inverse_inertia_B * R.transpose();
+  }
+
+  Mat3 inverse_effective_mass(const Side& side, BodyColumns state) const {
+    const Mat3 arm = cross_matrix(side.arm);
+    return system_.bodies[side.body].inverse_mass * Mat3::Identity() -
+           arm * inverse_inertia_in_world(side.body, state) * arm;
+  }
+
+  void push(const Side& side, const Vec3& impulse, MutableBodyColumns state) const {
+    const Inertia& body = system_.bodies[side.body];
+    if (body.fixed) return;
+    state.set_velocity(side.body, state.velocity(side.body) + body.inverse_mass * impulse);
+    state.set_angular_velocity(side.body, state.angular_velocity(side.body) +
+                                              inverse_inertia_in_world(side.body, state) * side.arm.cross(impulse));
   }
 
   const System& system_;
-  std::vector<SphereOnPlane> pairs_;
+  ContactLaws laws_;
+  std::vector<Ball> balls_;
+  std::vector<Ground> grounds_;
+  BroadPhase broad_phase_;
 };
 
 }  // namespace
 
 const ContactMethod kCourseContact = {
-    "course",
-    "the course's impulse: a sphere on a plane, restitution, infinite friction",
-    {"contact:plane-sphere", "friction:infinite", "restitution"},
-    [](const Scene& scene, const System& system) -> std::unique_ptr<Contact> {
-      auto contact = std::make_unique<CourseContact>(scene, system);
-      if (!contact->can_touch()) return nullptr;
-      return contact;
+    .name = "course",
+    .summary = "the course's impulse: spheres on planes and on each other, restitution, infinite friction",
+    .features = {"contact:plane-sphere", "contact:sphere-sphere", "friction:infinite", "restitution"},
+    .make = [](const Scene& scene, const System& system) -> std::unique_ptr<Contact> {
+      if (!anything_can_touch(scene)) return nullptr;
+      return std::make_unique<CourseContact>(scene, system);
     },
 };
 

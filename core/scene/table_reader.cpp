@@ -138,7 +138,9 @@ std::vector<double> TomlValue::numbers(std::initializer_list<std::size_t> counts
   }
   std::vector<double> values;
   for (const toml::node& item : *array) {
-    values.push_back(TomlValue(*document_, item, fmt::format("{}[{}]", name_, values.size())).number());
+    const auto value = number_in(item);
+    if (!value || !std::isfinite(*value)) items()[values.size()].refuse_found("a finite number");
+    values.push_back(*value);
   }
   return values;
 }
@@ -189,36 +191,44 @@ std::vector<TomlValue> TomlValue::items() const {
 TableReader TomlValue::table(const Keys& allowed) const {
   const auto* table = node_->as_table();
   if (!table) refuse_found(fmt::format("a table with the keys {}", listed(allowed)));
-  return TableReader(*this, *table, allowed);
+  return TableReader(*this, *table, std::make_shared<const Keys>(allowed));
 }
 
 std::vector<TableReader> TomlValue::tables(const Keys& allowed) const {
   const auto* array = node_->as_array();
   if (!array) refuse_found(fmt::format("an array of tables, each begun by [[{}]]", name_));
+  const auto keys = std::make_shared<const Keys>(allowed);
   std::vector<TableReader> readers;
   readers.reserve(array->size());
-  for (const toml::node& item : *array) readers.push_back(TomlValue(*document_, item, name_).table(allowed));
+  for (const toml::node& item : *array) {
+    const TomlValue value(*document_, item, name_);
+    if (!item.is_table()) value.refuse_found(fmt::format("a table with the keys {}", listed(allowed)));
+    readers.push_back(TableReader(value, *item.as_table(), keys));
+  }
   return readers;
 }
 
-TableReader::TableReader(TomlValue self, const toml::table& table, const Keys& allowed)
-    : self_(std::move(self)), table_(&table) {
-  narrow(allowed, "");
+TableReader::TableReader(TomlValue self, const toml::table& table, SharedKeys allowed)
+    : self_(std::move(self)), table_(&table), allowed_(std::move(allowed)) {
+  refuse_others("unknown key");
 }
 
-// The first key in the file that is not allowed, for the table holds them in alphabetical order.
 void TableReader::narrow(Keys allowed, const std::string& what) {
+  allowed_ = std::make_shared<const Keys>(std::move(allowed));
+  refuse_others(fmt::format("{} has no such key", what));
+}
+
+// Complains of the first key in the file that is not allowed; the table holds them in alphabetical order.
+void TableReader::refuse_others(const std::string& complaint) const {
   const toml::key* unknown = nullptr;
   for (const auto& [key, value] : *table_) {
-    if (std::find(allowed.begin(), allowed.end(), key.str()) != allowed.end()) continue;
+    if (std::find(allowed_->begin(), allowed_->end(), key.str()) != allowed_->end()) continue;
     if (!unknown || key.source().begin < unknown->source().begin) unknown = &key;
   }
-  allowed_ = std::move(allowed);
   if (!unknown) return;
-  const std::string complaint = what.empty() ? "unknown key" : fmt::format("{} has no such key", what);
   throw InputError(fmt::format("{}: {}: {}{}; allowed: {}", place(self_.document_->path, unknown->source().begin),
-                               name_of(shown(unknown->str())), complaint, did_you_mean(unknown->str(), allowed_),
-                               listed(allowed_)));
+                               name_of(shown(unknown->str())), complaint, did_you_mean(unknown->str(), *allowed_),
+                               listed(*allowed_)));
 }
 
 std::string TableReader::name_of(std::string_view key) const {
@@ -226,7 +236,7 @@ std::string TableReader::name_of(std::string_view key) const {
 }
 
 std::optional<TomlValue> TableReader::find(std::string_view key) const {
-  assert(std::find(allowed_.begin(), allowed_.end(), key) != allowed_.end() && "a key is allowed before it is read");
+  assert(std::find(allowed_->begin(), allowed_->end(), key) != allowed_->end() && "a key is allowed before it is read");
   const toml::node* node = table_->get(key);
   if (!node) return std::nullopt;
   return TomlValue(*self_.document_, *node, name_of(key));

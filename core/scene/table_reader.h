@@ -76,12 +76,14 @@ class TableReader {
 
  private:
   friend class TomlValue;
-  TableReader(TomlValue self, const toml::table& table, const Keys& allowed);
+  using SharedKeys = std::shared_ptr<const Keys>;  // by all rows of an array, of which there may be many
+  TableReader(TomlValue self, const toml::table& table, SharedKeys allowed);
+  void refuse_others(const std::string& complaint) const;
   std::string name_of(std::string_view key) const;
 
   TomlValue self_;
   const toml::table* table_;
-  Keys allowed_;
+  SharedKeys allowed_;
 };
 
 class TomlFile {

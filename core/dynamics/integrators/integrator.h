@@ -26,7 +26,7 @@ class Stepper {
 // What a stepper is made from. Outlives it.
 struct StepperParts {
   const System& system;
-  const Contact* contact;                // null where nothing can touch
+  Contact* contact;                      // null where nothing can touch
   const OrientationUpdate* orientation;  // for methods with that option; null for the others
 };
 

@@ -2,6 +2,11 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <random>
+#include <utility>
+
+#include "core/dynamics/broad_phase.h"
+#include "core/dynamics/energy.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "tests/scenes.h"
 
@@ -70,6 +75,46 @@ BOOST_AUTO_TEST_CASE(an_elastic_ball_gains_height_at_coarse_steps) {
   const double expected[] = {1.135, 1.278, 1.429, 1.588, 1.755};  // from a recursion of two numbers, by hand
   for (int k = 0; k < 5; ++k)
     BOOST_TEST(std::abs(apexes[k] - expected[k]) < 6e-4, "bounce " << k + 1 << ": " << apexes[k]);
+}
+
+BOOST_AUTO_TEST_CASE(two_spheres_keep_their_momentum_and_part_with_the_restitution) {
+  Scene scene = test::dropped_sphere(0.25);
+  scene.bodies[1] = test::body("other", 50, {0.2, 0.2, 0.2}, {0.19, 1.47, 0});
+  scene.bodies[1].shape = Sphere{0.1};
+  scene.bodies[1].collides = true;
+  scene.bodies[0].velocity = {1, 0.5, 0};
+  scene.bodies[1].angular_velocity = {3, 0, 8};
+  Loaded loaded(scene);
+  const Vec3 momentum = linear_momentum(scene, loaded.state.columns());
+  const Vec3 spin = angular_momentum(scene, loaded.state.columns(), Vec3::Zero());
+  loaded.contact->resolve(loaded.state.columns());
+  const BodyColumns after = std::as_const(loaded.state).columns();
+  BOOST_TEST((linear_momentum(scene, after) - momentum).norm() < 1e-12);
+  BOOST_TEST((angular_momentum(scene, after, Vec3::Zero()) - spin).norm() < 1e-12);
+  // They overlap by 1 cm; the point lies in the middle of that.
+  const Vec3 u = after.velocity(0) + after.angular_velocity(0).cross(Vec3(0.095, 0, 0)) - after.velocity(1) -
+                 after.angular_velocity(1).cross(Vec3(-0.095, 0, 0));
+  BOOST_TEST((u - Vec3(-0.25, 0, 0)).norm() < 1e-13);
+}
+
+BOOST_AUTO_TEST_CASE(the_broad_phase_finds_what_a_search_of_all_pairs_finds) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> coordinate(-2, 2), radius(0.05, 0.4);
+  BroadPhase broad_phase;
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Ball> balls;
+    for (int i = 0; i < 150; ++i) {
+      balls.push_back({i, {coordinate(random), coordinate(random), coordinate(random)}, radius(random)});
+    }
+    std::vector<std::pair<int, int>> expected;
+    for (int a = 0; a < 150; ++a) {
+      for (int b = a + 1; b < 150; ++b) {
+        if ((balls[a].centre - balls[b].centre).norm() < balls[a].radius + balls[b].radius) expected.emplace_back(a, b);
+      }
+    }
+    BOOST_TEST((broad_phase.overlaps(balls) == expected));
+    BOOST_TEST(!expected.empty());
+  }
 }
 
 BOOST_AUTO_TEST_CASE(there_is_nothing_to_resolve_where_nothing_can_touch) {

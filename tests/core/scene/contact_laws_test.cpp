@@ -1,10 +1,10 @@
-#include "adapters/contact_laws.h"
+#include "core/scene/contact_laws.h"
 
 #include <boost/test/unit_test.hpp>
 
 using namespace rigor;
 
-BOOST_AUTO_TEST_SUITE(adapters_contact_laws)
+BOOST_AUTO_TEST_SUITE(core_scene_contact_laws)
 
 BOOST_AUTO_TEST_CASE(every_pair_has_the_law_that_the_scene_gives_it) {
   Scene scene;

@@ -1,4 +1,4 @@
-#include "adapters/contact_laws.h"
+#include "core/scene/contact_laws.h"
 
 #include <algorithm>
 
