@@ -86,7 +86,7 @@ std::string table(const Rows& rows) {
   std::size_t width = 0;
   for (const auto& [name, text] : rows) width = std::max(width, name.size());
   std::string out;
-  for (const auto& [name, text] : rows) out += fmt::format("  {:<{}}  {}\n", name, width, text);
+  for (const auto& [name, text] : rows) out += "  " + name + std::string(width + 2 - name.size(), ' ') + text + "\n";
   return out;
 }
 

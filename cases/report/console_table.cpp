@@ -46,14 +46,15 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
     return fmt::format("blown up at {:.2f} s: {}", cell.stability.time, scene.body_name(cell.stability.body));
   }
   const std::string word = word_of(cell.stability.verdict);
-  return cell.status == Status::pass || cell.status == Status::diverged
-             ? word
-             : fmt::format("{}; {}", word, word_of(cell.status));
+  return cell.status == Status::pass ? word : fmt::format("{}; {}", word, word_of(cell.status));
 }
 
 std::string table_line(const RowText& row) {
-  return fmt::format("  {:<24} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {}\n", row.engine, row.first_second, row.whole,
-                     row.orientation, row.energy, row.energy_synchronised, row.stable_dt, row.verdict);
+  std::string line =
+      fmt::format("  {:<24} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {}", row.engine, row.first_second, row.whole,
+                  row.orientation, row.energy, row.energy_synchronised, row.stable_dt, row.verdict);
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
 }
 
 std::string header(const StepSize& dt) {

@@ -63,18 +63,14 @@ class Explainer {
   }
   std::string name_of(const Cell& cell) const { return results_.runs[cell.run].text; }
 
+  static void append(std::string& list, const std::string& word) { list += (list.empty() ? "" : ", ") + word; }
+
   void explain_springs() {
     const double phase = omega_ * dt_.seconds;
-    std::string explicit_ones, others, stable_ones;
+    std::string explicit_ones, others;
     for_headline_cells([&](const Cell& cell, const MethodInfo& method) {
-      const StableStepResult& stable = result_.stable_steps[cell.run];
-      if (cell.stability.verdict == Verdict::blown_up) {
-        std::string& list = is_explicit_euler(method) ? explicit_ones : others;
-        list += (list.empty() ? "" : ", ") + name_of(cell);
-      } else if (stable.status == Status::pass && !stable.step.is_cap && stable_ones.empty()) {
-        stable_ones = fmt::format("{}, say, keeps it up to dt = {:.2g} s here (omega dt = {:.2g})", name_of(cell),
-                                  stable.step.dt, omega_ * stable.step.dt);
-      }
+      if (cell.stability.verdict != Verdict::blown_up) return;
+      append(is_explicit_euler(method) ? explicit_ones : others, name_of(cell));
     });
     if (explicit_ones.empty() && others.empty()) return;
     std::string text = fmt::format(
@@ -83,21 +79,34 @@ class Explainer {
         omega_, phase, dt_.text);
     if (!explicit_ones.empty()) {
       text += fmt::format(
-          " {} multiplies such an oscillation's energy by 1 + (omega dt)^2 = {:.3g} in every step, {:.2g} "
-          "times in a second, and by more than 1 at any dt without damping: a smaller dt only delays the end.",
+          " {} multiplies the energy of such an oscillation by 1 + (omega dt)^2 = {:.3g} in every step, that "
+          "is {:.1e} times in a second; without damping a smaller dt slows that growth but never ends it.",
           explicit_ones, 1 + phase * phase, std::pow(1 + phase * phase, 1 / dt_.seconds));
     }
     if (!others.empty() && phase > 2) {
-      text +=
-          fmt::format(" {} passed omega dt = 2, beyond which a semi-implicit step loses every oscillation.", others);
+      text += fmt::format(" {} passed omega dt = 2, where a semi-implicit step loses every oscillation.", others);
     } else if (!others.empty()) {
-      text +=
-          fmt::format(" {} blew up although omega dt is below 2: large swings stiffen what small ones show.", others);
+      text += fmt::format(
+          " {} blew up below omega dt = 2: large swings turn the springs and are stiffer than small ones.", others);
     }
-    text += fmt::format(
-        " A semi-implicit step bounds the energy of small swings while omega dt < 2, that is dt < {:.2g} s.",
-        2 / omega_);
-    sentences_.push_back(stable_ones.empty() ? text : text + " " + stable_ones + ".");
+    sentences_.push_back(text + semi_implicit_bound());
+  }
+
+  // The theory's bound for a semi-implicit step, and the best that one of those measured came to.
+  std::string semi_implicit_bound() const {
+    std::string measured;
+    double largest = 0;
+    for_headline_cells([&](const Cell& cell, const MethodInfo& method) {
+      const StableStepResult& stable = result_.stable_steps[cell.run];
+      if (method.velocity_lag == 0 || stable.status != Status::pass || stable.step.is_cap || stable.step.is_floor)
+        return;
+      if (stable.step.dt <= largest) return;
+      largest = stable.step.dt;
+      measured =
+          fmt::format("; {} kept these swings, which are not small, up to dt = {:.2g} s", name_of(cell), largest);
+    });
+    return fmt::format(" A semi-implicit step keeps small swings bounded while omega dt < 2, that is dt < {:.2g} s{}.",
+                       2 / omega_, measured);
   }
 
   // In free fall a first-order step that takes the new velocity falls g/2 dt t too far, one that takes the old one as
@@ -110,7 +119,7 @@ class Explainer {
       const auto found = cell.metrics.find("position_error");
       if (method.order != 1 || found == cell.metrics.end() || !found->second.not_applicable.empty()) return;
       const bool is_it = std::abs(found->second.first_second - expected) < 0.01 * expected;
-      if (is_it) list += (list.empty() ? "" : ", ") + name_of(cell);
+      if (is_it) append(list, name_of(cell));
     });
     if (list.empty()) return;
     sentences_.push_back(
@@ -142,6 +151,10 @@ class Explainer {
 };
 
 }  // namespace
+
+std::vector<std::string> explanations(const Results& results, const CaseResult& result) {
+  return Explainer(results, result).sentences();
+}
 
 double stiffest_frequency(const Scene& scene) {
   const auto pulls = pulls_of(scene);

@@ -94,9 +94,8 @@ void drain(Descriptor& from, std::string& into) {
 
 [[noreturn]] void be_the_child(const Job& job, const Pipe& messages, const Pipe& words, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);  // it died before the line above
-  for (int signal : kSignals) std::signal(signal, SIG_DFL);
-  std::signal(SIGPIPE, SIG_DFL);
+  if (getppid() != parent) _exit(1);                                           // it died before the line above
+  for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);  // the parent's handlers are not for it
   const rlimit no_core_file{0, 0};
   setrlimit(RLIMIT_CORE, &no_core_file);
   dup2(words.write.number(), STDOUT_FILENO);

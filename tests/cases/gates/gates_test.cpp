@@ -1,0 +1,179 @@
+#include "cases/gates/gates.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+
+#include "tests/cases/runner/faulty_engine.h"
+
+using namespace rigor;
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// Two engines at two steps; position_error is c dt^order with c = 1 for "a", 10 for "b".
+struct Fixture {
+  Results grid;
+
+  explicit Fixture(double order = 2) {
+    EngineTable table;
+    for (const char* name : {"a", "b"}) table.push_back(std::make_unique<FaultyEngine>(name, [](double&) {}));
+    grid.engines = infos_of(table);
+    for (const char* name : {"a", "b"}) grid.runs.push_back(parse_run_name(name, grid.engines));
+    CaseResult result;
+    result.definition = drifting_body("case");
+    for (std::size_t run = 0; run < 2; ++run) {
+      for (const StepSize& dt : result.definition.dt) {
+        Cell cell;
+        cell.run = run, cell.dt = dt, cell.status = Status::pass, cell.reason = "";
+        MetricValue value;
+        value.value = (run == 0 ? 1 : 10) * std::pow(dt.seconds, order);
+        value.worst = {0.25, 0, "position.x", 1.5, 1.25};
+        cell.metrics["position_error"] = value;
+        result.cells.push_back(cell);
+      }
+    }
+    grid.cases.push_back(result);
+  }
+
+  CaseResult& result() { return grid.cases.front(); }
+  Cell& cell(std::size_t index) { return result().cells[index]; }
+  const std::vector<GateResult>& check(const Gate& gate) {
+    result().definition.gates = {gate};
+    check_gates(result(), grid);
+    return result().gates;
+  }
+};
+
+Gate gate(const std::string& metric) {
+  Gate out;
+  out.metric = metric, out.because = "a reason", out.where = "case.toml:7:1";
+  return out;
+}
+
+int count(const std::vector<GateResult>& results, GateAnswer answer) {
+  return static_cast<int>(
+      std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.answer == answer; }));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_gates_gates)
+
+BOOST_AUTO_TEST_CASE(a_limit_is_held_against_every_cell_it_selects) {
+  Fixture run;  // a: .01 .0025; b: .1 .025
+  Gate limit = gate("position_error");
+  limit.max = 0.05;
+  const auto answers = run.check(limit);
+  BOOST_TEST(answers.size() == 4u);
+  BOOST_TEST(count(answers, GateAnswer::failed) == 1);
+  BOOST_TEST((run.cell(2).status == Status::fail));
+  BOOST_TEST((run.cell(0).status == Status::pass));
+  BOOST_TEST(!all_gates_hold(run.grid));
+  for (const std::string part : {"0.1 m", "0.05 m", "0.25 s", "stone", "position.x", "1.5", "1.25", "a reason"}) {
+    BOOST_TEST(run.cell(2).reason.find(part) != std::string::npos, part << " in " << run.cell(2).reason);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(engines_and_steps_narrow_a_gate) {
+  Fixture run;
+  Gate limit = gate("position_error");
+  limit.max = 0.05, limit.engines = {"b"}, limit.dt = {{0.05, "0.05"}};  // the cell's is written "1/20"
+  const auto answers = run.check(limit);
+  BOOST_TEST_REQUIRE(answers.size() == 1u);
+  BOOST_TEST((answers.front().answer == GateAnswer::held));
+  BOOST_TEST(answers.front().engine == "b");
+  BOOST_TEST(all_gates_hold(run.grid));
+}
+
+BOOST_AUTO_TEST_CASE(min_and_equals_hold_on_their_side_only) {
+  struct Row {
+    std::optional<double> min, equals;
+    bool holds;
+  };
+  // The value is .01; a rounding of 1e-12 is forgiven, an error of 1e-8 is not.
+  for (const Row& row :
+       {Row{0.009, {}, true}, Row{0.011, {}, false}, Row{{}, 0.01 + 1e-12, true}, Row{{}, 0.01 + 1e-8, false}}) {
+    Fixture run;
+    Gate limit = gate("position_error");
+    limit.min = row.min, limit.equals = row.equals, limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}};
+    BOOST_TEST((run.check(limit).front().answer == GateAnswer::held) == row.holds);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_value_that_is_no_number_holds_nowhere) {
+  for (const int bound : {0, 1, 2, 3}) {
+    Fixture run;
+    for (Cell& cell : run.result().cells) cell.metrics["position_error"].value = kNan;
+    Gate limit = gate("position_error");
+    (bound == 0 ? limit.max : bound == 1 ? limit.min : bound == 2 ? limit.equals : limit.at_least_order) = 0.01;
+    for (const GateResult& answer : run.check(limit)) BOOST_TEST((answer.answer == GateAnswer::failed));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_order_is_fitted_over_the_steps) {
+  for (const double order : {1.0, 2.0, 4.0}) {
+    Fixture run(order);
+    Gate least = gate("position_error");
+    least.at_least_order = order - 0.01;
+    BOOST_TEST(count(run.check(least), GateAnswer::held) == 2);
+    least.at_least_order = order + 0.01;
+    BOOST_TEST(count(run.check(least), GateAnswer::failed) == 2);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_order_of_one_step_cannot_be_checked) {
+  Fixture run;
+  Gate least = gate("position_error");
+  least.at_least_order = 1, least.dt = {{0.1, "1/10"}};
+  const auto answers = run.check(least);
+  BOOST_TEST_REQUIRE(answers.size() == 1u);
+  BOOST_TEST((answers.front().answer == GateAnswer::not_checked));
+}
+
+BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold) {
+  const auto check = [](Fixture& run, const Gate& limit) {
+    const auto answers = run.check(limit);
+    BOOST_TEST_REQUIRE(answers.size() == 1u);
+    BOOST_TEST((answers.front().answer == GateAnswer::not_checked));
+    BOOST_TEST(answers.front().text.find("case.toml:7:1") != std::string::npos);
+    BOOST_TEST(!all_gates_hold(run.grid));
+  };
+  Fixture other_step, no_metric, unsupported;
+  Gate limit = gate("position_error");
+  limit.max = 1;
+  for (Cell& cell : no_metric.result().cells) cell.metrics["position_error"].not_applicable = "there is no truth";
+  check(no_metric, limit);
+  for (Cell& cell : unsupported.result().cells) cell.status = Status::unsupported, cell.metrics.clear();
+  check(unsupported, limit);
+  limit.dt = {{1. / 30, "1/30"}};
+  check(other_step, limit);
+}
+
+BOOST_AUTO_TEST_CASE(a_cell_without_a_result_fails_every_gate_that_selects_it) {
+  for (const Status status : {Status::crashed, Status::timed_out, Status::invalid}) {
+    Fixture run;
+    run.cell(0).status = status, run.cell(0).reason = "it broke", run.cell(0).metrics.clear();
+    for (const bool order : {false, true}) {
+      Gate limit = gate("position_error");
+      (order ? limit.at_least_order : limit.max) = 1;
+      const auto answers = run.check(limit);
+      BOOST_TEST(count(answers, GateAnswer::failed) == 1);
+      BOOST_TEST((run.cell(0).status == status));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_blown_up_run_never_passes_a_limit_but_may_be_asked_for) {
+  Fixture run;
+  run.cell(0).status = Status::diverged, run.cell(0).reason = "blown up at 0.1 s: stone";
+  Gate limit = gate("position_error");
+  limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}}, limit.max = 1e9;
+  BOOST_TEST((run.check(limit).front().answer == GateAnswer::failed));
+  BOOST_TEST((run.cell(0).status == Status::diverged));
+  limit.max = {}, limit.min = 0.001;
+  BOOST_TEST((run.check(limit).front().answer == GateAnswer::held));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

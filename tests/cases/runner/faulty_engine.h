@@ -1,0 +1,70 @@
+// An engine whose bodies stand still and whose steps do what a test wants.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "adapters/engines.h"
+#include "cases/case.h"
+
+namespace rigor {
+
+class FaultyEngine : public Engine {
+ public:
+  using Fault = std::function<void(double& x)>;  // x: the first body's position along x, which goes wrong or not
+  FaultyEngine(std::string name, Fault fault, std::string complaint = "")
+      : name_(std::move(name)), fault_(std::move(fault)), complaint_(std::move(complaint)) {}
+
+  EngineInfo info() const override {
+    EngineInfo info;
+    info.name = name_, info.version = "0", info.precision = "double";
+    info.methods.push_back({"only", "stands still", 1, false, 0, {}});
+    return info;
+  }
+
+  std::unique_ptr<World> load(const Scene& scene, const Settings&) const override {
+    return std::make_unique<FaultyWorld>(*this, scene);
+  }
+
+ private:
+  class FaultyWorld : public World {
+   public:
+    FaultyWorld(const FaultyEngine& engine, const Scene& scene) : engine_(engine), scene_(scene) {}
+    void step(double dt) override { time_ += dt, engine_.fault_(scene_.bodies.front().position.x()); }
+    void read(Snapshot& out) const override {
+      const auto bodies = out.own(scene_.bodies.size());
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Body& body = scene_.bodies[i];
+        bodies.set_body(i, {body.position, body.orientation, body.velocity, body.angular_velocity});
+      }
+      out.time = time_;
+    }
+    SettingsInForce settings_in_force() const override { return {{"fault", engine_.name_}}; }
+    std::string complaint() const override { return engine_.complaint_; }
+
+   private:
+    const FaultyEngine& engine_;
+    Scene scene_;
+    double time_ = 0;
+  };
+
+  std::string name_;
+  Fault fault_;
+  std::string complaint_;
+};
+
+// One body adrift: a case that every engine of the table above supports.
+inline Case drifting_body(const std::string& id) {
+  Case definition;
+  definition.id = id, definition.title = "One body adrift";
+  Body body;
+  body.name = "stone";
+  body.velocity = Vec3(1, 0, 0);
+  definition.scene.bodies.push_back(body);
+  definition.duration = 0.5;
+  definition.dt = {{0.1, "1/10"}, {0.05, "1/20"}};
+  return definition;
+}
+
+}  // namespace rigor

@@ -1,0 +1,206 @@
+#include "cases/runner/grid.h"
+
+#include <unistd.h>
+
+#include <boost/test/unit_test.hpp>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <thread>
+
+#include "core/error.h"
+#include "tests/cases/runner/faulty_engine.h"
+
+using namespace rigor;
+
+namespace {
+
+void sit_still(double&) {}
+
+void spin() {
+  volatile bool is_spinning = true;
+  while (is_spinning) {
+  }
+}
+
+EngineTable faulty_engines() {
+  EngineTable table;
+  const auto add = [&](auto&&... parts) { table.push_back(std::make_unique<FaultyEngine>(parts...)); };
+  add("aborts", [](double&) { std::fputs("solver: matrix is singular\n", stderr), std::abort(); });
+  add("complains", sit_still, "Newton's iteration did not converge");
+  add("exits", [](double&) { std::exit(0); });
+  add("good", sit_still);
+  add("hangs", [](double&) { spin(); });
+  add("loses-numbers", [](double& x) { x = std::numeric_limits<double>::quiet_NaN(); });
+  add("refuses", [](double&) { throw InputError("this scene is too small for me"); });
+  add("segfaults", [](double&) { std::raise(SIGSEGV); });
+  add("throws", [](double&) { throw std::runtime_error("no memory left for contacts"); });
+  return table;
+}
+
+std::vector<RunName> runs_of(const EngineTable& table) {
+  std::vector<RunName> runs;
+  for (const EngineInfo& info : infos_of(table)) runs.push_back(parse_run_name(info.name, infos_of(table)));
+  return runs;
+}
+
+Results run(const std::vector<Case>& cases, const EngineTable& table, const GridOptions& options) {
+  Results grid = plan_grid(cases, runs_of(table), table, options.stable_steps);
+  run_grid(grid, table, options, [](std::size_t, std::size_t) {});
+  return grid;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_runner_grid)
+
+BOOST_AUTO_TEST_CASE(a_broken_engine_costs_its_own_cells_and_says_how) {
+  const EngineTable table = faulty_engines();
+  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {2, 0.5, "", false});
+  const std::map<std::string, std::pair<Status, std::string>> expected = {
+      {"aborts", {Status::crashed, "SIGABRT"}},
+      {"complains", {Status::invalid, "Newton's iteration did not converge"}},
+      {"exits", {Status::crashed, "exit(0)"}},
+      {"good", {Status::pass, ""}},
+      {"hangs", {Status::timed_out, "0.5 s"}},
+      {"loses-numbers", {Status::diverged, "stone"}},
+      {"refuses", {Status::invalid, "too small for me"}},
+      {"segfaults", {Status::crashed, "SIGSEGV"}},
+      {"throws", {Status::crashed, "no memory left"}},
+  };
+  for (const CaseResult& result : grid.cases) {
+    BOOST_TEST_REQUIRE(result.cells.size() == 2 * expected.size());
+    for (const Cell& cell : result.cells) {
+      const std::string& engine = grid.runs[cell.run].engine;
+      BOOST_TEST(word_of(cell.status) == word_of(expected.at(engine).first), engine);
+      BOOST_TEST(cell.reason.find(expected.at(engine).second) != std::string::npos, cell.reason);
+    }
+  }
+  const Cell& aborted = grid.cases.front().cells.front();
+  BOOST_TEST(aborted.reason.find("solver: matrix is singular") != std::string::npos, aborted.reason);
+}
+
+BOOST_AUTO_TEST_CASE(results_do_not_depend_on_how_many_run_at_once) {
+  const auto no_time = [](const Results& grid) {
+    std::string text;
+    for (const Cell& cell : grid.cases.front().cells) {
+      text += grid.runs[cell.run].text + cell.dt.text + word_of(cell.status) + cell.reason +
+              word_of(cell.stability.verdict);
+      for (const auto& [name, metric] : cell.metrics) {
+        text += name + std::to_string(metric.value) + std::to_string(metric.worst.time) + metric.not_applicable;
+      }
+    }
+    return text;
+  };
+  EngineTable table = faulty_engines();
+  std::erase_if(table, [](const auto& engine) { return engine->info().name == "hangs"; });
+  const std::string one = no_time(run({drifting_body("a")}, table, {1, 60, "", false}));
+  BOOST_TEST(one == no_time(run({drifting_body("a")}, table, {5, 60, "", false})));
+}
+
+BOOST_AUTO_TEST_CASE(a_truth_that_does_not_fit_costs_one_case) {
+  EngineTable table;
+  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
+  Case wrong = drifting_body("wrong");
+  wrong.truth = "projectile", wrong.truth_where = "wrong.toml:9:1";
+  wrong.scene.springs.push_back({kWorld, 0, Vec3::Zero(), Vec3(1, 0, 0), 10, 0, 1});
+  Results grid = plan_grid({wrong, drifting_body("right")}, runs_of(table), table, false);
+  for (Cell& cell : grid.cases.front().cells)
+    cell.status = Status::crashed, cell.reason = Cell().reason;  // springs and all
+  run_grid(grid, table, {2, 60, "", false}, [](std::size_t, std::size_t) {});
+  BOOST_TEST(grid.cases[0].error_is_input);
+  BOOST_TEST(grid.cases[0].error.starts_with("wrong.toml:9:1: "), grid.cases[0].error);
+  for (const Cell& cell : grid.cases[0].cells) BOOST_TEST((cell.status == Status::invalid));
+  for (const Cell& cell : grid.cases[1].cells) BOOST_TEST((cell.status == Status::pass));
+}
+
+BOOST_AUTO_TEST_CASE(what_an_engine_cannot_do_is_known_before_it_runs) {
+  const EngineTable table = faulty_engines();
+  Case definition = drifting_body("springy");
+  definition.scene.springs.push_back({kWorld, 0, Vec3::Zero(), Vec3::Zero(), 10, 0, 1});
+  const Results grid = plan_grid({definition}, runs_of(table), table, true);
+  for (const Cell& cell : grid.cases.front().cells) {
+    BOOST_TEST((cell.status == Status::unsupported));
+    BOOST_TEST(cell.reason.find("spring") != std::string::npos, cell.reason);
+    BOOST_TEST(cell.trajectory.empty());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_cell_that_did_not_run_does_not_look_like_one_that_passed) {
+  const EngineTable table = faulty_engines();
+  const Results grid = plan_grid({drifting_body("a")}, runs_of(table), table, true);
+  for (const Cell& cell : grid.cases.front().cells) BOOST_TEST((cell.status != Status::pass));
+}
+
+BOOST_AUTO_TEST_CASE(an_empty_selection_is_an_error) {
+  const EngineTable table = faulty_engines();
+  BOOST_CHECK_THROW(plan_grid({}, runs_of(table), table, true), InputError);
+  BOOST_CHECK_THROW(plan_grid({drifting_body("a")}, {}, table, true), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(trajectories_have_names_of_their_own) {
+  EngineTable table;
+  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
+  const std::vector<Case> alike = {drifting_body("a/b"),
+                                   drifting_body("a-b"),
+                                   drifting_body("a:b"),
+                                   drifting_body("a?b"),
+                                   drifting_body("/" + std::string(5000, 'x')),
+                                   drifting_body("y" + std::string(5000, 'x'))};
+  const Results grid = plan_grid(alike, runs_of(table), table, true);
+  std::set<std::string> names;
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) {
+      BOOST_TEST(cell.trajectory.size() < 255u);
+      BOOST_TEST(cell.trajectory.find('/') == std::string::npos);
+      BOOST_TEST(names.insert(cell.trajectory).second, cell.trajectory);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(only_cells_with_a_result_leave_a_trajectory) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("rigor_grid_test_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  const EngineTable table = faulty_engines();
+  const Results grid = run({drifting_body("a")}, table, {2, 0.5, folder.string(), false});
+  std::set<std::string> written, named;
+  for (const auto& entry : fs::directory_iterator(folder)) written.insert(entry.path().filename().string());
+  for (const Cell& cell : grid.cases.front().cells) {
+    if (!cell.trajectory.empty()) named.insert(cell.trajectory);
+  }
+  fs::remove_all(folder);
+  BOOST_TEST(written == named, boost::test_tools::per_element());
+  BOOST_TEST(named.size() == 6u);  // good, complaining and without numbers, at two step sizes each
+}
+
+BOOST_AUTO_TEST_CASE(steps_that_make_no_run_are_refused) {
+  const auto refuses = [](const Overrides& overrides) {
+    Case definition = drifting_body("a");
+    BOOST_CHECK_THROW(override_run(definition, overrides), InputError);
+  };
+  refuses({{{0.6, "0.6"}}, {}});  // longer than the run of 0.5 s
+  refuses({{{1e300, "1e300"}}, {}});
+  refuses({{{1e-300, "1e-300"}}, {}});  // more steps than a count holds
+  refuses({{}, 1e300});
+  refuses({{}, 0.01});  // shorter than the case's own steps
+  Case whole = drifting_body("a");
+  override_run(whole, {{{0.5, "1/2"}}, {}});
+  BOOST_TEST(whole.dt.size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(the_default_runs_are_all_core_methods_and_each_other_engine_on_both_tracks) {
+  const auto infos = infos_of(engines());
+  std::set<std::string> names;
+  for (const RunName& run : default_runs(infos)) names.insert(run.text);
+  for (const std::string name :
+       {"core:rk4", "core:explicit-euler", "core:semi-implicit-euler", "ode", "ode@stock", "bullet", "bullet@stock"}) {
+    BOOST_TEST(names.contains(name), name);
+  }
+  BOOST_TEST(names.size() == default_runs(infos).size());
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,147 @@
+#include "cases/runner/process_pool.h"
+
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include <unistd.h>
+
+#include "core/error.h"
+
+using namespace rigor;
+
+namespace {
+
+struct Outcome {
+  std::string message;
+  JobEnd end;
+  int times_ended = 0;
+};
+
+std::vector<Outcome> outcomes_of(const std::vector<Job>& jobs, int at_once) {
+  std::vector<Outcome> outcomes(jobs.size());
+  run_jobs(
+      jobs, at_once, [&](std::size_t job, const std::string& message) { outcomes[job].message += message; },
+      [&](std::size_t job, const JobEnd& end) { outcomes[job].end = end, ++outcomes[job].times_ended; });
+  return outcomes;
+}
+
+Outcome outcome_of(const std::function<void(const Channel&)>& work, double limit = 20) {
+  return outcomes_of({{work, limit}}, 1).front();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_runner_process_pool)
+
+BOOST_AUTO_TEST_CASE(a_message_arrives_whole_whatever_its_size_and_content) {
+  for (const std::size_t size : {0, 1, 65536, 5'000'000}) {
+    std::string sent(size, '\0');
+    for (std::size_t i = 0; i < size; ++i) sent[i] = static_cast<char>(i * 7);
+    const Outcome outcome = outcome_of([&](const Channel& channel) { channel.send(sent); });
+    BOOST_TEST((outcome.message == sent), "a message of " << size << " bytes");
+    BOOST_TEST((outcome.end.how == Ending::finished));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(each_way_to_end_is_told_apart) {
+  struct Row {
+    Ending how;
+    std::string text;  // stands in the sentence
+    std::function<void(const Channel&)> work;
+  };
+  const std::vector<Row> rows = {
+      {Ending::refused, "no such thing", [](const Channel&) { throw InputError("no such thing"); }},
+      {Ending::threw, "out of luck", [](const Channel&) { throw std::runtime_error("out of luck"); }},
+      {Ending::threw, "exception", [](const Channel&) { throw 7; }},
+      {Ending::killed, "SIGABRT", [](const Channel&) { std::abort(); }},
+      {Ending::killed, "SIGSEGV", [](const Channel&) { std::raise(SIGSEGV); }},
+      {Ending::killed, "SIGKILL", [](const Channel&) { std::raise(SIGKILL); }},
+      {Ending::exited, "exit(0)", [](const Channel&) { _exit(0); }},
+      {Ending::exited, "exit(3)", [](const Channel&) { _exit(3); }},
+  };
+  for (const Row& row : rows) {
+    const Outcome outcome = outcome_of(row.work);
+    BOOST_TEST((outcome.end.how == row.how), row.text);
+    BOOST_TEST(outcome.times_ended == 1);
+    const std::string sentence = sentence_of(outcome.end, 20);
+    BOOST_TEST(sentence.find(row.text) != std::string::npos, sentence);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_endless_loop_costs_its_limit_and_no_more) {
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome outcome = outcome_of(
+      [](const Channel&) {
+        volatile bool is_spinning = true;
+        while (is_spinning) {
+        }
+      },
+      0.3);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  BOOST_TEST((outcome.end.how == Ending::timed_out));
+  BOOST_TEST(seconds >= 0.3);
+  BOOST_TEST(seconds < 10);  // far above the pool's tick of 50 ms, for a machine that is busy
+}
+
+BOOST_AUTO_TEST_CASE(the_limit_ends_with_the_first_message) {
+  const Outcome outcome = outcome_of(
+      [](const Channel& channel) {
+        channel.send("a");
+        std::this_thread::sleep_for(std::chrono::milliseconds(600));
+        channel.send("b");
+      },
+      0.3);
+  BOOST_TEST(outcome.message == "ab");
+  BOOST_TEST((outcome.end.how == Ending::finished));
+}
+
+BOOST_AUTO_TEST_CASE(the_last_words_are_kept_however_much_was_said) {
+  const Outcome outcome = outcome_of([](const Channel&) {
+    for (int i = 0; i < 200'000; ++i) std::fprintf(stderr, "line %d of a very long complaint\n", i);
+    std::puts("and this on stdout");
+    std::fflush(stdout);
+    std::fprintf(stderr, "the\x1b[31m last words\n\n");
+    std::abort();
+  });
+  BOOST_TEST((outcome.end.how == Ending::killed));
+  BOOST_TEST(outcome.end.last_words == "the [31m last words");  // the control character is blanked
+}
+
+BOOST_AUTO_TEST_CASE(all_jobs_end_once_and_a_bad_one_harms_no_other) {
+  std::vector<Job> jobs;
+  for (int i = 0; i < 40; ++i) {
+    jobs.push_back({[i](const Channel& channel) {
+                      if (i % 4 == 1) std::abort();
+                      if (i % 4 == 3) _exit(0);
+                      channel.send(std::to_string(i));
+                    },
+                    20});
+  }
+  const auto outcomes = outcomes_of(jobs, 3);
+  for (int i = 0; i < 40; ++i) {
+    BOOST_TEST(outcomes[i].times_ended == 1);
+    BOOST_TEST(outcomes[i].message == (i % 2 == 0 ? std::to_string(i) : ""));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_ends_the_children_and_is_reported) {
+  std::vector<Job> jobs(4, {[](const Channel& channel) {
+                              channel.send(std::to_string(getpid()));
+                              pause();
+                            },
+                            20});
+  std::vector<pid_t> children;
+  const auto on_message = [&](std::size_t, const std::string& message) {
+    children.push_back(std::stoi(message));
+    if (children.size() == 2) std::raise(SIGINT);
+  };
+  BOOST_CHECK_THROW(run_jobs(jobs, 2, on_message, [](std::size_t, const JobEnd&) {}), Interrupted);
+  BOOST_TEST_REQUIRE(children.size() == 2u);
+  for (const pid_t child : children) BOOST_TEST(kill(child, 0) != 0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
