@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
         // As deep as it can sink in the one step before the contact is seen, if the engine does not push it out again.
         const double deepest = std::sqrt(2 * g * drop) * dt;
         BOOST_TEST(std::abs(found.position.z() - pair.height) < deepest);
-        BOOST_TEST(found.velocity.norm() < g * dt);  // at rest but for one step's fall
+        BOOST_TEST(found.velocity.norm() < g * dt * (1 + 1e-12));  // at rest but for one step's fall, and its rounding
       }
       rested.insert(run.info.name + " " + feature);
     }

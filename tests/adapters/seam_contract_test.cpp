@@ -236,8 +236,9 @@ BOOST_AUTO_TEST_CASE(a_spring_off_the_centre_converges_to_the_reference) {
     const double coarse = error_at(2000), fine = error_at(4000);
     // Halving the step halves the error at least, by 2^order less a tenth for the next term; 1e-9 m is the reference's.
     BOOST_TEST(fine < coarse / (0.9 * std::pow(2, run.method().order)) + 1e-9);
-    // A first-order step is off by about dt x (speed of 3 m/s); measured: 0.031 m at 1/30 for a semi-implicit step.
-    BOOST_TEST(coarse < 3.0 / 2000);
+    // A first-order step is off by about dt x (speed of 3 m/s); measured: 0.031 m at 1/30 for a semi-implicit step. An
+    // explicit one also swells: with the stiffest mode near 20 rad/s, by exp(w² dt/2) = 1.1 in a second.
+    BOOST_TEST(coarse < 5.0 / 2000);
   });
 }
 
