@@ -3,22 +3,14 @@
 #include <sys/stat.h>
 
 #include <boost/test/unit_test.hpp>
-#include <filesystem>
-#include <fstream>
 
 #include "tests/core/scene/refusal.h"
+#include "tests/folder.h"
 
 using namespace rigor;
 namespace fs = std::filesystem;
 
 namespace {
-
-// A folder of its own for each test, gone afterwards.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("rigor_file_reader_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 void check(const std::string& path, const std::string& complaint) {
   BOOST_TEST(refusal_of([&] { read_text_file(path); }) == path + ": " + complaint);
