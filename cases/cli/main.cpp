@@ -1,1 +1,44 @@
-int main() {}
+// rigor: parse, run, answer with an exit code: 0 good, 1 a gate failed, 2 bad usage or input, 3 an engine or Rigor
+// failed.
+#include <fmt/format.h>
+
+#include <csignal>
+#include <exception>
+
+#include "cases/cli/command_line.h"
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "cases/runner/process_pool.h"
+#include "core/error.h"
+
+namespace {
+
+int answer(int argc, const char* const* argv) {
+  const rigor::CommandLine line = rigor::parse_command_line(argc, argv);
+  if (!line.printed.empty()) return rigor::print(line.printed), rigor::kGood;
+  for (const rigor::CommandRow& row : rigor::commands()) {
+    if (row.name == line.command) return row.run(line);
+  }
+  throw std::logic_error("a command that is not in the table");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return answer(argc, argv);
+  } catch (const rigor::InputError& error) {
+    fmt::print(stderr, "rigor: {}\n", error.what());
+    return rigor::kBadInput;
+  } catch (const rigor::ReaderGone&) {
+    return rigor::kGood;
+  } catch (const rigor::Interrupted& interruption) {
+    fmt::print(stderr, "\nrigor: interrupted; no output was changed\n");
+    std::signal(interruption.signal, SIG_DFL);
+    std::raise(interruption.signal);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "rigor: {}\n", error.what());
+  }
+  return rigor::kBroken;
+}

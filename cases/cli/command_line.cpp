@@ -1,0 +1,166 @@
+#include "cases/cli/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <thread>
+
+#include "cases/cli/commands.h"
+#include "cases/suite.h"
+#include "core/error.h"
+#include "core/near_match.h"
+
+namespace rigor {
+namespace {
+
+// As typed; numbers are read afterwards, so that each is refused in the same words as one in a case file.
+struct Typed {
+  std::vector<std::string> dt;
+  std::string duration, jobs, every = "1", limit = "60", times;
+};
+
+int parse_count(const std::string& text, const std::string& what) {
+  constexpr int kMost = 100000;
+  int count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc() || end != text.data() + text.size() || count < 1 || count > kMost) {
+    throw InputError(fmt::format("{}: '{}' is not a whole number from 1 to {}", what, text, kMost));
+  }
+  return count;
+}
+
+std::vector<double> parse_times(const std::string& text) {
+  std::vector<double> times;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string word = text.substr(at, comma - at);
+    const bool is_zero =
+        !word.empty() && word.find_first_not_of("0.") == std::string::npos && word.find('0') != std::string::npos;
+    times.push_back(is_zero ? 0.0 : parse_step_size(word, "--times").seconds);
+    at = comma + 1;
+  }
+  return times;
+}
+
+void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Typed& typed) {
+  const auto takes = [&](const std::string& option) {
+    return std::find(row.options.begin(), row.options.end(), option) != row.options.end();
+  };
+  // Options that may be repeated take one value each time, or they would swallow the cases that follow.
+  if (!row.words.empty()) command.add_option(row.words, line.words, row.words_summary);
+  if (takes("--engine")) {
+    command.add_option("--engine", line.engines, "ENGINE[:METHOD][,key=value...][@TRACK]; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("E");
+  }
+  if (takes("--dt")) {
+    command.add_option("--dt", typed.dt, "step size in s, a number or a fraction such as 1/30; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("DT");
+  }
+  if (takes("--duration")) command.add_option("--duration", typed.duration, "length of the run in s")->type_name("S");
+  if (takes("--jobs")) command.add_option("--jobs", typed.jobs, "cells at once; default: one a core")->type_name("N");
+  if (takes("--out"))
+    command.add_option("--out", line.out, "folder for the reports")->type_name("DIR")->capture_default_str();
+  if (takes("--every")) command.add_option("--every", typed.every, "only each N-th sample")->type_name("N");
+  if (takes("--times")) {
+    command.add_option("--times", typed.times, "instants in s; default: the run, in its coarsest steps")
+        ->type_name("T,T...");
+  }
+  if (takes("--timeout")) {
+    command.add_option("--timeout", typed.limit, "seconds that a cell, or a truth, may take")
+        ->type_name("S")
+        ->capture_default_str();
+  }
+  if (takes("--suite")) {
+    command.add_option("--suite", line.suite_dir, "folder of the cases")->type_name("DIR")->capture_default_str();
+  }
+}
+
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const CommandRow& row : commands()) names.push_back(row.name);
+  return names;
+}
+
+// What no option or command took.
+[[noreturn]] void refuse_word(const std::string& word, const CommandRow* row) {
+  const bool is_option = word.starts_with("-");
+  if (!row && !is_option) {
+    throw InputError(fmt::format("there is no command '{}'{}; there is: {}", word, did_you_mean(word, command_names()),
+                                 listed(command_names())));
+  }
+  std::vector<std::string> known = row ? row->options : std::vector<std::string>{"--version"};
+  known.push_back("--help");
+  const std::string name = word.substr(0, word.find('='));
+  if (is_option) {
+    throw InputError(fmt::format("{} has no option '{}'{}; it has: {}", row ? "rigor " + row->name : "rigor", name,
+                                 did_you_mean(name, known), listed(known)));
+  }
+  throw InputError(fmt::format("rigor {}: '{}' is one word too many", row->name, word));
+}
+
+const CommandRow* find_command(const std::string& name) {
+  for (const CommandRow& row : commands()) {
+    if (row.name == name) return &row;
+  }
+  return nullptr;
+}
+
+void read_typed(const Typed& typed, CommandLine& line) {
+  for (const std::string& text : typed.dt) {
+    const StepSize dt = parse_step_size(text, "--dt");
+    const auto is_it = [&](const StepSize& other) { return other.seconds == dt.seconds; };
+    if (std::none_of(line.dt.begin(), line.dt.end(), is_it)) line.dt.push_back(dt);
+  }
+  if (!typed.duration.empty()) line.duration = parse_step_size(typed.duration, "--duration").seconds;
+  const int cores = std::max(1u, std::thread::hardware_concurrency());
+  line.jobs = typed.jobs.empty() ? cores : parse_count(typed.jobs, "--jobs");
+  line.every = parse_count(typed.every, "--every");
+  line.limit = parse_step_size(typed.limit, "--timeout").seconds;
+  if (!typed.times.empty()) line.times = parse_times(typed.times);
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CommandLine line;
+  Typed typed;
+  line.suite_dir = default_suite_dir();
+  CLI::App app("How right is a rigid-body simulator?", "rigor");
+  app.set_version_flag("--version", "rigor " RIGOR_VERSION);
+  app.set_help_flag("--help", "print this and leave");
+  app.allow_extras();
+  for (const CommandRow& row : commands()) {
+    CLI::App* command = app.add_subcommand(row.name, row.summary);
+    command->set_help_flag("--help", "print this and leave");
+    command->allow_extras();
+    add_options(*command, row, line, typed);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = app.get_subcommands();
+    line.printed = chosen.empty() ? app.help() : chosen.front()->help();
+    return line;
+  } catch (const CLI::CallForVersion&) {
+    line.printed = app.version() + "\n";
+    return line;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(error.what());
+  }
+  const auto chosen = app.get_subcommands();
+  const auto unknown = app.remaining(true);
+  const CommandRow* row = chosen.empty() ? nullptr : find_command(chosen.front()->get_name());
+  if (!unknown.empty()) refuse_word(unknown.front(), row);
+  if (!row)
+    throw InputError(fmt::format("what to do? rigor has the commands: {}; see rigor --help", listed(command_names())));
+  line.command = row->name;
+  read_typed(typed, line);
+  return line;
+}
+
+}  // namespace rigor

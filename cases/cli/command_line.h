@@ -1,0 +1,30 @@
+// What was asked for on the command line. Words are checked by the command that uses them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case.h"
+
+namespace rigor {
+
+struct CommandLine {
+  std::string command;             // "list", "run", ...
+  std::vector<std::string> words;  // cases; for `list`, what to list
+  std::vector<std::string> engines;
+  std::vector<StepSize> dt;
+  std::optional<double> duration;  // s
+  std::vector<double> times;       // s; for `truth`
+  int jobs = 1;
+  int every = 1;
+  double limit = 60;  // s
+  std::string out = "out";
+  std::string suite_dir;
+  std::string printed;  // --help or --version: what to print instead of doing anything
+};
+
+// Throws InputError, with the near match of a word that is not known.
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+}  // namespace rigor

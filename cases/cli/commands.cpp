@@ -1,0 +1,35 @@
+#include "cases/cli/commands.h"
+
+namespace rigor {
+
+const std::vector<CommandRow>& commands() {
+  static const std::vector<std::string> grid_options = {"--engine", "--dt",    "--duration", "--jobs",
+                                                        "--out",    "--suite", "--timeout"};
+  static const std::string grid_words = "cases by id, family, file or folder; default: the whole suite";
+  static const std::vector<CommandRow> table = {
+      {"list",
+       "say what there is",
+       "KIND",
+       "cases, engines, integrators, metrics or truths; default: all",
+       {"--suite"},
+       list_command},
+      {"run", "simulate and judge; print the table and write the reports", "CASE", grid_words, grid_options,
+       run_command},
+      {"gate", "the same, and exit 1 if a gate does not hold", "CASE", grid_words, grid_options, gate_command},
+      {"trace",
+       "print one run's trajectory as CSV",
+       "CASE",
+       "a case or a file",
+       {"--dt", "--duration", "--engine", "--every", "--suite", "--timeout"},
+       trace_command},
+      {"truth",
+       "print the truth's states, and its own error, as CSV",
+       "CASE",
+       "a case or a file",
+       {"--duration", "--suite", "--timeout", "--times"},
+       truth_command},
+  };
+  return table;
+}
+
+}  // namespace rigor

@@ -1,0 +1,33 @@
+// The table of commands: `rigor --help` and the near matches of a mistyped one are made from it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/cli/command_line.h"
+
+namespace rigor {
+
+enum ExitCode { kGood = 0, kGateFailed = 1, kBadInput = 2, kBroken = 3 };
+
+struct CommandRow {
+  std::string name;
+  std::string summary;
+  std::string words;  // what its plain words are, "" if it takes none
+  std::string words_summary;
+  std::vector<std::string> options;
+  int (*run)(const CommandLine& line);  // returns an ExitCode
+};
+
+const std::vector<CommandRow>& commands();  // in the order of the README
+
+int list_command(const CommandLine& line);
+int run_command(const CommandLine& line);
+int gate_command(const CommandLine& line);
+int trace_command(const CommandLine& line);
+int truth_command(const CommandLine& line);
+
+// The one case that the words of `trace` and `truth` name.
+Case the_case(const CommandLine& line);
+
+}  // namespace rigor

@@ -1,0 +1,114 @@
+// rigor list: every table, printed from itself.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "adapters/engines.h"
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "cases/metrics/metric.h"
+#include "cases/suite.h"
+#include "cases/truth/truth.h"
+#include "core/error.h"
+#include "core/near_match.h"
+
+namespace rigor {
+namespace {
+
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+Rows case_rows(const CommandLine& line) {
+  Rows rows;
+  for (const Case& definition : select_cases({}, line.suite_dir)) rows.emplace_back(definition.id, definition.title);
+  return rows;
+}
+
+std::string option_text(const OptionInfo& option) {
+  if (option.choices.empty()) return fmt::format("{}={}..{}", option.name, option.min, option.max);
+  return fmt::format("{}={}", option.name, fmt::join(option.choices, "|"));
+}
+
+std::string method_text(const MethodInfo& method) {
+  std::string text =
+      fmt::format("order {}{}; {}", method.order, method.symplectic ? ", symplectic" : "", method.summary);
+  for (const OptionInfo& option : method.options) text += fmt::format("; {}", option_text(option));
+  return text;
+}
+
+Rows engine_rows(const CommandLine&) {
+  Rows rows;
+  for (const EngineInfo& engine : infos_of(engines())) {
+    std::vector<std::string> methods;
+    for (const MethodInfo& method : engine.methods) methods.push_back(method.name);
+    rows.emplace_back(engine.name,
+                      fmt::format("{}, {} precision; methods: {}", engine.version, engine.precision, listed(methods)));
+    for (const MethodInfo& method : engine.methods) {
+      if (engine.name != "core") rows.emplace_back("  " + engine.name + ":" + method.name, method_text(method));
+    }
+    if (engine.name == "core") rows.back().second += " (see integrators)";
+  }
+  return rows;
+}
+
+Rows integrator_rows(const CommandLine&) {
+  Rows rows;
+  for (const EngineInfo& engine : infos_of(engines())) {
+    if (engine.name != "core") continue;
+    for (const MethodInfo& method : engine.methods) rows.emplace_back("core:" + method.name, method_text(method));
+  }
+  return rows;
+}
+
+Rows metric_rows(const CommandLine&) {
+  Rows rows;
+  for (const MetricRow& metric : metrics())
+    rows.emplace_back(metric.name, fmt::format("[{}] {}", metric.unit, metric.summary));
+  return rows;
+}
+
+Rows truth_rows(const CommandLine&) {
+  Rows rows;
+  for (const TruthRow& truth : truths()) rows.emplace_back(truth.name, truth.summary);
+  return rows;
+}
+
+struct Kind {
+  std::string name;
+  Rows (*rows)(const CommandLine& line);
+};
+const std::vector<Kind> kKinds = {{"cases", case_rows},
+                                  {"engines", engine_rows},
+                                  {"integrators", integrator_rows},
+                                  {"metrics", metric_rows},
+                                  {"truths", truth_rows}};
+
+std::string table(const Rows& rows) {
+  std::size_t width = 0;
+  for (const auto& [name, text] : rows) width = std::max(width, name.size());
+  std::string out;
+  for (const auto& [name, text] : rows) out += fmt::format("  {:<{}}  {}\n", name, width, text);
+  return out;
+}
+
+}  // namespace
+
+int list_command(const CommandLine& line) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds) names.push_back(kind.name);
+  for (const std::string& word : line.words) {
+    if (std::find(names.begin(), names.end(), word) == names.end()) {
+      throw InputError(
+          fmt::format("list: there are no '{}'{}; there are: {}", word, did_you_mean(word, names), listed(names)));
+    }
+  }
+  std::string text;
+  for (const Kind& kind : kKinds) {
+    const bool is_wanted =
+        line.words.empty() || std::find(line.words.begin(), line.words.end(), kind.name) != line.words.end();
+    if (is_wanted) text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", kind.name, table(kind.rows(line)));
+  }
+  print(text);
+  return kGood;
+}
+
+}  // namespace rigor

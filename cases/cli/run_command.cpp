@@ -1,0 +1,90 @@
+// rigor run and rigor gate: the grid, its reports, its exit code.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "cases/cli/progress.h"
+#include "cases/gates/gates.h"
+#include "cases/report/console_table.h"
+#include "cases/report/output_folder.h"
+#include "cases/report/reports.h"
+#include "cases/runner/grid.h"
+#include "cases/suite.h"
+#include "core/error.h"
+
+namespace rigor {
+namespace {
+
+std::vector<RunName> runs_asked_for(const CommandLine& line) {
+  const auto infos = infos_of(engines());
+  if (line.engines.empty()) return default_runs(infos);
+  std::vector<RunName> runs;
+  for (const std::string& name : line.engines) {
+    RunName run = parse_run_name(name, infos);
+    const auto is_it = [&](const RunName& other) { return other.text == run.text; };
+    if (std::none_of(runs.begin(), runs.end(), is_it)) runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+Results planned(const CommandLine& line) {
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir);
+  for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
+  return plan_grid(cases, runs_asked_for(line), engines(), true);
+}
+
+Results simulated_and_written(const CommandLine& line) {
+  Results grid = planned(line);
+  std::vector<std::string> file_names;
+  for (const ReportRow& report : reports()) file_names.push_back(report.file_name);
+  OutputFolder folder(line.out, file_names);
+  {
+    Progress progress;
+    run_grid(grid, engines(), {line.jobs, line.limit, folder.trajectories()},
+             [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+  }
+  for (CaseResult& result : grid.cases) check_gates(result, grid);
+  for (const ReportRow& report : reports()) folder.write(report.file_name, report.write(grid));
+  folder.publish();
+  return grid;
+}
+
+template <typename Predicate>
+bool any_ending(const Results& grid, const Predicate& is_it) {
+  return std::any_of(grid.cases.begin(), grid.cases.end(), [&](const CaseResult& result) {
+    return std::any_of(result.cells.begin(), result.cells.end(),
+                       [&](const Cell& cell) { return is_it(cell.status); }) ||
+           std::any_of(result.stable_steps.begin(), result.stable_steps.end(),
+                       [&](const StableStepResult& stable) { return is_it(stable.status); });
+  });
+}
+
+// What `run` answers with, gates aside.
+int ending_of(const Results& grid) {
+  for (const CaseResult& result : grid.cases) {
+    if (result.error_is_input) return fmt::print(stderr, "rigor: {}\n", result.error), kBadInput;
+  }
+  const auto is_broken = [](Status status) { return status == Status::crashed || status == Status::timed_out; };
+  return any_ending(grid, is_broken) ? kBroken : kGood;
+}
+
+}  // namespace
+
+int run_command(const CommandLine& line) {
+  const Results grid = simulated_and_written(line);
+  const int ending = ending_of(grid);
+  print(console_table(grid));
+  return ending;
+}
+
+int gate_command(const CommandLine& line) {
+  const Results grid = simulated_and_written(line);
+  const int ending = ending_of(grid);
+  print(console_table(grid) + gate_summary(grid));
+  return ending == kGood && !all_gates_hold(grid) ? int{kGateFailed} : ending;
+}
+
+}  // namespace rigor

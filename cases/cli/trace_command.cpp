@@ -1,0 +1,121 @@
+// rigor trace and rigor truth: one run, or the truth, as CSV. Both work in a child process, for an engine may crash and
+// a truth may take too long.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "cases/report/trajectory_csv.h"
+#include "cases/runner/grid.h"
+#include "cases/runner/process_pool.h"
+#include "cases/runner/simulate.h"
+#include "cases/suite.h"
+#include "cases/truth/truth.h"
+#include "core/error.h"
+
+namespace rigor {
+namespace {
+
+constexpr std::size_t kChunk = 1 << 20;  // bytes of rows sent at a time
+
+// A message that is a line for stderr begins with this byte, which no CSV does.
+constexpr char kNote = '\x01';
+
+// Runs it in a child and prints what it sends. Returns the exit code.
+int print_from_child(const std::string& what, double limit, const std::function<void(const Channel&)>& work) {
+  int code = kGood;
+  const auto on_message = [](std::size_t, const std::string& message) {
+    if (message.starts_with(kNote)) {
+      fmt::print(stderr, "rigor: {}\n", message.substr(1));
+    } else {
+      print(message);
+    }
+  };
+  const auto on_end = [&](std::size_t, const JobEnd& end) {
+    if (end.how == Ending::finished) return;
+    if (end.how == Ending::refused) throw InputError(end.text);
+    fmt::print(stderr, "rigor: {}: {}\n", what, sentence_of(end, limit));
+    code = kBroken;
+  };
+  run_jobs({{work, limit}}, 1, on_message, on_end);
+  return code;
+}
+
+void send_trajectory(const Simulation& run, const Scene& scene, int every, const Channel& channel) {
+  std::string rows = csv_header() + "\n";
+  for (std::size_t i = 0; i < run.trajectory.samples.size(); i += every) {
+    append_csv_rows(rows, scene, run.trajectory.samples[i].time, run.trajectory.samples[i].bodies.columns());
+    if (rows.size() > kChunk) channel.send(rows), rows.clear();
+  }
+  channel.send(rows);
+  if (run.not_finite) {
+    channel.send(fmt::format("{}blown up: from {:.6g} s on the state of '{}' is not finite", kNote,
+                             run.not_finite->time, scene.body_name(run.not_finite->body)));
+  }
+  if (!run.complaint.empty()) {
+    channel.send(
+        fmt::format("{}from {:.6g} s on not what its method promises: {}", kNote, run.complaint_time, run.complaint));
+  }
+}
+
+void send_truth(const Truth& truth, const Scene& scene, const std::vector<double>& times, const Channel& channel) {
+  std::string rows = csv_header() + ",error\n";
+  BodyTable bodies(scene.bodies.size());
+  for (const double time : times) {
+    truth.at(time, bodies.columns());
+    append_csv_rows(rows, scene, time, bodies.columns(), fmt::format(",{:.17g}", truth.error(time)));
+    if (rows.size() > kChunk) channel.send(rows), rows.clear();
+  }
+  channel.send(rows);
+}
+
+// From the start to the end of the run in its coarsest steps.
+std::vector<double> times_of_run(const Case& definition) {
+  double dt = 0;
+  for (const StepSize& step : definition.dt) dt = std::max(dt, step.seconds);
+  std::vector<double> times;
+  for (long n = 0; n <= steps_in(definition.duration, dt); ++n) times.push_back(n * dt);
+  return times;
+}
+
+}  // namespace
+
+Case the_case(const CommandLine& line) {
+  if (line.words.empty()) throw InputError(fmt::format("rigor {}: which case? see rigor list cases", line.command));
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir);
+  if (cases.size() == 1) return cases.front();
+  throw InputError(
+      fmt::format("rigor {}: takes one case, and {} names {} of them", line.command, line.words.front(), cases.size()));
+}
+
+int trace_command(const CommandLine& line) {
+  Case definition = the_case(line);
+  if (line.engines.size() != 1) throw InputError("rigor trace: takes exactly one --engine; see rigor list engines");
+  if (line.dt.size() != 1) throw InputError("rigor trace: takes exactly one --dt");
+  override_run(definition, {line.dt, line.duration});
+  const RunName run = parse_run_name(line.engines.front(), infos_of(engines()));
+  const Engine& engine = find_engine(engines(), run.engine);
+  const double dt = line.dt.front().seconds;
+  const std::string why = why_unsupported(engine.info(), definition.scene, dt);
+  if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
+  return print_from_child(run.text, line.limit, [&](const Channel& channel) {
+    send_trajectory(simulate(engine, run.settings, definition.scene, dt, definition.duration), definition.scene,
+                    line.every, channel);
+  });
+}
+
+int truth_command(const CommandLine& line) {
+  Case definition = the_case(line);
+  if (definition.truth == "none")
+    throw InputError(fmt::format("{}: the case states no truth (truth.kind is \"none\")", definition.id));
+  if (line.duration) definition.duration = *line.duration;
+  std::vector<double> times = line.times;
+  if (times.empty()) override_run(definition, {}), times = times_of_run(definition);
+  const double end = std::max(definition.duration, *std::max_element(times.begin(), times.end()));
+  return print_from_child("the truth of " + definition.id, line.limit, [&](const Channel& channel) {
+    send_truth(*make_truth(definition.truth, definition.scene, end), definition.scene, times, channel);
+  });
+}
+
+}  // namespace rigor

@@ -1,0 +1,23 @@
+// Holds the results of a case against the gates its file states.
+#pragma once
+
+#include "cases/runner/results.h"
+
+namespace rigor {
+
+// |found - limit| <= kRounding * max(1, |limit|) is equal: a thousand roundings of a double fit into it many times
+// over, and no scheme's error that is worth a gate does.
+inline constexpr double kRounding = 1e-9;
+
+// Fills in result.gates, and turns a cell that did `pass` into `fail` where a gate says so. A gate on a cell that
+// crashed, timed out or is invalid fails; one that is unsupported or has no such metric it does not meet. A gate that
+// met no cell is `not_checked`, once.
+void check_gates(CaseResult& result, const Results& grid);
+
+// Whether every gate was checked and held, and every case could be judged.
+bool all_gates_hold(const Results& grid);
+
+// The exponent p of value = c dt^p, fitted by least squares to the logarithms.
+double fitted_order(const std::vector<double>& dt, const std::vector<double>& values);
+
+}  // namespace rigor

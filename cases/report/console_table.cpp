@@ -1,0 +1,176 @@
+#include "cases/report/console_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/report/explanation.h"
+
+namespace rigor {
+namespace {
+
+constexpr std::size_t kWidth = 100;
+
+// Two or three significant digits: 0.0312, 1.3e-05, 490.
+std::string rounded(double value) {
+  if (!std::isfinite(value)) return "not finite";
+  if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e4)) return fmt::format("{:.1e}", value);
+  return fmt::format("{:.3g}", value);
+}
+
+std::string metric_text(const Cell& cell, const std::string& name, double MetricValue::*part) {
+  const auto found = cell.metrics.find(name);
+  if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return "-";
+  return rounded(found->second.*part);
+}
+
+// A drift as per cent of what it is measured against, with its sign: lost energy is negative.
+std::string percent_text(const Cell& cell, const std::string& name) {
+  const auto found = cell.metrics.find(name);
+  if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return "-";
+  const MetricValue& drift = found->second;
+  const double percent = 100 * std::copysign(drift.value, drift.worst.found - drift.worst.expected);
+  if (!std::isfinite(percent)) return "not finite";
+  if (std::abs(percent) < 1e-9) return "0";  // rounding
+  return fmt::format("{}{}", percent > 0 ? "+" : "", rounded(percent));
+}
+
+std::string stable_text(const StableStepResult& stable) {
+  if (stable.status != Status::pass) return stable.status == Status::unsupported ? "-" : word_of(stable.status);
+  return fmt::format("{}{}", stable.step.is_cap ? ">=" : stable.step.is_floor ? "<" : "", rounded(stable.step.dt));
+}
+
+std::string verdict_text(const Cell& cell, const Scene& scene) {
+  if (cell.stability.verdict == Verdict::blown_up) {
+    return fmt::format("blown up at {:.2f} s: {}", cell.stability.time, scene.body_name(cell.stability.body));
+  }
+  const std::string word = word_of(cell.stability.verdict);
+  return cell.status == Status::pass || cell.status == Status::diverged
+             ? word
+             : fmt::format("{}; {}", word, word_of(cell.status));
+}
+
+std::string table_line(const RowText& row) {
+  return fmt::format("  {:<24} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {}\n", row.engine, row.first_second, row.whole,
+                     row.orientation, row.energy, row.energy_synchronised, row.stable_dt, row.verdict);
+}
+
+std::string header(const StepSize& dt) {
+  RowText top{
+      fmt::format("dt = {} s", dt.text), "position", "error", "orient.", "energy", "drift", "largest", "", true};
+  RowText bottom{"engine", "1 s [m]", "all [m]", "[rad]", "raw [%]", "sync [%]", "dt [s]", "verdict", true};
+  return table_line(top) + table_line(bottom);
+}
+
+std::string row_line(const RowText& row) {
+  if (row.has_numbers) return table_line(row);
+  return fmt::format("  {:<24} {}\n", row.engine, wrapped(row.verdict, kWidth - 27, 27));
+}
+
+// The gates that did not hold.
+std::string gate_lines(const CaseResult& result) {
+  std::string lines;
+  for (const GateResult& gate : result.gates) {
+    if (gate.answer == GateAnswer::held) continue;
+    lines += "  " + wrapped(fmt::format("gate {}: {}", word_of(gate.answer), gate.text), kWidth - 2, 4) + "\n";
+  }
+  return lines;
+}
+
+std::string block(const Results& results, const CaseResult& result) {
+  const StepSize dt = coarsest_dt(result);
+  std::string text = wrapped(fmt::format("{}: {}", result.definition.id, result.definition.title), kWidth, 2) + "\n";
+  text += "  " + wrapped(truth_sentence(result), kWidth - 2, 2) + "\n" + header(dt);
+  for (const Cell& cell : result.cells) {
+    if (cell.dt.seconds == dt.seconds) text += row_line(row_text(results, result, cell));
+  }
+  for (const std::string& sentence : explanations(results, result))
+    text += "  " + wrapped(sentence, kWidth - 2, 2) + "\n";
+  return text + gate_lines(result);
+}
+
+std::string count_line(const Results& results) {
+  std::map<Status, int> counts;
+  for (const CaseResult& result : results.cases) {
+    for (const Cell& cell : result.cells) ++counts[cell.status];
+  }
+  std::string text;
+  for (const auto& [status, count] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, word_of(status));
+  return fmt::format("cells: {}\n", text);
+}
+
+}  // namespace
+
+std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
+  std::string out, rest = text;
+  while (rest.size() > width) {
+    std::size_t at = rest.rfind(' ', width);
+    if (at == std::string::npos || at == 0) at = rest.find(' ', width);
+    if (at == std::string::npos) break;
+    out += rest.substr(0, at) + "\n" + std::string(indent, ' ');
+    rest.erase(0, at + 1);
+  }
+  return out + rest;
+}
+
+StepSize coarsest_dt(const CaseResult& result) {
+  return *std::max_element(result.definition.dt.begin(), result.definition.dt.end(),
+                           [](const StepSize& a, const StepSize& b) { return a.seconds < b.seconds; });
+}
+
+std::string truth_sentence(const CaseResult& result) {
+  const Case& definition = result.definition;
+  if (!result.error.empty()) return result.error;
+  if (definition.truth == "none") return "truth: none; only stability and what is conserved are judged.";
+  if (!result.truth) return fmt::format("truth: {}, not found.", definition.truth);
+  const TruthFacts& facts = *result.truth;
+  if (facts.horizon >= definition.duration) {
+    return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s.", definition.truth,
+                       facts.error_at_end, definition.duration);
+  }
+  return fmt::format(
+      "truth: {}, known to {:g} m until {:.1f} s of the {:g} s; beyond that the motion is too sensitive.",
+      definition.truth, kHorizonTolerance, facts.horizon, definition.duration);
+}
+
+RowText row_text(const Results& results, const CaseResult& result, const Cell& cell) {
+  RowText row;
+  row.engine = results.runs[cell.run].text;
+  row.has_numbers = !cell.metrics.empty() && cell.status != Status::invalid;
+  row.stable_dt = stable_text(result.stable_steps[cell.run]);
+  if (!row.has_numbers) {
+    row.verdict = fmt::format("{}: {}", word_of(cell.status), cell.reason);
+    return row;
+  }
+  row.verdict = verdict_text(cell, result.definition.scene);
+  const bool is_blown_up = cell.stability.verdict == Verdict::blown_up;
+  row.first_second = metric_text(cell, "position_error", &MetricValue::first_second);
+  row.whole = metric_text(cell, "position_error", &MetricValue::value);
+  row.orientation = metric_text(cell, "orientation_error", &MetricValue::value);
+  row.energy = percent_text(cell, "energy_drift");
+  row.energy_synchronised = percent_text(cell, "energy_drift_synchronised");
+  if (is_blown_up) {  // what was measured until it blew up would read like the error of a run
+    row.whole = row.orientation = row.energy = row.energy_synchronised = "-";
+    if (cell.stability.time < 1) row.first_second = "-";
+  }
+  return row;
+}
+
+std::string gate_summary(const Results& results) {
+  std::map<GateAnswer, int> counts;
+  for (const CaseResult& result : results.cases) {
+    for (const GateResult& gate : result.gates) ++counts[gate.answer];
+  }
+  return fmt::format("gates: {} held, {} failed, {} not checked\n", counts[GateAnswer::held],
+                     counts[GateAnswer::failed], counts[GateAnswer::not_checked]);
+}
+
+std::string console_table(const Results& results) {
+  std::string text;
+  for (const CaseResult& result : results.cases) text += block(results, result) + "\n";
+  return text + count_line(results);
+}
+
+}  // namespace rigor

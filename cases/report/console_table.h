@@ -1,0 +1,30 @@
+// What `rigor run` prints: a block a case, one row an engine, in at most 100 columns and plain text.
+#pragma once
+
+#include <string>
+
+#include "cases/runner/results.h"
+
+namespace rigor {
+
+std::string console_table(const Results& results);
+
+// How many gates held, failed and were not checked.
+std::string gate_summary(const Results& results);
+
+// The parts of a row, in words and rounded to what can be read; report.md shows the same.
+struct RowText {
+  std::string engine;
+  std::string first_second, whole, orientation, energy, energy_synchronised, stable_dt, verdict;
+  bool has_numbers;  // if not, `verdict` is a sentence that stands in their place
+};
+RowText row_text(const Results& results, const CaseResult& result, const Cell& cell);
+std::string truth_sentence(const CaseResult& result);
+
+// Lines of at most `width` columns, broken at spaces, each after the first behind `indent` spaces.
+std::string wrapped(const std::string& text, std::size_t width, std::size_t indent);
+
+// The coarsest step of a case's run: the headline.
+StepSize coarsest_dt(const CaseResult& result);
+
+}  // namespace rigor

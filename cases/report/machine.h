@@ -1,0 +1,14 @@
+// What the results were measured with.
+#pragma once
+
+#include <string>
+
+namespace rigor {
+
+struct Machine {
+  std::string program_version, cpu, compiler, build_type;
+  int cores;
+};
+Machine this_machine();
+
+}  // namespace rigor

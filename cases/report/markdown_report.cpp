@@ -1,0 +1,98 @@
+// report.md: the console's table as Markdown, a table for each further step size below, then the machine and settings.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/report/console_table.h"
+#include "cases/report/explanation.h"
+#include "cases/report/machine.h"
+#include "cases/report/reports.h"
+
+namespace rigor {
+namespace {
+
+// Names come from files of other people: nothing in them may end a table's cell or open a tag.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    if (c == '\n' || c == '\r') {
+      out += ' ';
+    } else if (c == '<') {
+      out += "&lt;";
+    } else {
+      if (std::string("|`*_[]\\").find(c) != std::string::npos) out += '\\';
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string table(const Results& results, const CaseResult& result, const StepSize& dt) {
+  std::string text = fmt::format(
+      "| dt = {} s | position error in 1 s [m] | over the run [m] | orientation error [rad] | energy drift, raw [%] | "
+      "synchronised [%] | largest stable dt [s] | verdict |\n|---|---:|---:|---:|---:|---:|---:|---|\n",
+      dt.text);
+  for (const Cell& cell : result.cells) {
+    if (cell.dt.text != dt.text) continue;
+    const RowText row = row_text(results, result, cell);
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", plain(row.engine), row.first_second, row.whole,
+                        row.orientation, row.energy, row.energy_synchronised, row.stable_dt, plain(row.verdict));
+  }
+  return text;
+}
+
+std::string headline(const Results& results, const CaseResult& result) {
+  std::string text = fmt::format("## {}: {}\n\n{}\n\n", plain(result.definition.id), plain(result.definition.title),
+                                 plain(truth_sentence(result)));
+  text += table(results, result, coarsest_dt(result)) + "\n";
+  for (const std::string& sentence : explanations(results, result)) text += plain(sentence) + "\n\n";
+  for (const GateResult& gate : result.gates) {
+    if (gate.answer != GateAnswer::held) text += fmt::format("- gate {}: {}\n", word_of(gate.answer), plain(gate.text));
+  }
+  return text;
+}
+
+std::string finer_steps(const Results& results, const CaseResult& result) {
+  std::string text;
+  const StepSize coarsest = coarsest_dt(result);
+  for (const StepSize& dt : result.definition.dt) {
+    if (dt.text != coarsest.text)
+      text += fmt::format("### {}, dt = {} s\n\n", plain(result.definition.id), dt.text) + table(results, result, dt) +
+              "\n";
+  }
+  return text;
+}
+
+std::string settings(const Results& results) {
+  std::string text;
+  for (std::size_t run = 0; run < results.runs.size(); ++run) {
+    for (const CaseResult& result : results.cases) {
+      const auto cell = std::find_if(result.cells.begin(), result.cells.end(),
+                                     [&](const Cell& c) { return c.run == run && !c.settings.empty(); });
+      if (cell == result.cells.end()) continue;
+      text += fmt::format("- {}:", plain(results.runs[run].text));
+      for (const auto& [name, value] : cell->settings) text += fmt::format(" {} = {};", plain(name), plain(value));
+      text += "\n";
+      break;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string markdown_report(const Results& results) {
+  std::string text = "# Rigor: how right each engine was\n\n";
+  for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
+  text += "# Other step sizes\n\n";
+  for (const CaseResult& result : results.cases) text += finer_steps(results, result);
+  const Machine machine = this_machine();
+  text += fmt::format(
+      "# Settings in force\n\nAs read back from each engine, in the first case it ran.\n\n{}\n"
+      "rigor {} on {} ({} cores), {}, {} build; {:.1f} s.\n",
+      settings(results), machine.program_version, machine.cpu, machine.cores, machine.compiler, machine.build_type,
+      results.wall_seconds);
+  return text;
+}
+
+}  // namespace rigor

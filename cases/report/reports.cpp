@@ -1,0 +1,14 @@
+#include "cases/report/reports.h"
+
+namespace rigor {
+
+// One row a writer, alphabetical.
+const std::vector<ReportRow>& reports() {
+  static const std::vector<ReportRow> table = {
+      {"json", "results.json", json_report},
+      {"markdown", "report.md", markdown_report},
+  };
+  return table;
+}
+
+}  // namespace rigor

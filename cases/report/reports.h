@@ -1,0 +1,22 @@
+// The table of report writers: each turns the results into the text of one file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/runner/results.h"
+
+namespace rigor {
+
+struct ReportRow {
+  std::string name;
+  std::string file_name;
+  std::string (*write)(const Results& results);
+};
+
+const std::vector<ReportRow>& reports();  // alphabetical
+
+std::string json_report(const Results& results);
+std::string markdown_report(const Results& results);
+
+}  // namespace rigor

@@ -1,0 +1,179 @@
+#include "cases/runner/case_process.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "cases/report/result_json.h"
+#include "cases/report/trajectory_csv.h"
+#include "cases/runner/simulate.h"
+#include "core/error.h"
+
+namespace rigor {
+namespace {
+
+TruthSamples sample_truth(const Truth& truth, const Trajectory& trajectory, std::size_t bodies,
+                          double largest_kinetic_energy) {
+  TruthSamples samples;
+  samples.largest_kinetic_energy = largest_kinetic_energy;
+  for (const Sample& sample : trajectory.samples) {
+    truth.at(sample.time, samples.bodies.emplace_back(bodies).columns());
+    samples.error.push_back(truth.error(sample.time));
+  }
+  return samples;
+}
+
+MetricValue condensed(const MetricResult& result, const Trajectory& trajectory) {
+  MetricValue out;
+  out.not_applicable = result.not_applicable;
+  if (!result.measurement) return out;
+  const Measurement& measured = *result.measurement;
+  out.value = measured.value, out.worst = measured.worst, out.compared_until = measured.compared_until;
+  for (std::size_t i = 0; i < measured.series.size() && trajectory.samples[i].time <= 1 + 1e-9; ++i) {
+    if (std::abs(measured.series[i]) > std::abs(out.first_second)) out.first_second = measured.series[i];
+  }
+  return out;
+}
+
+void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
+  if (cell.stability.verdict == Verdict::blown_up) {
+    cell.status = Status::diverged;
+    cell.reason = fmt::format("blown up at {:.2f} s: {}; {}", cell.stability.time, scene.body_name(cell.stability.body),
+                              cell.stability.why);
+  } else if (!run.complaint.empty()) {
+    cell.status = Status::invalid;
+    cell.reason = fmt::format("from {:.4g} s on not what its method promises: {}", run.complaint_time, run.complaint);
+  } else {
+    cell.status = Status::pass;
+    cell.reason.clear();
+  }
+}
+
+TruthFacts facts_of(const Case& definition, const Truth* truth) {
+  TruthFacts facts;
+  facts.largest_kinetic_energy = largest_kinetic_energy(definition.scene, truth, definition.duration);
+  if (truth) {
+    facts.error_at_end = truth->error(definition.duration);
+    facts.horizon = horizon(*truth, kHorizonTolerance, definition.duration);
+  }
+  return facts;
+}
+
+Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
+  cell.reason = sentence_of(end, limit);
+  cell.status = end.how == Ending::refused     ? Status::invalid
+                : end.how == Ending::timed_out ? Status::timed_out
+                                               : Status::crashed;
+  cell.trajectory.clear();
+  return cell;
+}
+
+// The jobs of one case: first the stable steps, which take longest, then the cells.
+class CaseJobs {
+ public:
+  CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
+           const Truth* truth, double largest_energy)
+      : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), energy_(largest_energy) {
+    for (std::size_t i = 0; i < planned.stable_steps.size(); ++i) {
+      if (planned.stable_steps[i].status != Status::unsupported) add_stable_step(i);
+    }
+    for (std::size_t i = 0; i < planned.cells.size(); ++i) {
+      if (planned.cells[i].status != Status::unsupported) add_cell(i);
+    }
+  }
+
+  void run(const Channel& channel) {
+    std::vector<bool> answered(jobs_.size());
+    const auto on_message = [&](std::size_t job, const std::string& message) {
+      answered[job] = true;
+      channel.send(message);
+    };
+    const auto on_end = [&](std::size_t job, const JobEnd& end) {
+      if (!answered[job]) channel.send(on_failure_[job](end));
+    };
+    run_jobs(jobs_, options_.jobs, on_message, on_end);
+  }
+
+ private:
+  const RunName& run_of(std::size_t index) const { return grid_.runs[index]; }
+
+  void add_stable_step(std::size_t run) {
+    jobs_.push_back({[this, run](const Channel& channel) {
+                       const double seconds = std::max(30.0, planned_.definition.duration);
+                       StableStepResult found;
+                       found.step = largest_stable_dt(find_engine(engines_, run_of(run).engine), run_of(run).settings,
+                                                      planned_.definition.scene, seconds, energy_);
+                       found.status = Status::pass, found.reason.clear();
+                       channel.send(message_of_stable_step(run, found));
+                     },
+                     options_.limit});
+    on_failure_.push_back([this, run](const JobEnd& end) {
+      const Cell failed = cell_that_ended({}, end, options_.limit);
+      return message_of_stable_step(run, {failed.status, failed.reason, {}});
+    });
+  }
+
+  void add_cell(std::size_t index) {
+    const Cell& cell = planned_.cells[index];
+    jobs_.push_back({[this, index, &cell](const Channel& channel) {
+                       const RunName& run = run_of(cell.run);
+                       channel.send(
+                           message_of_cell(index,
+                                           run_cell(cell, planned_.definition, find_engine(engines_, run.engine),
+                                                    run.settings, truth_, energy_, options_.folder),
+                                           planned_.definition.scene));
+                     },
+                     options_.limit});
+    on_failure_.push_back([this, index, &cell](const JobEnd& end) {
+      if (!options_.folder.empty()) {
+        std::error_code no_matter;
+        std::filesystem::remove(std::filesystem::path(options_.folder) / cell.trajectory, no_matter);
+      }
+      return message_of_cell(index, cell_that_ended(cell, end, options_.limit), planned_.definition.scene);
+    });
+  }
+
+  const Results& grid_;
+  const CaseResult& planned_;
+  const EngineTable& engines_;
+  const GridOptions& options_;
+  const Truth* truth_;
+  double energy_;  // J, the truth's largest kinetic one
+  std::vector<Job> jobs_;
+  std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
+};
+
+}  // namespace
+
+Cell run_cell(const Cell& planned, const Case& definition, const Engine& engine, const Settings& settings,
+              const Truth* truth, double largest_kinetic_energy, const std::string& folder) {
+  Cell cell = planned;
+  const Scene& scene = definition.scene;
+  const double velocity_lag = method_of(engine.info(), settings).velocity_lag;
+  const Simulation run = simulate(engine, settings, scene, cell.dt.seconds, definition.duration);
+  cell.settings = run.settings, cell.cpu_seconds = run.cpu_seconds;
+  cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag);
+  TruthSamples samples;
+  if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
+  const JudgedRun judged{scene, run.trajectory, truth ? &samples : nullptr, velocity_lag};
+  for (const MetricRow& metric : metrics())
+    cell.metrics[metric.name] = condensed(metric.measure(judged), run.trajectory);
+  conclude(cell, run, scene);
+  if (!folder.empty()) {
+    write_trajectory((std::filesystem::path(folder) / cell.trajectory).string(), scene, run.trajectory);
+  }
+  return cell;
+}
+
+void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
+              const Channel& channel) {
+  const Case& definition = planned.definition;
+  const auto truth = make_truth(definition.truth, definition.scene, definition.duration);
+  const TruthFacts facts = facts_of(definition, truth.get());
+  channel.send(message_of_truth(facts));
+  CaseJobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy).run(channel);
+}
+
+}  // namespace rigor

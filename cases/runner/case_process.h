@@ -1,0 +1,18 @@
+// What happens inside the process of one case: the truth is made, then each cell is run and judged in a child of its
+// own, which inherits the truth. Results go to the grid's process as messages (cases/report/result_json.h).
+#pragma once
+
+#include "cases/runner/grid.h"
+#include "cases/runner/process_pool.h"
+
+namespace rigor {
+
+void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
+              const Channel& channel);
+
+// Simulates and judges one cell: everything but its gates. `truth` may be null. Writes the trajectory below
+// options.folder if the cell has a name for it.
+Cell run_cell(const Cell& planned, const Case& definition, const Engine& engine, const Settings& settings,
+              const Truth* truth, double largest_kinetic_energy, const std::string& folder);
+
+}  // namespace rigor

@@ -1,0 +1,159 @@
+#include "cases/runner/grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "cases/report/result_json.h"
+#include "cases/runner/case_process.h"
+#include "cases/runner/process_pool.h"
+#include "core/error.h"
+
+namespace rigor {
+namespace {
+
+void check_steps(const Case& definition, const StepSize& dt) {
+  constexpr double kMostSteps = 1e9;  // hours of computing; and far from where a step count overflows
+  const double steps = definition.duration / dt.seconds;
+  if (dt.seconds > definition.duration * (1 + 1e-9)) {
+    throw InputError(
+        fmt::format("{}: a step of {} s is longer than the run of {:g} s; dt has to be at most the duration",
+                    definition.id, dt.text, definition.duration));
+  }
+  if (!(steps <= kMostSteps)) {
+    throw InputError(fmt::format("{}: steps of {} s would be {:.3g} of them in {:g} s; at most {:g} are allowed",
+                                 definition.id, dt.text, steps, definition.duration, kMostSteps));
+  }
+}
+
+// Letters, digits, dot and hyphen stay; a slash becomes a hyphen, all else an underscore. Of a long text the end stays.
+std::string safe_name(std::string text) {
+  constexpr std::size_t kLongest = 80;  // three parts must fit into a file system's 255 bytes
+  for (char& c : text) {
+    const bool is_plain =
+        (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '-';
+    if (!is_plain) c = c == '/' ? '-' : '_';
+  }
+  return text.size() > kLongest ? text.substr(text.size() - kLongest) : text;
+}
+
+// A name of its own for every cell's trajectory, however alike the names it is made of.
+void name_trajectories(Results& grid) {
+  std::set<std::string> taken;
+  for (CaseResult& result : grid.cases) {
+    for (Cell& cell : result.cells) {
+      const std::string stem = fmt::format("{}--{}--{}", safe_name(result.definition.id),
+                                           safe_name(grid.runs[cell.run].text), safe_name(cell.dt.text));
+      std::string name = stem + ".csv";
+      for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}--{}.csv", stem, n);
+      if (cell.status != Status::unsupported) cell.trajectory = name;
+    }
+  }
+}
+
+CaseResult plan_case(const Case& definition, const Results& grid, const EngineTable& engines, bool stable_steps) {
+  CaseResult result;
+  result.definition = definition;
+  for (std::size_t run = 0; run < grid.runs.size(); ++run) {
+    const EngineInfo info = find_engine(engines, grid.runs[run].engine).info();
+    double shortest = definition.duration;
+    for (const StepSize& dt : definition.dt) {
+      Cell cell;
+      cell.run = run, cell.dt = dt;
+      const std::string why = why_unsupported(info, definition.scene, dt.seconds);
+      if (!why.empty()) cell.status = Status::unsupported, cell.reason = why;
+      result.cells.push_back(cell);
+      shortest = std::min(shortest, dt.seconds);
+    }
+    StableStepResult stable;
+    const std::string why = why_unsupported(info, definition.scene, shortest);
+    if (!why.empty() || !stable_steps) {
+      stable.status = Status::unsupported, stable.reason = why.empty() ? "not asked for" : why;
+    }
+    result.stable_steps.push_back(stable);
+  }
+  return result;
+}
+
+std::size_t cells_to_run(const Results& grid) {
+  std::size_t count = 0;
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) count += cell.status != Status::unsupported;
+    for (const StableStepResult& stable : result.stable_steps) count += stable.status != Status::unsupported;
+  }
+  return count;
+}
+
+// Why the case's own process came to no good end: then no cell of it can be trusted that has not been heard of.
+void note_case_end(CaseResult& result, const JobEnd& end, double limit) {
+  if (end.how == Ending::finished) return;
+  const bool is_input = end.how == Ending::refused;
+  const std::string what = is_input ? result.definition.truth_where + ": " : "the truth of this case was not found: ";
+  result.error = what + sentence_of(end, limit);
+  result.error_is_input = is_input;
+  const Status status = is_input ? Status::invalid : end.how == Ending::timed_out ? Status::timed_out : Status::crashed;
+  const auto give_up = [&](Status& of, std::string& reason) {
+    if (of == Status::crashed && reason == Cell().reason) of = status, reason = result.error;
+  };
+  for (Cell& cell : result.cells) give_up(cell.status, cell.reason);
+  for (StableStepResult& stable : result.stable_steps) give_up(stable.status, stable.reason);
+}
+
+}  // namespace
+
+void override_run(Case& definition, const Overrides& overrides) {
+  if (overrides.duration) definition.duration = *overrides.duration;
+  if (!overrides.dt.empty()) definition.dt = overrides.dt;
+  for (const StepSize& dt : definition.dt) check_steps(definition, dt);
+}
+
+std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines) {
+  std::vector<RunName> runs;
+  for (const EngineInfo& engine : engines) {
+    if (engine.name == "core") {
+      for (const MethodInfo& method : engine.methods) {
+        runs.push_back(parse_run_name(engine.name + ":" + method.name, engines));
+      }
+    } else {
+      runs.push_back(parse_run_name(engine.name, engines));
+      runs.push_back(parse_run_name(engine.name + "@stock", engines));
+    }
+  }
+  return runs;
+}
+
+Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& runs, const EngineTable& engines,
+                  bool stable_steps) {
+  Results grid;
+  grid.runs = runs;
+  grid.engines = infos_of(engines);
+  for (const Case& definition : cases) grid.cases.push_back(plan_case(definition, grid, engines, stable_steps));
+  const bool is_empty =
+      std::all_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& c) { return c.cells.empty(); });
+  if (is_empty) throw InputError("nothing to run: no case, no engine or no step size is left of the selection");
+  name_trajectories(grid);
+  return grid;
+}
+
+void run_grid(Results& grid, const EngineTable& engines, const GridOptions& options,
+              const std::function<void(std::size_t done, std::size_t all)>& on_progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t all = cells_to_run(grid);
+  std::size_t done = 0;
+  std::vector<Job> jobs;
+  for (const CaseResult& result : grid.cases) {
+    jobs.push_back({[&](const Channel& channel) { run_case(grid, result, engines, options, channel); }, options.limit});
+  }
+  const auto on_message = [&](std::size_t index, const std::string& message) {
+    if (apply_message(grid.cases[index], message)) on_progress(++done, all);
+  };
+  const auto on_end = [&](std::size_t index, const JobEnd& end) {
+    note_case_end(grid.cases[index], end, options.limit);
+  };
+  run_jobs(jobs, 1, on_message, on_end);
+  grid.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace rigor

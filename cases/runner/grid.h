@@ -1,0 +1,43 @@
+// The grid: cases × engines × step sizes, known whole before anything runs, so that a cell that did not run is missed.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/engines.h"
+#include "cases/runner/results.h"
+
+namespace rigor {
+
+// What the command line changes in the cases as written.
+struct Overrides {
+  std::vector<StepSize> dt;        // empty: each case's own
+  std::optional<double> duration;  // s
+};
+
+// Throws InputError for a step longer than the run, or so short that the run would never end.
+void override_run(Case& definition, const Overrides& overrides);
+
+// Every method of the in-house core, and every other engine on both tracks.
+std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines);
+
+struct GridOptions {
+  int jobs = 1;              // children at once
+  double limit = 60;         // s of wall time, for each cell, each stable step and each truth
+  std::string folder;        // where the trajectories go; empty: nowhere
+  bool stable_steps = true;  // find the largest stable dt as well
+};
+
+// All cells, none of which has run; those an engine cannot run are `unsupported` already. Throws InputError if there
+// are none.
+Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& runs, const EngineTable& engines,
+                  bool stable_steps);
+
+// Runs it and fills it in. One child process a case makes the truth and forks the case's cells, which inherit it; a
+// truth that hangs, throws or crashes so costs one case. `on_progress` is called as cells end.
+void run_grid(Results& grid, const EngineTable& engines, const GridOptions& options,
+              const std::function<void(std::size_t done, std::size_t all)>& on_progress);
+
+}  // namespace rigor

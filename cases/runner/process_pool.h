@@ -1,0 +1,52 @@
+// Runs jobs in forked children, so that a job's abort, endless loop or corrupted memory costs that job alone. A child
+// talks to its parent in framed messages through a pipe; whatever it prints is caught, and its last line kept.
+// The parent stays single-threaded (fork without exec is safe only then) and waits in poll. Children die with it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rigor {
+
+// The child's end of the pipe.
+class Channel {
+ public:
+  explicit Channel(int descriptor) : descriptor_(descriptor) {}
+  void send(const std::string& message) const { send_frame('m', message); }
+  void send_frame(char kind, const std::string& text) const;
+
+ private:
+  int descriptor_;
+};
+
+struct Job {
+  std::function<void(const Channel&)> work;  // runs in the child
+  double limit;                              // s, wall time until its first message; none after that
+};
+
+// finished: `work` returned. refused: it threw InputError. threw: another exception. killed: by a signal.
+// exited: the child left, without a word, by exit(). timed_out: no message within the limit.
+enum class Ending { finished, refused, threw, killed, exited, timed_out };
+
+struct JobEnd {
+  Ending how = Ending::exited;
+  int code = 0;            // the signal, or the exit code
+  std::string text;        // what was thrown
+  std::string last_words;  // the last line the child printed
+};
+
+// "killed by SIGABRT (abort); its last words: ...", for whatever is not `finished`.
+std::string sentence_of(const JobEnd& end, double limit);
+
+// SIGINT, SIGTERM or SIGHUP arrived while jobs ran; the children are gone.
+struct Interrupted {
+  int signal;
+};
+
+// At most `at_once` children at a time, started in order. Throws Interrupted. on_end is called once for every job.
+void run_jobs(const std::vector<Job>& jobs, int at_once,
+              const std::function<void(std::size_t job, const std::string& message)>& on_message,
+              const std::function<void(std::size_t job, const JobEnd& end)>& on_end);
+
+}  // namespace rigor
