@@ -17,10 +17,10 @@
 namespace rigor {
 namespace {
 
-constexpr double kBlownUp = 10;                             // times the largest kinetic energy
-constexpr double kDrifting = 0.01;                          // of the largest kinetic energy
-constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
-constexpr double kStepPrecision = 1.01;                     // 1 %
+constexpr double kBlownUp = 10;                                                      // times the largest kinetic energy
+constexpr double kDrifting = 0.01;                                                   // of the largest kinetic energy
+constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;                           // s, tried
+constexpr double kBisectionPrecision = 1.01, kScanSpacing = 1.02, kScanDepth = 0.7;  // ratios of steps
 
 // Every body sped up straight by gravity and the timed forces on it, and what the springs store on top.
 double most_kinetic_energy_from(const Scene& scene, double duration) {
@@ -148,6 +148,8 @@ double largest_kinetic_energy(const Scene& scene, const Truth* truth, double dur
   return largest > 0 ? largest : most_kinetic_energy_from(scene, duration);
 }
 
+// The border is not sharp: past the first step that blows up, others hold again. So the bisection's answer is checked
+// against the steps below it, and moved below every one of them that blows up.
 StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
                              double largest_kinetic_energy) {
   const auto stable = [&](double dt) { return survives(engine, settings, scene, dt, horizon, largest_kinetic_energy); };
@@ -159,9 +161,12 @@ StableStep largest_stable_dt(const Engine& engine, const Settings& settings, con
     if (unstable <= kSmallestStep) return {kSmallestStep, false, true};
     good = std::max(kSmallestStep, 0.5 * unstable);
   } while (!stable(good));
-  while (unstable > kStepPrecision * good) {
+  while (unstable > kBisectionPrecision * good) {
     const double middle = std::sqrt(unstable * good);
     (stable(middle) ? good : unstable) = middle;
+  }
+  for (double dt = good / kScanSpacing; dt > kScanDepth * good; dt /= kScanSpacing) {
+    if (!stable(dt)) good = dt / kScanSpacing;
   }
   return {good, false, false};
 }
