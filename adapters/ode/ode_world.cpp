@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "adapters/ode/ode_library.h"
 #include "adapters/option_values.h"
@@ -10,7 +12,15 @@
 namespace rigor {
 namespace {
 
+// m/s, rad/s, N and N m. No motion has such numbers; soon after, ODE would find one that is not finite and abort the
+// process.
+constexpr double kRunaway = 1e50;
+
 Vec3 vector_of(const dReal* v) { return {v[0], v[1], v[2]}; }
+
+bool is_runaway(const dReal* v) {  // true for "not a number", too
+  return !(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < kRunaway * kRunaway);
+}
 
 // ODE's quaternion is (w, x, y, z), body to world, as ours.
 void copy_to(const Quat& q, dQuaternion out) { out[0] = q.w(), out[1] = q.x(), out[2] = q.y(), out[3] = q.z(); }
@@ -110,11 +120,23 @@ void OdeWorld::add_geometry(const Body& body, dBodyID moving) {
 }
 
 void OdeWorld::step(double dt) {
-  if (!loads_.empty()) add_loads(dt);
+  if (!lost_ && !loads_.empty()) add_loads(dt);
+  if (!lost_) advance(dt);
+  clock_.advance(dt);
+  if (!lost_) lost_ = runs_away();
+  if (lost_) complaint_ = fmt::format("a speed or force passed {:g}: ODE was stopped before it would abort", kRunaway);
+}
+
+bool OdeWorld::runs_away() const {
+  return std::any_of(bodies_.begin(), bodies_.end(), [](dBodyID body) {
+    return body && (is_runaway(dBodyGetLinearVel(body)) || is_runaway(dBodyGetAngularVel(body)));
+  });
+}
+
+void OdeWorld::advance(double dt) {
   if (can_touch_) find_contacts();
   const int done = quick_ ? quick_step(dt) : dWorldStep(world_, dt);
   if (can_touch_) dJointGroupEmpty(contacts_);
-  clock_.advance(dt);
   complaint_ = ode_library::take_messages();
   if (!done) complaint_ = "ODE had no memory for the step";
 }
@@ -132,7 +154,9 @@ void OdeWorld::add_loads(double dt) {
   const Wrenches& wrenches = loads_.over_step(*this, dt);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i]) continue;
-    const auto& [force, torque] = wrenches[i];  // in the world frame; ODE clears both after the step
+    const auto& [force, torque] = wrenches[i];
+    if (is_runaway(force.data()) || is_runaway(torque.data())) lost_ = true;
+    // In the world frame; ODE clears both after the step.
     dBodyAddForce(bodies_[i], force.x(), force.y(), force.z());
     dBodyAddTorque(bodies_[i], torque.x(), torque.y(), torque.z());
   }
@@ -141,9 +165,16 @@ void OdeWorld::add_loads(double dt) {
 void OdeWorld::read(Snapshot& out) const {
   out.time = clock_.time();
   const MutableBodyColumns columns = out.own(bodies_.size());
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const BodyState nowhere = {Vec3::Constant(kNaN), Quat(kNaN, kNaN, kNaN, kNaN), Vec3::Constant(kNaN),
+                             Vec3::Constant(kNaN)};
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i]) {
       columns.set_body(i, standing_[i]);
+      continue;
+    }
+    if (lost_) {
+      columns.set_body(i, nowhere);
       continue;
     }
     const dReal* q = dBodyGetQuaternion(bodies_[i]);

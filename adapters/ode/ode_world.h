@@ -29,6 +29,8 @@ class OdeWorld : public World {
   void apply(const Settings& settings);
   void add_body(const Body& body, const Settings& settings);
   void add_geometry(const Body& body, dBodyID moving);
+  void advance(double dt);
+  bool runs_away() const;
   int quick_step(double dt);  // 0 if it could not
   void add_loads(double dt);
   void find_contacts();
@@ -40,6 +42,7 @@ class OdeWorld : public World {
   ContactLaws laws_;
   ExternalLoads loads_;
   bool can_touch_, matched_, quick_;
+  bool lost_ = false;  // blown up: from then on its state is "not a number"
   Clock clock_;
   std::string complaint_;
   unsigned long random_seed_ = 0;  // ODE's own at its start

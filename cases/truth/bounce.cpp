@@ -1,9 +1,9 @@
-// Spheres that fall along gravity onto a plane across it, bounce by bounce. With the first impact at t1 and speed u, the
-// k-th flight begins with speed u e^k and lasts 2 u e^k / g, so it begins S e (1 - e^(k-1)) / (1 - e) after t1, where
-// S = 2 u / g; at rest from S e / (1 - e) on (Zeno's limit of the geometric series).
+// Spheres that fall along gravity onto a plane across it, bounce by bounce. With the first impact at t1 and speed u,
+// the k-th flight begins with speed u e^k and lasts 2 u e^k / g, so it begins S e (1 - e^(k-1)) / (1 - e) after t1,
+// where S = 2 u / g; at rest from S e / (1 - e) on (Zeno's limit of the geometric series).
 //
-// Between impacts a sphere may drift and spin freely. Without friction nothing changes either; with infinite friction the
-// first impact stops the slip of the contact point, (v + w x r)_t = 0, and the sphere rolls on from then
+// Between impacts a sphere may drift and spin freely. Without friction nothing changes either; with infinite friction
+// the first impact stops the slip of the contact point, (v + w x r)_t = 0, and the sphere rolls on from then
 // (Goldsmith, Impact, 1960, section 2.1).
 #include <fmt/format.h>
 
@@ -35,8 +35,8 @@ class VerticalBounce {
   VerticalBounce(Height start, double gravity, double restitution) : start_(start), g_(gravity), e_(restitution) {
     impact_speed_ = std::sqrt(start.speed * start.speed + 2 * g_ * start.above);
     // The root without cancellation: rising and falling starts each have their own.
-    first_impact_ = start.speed >= 0 ? (start.speed + impact_speed_) / g_
-                                     : 2 * start.above / (impact_speed_ - start.speed);
+    first_impact_ =
+        start.speed >= 0 ? (start.speed + impact_speed_) / g_ : 2 * start.above / (impact_speed_ - start.speed);
   }
 
   double first_impact() const { return first_impact_; }  // s
@@ -74,8 +74,8 @@ struct Sideways {
 struct Ball {
   int body;
   VerticalBounce bounce;
-  double ground;  // m, height of the centre when it touches
-  Vec3 foot;      // m, the position without its height
+  double ground;           // m, height of the centre when it touches
+  Vec3 foot;               // m, the position without its height
   Sideways before, after;  // the first impact
 };
 
@@ -194,10 +194,11 @@ class Bounce final : public Truth {
     const Height height = ball.bounce.at(t);
     const double impact = ball.bounce.first_impact(), before = std::min(t, impact), after = t - before;
     const Sideways& now = t < impact ? ball.before : ball.after;
-    return {ball.foot + (ball.ground + height.above) * up_ + before * ball.before.velocity + after * ball.after.velocity,
-            rotation_by(after * ball.after.angular_velocity) * rotation_by(before * ball.before.angular_velocity) *
-                scene_.bodies[ball.body].orientation,
-            height.speed * up_ + now.velocity, now.angular_velocity};
+    return {
+        ball.foot + (ball.ground + height.above) * up_ + before * ball.before.velocity + after * ball.after.velocity,
+        rotation_by(after * ball.after.angular_velocity) * rotation_by(before * ball.before.angular_velocity) *
+            scene_.bodies[ball.body].orientation,
+        height.speed * up_ + now.velocity, now.angular_velocity};
   }
 
   Scene scene_;

@@ -1,5 +1,5 @@
-// The equations that the reference solves: Newton-Euler under gravity, springs, dampers and timed forces, for any number
-// type. Written apart from core/dynamics on purpose, so that a mistake there cannot hide in the truth.
+// The equations that the reference solves: Newton-Euler under gravity, springs, dampers and timed forces, for any
+// number type. Written apart from core/dynamics on purpose, so that a mistake there cannot hide in the truth.
 //
 // A moving body has 13 numbers: p_WB, q (w, x, y, z), v_W, and then either w_B or L_W:
 //   body_rates:  I w' = R^T torque - w x I w,   q' = 1/2 q (0, w_B)
@@ -39,9 +39,9 @@ class EquationsOfMotion {
     for (const int i : moving_) {
       const Body& body = scene_.bodies[i];
       Real* s = &state[slot_[i]];
-      const Eigen::Matrix<Real, 4, 1> q =
-          Eigen::Matrix<Real, 4, 1>(body.orientation.w(), body.orientation.x(), body.orientation.y(),
-                                    body.orientation.z()).normalized();
+      const Eigen::Matrix<Real, 4, 1> q = Eigen::Matrix<Real, 4, 1>(body.orientation.w(), body.orientation.x(),
+                                                                    body.orientation.y(), body.orientation.z())
+                                              .normalized();
       const Matrix R = rotation_of(q.data());
       const Vector w_B = R.transpose() * body.angular_velocity.template cast<Real>();
       put(s, body.position.template cast<Real>());
@@ -83,7 +83,7 @@ class EquationsOfMotion {
     Vector position = Vector::Zero(), velocity = Vector::Zero();  // in W
     Vector w = Vector::Zero();                                    // in W
     Matrix R = Matrix::Identity();
-    Vector force = Vector::Zero(), torque = Vector::Zero();       // in W, about the centre of mass
+    Vector force = Vector::Zero(), torque = Vector::Zero();  // in W, about the centre of mass
   };
 
   static Vector get(const Real* s) { return {s[0], s[1], s[2]}; }

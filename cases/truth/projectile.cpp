@@ -22,7 +22,8 @@ void check_spin(const Body& body) {
   if (torque.norm() <= kRoundings * kEpsilon * w.squaredNorm() * body.inertia.norm()) return;
   throw InputError(fmt::format(
       "the truth 'projectile' needs a constant spin, about a principal axis of the inertia; body '{}' would tumble "
-      "(take 'reference')", body.name));
+      "(take 'reference')",
+      body.name));
 }
 
 class Projectile final : public Truth {

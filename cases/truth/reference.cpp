@@ -1,8 +1,8 @@
 // The motion of any smooth scene, solved twice in extended precision: by Fehlberg's Runge-Kutta pair of order 8(7) with
 // body rates, and by Gragg-Bulirsch-Stoer extrapolation with angular momenta, at a looser tolerance (Hairer, Nørsett,
-// Wanner, Solving Ordinary Differential Equations I, sections II.5 and II.9). The first is the truth; how far the second
-// is from it is its error. Both go from one switch of a timed force to the next, so that no step straddles a jump.
-// Between two nodes the state is one step of order 8 from the earlier one: there is no interpolation error.
+// Wanner, Solving Ordinary Differential Equations I, sections II.5 and II.9). The first is the truth; how far the
+// second is from it is its error. Both go from one switch of a timed force to the next, so that no step straddles a
+// jump. Between two nodes the state is one step of order 8 from the earlier one: there is no interpolation error.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,16 +29,16 @@ using State = std::vector<Real>;
 // Relative and absolute, per step: a few and some twenty roundings of a long double. Extrapolation magnifies roundings,
 // so that below that its steps would shrink without end.
 constexpr Real kTolerance = 4e-19L, kSecondTolerance = 2e-18L;
-constexpr Real kFirstStep = 1e-4L;      // s
+constexpr Real kFirstStep = 1e-4L;  // s
 constexpr std::size_t kMostTries = 2'000'000;
-constexpr double kMostBytes = 512e6;    // of nodes
+constexpr double kMostBytes = 512e6;  // of nodes
 
 // The accepted steps of one solution, rounded to double.
 struct Nodes {
   std::vector<Real> times;     // s
   std::vector<double> states;  // `dimension` numbers each
   std::size_t dimension = 0;
-  bool complete = false;       // reaches the end; if not, the motion was not smooth there
+  bool complete = false;  // reaches the end; if not, the motion was not smooth there
 
   void add(Real t, const State& state) {
     times.push_back(t);
@@ -97,8 +97,8 @@ Nodes solve(const EquationsOfMotion<Real>& motion, const Stepper& stepper, const
 double distance(BodyColumns a, BodyColumns b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = std::max({largest, (a.position(i) - b.position(i)).norm(),
-                        angle_between(a.orientation(i), b.orientation(i))});
+    largest =
+        std::max({largest, (a.position(i) - b.position(i)).norm(), angle_between(a.orientation(i), b.orientation(i))});
   }
   return largest;
 }
@@ -114,14 +114,14 @@ class Reference final : public Truth {
   Reference(const Scene& scene, double duration) : bodies_(scene.bodies.size()), motion_(scene, kTruthsForm) {
     const std::vector<double> switches = switch_times(scene, duration);
     const EquationsOfMotion<Real> motion(scene, kTruthsForm), second_motion(scene, Formulation::momentum);
-    nodes_ = solve(motion,
-                   odeint::make_controlled(kTolerance, kTolerance,
-                                           odeint::runge_kutta_fehlberg78<State, Real, State, Real>()),
-                   switches);
-    estimate_error(second_motion,
-                   solve(second_motion,
-                         odeint::bulirsch_stoer<State, Real, State, Real>(kSecondTolerance, kSecondTolerance),
-                         switches));
+    nodes_ = solve(
+        motion,
+        odeint::make_controlled(kTolerance, kTolerance, odeint::runge_kutta_fehlberg78<State, Real, State, Real>()),
+        switches);
+    estimate_error(
+        second_motion,
+        solve(second_motion, odeint::bulirsch_stoer<State, Real, State, Real>(kSecondTolerance, kSecondTolerance),
+              switches));
   }
 
   void at(double t, MutableBodyColumns out) const override {
@@ -171,8 +171,9 @@ class Reference final : public Truth {
 std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
   for (const Need& need : needs_of(scene)) {
     if (need.feature == "fixed-body" || need.feature == "spring" || need.feature == "timed-force") continue;
-    throw InputError(fmt::format("the truth 'reference' is for smooth scenes, without contacts and joints; this one has {}: {}",
-                                 need.feature, need.because));
+    throw InputError(
+        fmt::format("the truth 'reference' is for smooth scenes, without contacts and joints; this one has {}: {}",
+                    need.feature, need.because));
   }
   return std::make_unique<Reference>(scene, duration);
 }

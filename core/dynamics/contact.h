@@ -19,6 +19,11 @@ class Contact {
   virtual void resolve(MutableBodyColumns state) = 0;
 };
 
+// For methods whose step cannot be opened: resolves the velocities as the loads at its start would leave them at its
+// end, so that a body at rest stays at rest, and hands them back without those loads.
+void resolve_ahead(Contact& contact, const System& system, const Wrenches& wrenches, double dt,
+                   MutableBodyColumns state);
+
 struct ContactMethod {
   std::string name;
   std::string summary;

@@ -14,14 +14,16 @@ Vec3 point_in_world(BodyColumns bodies, int body, const Vec3& point) {
 
 }  // namespace
 
+double kinetic_energy_of(const Scene& scene, BodyColumns bodies, std::size_t i) {
+  const Body& body = scene.bodies[i];
+  if (body.fixed) return 0;
+  const Vec3 w = bodies.angular_velocity(i);
+  return 0.5 * body.mass * bodies.velocity(i).squaredNorm() + 0.5 * w.dot(inertia_in_world(body, bodies, i) * w);
+}
+
 double kinetic_energy(const Scene& scene, BodyColumns bodies) {
   double sum = 0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.fixed) continue;
-    const Vec3 w = bodies.angular_velocity(i);
-    sum += 0.5 * body.mass * bodies.velocity(i).squaredNorm() + 0.5 * w.dot(inertia_in_world(body, bodies, i) * w);
-  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) sum += kinetic_energy_of(scene, bodies, i);
   return sum;
 }
 

@@ -1,153 +1,13 @@
 // What every engine promises at the seam, whichever it is: one test over the table of engines, their methods and
 // tracks.
-#include <boost/test/unit_test.hpp>
-#include <cstring>
-#include <functional>
-#include <numbers>
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
-#include "adapters/engines.h"
 #include "core/dynamics/loads.h"
-#include "core/engine/run_name.h"
+#include "tests/adapters/seam_runs.h"
 
 using namespace rigor;
-
-namespace {
-
-struct Run {
-  const Engine* engine;
-  EngineInfo info;
-  Settings settings;
-
-  std::string name() const {
-    return info.name + ":" + settings.method + (settings.track == Track::matched ? "@matched" : "@stock");
-  }
-  const MethodInfo& method() const { return method_of(info, settings); }
-  std::unique_ptr<World> load(const Scene& scene) const { return engine->load(scene, settings); }
-  bool supports(const Scene& scene, double dt) const { return why_unsupported(info, scene, dt).empty(); }
-};
-
-std::vector<Run> all_runs() {
-  std::vector<Run> runs;
-  for (const auto& engine : engines()) {
-    const EngineInfo info = engine->info();
-    for (const MethodInfo& method : info.methods) {
-      for (const Track track : {Track::matched, Track::stock})
-        runs.push_back({engine.get(), info, {method.name, {}, track}});
-    }
-  }
-  return runs;
-}
-
-// Calls the check for each run that supports the scene; at least one must, or the test has shown nothing.
-void for_each_run(const Scene& scene, double dt, const std::function<void(const Run&)>& check) {
-  int checked = 0;
-  for (const Run& run : all_runs()) {
-    if (!run.supports(scene, dt)) continue;
-    BOOST_TEST_CONTEXT(run.name()) check(run);
-    ++checked;
-  }
-  BOOST_TEST(checked > 0, "no engine supports the scene");
-}
-
-BodyTable state_of(const World& world) {
-  Snapshot snapshot;
-  world.read(snapshot);
-  return BodyTable(snapshot.bodies());
-}
-
-BodyTable state_after(World& world, double dt, int steps) {
-  for (int i = 0; i < steps; ++i) world.step(dt);
-  return state_of(world);
-}
-
-bool same_bits(const BodyTable& a, const BodyTable& b) {
-  if (a.size() != b.size() || a.has_rotation() != b.has_rotation()) return false;
-  for (int c = 0; c < (a.has_rotation() ? 22 : 13); ++c) {
-    if (std::memcmp(a.columns().column(c), b.columns().column(c), a.size() * sizeof(double)) != 0) return false;
-  }
-  return true;
-}
-
-Mat3 full_inertia() {
-  Mat3 inertia;
-  inertia << 2.0, 0.3, -0.2, 0.3, 2.5, 0.1, -0.2, 0.1, 3.0;
-  return inertia;
-}
-
-Body moving_body() {
-  Body body;
-  body.name = "body";
-  body.mass = 3;
-  body.position = {1, -2, 3};
-  body.orientation = Quat(0.1, 0.5, -0.3, 0.8).normalized();
-  body.velocity = {0.4, -0.1, 0.7};
-  body.angular_velocity = {0.3, 0.9, -0.5};
-  return body;
-}
-
-Scene scene_of(Body body, const Vec3& gravity = Vec3::Zero()) {
-  Scene scene;
-  scene.gravity = gravity;
-  scene.bodies = {std::move(body)};
-  return scene;
-}
-
-// The course's cube, hung off-centre from the world by a spring.
-Scene hanging_cube() {
-  Body cube;
-  cube.name = "cube";
-  cube.mass = 100;
-  cube.position = {0, 0.5, 0};
-  Scene scene = scene_of(cube, {0, -9.8, 0});
-  scene.springs = {{.a = kWorld,
-                    .b = 0,
-                    .point_a = {.12, 2, .12},
-                    .point_b = {.12, .12, .12},
-                    .stiffness = 1e4,
-                    .damping = 20,
-                    .rest_length = 1.38}};
-  return scene;
-}
-
-Body ground(const Vec3& normal) {
-  Body body;
-  body.name = "ground";
-  body.shape = Plane{normal, 0};
-  body.fixed = body.collides = true;
-  return body;
-}
-
-Body solid(const std::string& name, const Shape& shape, const Vec3& position) {
-  Body body;
-  body.name = name;
-  body.mass = 2;
-  body.shape = shape;
-  if (!std::holds_alternative<Plane>(shape)) body.inertia = inertia_of(shape, body.mass);
-  body.position = position;
-  body.collides = true;
-  return body;
-}
-
-// Spheres that fall onto the ground and each other.
-Scene small_pile() {
-  Scene scene;
-  scene.gravity = {0, 0, -9.81};
-  for (int i = 0; i < 12; ++i) {
-    const Vec3 position(0.15 * (i % 2) + 0.01 * i, 0.15 * (i / 2 % 2), 0.2 + 0.25 * (i / 4));
-    scene.bodies.push_back(solid("ball " + std::to_string(i), Sphere{0.1}, position));
-  }
-  scene.bodies.push_back(ground({0, 0, 1}));
-  scene.contact_default = {0.3, 0.5};
-  return scene;
-}
-
-Scene top() {
-  Body body = moving_body();
-  body.inertia = full_inertia();
-  return scene_of(body, {0, 0, -9.81});
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_SUITE(adapters_seam_contract)
 
@@ -376,8 +236,9 @@ BOOST_AUTO_TEST_CASE(a_spring_off_the_centre_converges_to_the_reference) {
     const double coarse = error_at(2000), fine = error_at(4000);
     // Halving the step halves the error at least, by 2^order less a tenth for the next term; 1e-9 m is the reference's.
     BOOST_TEST(fine < coarse / (0.9 * std::pow(2, run.method().order)) + 1e-9);
-    // A first-order step is off by about dt x (speed of 3 m/s); measured: 0.031 m at 1/30 for a semi-implicit step.
-    BOOST_TEST(coarse < 3.0 / 2000);
+    // A first-order step is off by about dt x (speed of 3 m/s); measured: 0.031 m at 1/30 for a semi-implicit step. An
+    // explicit one also swells: with the stiffest mode near 20 rad/s, by exp(w² dt/2) = 1.1 in a second.
+    BOOST_TEST(coarse < 5.0 / 2000);
   });
 }
 
@@ -417,79 +278,20 @@ BOOST_AUTO_TEST_CASE(the_motion_does_not_depend_on_the_choice_of_the_body_frame)
   });
 }
 
-namespace {
-
-struct Resting {
-  Shape above, below;
-  double height;  // m, of the upper body's centre when it rests, the lower one's centre (or plane) being at 0
-};
-
-// Each pair of shapes, the lower one fixed, the upper one balanced above it.
-std::vector<Resting> resting_pairs() {
-  const Sphere sphere{0.5};
-  const Box box{{1, 1, 1}};
-  const Capsule capsule{0.5, 1};  // stands upright: half its length plus its radius is 1
-  const Plane plane{{0, 0, 1}, 0};
-  return {{sphere, plane, 0.5},   {box, plane, 0.5},      {capsule, plane, 1}, {box, box, 1},
-          {sphere, box, 1},       {capsule, box, 1.5},    {box, sphere, 1},    {sphere, sphere, 1},
-          {capsule, sphere, 1.5}, {sphere, capsule, 1.5}, {box, capsule, 1.5}, {capsule, capsule, 2}};
-}
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
-  const double dt = 1.0 / 240, drop = 0.05, g = 9.81;
-  std::set<std::string> rested;
-  for (const Resting& pair : resting_pairs()) {
-    Scene scene;
-    scene.gravity = {0, 0, -g};
-    scene.bodies = {solid("above", pair.above, {0, 0, pair.height + drop}), solid("below", pair.below, Vec3::Zero())};
-    scene.bodies[1].fixed = true;
-    scene.contact_default = {0, kInfiniteFriction};
-    const std::string feature = contact_feature(shape_name(pair.above), shape_name(pair.below));
-    for (const Run& run : all_runs()) {
-      if (!run.supports(scene, dt)) continue;
-      BOOST_TEST_CONTEXT(run.name() << " " << feature) {
-        const auto world = run.load(scene);
-        const BodyState found = state_after(*world, dt, 480).columns().body(0);
-        // As deep as it can sink in the one step before the contact is seen, if the engine does not push it out again.
-        const double deepest = std::sqrt(2 * g * drop) * dt;
-        BOOST_TEST(std::abs(found.position.z() - pair.height) < deepest);
-        BOOST_TEST(found.velocity.norm() < g * dt);  // at rest but for one step's fall
-      }
-      rested.insert(run.info.name + " " + feature);
-    }
+BOOST_AUTO_TEST_CASE(a_scene_that_blows_up_ends_in_numbers_that_are_not_finite_and_not_in_an_abort) {
+  for (const double stiffness : {1e12, 1e300}) {
+    Scene scene = hanging_cube();
+    scene.springs[0].stiffness = stiffness;
+    scene.springs[0].rest_length = 1;
+    for_each_run(scene, 1.0 / 30, [&](const Run& run) {
+      // Far beyond its limit, omega dt = 2, a semi-implicit step multiplies the motion; an implicit one need not.
+      if (run.method().velocity_lag != 0.5) return;
+      const auto world = run.load(scene);
+      const BodyTable end = state_after(*world, 1.0 / 30, 2000);
+      const Vec3 position = end.columns().position(0);
+      BOOST_TEST((!position.allFinite() || position.norm() > 1e3));
+    });
   }
-  for (const EngineInfo& info : infos_of(engines())) {
-    for (const std::string& feature : info.features) {
-      if (feature.starts_with("contact:"))
-        BOOST_TEST(rested.contains(info.name + " " + feature), info.name + " " + feature);
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(each_pair_of_bodies_follows_its_own_law) {
-  Scene scene;
-  scene.gravity = {0, -9.8, 0};
-  scene.bodies = {solid("dead", Sphere{0.1}, {0, 0.6, 0}), solid("lively", Sphere{0.1}, {2, 0.6, 0}),
-                  ground({0, 1, 0})};
-  scene.contact_pairs = {{0, 2, {0, kInfiniteFriction}}, {2, 1, {0.8, kInfiniteFriction}}};
-  for_each_run(scene, 1e-3, [&](const Run& run) {
-    if (run.settings.track != Track::matched) return;  // as shipped Bullet brakes a body before its bounce
-    const auto world = run.load(scene);
-    double dead = 0, lively = 0;  // m/s, fastest upwards
-    for (int i = 0; i < 500; ++i) {
-      world->step(1e-3);
-      const BodyTable state = state_of(*world);
-      dead = std::max(dead, state.columns().velocity(0).y()),
-      lively = std::max(lively, state.columns().velocity(1).y());
-    }
-    const double impact = std::sqrt(2 * 9.8 * 0.5);  // 3.13 m/s, on falling half a metre
-    BOOST_TEST(std::abs(lively - 0.8 * impact) <
-               0.02 * impact);  // the step in which it hits is worth 9.8e-3 m/s or 0.3 %
-    // ODE pushes the sunken sphere out at erp x depth / dt: 0.2 x (3.13 m/s x 1 ms) / 1 ms = 0.63 m/s.
-    BOOST_TEST(dead < 0.21 * impact);
-  });
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -31,11 +31,14 @@ class ImplicitMidpoint : public Stepper {
   explicit ImplicitMidpoint(const StepperParts& parts) : parts_(parts), newton_(parts.system.size()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
+    if (parts_.contact) {
+      parts_.system.wrenches(state, t, dt, wrenches_);
+      resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
+    }
     start_ = BodyColumns(state);
     middle_ = BodyColumns(state);
     solve_for_middle(t, dt);
     for (std::size_t i = 0; i < state.size(); ++i) finish(state, i, dt);
-    if (parts_.contact) parts_.contact->resolve(state);
   }
 
   std::string complaint() const override { return complaint_; }
@@ -128,13 +131,14 @@ class ImplicitMidpoint : public Stepper {
 
   void finish(MutableBodyColumns state, std::size_t i, double dt) const {
     const Inertia& body = parts_.system.bodies[i];
+    if (body.fixed) return;
     const BodyColumns start = start_.columns(), middle = middle_.columns();
     const Vec3 v = middle.velocity(i), w = middle.angular_velocity(i);
     const Vec3 L = 2 * angular_momentum_of(body, middle.rotation(i), w) -
                    angular_momentum_of(body, start.rotation(i), start.angular_velocity(i));
     state.set_position(i, start.position(i) + dt * v);
     state.set_velocity(i, 2 * v - start.velocity(i));
-    if (!body.fixed) state.set_orientation(i, (rotation_by(dt * w) * start.orientation(i)).normalized());
+    state.set_orientation(i, (rotation_by(dt * w) * start.orientation(i)).normalized());
     state.set_angular_velocity(i, angular_velocity_of(body, state.rotation(i), L));
   }
 

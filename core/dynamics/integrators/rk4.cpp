@@ -24,6 +24,10 @@ class Rk4 : public Stepper {
       : parts_(parts), start_(parts.system.size()), sum_(parts.system.size()), stage_(parts.system.size()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
+    if (parts_.contact) {
+      parts_.system.wrenches(state, t, dt, wrenches_);
+      resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
+    }
     for (std::size_t i = 0; i < state.size(); ++i) start_[i] = motion_of(state, i);
     constexpr std::array<double, 4> kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
     constexpr std::array<double, 4> kNextStage = {0.5, 0.5, 1, 0};
@@ -39,8 +43,9 @@ class Rk4 : public Stepper {
         write(next, i, stage_.columns());
       }
     }
-    for (std::size_t i = 0; i < state.size(); ++i) write(sum_[i], i, state);
-    if (parts_.contact) parts_.contact->resolve(state);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      if (!parts_.system.bodies[i].fixed) write(sum_[i], i, state);
+    }
   }
 
  private:

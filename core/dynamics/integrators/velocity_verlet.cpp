@@ -43,13 +43,15 @@ Quat rotate_freely(const RotationSplitting& s, const Quat& q_WB, const Vec3& L, 
 
 class VelocityVerlet : public Stepper {
  public:
-  explicit VelocityVerlet(const StepperParts& parts) : parts_(parts), momenta_(parts.system.size()) {
+  explicit VelocityVerlet(const StepperParts& parts) : parts_(parts) {
     for (const Inertia& body : parts.system.bodies) splittings_.push_back(splitting_of(body));
   }
 
   void step(MutableBodyColumns state, double t, double dt) override {
     parts_.system.wrenches(state, t, dt, wrenches_);
-    for (std::size_t i = 0; i < state.size(); ++i) kick_and_drift(state, i, dt);
+    for (std::size_t i = 0; i < state.size(); ++i) kick(state, i, dt);
+    if (parts_.contact) parts_.contact->resolve(state);
+    for (std::size_t i = 0; i < state.size(); ++i) drift(state, i, dt);
 
     parts_.system.wrenches(state, t, dt, wrenches_);
     if (parts_.system.loads.damped()) {
@@ -58,32 +60,29 @@ class VelocityVerlet : public Stepper {
       parts_.system.wrenches(predicted_.columns(), t, dt, wrenches_);
     }
     for (std::size_t i = 0; i < state.size(); ++i) kick(state, i, dt);
-    if (parts_.contact) parts_.contact->resolve(state);
   }
 
  private:
-  void kick_and_drift(MutableBodyColumns state, std::size_t i, double dt) {
-    const Inertia& body = parts_.system.bodies[i];
-    const Vec3 v = state.velocity(i) + 0.5 * dt * body.inverse_mass * wrenches_[i].force;
-    momenta_[i] =
-        angular_momentum_of(body, state.rotation(i), state.angular_velocity(i)) + 0.5 * dt * wrenches_[i].torque;
-    state.set_velocity(i, v);
-    state.set_position(i, state.position(i) + dt * v);
-    if (!body.fixed) state.set_orientation(i, rotate_freely(splittings_[i], state.orientation(i), momenta_[i], dt));
-    state.set_angular_velocity(i, angular_velocity_of(body, state.rotation(i), momenta_[i]));
-  }
-
+  // Half a kick: w changes as L does, at the orientation of the moment.
   void kick(MutableBodyColumns state, std::size_t i, double dt) const {
     const Inertia& body = parts_.system.bodies[i];
-    const Vec3 L = momenta_[i] + 0.5 * dt * wrenches_[i].torque;
     state.set_velocity(i, state.velocity(i) + 0.5 * dt * body.inverse_mass * wrenches_[i].force);
+    const Vec3 change = angular_velocity_of(body, state.rotation(i), 0.5 * dt * wrenches_[i].torque);
+    state.set_angular_velocity(i, state.angular_velocity(i) + change);
+  }
+
+  void drift(MutableBodyColumns state, std::size_t i, double dt) const {
+    const Inertia& body = parts_.system.bodies[i];
+    if (body.fixed) return;
+    state.set_position(i, state.position(i) + dt * state.velocity(i));
+    const Vec3 L = angular_momentum_of(body, state.rotation(i), state.angular_velocity(i));
+    state.set_orientation(i, rotate_freely(splittings_[i], state.orientation(i), L, dt));
     state.set_angular_velocity(i, angular_velocity_of(body, state.rotation(i), L));
   }
 
   StepperParts parts_;
   std::vector<RotationSplitting> splittings_;
   Wrenches wrenches_;
-  std::vector<Vec3> momenta_;  // L in W after the first kick
   BodyTable predicted_;
 };
 

@@ -1,0 +1,32 @@
+// A run's energy over time beside what it should be: the ground of both energy metrics and of the verdict "drifting".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/metrics/metric.h"
+
+namespace rigor {
+
+struct EnergyCourse {
+  std::vector<double> found, expected;  // J, one for each sample compared
+  double scale = 1;                     // J, what a drift is relative to
+  std::string not_applicable;           // why there is nothing to expect; empty if there is
+};
+
+// `lag`: the velocities are first brought forward by that many steps, see synchronised.h; 0 takes them as they are
+// read.
+//
+// What is expected, the first that applies:
+//   nothing takes or gives energy                        what it was at the start
+//   a truth whose energy stays what it was               likewise (an elastic bounce, say)
+//   contact that may lose energy                         not above the lowest so far: only gains count
+//   dampers or timed forces, and a truth                 its own start plus the truth's change, up to the truth's
+//   horizon dampers                                              not above the lowest so far timed forces without a
+//   truth                         nothing
+//
+// The scale: the truth's largest kinetic energy; else the run's at the start; else the depth to which its potential
+// energy falls, which is what its motion can have come from; else 1 J, for nothing moves.
+EnergyCourse energy_course(const JudgedRun& run, double lag);
+
+}  // namespace rigor

@@ -1,0 +1,34 @@
+// (E - E_expected) / scale, from the velocities as they are read; what is expected, and the scale: energy_course.h.
+#include <cmath>
+
+#include "cases/metrics/energy_course.h"
+#include "cases/metrics/measuring.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure_with(const JudgedRun& run, double lag) {
+  const EnergyCourse energies = energy_course(run, lag);
+  if (!energies.not_applicable.empty()) return {{}, energies.not_applicable};
+  Course course;
+  for (std::size_t n = 0; n < energies.expected.size(); ++n) {
+    course.add(std::abs(energies.found[n] - energies.expected[n]) / energies.scale,
+               {run.trajectory.samples[n].time, kWorld, "energy", energies.found[n], energies.expected[n]});
+  }
+  return {std::move(course).finish(), ""};
+}
+
+}  // namespace
+
+MetricRow energy_drift() {
+  return {"energy_drift", "1", "largest deviation of the energy, as read, relative to the largest kinetic energy",
+          [](const JudgedRun& run) { return measure_with(run, 0); }};
+}
+
+MetricRow energy_drift_synchronised() {
+  return {"energy_drift_synchronised", "1",
+          "the same with the velocities brought to the positions' time: what the scheme itself loses or gains",
+          [](const JudgedRun& run) { return measure_with(run, run.velocity_lag); }};
+}
+
+}  // namespace rigor

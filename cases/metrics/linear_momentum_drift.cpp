@@ -1,0 +1,32 @@
+// P = sum m v must be P(0) + M g t + the impulses of the timed forces, where nothing holds the bodies from outside;
+// else it is held against the truth's. Absolute, so that it means the same where P(0) = 0.
+#include "cases/metrics/momentum_course.h"
+#include "core/dynamics/energy.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run) {
+  const Scene& scene = run.scene;
+  const MomentumOf momentum = [&](BodyColumns bodies) { return linear_momentum(scene, bodies); };
+  if (const std::string why = why_held_from_outside(scene); !why.empty()) return against_truth(run, "P", momentum, why);
+
+  double moving_mass = 0;
+  for (const Body& body : scene.bodies) moving_mass += body.fixed ? 0 : body.mass;
+  return against_law(run, "P", momentum, [&](double t) {
+    Vec3 gained = t * moving_mass * scene.gravity;
+    for (const TimedForce& force : scene.forces) {
+      if (!scene.bodies[force.body].fixed) gained += acting_time(force, t) * force.force;
+    }
+    return gained;
+  });
+}
+
+}  // namespace
+
+MetricRow linear_momentum_drift() {
+  return {"linear_momentum_drift", "kg m/s", "largest deviation of the system's linear momentum from what it must be",
+          measure};
+}
+
+}  // namespace rigor

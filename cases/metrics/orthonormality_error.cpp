@@ -1,0 +1,30 @@
+// How far an orientation is from a rotation: the largest Frobenius norm of RᵀR - I, over bodies and time. R is the
+// engine's own matrix where it keeps one, else that of its quaternion as it stands, whose lost norm then shows.
+#include "cases/metrics/measuring.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run) {
+  if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
+  Course course;
+  for (const Sample& sample : run.trajectory.samples) {
+    Instant worst{.time = sample.time, .body = 0, .component = "RᵀR - I"};
+    for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
+      const Mat3 R = sample.bodies.columns().rotation(i);
+      const double error = (R.transpose() * R - Mat3::Identity()).norm();
+      if (error > worst.found) worst.body = static_cast<int>(i), worst.found = error;
+    }
+    course.add(worst.found, worst);
+  }
+  return {std::move(course).finish(), ""};
+}
+
+}  // namespace
+
+MetricRow orthonormality_error() {
+  return {"orthonormality_error", "1",
+          "largest Frobenius norm of RᵀR - I of a body's orientation as the engine holds it", measure};
+}
+
+}  // namespace rigor

@@ -1,0 +1,174 @@
+// Drifting: the energy, with the velocities brought to the positions' time, has moved away from what it should be by
+// more than 1 % of the largest kinetic energy between the first and the last tenth of what can be compared
+// (energy_course.h says what it should be and how far). Means of tenths, because a bounded oscillation of the energy is
+// no drift.
+#include "cases/metrics/stability.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/metrics/energy_course.h"
+#include "cases/metrics/momentum_course.h"
+#include "core/dynamics/energy.h"
+#include "core/dynamics/system.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kBlownUp = 10;                                                      // times the largest kinetic energy
+constexpr double kDrifting = 0.01;                                                   // of the largest kinetic energy
+constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;                           // s, tried
+constexpr double kBisectionPrecision = 1.01, kScanSpacing = 1.02, kScanDepth = 0.7;  // ratios of steps
+
+// Every body sped up straight by gravity and the timed forces on it, and what the springs store on top.
+double most_kinetic_energy_from(const Scene& scene, double duration) {
+  BodyTable start(scene.bodies.size());
+  set_initial_state(scene, start.columns());
+  Scene springs_alone = scene;
+  springs_alone.gravity.setZero();
+  double sum = potential_energy(springs_alone, start.columns());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.fixed) continue;
+    double gained = scene.gravity.norm() * duration;
+    for (const TimedForce& force : scene.forces) {
+      if (force.body == static_cast<int>(i)) gained += acting_time(force, duration) * force.force.norm() / body.mass;
+    }
+    const double speed = body.velocity.norm();
+    sum += kinetic_energy_of(scene, start.columns(), i) + 0.5 * body.mass * gained * (2 * speed + gained);
+  }
+  return sum;
+}
+
+int liveliest_body(const Scene& scene, BodyColumns bodies) {
+  int liveliest = kWorld;
+  double most = -1;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double energy = kinetic_energy_of(scene, bodies, i);
+    if (energy > most) most = energy, liveliest = static_cast<int>(i);
+  }
+  return liveliest;
+}
+
+std::optional<Stability> energy_explosion(const Scene& scene, const Trajectory& trajectory, double largest) {
+  if (trajectory.samples.empty()) return {};
+  const double start = energy(scene, trajectory.samples.front().bodies.columns());
+  for (const Sample& sample : trajectory.samples) {
+    const BodyColumns bodies = sample.bodies.columns();
+    const double change = energy(scene, bodies) - start;
+    if (std::abs(change) <= kBlownUp * largest) continue;
+    const int body = liveliest_body(scene, bodies);
+    return Stability{Verdict::blown_up, sample.time, body,
+                     fmt::format("at {:.4g} s the energy is {:.3g} J from its start, more than {} times the largest "
+                                 "kinetic energy, {:.3g} J; '{}' has most of it",
+                                 sample.time, change, kBlownUp, largest, scene.body_name(body))};
+  }
+  return {};
+}
+
+// The mean deviation of the last tenth of the samples less that of the first, in J.
+double secular_change(const EnergyCourse& energies) {
+  const std::size_t count = energies.expected.size(), tenth = std::max<std::size_t>(1, count / 10);
+  const auto mean_from = [&](std::size_t first) {
+    double sum = 0;
+    for (std::size_t n = first; n < first + tenth; ++n) sum += energies.found[n] - energies.expected[n];
+    return sum / static_cast<double>(tenth);
+  };
+  return mean_from(count - tenth) - mean_from(0);
+}
+
+Stability drift(const JudgedRun& run, double largest) {
+  const EnergyCourse energies = energy_course(run, run.velocity_lag);
+  if (!energies.not_applicable.empty()) {
+    return {Verdict::stable, 0, kWorld,
+            "the energy stays bounded; whether it drifts is not known: " + energies.not_applicable};
+  }
+  const double change = secular_change(energies), share = largest > 0 ? change / largest : 0;
+  const Verdict verdict = std::abs(share) > kDrifting ? Verdict::drifting : Verdict::stable;
+  return {
+      verdict, 0, kWorld,
+      fmt::format("from the first to the last tenth of {:.4g} s the energy moved by {:+.3g} % of the largest kinetic "
+                  "energy from where it should be",
+                  run.trajectory.samples[energies.expected.size() - 1].time, 100 * share)};
+}
+
+bool survives(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double horizon,
+              double largest) {
+  const std::unique_ptr<World> world = engine.load(scene, settings);
+  Snapshot now;
+  world->read(now);
+  const double start = energy(scene, now.bodies());
+  const long whole = steps_in(horizon, dt),
+             steps = static_cast<double>(whole) * dt < horizon * (1 - 1e-9) ? whole + 1 : whole;
+  for (long n = 0; n < steps; ++n) {
+    world->step(dt);
+    world->read(now);
+    // Also false where the energy is not a number.
+    if (!(std::abs(energy(scene, now.bodies()) - start) <= kBlownUp * largest)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string word_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::stable:
+      return "stable";
+    case Verdict::drifting:
+      return "drifting";
+    case Verdict::blown_up:
+      return "blown up";
+  }
+  return "";
+}
+
+Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy, double velocity_lag,
+                          const TruthSamples* truth) {
+  if (const auto explosion = energy_explosion(scene, run.trajectory, largest_kinetic_energy)) return *explosion;
+  if (run.not_finite) {
+    return {Verdict::blown_up, run.not_finite->time, run.not_finite->body,
+            fmt::format("at {:.4g} s the state of '{}' is no longer finite", run.not_finite->time,
+                        scene.body_name(run.not_finite->body))};
+  }
+  return drift({scene, run.trajectory, truth, velocity_lag}, largest_kinetic_energy);
+}
+
+double largest_kinetic_energy(const Scene& scene, const Truth* truth, double duration) {
+  // Milliseconds apart over a usual run: between two samples little is missed, and it serves as a scale.
+  constexpr int kSamples = 4096;
+  BodyTable bodies(scene.bodies.size());
+  double largest = 0;
+  for (int n = 0; truth && n <= kSamples; ++n) {
+    truth->at(duration * n / kSamples, bodies.columns());
+    largest = std::max(largest, kinetic_energy(scene, bodies.columns()));
+  }
+  return largest > 0 ? largest : most_kinetic_energy_from(scene, duration);
+}
+
+// The border is not sharp: past the first step that blows up, others hold again. So the bisection's answer is checked
+// against the steps below it, and moved below every one of them that blows up.
+StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
+                             double largest_kinetic_energy) {
+  const auto stable = [&](double dt) { return survives(engine, settings, scene, dt, horizon, largest_kinetic_energy); };
+  if (stable(kLargestStep)) return {kLargestStep, true, false};
+  // Down by halves first: an unstable run ends early, and the fine steps, which cost most, are tried only if need be.
+  double unstable = kLargestStep, good = unstable;
+  do {
+    unstable = good;
+    if (unstable <= kSmallestStep) return {kSmallestStep, false, true};
+    good = std::max(kSmallestStep, 0.5 * unstable);
+  } while (!stable(good));
+  while (unstable > kBisectionPrecision * good) {
+    const double middle = std::sqrt(unstable * good);
+    (stable(middle) ? good : unstable) = middle;
+  }
+  for (double dt = good / kScanSpacing; dt > kScanDepth * good; dt /= kScanSpacing) {
+    if (!stable(dt)) good = dt / kScanSpacing;
+  }
+  return {good, false, false};
+}
+
+}  // namespace rigor

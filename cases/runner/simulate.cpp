@@ -1,0 +1,85 @@
+#include "cases/runner/simulate.h"
+
+#include <ctime>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+double thread_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// What a pair of clock readings measures of itself: it would otherwise be a good part of a small scene's step.
+double cost_of_reading_the_clock() {
+  static const double cost = [] {
+    constexpr int kPairs = 1000;
+    std::vector<double> costs;
+    for (int i = 0; i < kPairs; ++i) {
+      const double begin = thread_cpu_seconds();
+      costs.push_back(thread_cpu_seconds() - begin);
+    }
+    std::nth_element(costs.begin(), costs.begin() + kPairs / 2, costs.end());
+    return costs[kPairs / 2];
+  }();
+  return cost;
+}
+
+// The first body with a number that is not finite.
+std::optional<int> body_not_finite(BodyColumns bodies) {
+  const int count = bodies.has_rotation() ? kRotation + 9 : kRotation;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (int c = 0; c < count; ++c) {
+      if (!std::isfinite(bodies.column(c)[i])) return static_cast<int>(i);
+    }
+  }
+  return {};
+}
+
+// Steps from one recorded sample to the next.
+long steps_per_sample(long steps, BodyColumns bodies) {
+  const double bytes = sizeof(Sample) + sizeof(double) * static_cast<double>(bodies.size() + 7) *
+                                            (bodies.has_rotation() ? kRotation + 9 : kRotation);
+  return std::max(1L, static_cast<long>(std::ceil(bytes * static_cast<double>(steps) / kLargestTrajectory)));
+}
+
+}  // namespace
+
+long steps_in(double duration, double dt) {
+  constexpr double kRounding = 1e-9, kMost = 9e18;
+  return static_cast<long>(std::min(std::floor(duration / dt + kRounding), kMost));
+}
+
+Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration) {
+  const std::unique_ptr<World> world = engine.load(scene, settings);
+  Simulation run;
+  run.trajectory.dt = dt;
+  run.settings = world->settings_in_force();
+
+  Snapshot now;
+  world->read(now);
+  const long steps = steps_in(duration, dt), every = steps_per_sample(steps, now.bodies());
+  for (long n = 0;; ++n) {
+    if (const auto body = body_not_finite(now.bodies())) {
+      run.not_finite = NotFinite{now.time, *body};
+      return run;
+    }
+    if (n % every == 0 || n == steps) run.trajectory.samples.push_back({now.time, BodyTable(now.bodies())});
+    if (n == steps) return run;
+
+    const double begin = thread_cpu_seconds();
+    world->step(dt);
+    run.cpu_seconds += std::max(0.0, thread_cpu_seconds() - begin - cost_of_reading_the_clock());
+    world->read(now);
+    if (run.complaint.empty()) {
+      run.complaint = world->complaint();
+      if (!run.complaint.empty()) run.complaint_time = now.time;
+    }
+  }
+}
+
+}  // namespace rigor

@@ -1,0 +1,16 @@
+// A scene from the text of a case file, called s.toml in messages.
+#pragma once
+
+#include <string>
+
+#include "core/scene/scene_reader.h"
+#include "core/scene/table_reader.h"
+
+namespace rigor {
+
+inline Scene scene_of(const std::string& text) {
+  const TomlFile file = TomlFile::parse(text, "s.toml");
+  return read_scene(file.root({"scene"}).at("scene"));
+}
+
+}  // namespace rigor
