@@ -20,7 +20,7 @@ namespace {
 constexpr double kBlownUp = 10;                             // times the largest kinetic energy
 constexpr double kDrifting = 0.01;                          // of the largest kinetic energy
 constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
-constexpr double kSweep = 1.04, kStepPrecision = 1.01;                     // 1 %
+constexpr double kSweep = 1.04, kStepPrecision = 1.01;      // 1 %
 
 // Every body sped up straight by gravity and the timed forces on it, and what the springs store on top.
 double most_kinetic_energy_from(const Scene& scene, double duration) {
@@ -150,9 +150,7 @@ double largest_kinetic_energy(const Scene& scene, const Truth* truth, double dur
 
 StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
                              double largest_kinetic_energy) {
-  const auto stable = [&](double dt) {
-    return survives(engine, settings, scene, dt, horizon, largest_kinetic_energy);
-  };
+  const auto stable = [&](double dt) { return survives(engine, settings, scene, dt, horizon, largest_kinetic_energy); };
   // Down by halves, for an unstable run ends early, until a step and its double are stable.
   double good = kLargestStep;
   int stable_in_a_row = 0;

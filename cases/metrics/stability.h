@@ -30,8 +30,8 @@ Stability judge_stability(const Scene& scene, const Simulation& run, double larg
 // stored energy, gravity and the timed forces can give by then.
 double largest_kinetic_energy(const Scene& scene, const Truth* truth, double duration);
 
-// The largest step at which `engine` does not blow up over `horizon` seconds, to 1 % by bisection in log dt. The limit is
-// ragged: steps above the first bad one may hold again by luck. So it is the largest below which none tried is bad,
+// The largest step at which `engine` does not blow up over `horizon` seconds, to 1 % by bisection in log dt. The limit
+// is ragged: steps above the first bad one may hold again by luck. So it is the largest below which none tried is bad,
 // steps being tried 4 % apart over at least a factor of two below it.
 struct StableStep {
   double dt = 0;          // s

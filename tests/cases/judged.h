@@ -7,6 +7,7 @@
 #include "cases/metrics/metric.h"
 #include "cases/metrics/stability.h"
 #include "cases/runner/simulate.h"
+#include "core/engine/run_name.h"
 #include "tests/scenes.h"
 
 namespace rigor::test {

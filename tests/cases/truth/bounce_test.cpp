@@ -11,7 +11,8 @@ namespace {
 
 double height_at(const Truth& truth, double t) { return truth_at(truth, t, 2).columns().position(0).y() - 0.1; }
 
-// A second derivation: parabola after parabola, each impact found from the last, until the flights are too short to see.
+// A second derivation: parabola after parabola, each impact found from the last, until the flights are too short to
+// see.
 struct Marched {
   double height, speed;
 };
@@ -124,15 +125,27 @@ BOOST_AUTO_TEST_CASE(a_scene_it_does_not_hold_for_is_refused_with_the_reason) {
   };
   const Row rows[] = {
       {[](Scene& s) { s.gravity.setZero(); }, "no gravity"},
-      {[](Scene& s) { s.gravity = {1, -9, 0}; }, "not opposite to gravity"},
+      {[](Scene& s) {
+         s.gravity = {1, -9, 0};
+       },
+       "not opposite to gravity"},
       {[](Scene& s) { s.bodies[0].position.y() = 0.05; }, "inside the plane"},
-      {[](Scene& s) { s.bodies[0].shape = Box{{1, 1, 1}}; }, "'ball' is not a sphere"},
+      {[](Scene& s) {
+         s.bodies[0].shape = Box{{1, 1, 1}};
+       },
+       "'ball' is not a sphere"},
       {[](Scene& s) { s.bodies[1].collides = false; }, "no plane"},
       {[](Scene& s) { s.bodies.push_back(s.bodies[1]); }, "second plane"},
       {[](Scene& s) { s.springs.emplace_back(); }, "springs"},
       {[](Scene& s) { s.bodies.push_back(s.bodies[0]); }, "could touch"},
-      {[](Scene& s) { s.contact_default.friction = 0.5, s.bodies[0].velocity = {1, 0, 0}; }, "finite friction"},
-      {[](Scene& s) { s.bodies[0].inertia(2, 2) = 9, s.bodies[0].angular_velocity = {1, 0, 0}; }, "inertia"},
+      {[](Scene& s) {
+         s.contact_default.friction = 0.5, s.bodies[0].velocity = {1, 0, 0};
+       },
+       "finite friction"},
+      {[](Scene& s) {
+         s.bodies[0].inertia(2, 2) = 9, s.bodies[0].angular_velocity = {1, 0, 0};
+       },
+       "inertia"},
   };
   for (const Row& row : rows) {
     Scene scene = test::dropped_sphere(0.5);

@@ -46,7 +46,8 @@ BOOST_AUTO_TEST_CASE(it_agrees_with_the_reference) {
 BOOST_AUTO_TEST_CASE(a_scene_it_does_not_hold_for_is_refused_with_the_reason) {
   BOOST_CHECK_EXCEPTION(make_truth("projectile", test::fixed_spring(), 1), InputError, test::says("spring"));
   BOOST_CHECK_EXCEPTION(make_truth("projectile", test::dropped_sphere(1), 1), InputError, test::says("may touch"));
-  BOOST_CHECK_EXCEPTION(make_truth("projectile", test::tumbling_body(), 1), InputError, test::says("'top' would tumble"));
+  BOOST_CHECK_EXCEPTION(make_truth("projectile", test::tumbling_body(), 1), InputError,
+                        test::says("'top' would tumble"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -21,7 +21,8 @@ class MatrixSolver {
     const Points coarse = march(t, steps), middle = march(t, 2 * steps), fine = march(t, 4 * steps);
     std::vector<Vec3> positions;
     for (std::size_t i = 0; i < fine.size(); ++i) {
-      const V first = middle[i].x + (middle[i].x - coarse[i].x) / 15, second = fine[i].x + (fine[i].x - middle[i].x) / 15;
+      const V first = middle[i].x + (middle[i].x - coarse[i].x) / 15,
+              second = fine[i].x + (fine[i].x - middle[i].x) / 15;
       positions.push_back((second + (second - first) / 31).cast<double>());
     }
     return positions;
@@ -88,7 +89,8 @@ class MatrixSolver {
     }
     const N h = N(t) / steps;
     for (long n = 0; n < steps; ++n) {
-      const Points a = rates(s), b = rates(moved(s, a, h / 2)), c = rates(moved(s, b, h / 2)), d = rates(moved(s, c, h));
+      const Points a = rates(s), b = rates(moved(s, a, h / 2)), c = rates(moved(s, b, h / 2)),
+                   d = rates(moved(s, c, h));
       s = moved(moved(moved(moved(s, a, h / 6), b, h / 3), c, h / 3), d, h / 6);
     }
     return s;
@@ -200,8 +202,8 @@ BOOST_AUTO_TEST_CASE(a_force_that_begins_and_ends_between_two_samples_gives_its_
     const double on = std::clamp(t - 1.0 / 3, 0.0, 1.4 - 1.0 / 3), after = std::max(0.0, t - 1.4);
     BOOST_TEST(std::abs(now.columns().position(0).x() - (1.5 * on * on + 3 * on * after)) < 1e-13);  // roundings
     BOOST_TEST(std::abs(now.columns().angular_velocity(0).z() - 4 * on) < 1e-13);
-    BOOST_TEST(angle_between(now.columns().orientation(0),
-                             rotation_by(Vec3(0, 0, 2 * on * on + 4 * on * after))) < 1e-13);
+    BOOST_TEST(angle_between(now.columns().orientation(0), rotation_by(Vec3(0, 0, 2 * on * on + 4 * on * after))) <
+               1e-13);
   }
 }
 
@@ -232,7 +234,8 @@ BOOST_AUTO_TEST_CASE(the_error_estimate_is_neither_too_small_nor_absurdly_large)
 }
 
 BOOST_AUTO_TEST_CASE(it_gives_the_same_bits_each_time) {
-  const auto once = make_truth("reference", test::body_springs(), 5), again = make_truth("reference", test::body_springs(), 5);
+  const auto once = make_truth("reference", test::body_springs(), 5),
+             again = make_truth("reference", test::body_springs(), 5);
   for (const double t : {0.01, 1.0, 4.999}) {
     const BodyTable a = truth_at(*once, t, 2), b = truth_at(*again, t, 2);
     for (int c = 0; c < 13; ++c) BOOST_TEST(a.columns().column(c)[1] == b.columns().column(c)[1]);
