@@ -111,19 +111,20 @@ BOOST_AUTO_TEST_CASE(the_course_scenes_have_the_known_stability_limits) {
     const char* method;
     double fixed_spring, body_springs;
   };
-  // Measured by others over 30 s; the limit is ragged, hence within 10 %.
+  // Measured independently over 30 s. Near its limit a chaotic run holds or not by luck, and which steps are tried
+  // shifts what is found by up to a tenth.
   const Row rows[] = {{"explicit-euler", 4.2e-4, 2.2e-4},
                       {"semi-implicit-euler", 0.068, 0.041},
                       {"implicit-midpoint", 0.106, 0.070},
                       {"rk4", 0.126, 0.083}};
-  const Scene fixed_spring = test::fixed_spring(), body_springs = test::body_springs();
-  for (const Row& row : rows) {
-    for (const auto& [scene, known] : {std::pair{&fixed_spring, row.fixed_spring}, {&body_springs, row.body_springs}}) {
-      const auto truth = make_truth("reference", *scene, 30);
-      const double largest = largest_kinetic_energy(*scene, truth.get(), 30);
-      const double dt = largest_stable_dt(core(), test::core_method(row.method), *scene, 30, largest).dt;
-      BOOST_TEST_MESSAGE(row.method << ": " << dt << " s, known " << known);
-      BOOST_TEST_CONTEXT(row.method) BOOST_TEST(dt == known, boost::test_tools::tolerance(0.1));
+  for (const auto& [scene, known] :
+       {std::pair{test::fixed_spring(), &Row::fixed_spring}, {test::body_springs(), &Row::body_springs}}) {
+    const auto truth = make_truth("reference", scene, 30);
+    const double largest = largest_kinetic_energy(scene, truth.get(), 30);
+    for (const Row& row : rows) {
+      const double dt = largest_stable_dt(core(), test::core_method(row.method), scene, 30, largest).dt;
+      BOOST_TEST_MESSAGE(row.method << ": " << dt << " s, known " << row.*known);
+      BOOST_TEST_CONTEXT(row.method) BOOST_TEST(dt == row.*known, boost::test_tools::tolerance(0.1));
     }
   }
 }

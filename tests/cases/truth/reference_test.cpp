@@ -207,18 +207,20 @@ BOOST_AUTO_TEST_CASE(a_force_that_begins_and_ends_between_two_samples_gives_its_
   }
 }
 
-// Perturbing the start by less than a rounding of a double shows what the chaos makes of an error of known size: the
-// estimate may not be below what is really wrong, which the second solver shows, nor absurdly above it.
+// Chaos makes the error grow to a size that the second solver can show: the estimate may not be below what is really
+// wrong, nor absurdly above it.
 BOOST_AUTO_TEST_CASE(the_error_estimate_is_neither_too_small_nor_absurdly_large) {
   const Scene scene = test::body_springs();
   const auto truth = make_truth("reference", scene, 30);
   const double t = 11;
-  const auto expected = MatrixSolver(scene).positions(t, 11 * 16000);
+  const auto expected = MatrixSolver(scene).positions(t, 11 * 4000);
   const BodyTable found = truth_at(*truth, t, 2);
   double difference = 0;
   for (int i = 0; i < 2; ++i) difference = std::max(difference, (found.columns().position(i) - expected[i]).norm());
   BOOST_TEST_MESSAGE("at 11 s off by " << difference << " m at most; estimate " << truth->error(t));
-  BOOST_TEST(truth->error(t) < 1e-10);  // two solutions in double precision part by 1e-10 at 11.7 s
+  BOOST_TEST(truth->error(t) >= difference);
+  BOOST_TEST(truth->error(t) < 100 * difference);  // the second solution's tolerance is twice the first's
+  BOOST_TEST(truth->error(t) < 1e-10);             // two solutions in double precision part by 1e-10 at 11.7 s
   // Long before that, the estimate is a few roundings: 4 ulp of 1.4 m.
   BOOST_TEST(truth->error(1) < 1e-14);
   BOOST_TEST(truth->error(0) > 0);
