@@ -17,10 +17,10 @@
 namespace rigor {
 namespace {
 
-constexpr double kBlownUp = 10;                                                      // times the largest kinetic energy
-constexpr double kDrifting = 0.01;                                                   // of the largest kinetic energy
-constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;                           // s, tried
-constexpr double kBisectionPrecision = 1.01, kScanSpacing = 1.02, kScanDepth = 0.7;  // ratios of steps
+constexpr double kBlownUp = 10;                             // times the largest kinetic energy
+constexpr double kDrifting = 0.01;                          // of the largest kinetic energy
+constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
+constexpr double kSweep = 1.02, kStepPrecision = 1.01;      // 1 %
 
 // Every body sped up straight by gravity and the timed forces on it, and what the springs store on top.
 double most_kinetic_energy_from(const Scene& scene, double duration) {
@@ -148,25 +148,28 @@ double largest_kinetic_energy(const Scene& scene, const Truth* truth, double dur
   return largest > 0 ? largest : most_kinetic_energy_from(scene, duration);
 }
 
-// The border is not sharp: past the first step that blows up, others hold again. So the bisection's answer is checked
-// against the steps below it, and moved below every one of them that blows up.
 StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
                              double largest_kinetic_energy) {
   const auto stable = [&](double dt) { return survives(engine, settings, scene, dt, horizon, largest_kinetic_energy); };
-  if (stable(kLargestStep)) return {kLargestStep, true, false};
-  // Down by halves first: an unstable run ends early, and the fine steps, which cost most, are tried only if need be.
-  double unstable = kLargestStep, good = unstable;
-  do {
-    unstable = good;
-    if (unstable <= kSmallestStep) return {kSmallestStep, false, true};
-    good = std::max(kSmallestStep, 0.5 * unstable);
-  } while (!stable(good));
-  while (unstable > kBisectionPrecision * good) {
+  // Down by halves, for an unstable run ends early, until a step and its double are stable.
+  double good = kLargestStep;
+  int stable_in_a_row = 0;
+  for (; good >= kSmallestStep; good *= 0.5) {
+    stable_in_a_row = stable(good) ? stable_in_a_row + 1 : 0;
+    if (stable_in_a_row == 2) break;
+  }
+  if (stable_in_a_row == 0) return {kSmallestStep, false, true};
+  if (stable_in_a_row == 1) good *= 2;  // only the last one tried
+  // Up by small steps to the first that is not, and between the two by bisection.
+  double unstable = good * kSweep;
+  for (; unstable <= kLargestStep && stable(unstable); unstable *= kSweep) good = unstable;
+  if (unstable > kLargestStep) {
+    if (stable(kLargestStep)) return {kLargestStep, true, false};
+    unstable = kLargestStep;
+  }
+  while (unstable > kStepPrecision * good) {
     const double middle = std::sqrt(unstable * good);
     (stable(middle) ? good : unstable) = middle;
-  }
-  for (double dt = good / kScanSpacing; dt > kScanDepth * good; dt /= kScanSpacing) {
-    if (!stable(dt)) good = dt / kScanSpacing;
   }
   return {good, false, false};
 }

@@ -30,8 +30,9 @@ Stability judge_stability(const Scene& scene, const Simulation& run, double larg
 // stored energy, gravity and the timed forces can give by then.
 double largest_kinetic_energy(const Scene& scene, const Truth* truth, double duration);
 
-// The largest step at which `engine` does not blow up over `horizon` seconds, by bisection in log dt: it and every step
-// tried below it (2 % apart, down to 0.7 of it) hold.
+// The largest step at which `engine` does not blow up over `horizon` seconds, to 1 % by bisection in log dt. The limit
+// is ragged: steps above the first bad one may hold again by luck. So it is the largest below which none tried is bad,
+// steps being tried 2 % apart over at least a factor of two below it.
 struct StableStep {
   double dt = 0;          // s
   bool is_cap = false;    // still stable at the largest step tried: dt is that one

@@ -70,12 +70,19 @@ Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
   return cell;
 }
 
+// How long a step has to hold to be called stable [s]: even where the run is short.
+double stability_horizon(const Case& definition) { return std::max(30.0, definition.duration); }
+
 // The jobs of one case: first the stable steps, which take longest, then the cells.
 class CaseJobs {
  public:
   CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
            const Truth* truth, double largest_energy)
       : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), energy_(largest_energy) {
+    const Case& definition = planned.definition;
+    stable_energy_ = options.stable_steps
+                         ? largest_kinetic_energy(definition.scene, truth, stability_horizon(definition))
+                         : largest_energy;
     for (std::size_t i = 0; i < planned.stable_steps.size(); ++i) {
       if (planned.stable_steps[i].status != Status::unsupported) add_stable_step(i);
     }
@@ -101,10 +108,10 @@ class CaseJobs {
 
   void add_stable_step(std::size_t run) {
     jobs_.push_back({[this, run](const Channel& channel) {
-                       const double seconds = std::max(30.0, planned_.definition.duration);
+                       const Case& definition = planned_.definition;
                        StableStepResult found;
                        found.step = largest_stable_dt(find_engine(engines_, run_of(run).engine), run_of(run).settings,
-                                                      planned_.definition.scene, seconds, energy_);
+                                                      definition.scene, stability_horizon(definition), stable_energy_);
                        found.status = Status::pass, found.reason.clear();
                        channel.send(message_of_stable_step(run, found));
                      },
@@ -140,7 +147,8 @@ class CaseJobs {
   const EngineTable& engines_;
   const GridOptions& options_;
   const Truth* truth_;
-  double energy_;  // J, the truth's largest kinetic one
+  double energy_;         // J, the truth's largest kinetic one over the run
+  double stable_energy_;  // J, the same over the stability horizon
   std::vector<Job> jobs_;
   std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
 };
@@ -170,7 +178,8 @@ Cell run_cell(const Cell& planned, const Case& definition, const Engine& engine,
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel) {
   const Case& definition = planned.definition;
-  const auto truth = make_truth(definition.truth, definition.scene, definition.duration);
+  const double seconds = options.stable_steps ? stability_horizon(definition) : definition.duration;
+  const auto truth = make_truth(definition.truth, definition.scene, seconds);
   const TruthFacts facts = facts_of(definition, truth.get());
   channel.send(message_of_truth(facts));
   CaseJobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy).run(channel);

@@ -26,9 +26,9 @@ namespace odeint = boost::numeric::odeint;
 using Real = long double;
 using State = std::vector<Real>;
 
-// Relative and absolute, per step: a few and some twenty roundings of a long double. Extrapolation magnifies roundings,
+// Relative and absolute, per step: some ten and twenty roundings of a long double. Extrapolation magnifies roundings,
 // so that below that its steps would shrink without end.
-constexpr Real kTolerance = 4e-19L, kSecondTolerance = 2e-18L;
+constexpr Real kTolerance = 1e-18L, kSecondTolerance = 2e-18L;
 constexpr Real kFirstStep = 1e-4L;  // s
 constexpr std::size_t kMostTries = 2'000'000;
 constexpr double kMostBytes = 512e6;  // of nodes

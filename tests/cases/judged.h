@@ -1,0 +1,82 @@
+// Scenes and runs that the judge's tests share.
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+
+#include "adapters/engines.h"
+#include "cases/metrics/metric.h"
+#include "cases/metrics/stability.h"
+#include "cases/runner/simulate.h"
+#include "core/engine/run_name.h"
+#include "tests/scenes.h"
+
+namespace rigor::test {
+
+// Two cubes hung below each other by two springs each (the course, assignment 5, exercise 2-2).
+inline Scene body_springs() {
+  Scene scene;
+  scene.gravity = {0, -9.8, 0};
+  scene.bodies = {body("upper", 100, {1, 1, 1}, {0, 1.5, 0}), body("lower", 100, {1, 1, 1}, {0, 0.5, 0})};
+  for (const double z : {0.12, -0.12}) {
+    scene.springs.push_back(spring(kWorld, {0.12, 2, z}, 0, {0.12, 0.12, z}, 1e4, 0.38));
+    scene.springs.push_back(spring(0, {-0.12, -0.12, z}, 1, {-0.12, 0.12, z}, 1e4, 0.76));
+  }
+  return scene;
+}
+
+// The course's thrown cube (assignment 5, exercise 1).
+inline Scene thrown_cube() {
+  Scene scene;
+  scene.gravity = {0, -9.8, 0};
+  Body cube = body("cube", 100, {1, 1, 1}, {-2.45, 0.5, 0});
+  cube.orientation = Quat(0.1, 0.5, 0, 0).normalized();
+  cube.velocity = {4.9, 4.9, 0}, cube.angular_velocity = {0, 10, 0};
+  scene.bodies = {cube};
+  return scene;
+}
+
+inline BodyTable truth_at(const Truth& truth, double t, std::size_t bodies) {
+  BodyTable table(bodies);
+  truth.at(t, table.columns());
+  return table;
+}
+
+inline TruthSamples sampled(const Truth& truth, const Trajectory& trajectory, const Scene& scene, double kinetic) {
+  TruthSamples samples;
+  samples.largest_kinetic_energy = kinetic;
+  for (const Sample& sample : trajectory.samples) {
+    samples.bodies.push_back(truth_at(truth, sample.time, scene.bodies.size()));
+    samples.error.push_back(truth.error(sample.time));
+  }
+  return samples;
+}
+
+inline Settings core_method(const std::string& method) {
+  Settings settings;
+  settings.method = method;
+  return settings;
+}
+
+// The truth itself as a run: what every metric must find nothing wrong with.
+inline Trajectory played(const Truth& truth, const Scene& scene, double dt, int steps) {
+  Trajectory trajectory{dt, {}};
+  for (int n = 0; n <= steps; ++n) trajectory.samples.push_back({n * dt, truth_at(truth, n * dt, scene.bodies.size())});
+  return trajectory;
+}
+
+inline MetricResult measured(const std::string& name, const JudgedRun& run) {
+  for (const MetricRow& row : metrics()) {
+    if (row.name == name) return row.measure(run);
+  }
+  BOOST_FAIL("no metric is called " + name);
+  return {};
+}
+
+inline auto says(const std::string& part) {
+  return [part](const std::exception& e) {
+    BOOST_TEST_CONTEXT(e.what()) { BOOST_TEST(std::string(e.what()).find(part) != std::string::npos); }
+    return true;
+  };
+}
+
+}  // namespace rigor::test

@@ -1,0 +1,128 @@
+#include <boost/test/unit_test.hpp>
+
+#include "tests/cases/judged.h"
+
+using namespace rigor;
+
+namespace {
+
+Trajectory run_of(const Scene& scene, const std::string& method, double dt, double duration) {
+  return simulate(find_engine(engines(), "core"), test::core_method(method), scene, dt, duration).trajectory;
+}
+
+// A body without forces, whose speed at 0, 1, 2, ... s is as given.
+struct Coasting {
+  Scene scene;
+  Trajectory trajectory{1, {}};
+  explicit Coasting(const std::vector<double>& speeds) {
+    scene.bodies = {test::body("a", 2, {1, 1, 1})};
+    for (const double speed : speeds) {
+      BodyTable bodies(1);
+      bodies.columns().set_body(0, {Vec3::Zero(), Quat::Identity(), {speed, 0, 0}, Vec3::Zero()});
+      trajectory.samples.push_back({static_cast<double>(trajectory.samples.size()), bodies});
+    }
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_metrics_energy_drift)
+
+BOOST_AUTO_TEST_CASE(a_known_change_of_speed_is_a_known_drift) {
+  const Coasting made({10, 9, 11, 10});
+  const Measurement m = *test::measured("energy_drift", {made.scene, made.trajectory, nullptr, 0}).measurement;
+  // m v²/2 with m = 2: 100, 81, 121, 100 J, over the 100 J of the start.
+  BOOST_REQUIRE(m.series.size() == 4);
+  BOOST_TEST(m.series[1] == 0.19, boost::test_tools::tolerance(1e-13));
+  BOOST_TEST(m.value == 0.21, boost::test_tools::tolerance(1e-13));
+  BOOST_TEST(m.worst.time == 2);
+  BOOST_TEST(m.worst.found == 121);
+  BOOST_TEST(m.worst.expected == 100);
+}
+
+BOOST_AUTO_TEST_CASE(where_contact_may_lose_energy_only_gains_count) {
+  Coasting made({10, 9, 9.5, 5, 5});
+  made.scene = test::dropped_sphere(0.5);
+  made.scene.gravity.setZero();
+  made.scene.bodies[0].mass = 2;
+  for (Sample& sample : made.trajectory.samples) {
+    const BodyState moving = sample.bodies.columns().body(0);
+    sample.bodies.resize(2);
+    sample.bodies.columns().set_body(0, moving);
+    sample.bodies.columns().set_orientation(1, Quat::Identity());
+  }
+  const Measurement m = *test::measured("energy_drift", {made.scene, made.trajectory, nullptr, 0}).measurement;
+  BOOST_TEST(m.value == (90.25 - 81) / 100, boost::test_tools::tolerance(1e-13));
+  BOOST_TEST(m.worst.time == 2);
+  // The same with a perfect bounce and no friction: losses count too.
+  made.scene.contact_default = {1, 0};
+  const Measurement kept = *test::measured("energy_drift", {made.scene, made.trajectory, nullptr, 0}).measurement;
+  BOOST_TEST(kept.value == 0.75, boost::test_tools::tolerance(1e-13));
+}
+
+BOOST_AUTO_TEST_CASE(the_elastic_bounce_must_keep_its_energy_even_with_friction) {
+  // The truth of the elastic drop keeps it, so a run that loses some is found out.
+  const Scene scene = test::dropped_sphere(1);
+  const auto truth = make_truth("bounce", scene, 2);
+  Trajectory lossy = test::played(*truth, scene, 0.1, 20);
+  lossy.samples[15].bodies.columns().set_position(0, {0, 0.1, 0});
+  lossy.samples[15].bodies.columns().set_velocity(0, Vec3::Zero());
+  const TruthSamples samples = test::sampled(*truth, lossy, scene, 100 * 9.8 * 1.37);
+  const Measurement m = *test::measured("energy_drift", {scene, lossy, &samples, 0}).measurement;
+  BOOST_TEST(m.value == 1, boost::test_tools::tolerance(1e-12));  // all of m g h
+}
+
+BOOST_AUTO_TEST_CASE(a_free_fall_by_semi_implicit_euler_loses_nothing_once_synchronised) {
+  Scene scene = test::thrown_cube();
+  const double dt = 1.0 / 30;
+  const Trajectory trajectory = run_of(scene, "semi-implicit-euler", dt, 10);
+  const JudgedRun run{scene, trajectory, nullptr, 0.5};
+  // Rounding of 100 kg falling 490 m, over a kinetic energy of 2400 J.
+  BOOST_TEST(test::measured("energy_drift_synchronised", run).measurement->value < 1e-11);
+  // As read: E - E0 = m g dt (v(t) - v(0)) / 2 up to what the step's own energy is, g²dt²/8 a kilogram.
+  const double raw = 0.5 * 100 * 9.8 * dt * 9.8 * 10;
+  const Measurement as_read = *test::measured("energy_drift", run).measurement;
+  BOOST_TEST(as_read.value * (0.5 * 100 * 2 * 4.9 * 4.9 + 50) == raw, boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(synchronising_takes_most_of_the_sampling_out_of_a_springs_energy) {
+  const Scene scene = test::fixed_spring();
+  const auto truth = make_truth("reference", scene, 5);
+  const Trajectory trajectory = run_of(scene, "semi-implicit-euler", 1.0 / 240, 5);
+  const TruthSamples samples = test::sampled(*truth, trajectory, scene, largest_kinetic_energy(scene, truth.get(), 5));
+  const JudgedRun run{scene, trajectory, &samples, 0.5};
+  const double raw = test::measured("energy_drift", run).measurement->value;
+  const double synchronised = test::measured("energy_drift_synchronised", run).measurement->value;
+  // First order against second: with w dt about 0.1, a factor of that size lies between them.
+  BOOST_TEST(synchronised < 0.1 * raw);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_damper_takes_is_known_from_the_truth) {
+  const Scene scene = test::coupled_bodies(3);
+  const auto truth = make_truth("reference", scene, 3);
+  Trajectory run = test::played(*truth, scene, 0.1, 30);
+  const TruthSamples samples = test::sampled(*truth, run, scene, 10);
+  run.samples[20].bodies.columns().set_velocity(1, run.samples[20].bodies.columns().velocity(1) * 2);
+  const double more = 1.5 * 1 * samples.bodies[20].columns().velocity(1).squaredNorm();  // 3/2 m v², m = 1
+  const Measurement m = *test::measured("energy_drift", {scene, run, &samples, 0}).measurement;
+  BOOST_TEST(m.value == more / 10, boost::test_tools::tolerance(1e-9));
+  // Driven by a force, and without a truth, nothing can be expected.
+  BOOST_TEST(test::measured("energy_drift", {scene, run, nullptr, 0}).not_applicable.find("forces") == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_start_at_rest_is_scaled_by_the_fall_of_its_potential) {
+  Scene scene;
+  scene.gravity = {0, -10, 0};
+  scene.bodies = {test::body("a", 1, {1, 1, 1})};
+  Trajectory trajectory{1, {}};
+  for (const auto& [height, speed] : {std::pair{0.0, 0.0}, {-5.0, 10.0}, {-20.0, 22.0}}) {
+    BodyTable bodies(1);
+    bodies.columns().set_body(0, {{0, height, 0}, Quat::Identity(), {0, -speed, 0}, Vec3::Zero()});
+    trajectory.samples.push_back({static_cast<double>(trajectory.samples.size()), bodies});
+  }
+  // 242 - 200 J over a fall of 200 J.
+  BOOST_TEST(test::measured("energy_drift", {scene, trajectory, nullptr, 0}).measurement->value == 0.21,
+             boost::test_tools::tolerance(1e-13));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,62 @@
+#include <boost/test/unit_test.hpp>
+
+#include "tests/cases/judged.h"
+
+using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(cases_metrics_metrics)
+
+BOOST_AUTO_TEST_CASE(the_table_is_alphabetical_and_each_row_has_a_unit_and_a_summary) {
+  for (std::size_t i = 0; i < metrics().size(); ++i) {
+    BOOST_TEST(!metrics()[i].unit.empty());
+    BOOST_TEST(!metrics()[i].summary.empty());
+    if (i > 0) BOOST_TEST((metrics()[i - 1].name < metrics()[i].name));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_truth_itself_has_no_error) {
+  struct Row {
+    const char* truth;
+    Scene scene;
+  };
+  for (const Row& row : {Row{"reference", test::fixed_spring()},
+                         {"reference", test::coupled_bodies(0)},
+                         {"reference", test::coupled_bodies(3)},
+                         {"reference", test::tumbling_body()},
+                         {"projectile", test::thrown_cube()},
+                         {"bounce", test::dropped_sphere(1)},
+                         {"bounce", test::dropped_sphere(0.5)}}) {
+    const auto truth = make_truth(row.truth, row.scene, 2);
+    const Trajectory played = test::played(*truth, row.scene, 0.02, 100);
+    const TruthSamples samples = test::sampled(*truth, played, row.scene, 100);
+    const JudgedRun run{row.scene, played, &samples, 0};
+    for (const MetricRow& metric : metrics()) {
+      BOOST_TEST_CONTEXT(row.truth << " of " << row.scene.bodies[0].name << ": " << metric.name) {
+        const MetricResult result = metric.measure(run);
+        BOOST_REQUIRE(result.measurement.has_value());
+        BOOST_TEST(result.not_applicable == "");
+        // Roundings, of momenta up to 1e3 kg m/s.
+        BOOST_TEST(result.measurement->value < 1e-12 * 1e3);
+        BOOST_TEST(result.measurement->series.size() == 101);
+        BOOST_TEST(result.measurement->compared_until == 2);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_without_a_sample_is_judged_by_none) {
+  const Scene scene = test::fixed_spring();
+  const Trajectory empty{0.1, {}};
+  const TruthSamples nothing{{}, {}, 1};
+  for (const TruthSamples* truth : {static_cast<const TruthSamples*>(nullptr), &nothing}) {
+    for (const MetricRow& metric : metrics()) {
+      const MetricResult result = metric.measure({scene, empty, truth, 0});
+      BOOST_TEST_CONTEXT(metric.name) {
+        BOOST_TEST(!result.measurement.has_value());
+        BOOST_TEST(result.not_applicable != "");
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

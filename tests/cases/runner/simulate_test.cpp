@@ -1,0 +1,90 @@
+#include "cases/runner/simulate.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/cases/judged.h"
+#include "tests/cases/scripted_engine.h"
+
+using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(cases_runner_simulate)
+
+BOOST_AUTO_TEST_CASE(as_many_steps_are_taken_as_fit) {
+  struct Row {
+    double duration, dt;
+    long steps;
+  };
+  for (const Row& row :
+       {Row{1, 0.1, 10}, {10, 1.0 / 30, 300}, {1, 0.3, 3}, {0.05, 0.1, 0}, {2, 2, 1}, {1, 1.0 / 990, 990}}) {
+    BOOST_TEST_CONTEXT(row.duration << " s by " << row.dt) BOOST_TEST(steps_in(row.duration, row.dt) == row.steps);
+  }
+  BOOST_TEST(steps_in(1, 1e-300) > 1'000'000'000'000'000'000);
+}
+
+BOOST_AUTO_TEST_CASE(every_step_is_recorded_from_the_start_on) {
+  const Scene scene = test::tumbling_body();
+  const Simulation run = simulate(test::ScriptedEngine({}), {}, scene, 0.1, 1);
+  BOOST_TEST(run.trajectory.dt == 0.1);
+  BOOST_REQUIRE(run.trajectory.samples.size() == 11);
+  for (int n = 0; n <= 10; ++n) {
+    BOOST_TEST(run.trajectory.samples[n].time == n * 0.1);
+    BOOST_TEST(run.trajectory.samples[n].bodies.columns().position(0).x() == n);
+  }
+  BOOST_TEST((run.settings == SettingsInForce{{"scripted", "yes"}}));
+  BOOST_TEST(!run.not_finite.has_value());
+  BOOST_TEST(run.complaint.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_run_ends_before_the_first_number_that_is_not_finite) {
+  Scene scene = test::tumbling_body();
+  scene.bodies.push_back(scene.bodies[0]);
+  for (const double bad : {std::nan(""), -std::numeric_limits<double>::infinity()}) {
+    for (const int column : {0, 6, 12}) {
+      test::Script script;
+      script.play = [&](int step, MutableBodyColumns bodies) {
+        if (step >= 4) bodies.column(column)[1] = bad;
+      };
+      const Simulation run = simulate(test::ScriptedEngine(script), {}, scene, 0.5, 10);
+      BOOST_TEST(run.trajectory.samples.size() == 4);
+      BOOST_REQUIRE(run.not_finite.has_value());
+      BOOST_TEST(run.not_finite->time == 2);
+      BOOST_TEST(run.not_finite->body == 1);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_first_complaint_is_kept_with_its_time) {
+  test::Script script;
+  script.complaint = [](int step) { return step < 3 ? "" : "gave up in step " + std::to_string(step); };
+  const Simulation run = simulate(test::ScriptedEngine(script), {}, test::tumbling_body(), 0.5, 10);
+  BOOST_TEST(run.complaint == "gave up in step 3");
+  BOOST_TEST(run.complaint_time == 1.5);
+  BOOST_TEST(run.trajectory.samples.size() == 21);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_too_long_to_keep_is_thinned_and_keeps_its_end) {
+  // 2000 bodies are 208 kB a sample: 3001 of them would pass the limit, every second one does not.
+  Scene scene;
+  scene.bodies.assign(2000, test::body("b", 1, {1, 1, 1}));
+  const Simulation run = simulate(test::ScriptedEngine({}), {}, scene, 0.25, 0.25 * 3001);
+  const auto& samples = run.trajectory.samples;
+  const double bytes = static_cast<double>(samples.size()) * 2000 * 13 * sizeof(double);
+  BOOST_TEST(bytes <= kLargestTrajectory);
+  BOOST_TEST(bytes > 0.4 * kLargestTrajectory);
+  BOOST_TEST(samples[1].time == 0.5);
+  BOOST_TEST(samples.back().time == 0.25 * 3001);
+}
+
+BOOST_AUTO_TEST_CASE(the_steps_alone_are_timed) {
+  test::Script script;
+  volatile double sink = 0;
+  script.play = [&](int, MutableBodyColumns) {
+    for (int i = 0; i < 100'000; ++i) sink = sink + 1;
+  };
+  const Scene scene = test::tumbling_body();
+  BOOST_TEST(simulate(test::ScriptedEngine(script), {}, scene, 0.1, 10).cpu_seconds > 1e-4);
+  // A hundred empty steps take microseconds.
+  BOOST_TEST(simulate(test::ScriptedEngine({}), {}, scene, 0.1, 10).cpu_seconds < 1e-3);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
