@@ -80,6 +80,11 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
   }
 }
 
+// An option without its value would take the next option for one.
+std::string refuse_option_as_value(std::string& value) {
+  return value.starts_with("--") ? fmt::format("needs a value, and '{}' follows", value) : "";
+}
+
 std::vector<std::string> command_names() {
   std::vector<std::string> names;
   for (const CommandRow& row : commands()) names.push_back(row.name);
@@ -139,6 +144,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     command->set_help_flag("--help", "print this and leave");
     command->allow_extras();
     add_options(*command, row, line, typed);
+    for (CLI::Option* option : command->get_options([](const CLI::Option* o) { return o->get_expected_max() > 0; })) {
+      option->check(CLI::Validator(refuse_option_as_value, ""));
+    }
   }
   try {
     app.parse(argc, argv);

@@ -11,6 +11,7 @@ namespace rigor {
 namespace {
 
 constexpr std::size_t kWidth = 100;
+const std::string kNoValue = "-";
 
 // Two or three significant digits: 0.0312, 1.3e-05, 490.
 std::string rounded(double value) {
@@ -21,14 +22,14 @@ std::string rounded(double value) {
 
 std::string metric_text(const Cell& cell, const std::string& name, double MetricValue::*part) {
   const auto found = cell.metrics.find(name);
-  if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return "-";
+  if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return kNoValue;
   return rounded(found->second.*part);
 }
 
 // A drift as per cent of what it is measured against, with its sign: lost energy is negative.
 std::string percent_text(const Cell& cell, const std::string& name) {
   const auto found = cell.metrics.find(name);
-  if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return "-";
+  if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return kNoValue;
   const MetricValue& drift = found->second;
   const double percent = 100 * std::copysign(drift.value, drift.worst.found - drift.worst.expected);
   if (!std::isfinite(percent)) return "not finite";
@@ -37,7 +38,7 @@ std::string percent_text(const Cell& cell, const std::string& name) {
 }
 
 std::string stable_text(const StableStepResult& stable) {
-  if (stable.status != Status::pass) return stable.status == Status::unsupported ? "-" : word_of(stable.status);
+  if (stable.status != Status::pass) return stable.status == Status::unsupported ? kNoValue : word_of(stable.status);
   return fmt::format("{}{}", stable.step.is_cap ? ">=" : stable.step.is_floor ? "<" : "", rounded(stable.step.dt));
 }
 
@@ -66,7 +67,7 @@ std::string header(const StepSize& dt) {
 
 std::string row_line(const RowText& row) {
   if (row.has_numbers) return table_line(row);
-  return fmt::format("  {:<24} {}\n", row.engine, wrapped(row.verdict, kWidth - 27, 27));
+  return fmt::format("  {:<24} {}\n", row.engine, wrapped(row.verdict, 27));
 }
 
 // The gates that did not hold.
@@ -74,20 +75,19 @@ std::string gate_lines(const CaseResult& result) {
   std::string lines;
   for (const GateResult& gate : result.gates) {
     if (gate.answer == GateAnswer::held) continue;
-    lines += "  " + wrapped(fmt::format("gate {}: {}", word_of(gate.answer), gate.text), kWidth - 2, 4) + "\n";
+    lines += "  " + wrapped(fmt::format("gate {}: {}", word_of(gate.answer), gate.text), 4) + "\n";
   }
   return lines;
 }
 
 std::string block(const Results& results, const CaseResult& result) {
   const StepSize dt = coarsest_dt(result);
-  std::string text = wrapped(fmt::format("{}: {}", result.definition.id, result.definition.title), kWidth, 2) + "\n";
-  text += "  " + wrapped(truth_sentence(result), kWidth - 2, 2) + "\n" + header(dt);
+  std::string text = wrapped(fmt::format("{}: {}", result.definition.id, result.definition.title), 2) + "\n";
+  text += "  " + wrapped(truth_sentence(result), 2) + "\n" + header(dt);
   for (const Cell& cell : result.cells) {
     if (cell.dt.seconds == dt.seconds) text += row_line(row_text(results, result, cell));
   }
-  for (const std::string& sentence : explanations(results, result))
-    text += "  " + wrapped(sentence, kWidth - 2, 2) + "\n";
+  for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
   return text + gate_lines(result);
 }
 
@@ -104,7 +104,8 @@ std::string count_line(const Results& results) {
 
 }  // namespace
 
-std::string wrapped(const std::string& text, std::size_t width, std::size_t indent) {
+std::string wrapped(const std::string& text, std::size_t indent) {
+  const std::size_t width = kWidth - indent;
   std::string out, rest = text;
   while (rest.size() > width) {
     std::size_t at = rest.rfind(' ', width);
@@ -153,8 +154,8 @@ RowText row_text(const Results& results, const CaseResult& result, const Cell& c
   row.energy = percent_text(cell, "energy_drift");
   row.energy_synchronised = percent_text(cell, "energy_drift_synchronised");
   if (is_blown_up) {  // what was measured until it blew up would read like the error of a run
-    row.whole = row.orientation = row.energy = row.energy_synchronised = "-";
-    if (cell.stability.time < 1) row.first_second = "-";
+    row.whole = row.orientation = row.energy = row.energy_synchronised = kNoValue;
+    if (cell.stability.time < 1) row.first_second = kNoValue;
   }
   return row;
 }

@@ -21,8 +21,9 @@ struct RowText {
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell);
 std::string truth_sentence(const CaseResult& result);
 
-// Lines of at most `width` columns, broken at spaces, each after the first behind `indent` spaces.
-std::string wrapped(const std::string& text, std::size_t width, std::size_t indent);
+// Broken at spaces to the table's width; each line stands behind `indent` columns, the first behind whatever of that
+// width the caller has written already.
+std::string wrapped(const std::string& text, std::size_t indent);
 
 // The coarsest step of a case's run: the headline.
 StepSize coarsest_dt(const CaseResult& result);

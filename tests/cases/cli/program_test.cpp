@@ -1,0 +1,302 @@
+// The program itself, run as a process, with its suite in a folder of the test.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "tests/folder.h"
+
+using namespace rigor;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kFalling = R"(title = "A stone thrown"
+source = "any book"
+[scene]
+gravity = [0, -10, 0]
+[[scene.body]]
+name = "stone, big"
+mass = 2
+inertia = [1, 1, 1]
+velocity = [1, 0, 0]
+[run]
+duration = 1
+dt = ["1/10", "1/20"]
+[truth]
+kind = "projectile"
+[[gate]]
+metric = "position_error"
+engines = ["core:rk4"]
+max = %MAX%
+because = "exact for a parabola, up to rounding"
+)";
+
+std::string text_with(const std::string& limit) {
+  std::string text = kFalling;
+  return text.replace(text.find("%MAX%"), 5, limit);
+}
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+struct Answer {
+  int code;  // -signal if it was killed
+  std::string out, err;
+};
+
+// A suite of two cases, and the program started on it.
+struct Fixture {
+  Folder folder;
+  std::string suite = (folder.path / "suite").string(), out = (folder.path / "out").string();
+
+  Fixture() {
+    folder.write("suite/air/stone.toml", text_with("1e-9"));
+    folder.write("suite/air/strict.toml", text_with("1e-30"));
+  }
+
+  pid_t start(std::vector<std::string> words) const {
+    words.insert(words.begin(), RIGOR_PROGRAM);
+    if (words.size() > 1 && !words[1].starts_with("-")) words.insert(words.end(), {"--suite", suite});
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const std::string stdout_file = (folder.path / "stdout").string(), stderr_file = (folder.path / "stderr").string();
+    const pid_t pid = fork();
+    if (pid != 0) return pid;
+    setpgid(0, 0);
+    dup2(open(stdout_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+    dup2(open(stderr_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+    for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  Answer wait_for(pid_t pid) const {
+    int status = 0;
+    waitpid(pid, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content(folder.path / "stdout"),
+            content(folder.path / "stderr")};
+  }
+  Answer run(const std::vector<std::string>& words) const { return wait_for(start(words)); }
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// The last number of a CSV row's n-th column from the end, 0 the last.
+double from_the_end(const std::string& row, int n) {
+  std::size_t end = row.size();
+  for (int i = 0; i < n; ++i) end = row.rfind(',', end - 1);
+  return std::strtod(row.c_str() + row.rfind(',', end - 1) + 1, nullptr);
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(cases_cli_program, Fixture)
+
+BOOST_AUTO_TEST_CASE(help_and_version_are_on_stdout) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
+                                                {"--version"},
+                                                {"list", "--help"},
+                                                {"run", "--help"},
+                                                {"gate", "--help"},
+                                                {"trace", "--help"},
+                                                {"truth", "--help"}}) {
+    const Answer answer = run(words);
+    BOOST_TEST(answer.code == 0);
+    BOOST_TEST(!answer.out.empty());
+    BOOST_TEST(answer.err == "");
+  }
+  for (const char* command : {"list", "run", "gate", "trace", "truth"}) {
+    BOOST_TEST(run({"--help"}).out.find(command) != std::string::npos, command);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bad_words_and_numbers_are_answered_on_stderr_with_exit_2_and_nothing_written) {
+  struct Row {
+    std::vector<std::string> words;
+    std::string expected;  // in the message
+  };
+  const std::string file = folder.write("file", "");
+  const std::vector<Row> rows = {
+      {{}, "list"},
+      {{"rnu"}, "did you mean 'run'"},
+      {{"compare"}, "there is no command"},
+      {{"run", "--engin", "ode"}, "did you mean '--engine'"},
+      {{"run", "ston"}, "stone"},
+      {{"run", "stone", "--engine", "od"}, "did you mean 'ode'"},
+      {{"run", "stone", "--engine", "core:rk5"}, "did you mean 'core:rk4'|did you mean 'rk4'"},
+      {{"run", "stone", "--engine", "ode@stok"}, "did you mean 'stock'"},
+      {{"run", "stone", "--engine"}, "--engine"},
+      {{"run", "stone", "--dt", "0"}, "--dt"},
+      {{"run", "stone", "--dt", "-1"}, "--dt"},
+      {{"run", "stone", "--dt", "nan"}, "--dt"},
+      {{"run", "stone", "--dt", "inf"}, "--dt"},
+      {{"run", "stone", "--dt", "1/0"}, "--dt"},
+      {{"run", "stone", "--dt", "fast"}, "--dt"},
+      {{"run", "stone", "--dt", "1e300"}, "longer than the run"},
+      {{"run", "stone", "--dt", "1e-300"}, "at most"},
+      {{"run", "stone", "--dt", "2"}, "longer than the run"},
+      {{"run", "stone", "--duration", "-3"}, "--duration"},
+      {{"run", "stone", "--duration", "1e300"}, "at most"},
+      {{"run", "stone", "--jobs", "0"}, "--jobs"},
+      {{"run", "stone", "--jobs", "many"}, "--jobs"},
+      {{"run", "stone", "--timeout", "0"}, "--timeout"},
+      {{"run", "stone", "--out", file}, "cannot be written"},
+      {{"run", "stone", "--out", file + "/below"}, "cannot be written"},
+      {{"list", "engine"}, "did you mean 'engines'"},
+      {{"list", "--jobs", "2"}, "no option '--jobs'"},
+      {{"trace"}, "which case"},
+      {{"trace", "stone"}, "--engine"},
+      {{"trace", "stone", "--engine", "ode"}, "--dt"},
+      {{"trace", "stone", "--engine", "ode", "--dt", "1/10", "--every", "0"}, "--every"},
+      {{"trace", "air", "--engine", "ode", "--dt", "1/10"}, "one case"},
+      {{"truth", "stone", "--times", "1,x"}, "--times"},
+      {{"truth", "stone", "--times", "-1"}, "--times"},
+      {{"truth", "stone", "--times", "1,,2"}, "--times"},
+  };
+  for (const Row& row : rows) {
+    std::vector<std::string> words = row.words;
+    if (!words.empty() && words[0] == "run" && std::find(words.begin(), words.end(), "--out") == words.end()) {
+      words.insert(words.end(), {"--out", out});
+    }
+    std::string shown;
+    for (const std::string& word : words) shown += word + " ";
+    const Answer answer = run(words);
+    BOOST_TEST(answer.code == 2, shown);
+    BOOST_TEST(answer.out == "", shown);
+    bool is_said = false;
+    std::istringstream alternatives(row.expected);
+    for (std::string part; std::getline(alternatives, part, '|');)
+      is_said |= answer.err.find(part) != std::string::npos;
+    BOOST_TEST(is_said, shown << "said: " << answer.err);
+    BOOST_TEST(!fs::exists(out), shown);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(list_prints_every_table_and_each_by_itself) {
+  const std::string all = run({"list"}).out;
+  for (const std::vector<std::string>& row : std::vector<std::vector<std::string>>{{"cases", "air/stone"},
+                                                                                   {"engines", "bullet"},
+                                                                                   {"integrators", "core:rk4"},
+                                                                                   {"metrics", "position_error"},
+                                                                                   {"truths", "projectile"}}) {
+    const Answer one = run({"list", row[0]});
+    BOOST_TEST(one.code == 0);
+    BOOST_TEST(one.out.find(row[1]) != std::string::npos, one.out);
+    BOOST_TEST(all.find(one.out) != std::string::npos, row[0]);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(run_writes_its_reports_and_prints_the_table) {
+  const Answer answer =
+      run({"run", "stone", "--engine", "core:rk4", "--engine", "ode", "--engine", "ode", "--out", out});
+  BOOST_TEST(answer.code == 0);
+  BOOST_TEST(answer.err == "");  // no progress bar where there is no terminal
+  BOOST_TEST(answer.out.find("core:rk4") != std::string::npos);
+  BOOST_TEST(answer.out.find("\x1b") == std::string::npos);
+  const auto json = nlohmann::json::parse(content(fs::path(out) / "results.json"));
+  BOOST_TEST(json.at("cells").size() == 4u);
+  for (const auto& cell : json.at("cells")) {
+    BOOST_TEST(cell.at("status") == "pass");
+    const fs::path csv = fs::path(out) / "trajectories" / cell.at("trajectory").get<std::string>();
+    BOOST_TEST(content(csv).starts_with("time,body,px"), csv.string());
+  }
+  BOOST_TEST(content(fs::path(out) / "report.md").find("core:rk4") != std::string::npos);
+  BOOST_TEST(std::distance(fs::directory_iterator(out), {}) == 3);
+}
+
+BOOST_AUTO_TEST_CASE(gate_answers_with_its_exit_code) {
+  BOOST_TEST(run({"gate", "stone", "--engine", "core:rk4", "--out", out}).code == 0);
+  const Answer strict = run({"gate", "strict", "--engine", "core:rk4", "--out", out});
+  BOOST_TEST(strict.code == 1);
+  BOOST_TEST(strict.out.find("gate failed") != std::string::npos, strict.out);
+  BOOST_TEST(run({"run", "strict", "--engine", "core:rk4", "--out", out}).code == 0);
+  const Answer unchecked = run({"gate", "stone", "--engine", "ode", "--out", out});
+  BOOST_TEST(unchecked.code == 1);
+  BOOST_TEST(unchecked.out.find("gate not checked") != std::string::npos, unchecked.out);
+}
+
+BOOST_AUTO_TEST_CASE(a_cell_out_of_time_ends_the_run_with_3) {
+  const Answer answer = run({"run", "stone", "--engine", "core:rk4", "--dt", "1e-8", "--timeout", "0.2", "--out", out});
+  BOOST_TEST(answer.code == 3);
+  BOOST_TEST(answer.out.find("timed-out") != std::string::npos, answer.out);
+}
+
+BOOST_AUTO_TEST_CASE(a_truth_that_does_not_fit_is_bad_input) {
+  std::string text = text_with("1");
+  text.replace(text.find("projectile"), 10, "bounce");  // nothing there to bounce on
+  const std::string file = folder.write("elsewhere.toml", text);
+  const Answer answer = run({"run", file, "--engine", "core:rk4", "--out", out});
+  BOOST_TEST(answer.code == 2);
+  BOOST_TEST(answer.err.find("elsewhere.toml:14:") != std::string::npos, answer.err);
+}
+
+BOOST_AUTO_TEST_CASE(trace_prints_the_run_from_its_start) {
+  const Answer answer = run({"trace", "stone", "--engine", "core:rk4", "--dt", "1/10"});
+  const auto lines = lines_of(answer.out);
+  BOOST_TEST(answer.code == 0);
+  BOOST_TEST_REQUIRE(lines.size() == 12u);
+  BOOST_TEST(lines[0] == "time,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
+  BOOST_TEST(lines[1].starts_with("0,\"stone, big\",0,0,0,1,0,0,0,1,0,0,"), lines[1]);
+  BOOST_TEST(std::abs(from_the_end(lines[11], 11) - -5) < 1e-12);  // y after 1 s; RK4 is exact but for rounding
+  BOOST_TEST(lines_of(run({"trace", "stone", "--engine", "core:rk4", "--dt", "1/10", "--every", "5"}).out).size() ==
+             4u);
+  BOOST_TEST(lines_of(run({"trace", "stone", "--engine", "ode", "--dt", "1/10", "--duration", "0.5"}).out).size() ==
+             7u);
+}
+
+BOOST_AUTO_TEST_CASE(truth_prints_states_at_any_time_with_their_error) {
+  const Answer answer = run({"truth", "stone", "--times", "0,1/2,3"});
+  const auto lines = lines_of(answer.out);
+  BOOST_TEST(answer.code == 0);
+  BOOST_TEST_REQUIRE(lines.size() == 4u);
+  BOOST_TEST(lines[0].ends_with(",wz,error"));
+  BOOST_TEST(std::abs(from_the_end(lines[2], 12) - -1.25) < 1e-12);
+  BOOST_TEST(std::abs(from_the_end(lines[3], 12) - -45) < 1e-12);
+  BOOST_TEST(from_the_end(lines[3], 0) < 1e-9);
+  BOOST_TEST(lines_of(run({"truth", "stone"}).out).size() == 12u);  // every coarsest step of the run
+}
+
+BOOST_AUTO_TEST_CASE(a_reader_that_stops_reading_is_no_fault) {
+  const std::string command = std::string("bash -o pipefail -c '") + RIGOR_PROGRAM + " trace stone --suite " + suite +
+                              " --engine core:rk4 --dt 1e-5 2>" + (folder.path / "stderr").string() +
+                              " | head -n 1 >/dev/null'";
+  BOOST_TEST(std::system(command.c_str()) == 0);
+  BOOST_TEST(content(folder.path / "stderr") == "");
+}
+
+BOOST_AUTO_TEST_CASE(a_killed_run_leaves_the_old_outputs_and_no_child) {
+  folder.write("out/results.json", "old");
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    const pid_t pid = start({"run", "stone", "--engine", "core:rk4", "--dt", "1e-8", "--out", out});
+    const fs::path growing = fs::path(out) / (".partial-" + std::to_string(pid));
+    for (int i = 0; i < 500 && !fs::exists(growing); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // its children are at work then
+    BOOST_TEST(kill(pid, signal) == 0);
+    BOOST_TEST(wait_for(pid).code == -signal);
+    bool is_empty = false;  // the group of the program and all its children
+    for (int i = 0; i < 500 && !is_empty; ++i) {
+      is_empty = kill(-pid, 0) != 0;
+      if (!is_empty) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    BOOST_TEST(is_empty);
+    BOOST_TEST(content(fs::path(out) / "results.json") == "old");
+    BOOST_TEST(fs::exists(growing) == (signal == SIGKILL));  // which no one can tidy up after, but the next run does
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
