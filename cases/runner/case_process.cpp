@@ -162,10 +162,10 @@ Cell run_cell(const Cell& planned, const Case& definition, const Engine& engine,
   const double velocity_lag = method_of(engine.info(), settings).velocity_lag;
   const Simulation run = simulate(engine, settings, scene, cell.dt.seconds, definition.duration);
   cell.settings = run.settings, cell.cpu_seconds = run.cpu_seconds;
-  cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag);
   TruthSamples samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
   const JudgedRun judged{scene, run.trajectory, truth ? &samples : nullptr, velocity_lag};
+  cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
   for (const MetricRow& metric : metrics())
     cell.metrics[metric.name] = condensed(metric.measure(judged), run.trajectory);
   conclude(cell, run, scene);
