@@ -16,7 +16,8 @@ std::string gate_summary(const Results& results);
 struct RowText {
   std::string engine;
   std::string first_second, whole, orientation, energy, energy_synchronised, stable_dt, verdict;
-  bool has_numbers;  // if not, `verdict` is a sentence that stands in their place
+  bool has_numbers = true;  // if not, `verdict` is a sentence that stands in their place
+  bool is_blown_up = false;
 };
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell);
 std::string truth_sentence(const CaseResult& result);

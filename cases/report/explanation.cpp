@@ -79,7 +79,8 @@ class Explainer {
         omega_, phase, dt_.text);
     if (!explicit_ones.empty()) {
       text += fmt::format(
-          " {} multiplies the energy of such an oscillation by 1 + (omega dt)^2 = {:.3g} in every step, that "
+          " The explicit Euler step ({}) multiplies the energy of such an oscillation by 1 + (omega dt)^2 = {:.3g} in "
+          "every step, that "
           "is {:.1e} times in a second; without damping a smaller dt slows that growth but never ends it.",
           explicit_ones, 1 + phase * phase, std::pow(1 + phase * phase, 1 / dt_.seconds));
     }

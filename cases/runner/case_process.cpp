@@ -162,12 +162,11 @@ Cell run_cell(const Cell& planned, const Case& definition, const Engine& engine,
   const double velocity_lag = method_of(engine.info(), settings).velocity_lag;
   const Simulation run = simulate(engine, settings, scene, cell.dt.seconds, definition.duration);
   cell.settings = run.settings, cell.cpu_seconds = run.cpu_seconds;
-  TruthSamples samples;
+  std::optional<TruthSamples> samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
-  const JudgedRun judged{scene, run.trajectory, truth ? &samples : nullptr, velocity_lag};
+  const JudgedRun judged{scene, run.trajectory, samples ? &*samples : nullptr, velocity_lag};
   cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
-  for (const MetricRow& metric : metrics())
-    cell.metrics[metric.name] = condensed(metric.measure(judged), run.trajectory);
+  for (const MetricRow& row : metrics()) cell.metrics[row.name] = condensed(row.measure(judged), run.trajectory);
   conclude(cell, run, scene);
   if (!folder.empty()) {
     write_trajectory((std::filesystem::path(folder) / cell.trajectory).string(), scene, run.trajectory);
@@ -181,8 +180,9 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const double seconds = options.stable_steps ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   const TruthFacts facts = facts_of(definition, truth.get());
-  channel.send(message_of_truth(facts));
-  CaseJobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy).run(channel);
+  CaseJobs jobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy);
+  channel.send(message_of_truth(facts));  // from here on each job has a limit of its own
+  jobs.run(channel);
 }
 
 }  // namespace rigor
