@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(a_symplectic_method_does_not_gain_or_lose_energy_over_many_
     const double drift = std::abs(last - first) / start;
     if (method.integrator->symplectic) {
       BOOST_TEST(drift < 1e-3, method.name() << ": " << drift);  // what the oscillation leaves in a mean of ten periods
-    } else if (method.integrator->order == 1) {
+    } else if (method.integrator->order == 1 && method.integrator->twin_of.empty()) {  // a twin's loss is in its spin
       BOOST_TEST(!(drift < 1), method.name() << " is stated not to be symplectic, yet keeps the energy: " << drift);
     }
   }
