@@ -1,5 +1,7 @@
 #include "adapters/core/core_engine.h"
 
+#include <algorithm>
+
 #include "adapters/option_values.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/engine/clock.h"
@@ -21,7 +23,7 @@ class CoreWorld : public World {
     contact_ = contact_method_.make(scene, system_);
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
-    stepper_ = integrator_.make({system_, contact_.get(), orientation_});
+    stepper_ = integrator_.make({system_, contact_.get(), orientation_, settings});
   }
 
   void step(double dt) override {
@@ -76,6 +78,8 @@ MethodInfo method_info(const Integrator& integrator) {
          .meaning = "how a rotation is carried over a step; default " + integrator.default_orientation,
          .choices = names_of(orientation_updates())});
   }
+  info.options.insert(info.options.end(), integrator.options.begin(), integrator.options.end());
+  info.twin_of = integrator.twin_of;
   return info;
 }
 
@@ -88,6 +92,8 @@ EngineInfo CoreEngine::info() const {
     info.features.insert(method.features.begin(), method.features.end());
   }
   for (const Integrator& row : integrators()) info.methods.push_back(method_info(row));
+  // Twins last: the first is what a run named "core" gets.
+  std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.twin_of.empty(); });
   return info;
 }
 

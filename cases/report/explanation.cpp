@@ -51,6 +51,7 @@ class Explainer {
     if (omega_ > 0) explain_springs();
     if (omega_ == 0) explain_falling_too_far();
     explain_raw_energy();
+    explain_gyroscopic_loss();
     return sentences_;
   }
 
@@ -145,6 +146,36 @@ class Explainer {
         fmt::format("Raw energy drift is mostly sampling for {}: a semi-implicit step leaves the velocity "
                     "half a step from the position; sync brings both to one instant.",
                     list));
+  }
+
+  // A drift with its sign, if there is one; else not a number.
+  static double signed_drift(const std::map<std::string, MetricValue>& metrics, const std::string& name) {
+    const auto found = metrics.find(name);
+    if (found == metrics.end() || !found->second.not_applicable.empty()) return std::nan("");
+    return std::copysign(found->second.value, found->second.worst.found - found->second.worst.expected);
+  }
+
+  // Energy that the engine and its twin lose or gain alike, and the twin keeps once its gyroscopic term is off.
+  void explain_gyroscopic_loss() {
+    constexpr double kWorthSaying = 0.01, kAlike = 1e-3, kGone = 0.1;
+    for_headline_cells([&](const Cell& cell, const MethodInfo&) {
+      const double engine = signed_drift(cell.metrics, "energy_drift"),
+                   scheme = signed_drift(cell.scheme.metrics, "energy_drift"),
+                   without = signed_drift(cell.scheme.without_gyroscopic_term, "energy_drift");
+      const bool is_it = std::abs(engine) > kWorthSaying && std::abs(engine - scheme) < kAlike * std::abs(engine) &&
+                         std::abs(without) < kGone * std::abs(engine);
+      if (!is_it) return;
+      const double momentum = signed_drift(cell.scheme.without_gyroscopic_term, "angular_momentum_drift");
+      const std::string wrong =
+          std::isnan(momentum)
+              ? ""
+              : fmt::format(", but its angular momentum strays by {:.2g} kg m^2/s", std::abs(momentum));
+      sentences_.push_back(fmt::format(
+          "Why: {} {} {:.3g} % of its energy, and its scheme, repeated by the core, {:.3g} %: it is the gyroscopic "
+          "term's doing. Without that term the scheme is off by {:.1g} %{}.",
+          name_of(cell), engine < 0 ? "loses" : "gains", 100 * std::abs(engine), 100 * std::abs(scheme),
+          100 * std::abs(without), wrong));
+    });
   }
 
   const Results& results_;

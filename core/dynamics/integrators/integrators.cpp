@@ -5,11 +5,12 @@
 
 namespace rigor {
 
-extern const Integrator kExplicitEuler, kImplicitMidpoint, kRk4, kSemiImplicitEuler, kVelocityVerlet;
+extern const Integrator kBulletTwin, kExplicitEuler, kImplicitMidpoint, kOdeTwin, kRk4, kSemiImplicitEuler,
+    kVelocityVerlet;
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {
-      kExplicitEuler, kImplicitMidpoint, kRk4, kSemiImplicitEuler, kVelocityVerlet,
+      kBulletTwin, kExplicitEuler, kImplicitMidpoint, kOdeTwin, kRk4, kSemiImplicitEuler, kVelocityVerlet,
   };
   return table;
 }
