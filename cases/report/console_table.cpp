@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/report/comparison.h"
 #include "cases/report/explanation.h"
 
 namespace rigor {
@@ -109,6 +110,8 @@ std::string block(const Results& results, const CaseResult& result) {
     if (cell.dt.seconds == dt.seconds) text += row_line(row_text(results, result, cell));
   }
   for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
+  for (const std::string& sentence : work_precision_sentences(results, result))
+    text += "  " + wrapped(sentence, 2) + "\n";
   return text + gate_lines(result);
 }
 

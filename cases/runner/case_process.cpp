@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 
 #include "cases/report/result_json.h"
 #include "cases/report/trajectory_csv.h"
@@ -18,6 +20,7 @@ TruthSamples sample_truth(const Truth& truth, const Trajectory& trajectory, std:
                           double largest_kinetic_energy) {
   TruthSamples samples;
   samples.largest_kinetic_energy = largest_kinetic_energy;
+  samples.source = &truth;
   for (const Sample& sample : trajectory.samples) {
     truth.at(sample.time, samples.bodies.emplace_back(bodies).columns());
     samples.error.push_back(truth.error(sample.time));
@@ -30,6 +33,7 @@ MetricValue condensed(const MetricResult& result, const Trajectory& trajectory) 
   out.not_applicable = result.not_applicable;
   if (!result.measurement) return out;
   const Measurement& measured = *result.measurement;
+  if (measured.series.empty()) out.first_second = std::numeric_limits<double>::quiet_NaN();
   out.value = measured.value, out.worst = measured.worst, out.compared_until = measured.compared_until;
   for (std::size_t i = 0; i < measured.series.size() && trajectory.samples[i].time <= 1 + 1e-9; ++i) {
     if (std::abs(measured.series[i]) > std::abs(out.first_second)) out.first_second = measured.series[i];
@@ -94,6 +98,7 @@ class CaseJobs {
   void run(const Channel& channel) {
     std::vector<bool> answered(jobs_.size());
     const auto on_message = [&](std::size_t job, const std::string& message) {
+      if (answered[job]) return keep_path(job, message);
       answered[job] = true;
       channel.send(message);
     };
@@ -101,6 +106,7 @@ class CaseJobs {
       if (!answered[job]) channel.send(on_failure_[job](end));
     };
     run_jobs(jobs_, options_.jobs, on_message, on_end);
+    channel.send(message_of_spreads(spreads()));
   }
 
  private:
@@ -122,15 +128,33 @@ class CaseJobs {
     });
   }
 
+  // A cell's second and last message; a stable step has only one.
+  void keep_path(std::size_t job, const std::string& message) { paths_[cell_of_job_.at(job)] = unpacked(message); }
+
+  // Every pair of runs at the same dt that both left a path.
+  std::vector<Spread> spreads() const {
+    std::vector<Spread> found;
+    for (const auto& [a, path_a] : paths_) {
+      for (auto later = paths_.upper_bound(a); later != paths_.end(); ++later) {
+        const Cell &one = planned_.cells[a], &other = planned_.cells[later->first];
+        if (one.dt.seconds != other.dt.seconds) continue;
+        Spread spread = spread_between(path_a, later->second);
+        spread.first = one.run, spread.second = other.run, spread.dt = one.dt;
+        found.push_back(spread);
+      }
+    }
+    return found;
+  }
+
   void add_cell(std::size_t index) {
+    cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
                        const RunName& run = run_of(cell.run);
-                       channel.send(
-                           message_of_cell(index,
-                                           run_cell(cell, planned_.definition, find_engine(engines_, run.engine),
-                                                    run.settings, truth_, energy_, options_.folder),
-                                           planned_.definition.scene));
+                       const JudgedCell judged = run_cell(cell, planned_.definition, find_engine(engines_, run.engine),
+                                                          run.settings, truth_, energy_, options_.folder);
+                       channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
+                       channel.send(packed(judged.path));
                      },
                      options_.limit});
     on_failure_.push_back([this, index, &cell](const JobEnd& end) {
@@ -151,27 +175,30 @@ class CaseJobs {
   double stable_energy_;  // J, the same over the stability horizon
   std::vector<Job> jobs_;
   std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
+  std::map<std::size_t, std::size_t> cell_of_job_;
+  std::map<std::size_t, Path> paths_;  // by index of the cell
 };
 
 }  // namespace
 
-Cell run_cell(const Cell& planned, const Case& definition, const Engine& engine, const Settings& settings,
-              const Truth* truth, double largest_kinetic_energy, const std::string& folder) {
+JudgedCell run_cell(const Cell& planned, const Case& definition, const Engine& engine, const Settings& settings,
+                    const Truth* truth, double largest_kinetic_energy, const std::string& folder) {
   Cell cell = planned;
   const Scene& scene = definition.scene;
   const double velocity_lag = method_of(engine.info(), settings).velocity_lag;
   const Simulation run = simulate(engine, settings, scene, cell.dt.seconds, definition.duration);
-  cell.settings = run.settings, cell.cpu_seconds = run.cpu_seconds;
+  cell.settings = run.settings, cell.cpu_seconds = timed_again(engine, settings, scene, run);
   std::optional<TruthSamples> samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
-  const JudgedRun judged{scene, run.trajectory, samples ? &*samples : nullptr, velocity_lag};
+  JudgedRun judged{scene, run.trajectory, samples ? &*samples : nullptr, velocity_lag};
+  judged.cpu_seconds = cell.cpu_seconds;
   cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
   for (const MetricRow& row : metrics()) cell.metrics[row.name] = condensed(row.measure(judged), run.trajectory);
   conclude(cell, run, scene);
   if (!folder.empty()) {
     write_trajectory((std::filesystem::path(folder) / cell.trajectory).string(), scene, run.trajectory);
   }
-  return cell;
+  return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
 }
 
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
