@@ -1,7 +1,5 @@
 #include "core/dynamics/block_system.h"
 
-#include <Eigen/LU>
-
 namespace rigor {
 
 BlockSystem::BlockSystem(std::size_t bodies) : size_(6 * static_cast<Eigen::Index>(bodies)) {
@@ -31,7 +29,8 @@ void BlockSystem::add(std::size_t row, std::size_t column, const Mat6& block) {
 
 bool BlockSystem::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
   if (is_dense()) {
-    solution = dense_.partialPivLu().solve(right_side);
+    dense_lu_.compute(dense_);
+    solution = dense_lu_.solve(right_side);
     return solution.allFinite();
   }
   sparse_.resize(size_, size_);

@@ -2,6 +2,7 @@
 // small, sparse where there are many bodies of which each meets few others.
 #pragma once
 
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 #include <vector>
@@ -23,6 +24,7 @@ class BlockSystem {
 
   Eigen::Index size_;
   Eigen::MatrixXd dense_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu_;  // kept, so that its space is
   std::vector<Eigen::Triplet<double>> triplets_;
   Eigen::SparseMatrix<double> sparse_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_lu_;

@@ -23,11 +23,15 @@ class Stepper {
   virtual std::string complaint() const { return ""; }
 };
 
+// What an adaptive method allows each of its own steps to err by; see MotionEquations::relative_size().
+inline constexpr double kDefaultTolerance = 1e-12;
+
 // What a stepper is made from. Outlives it.
 struct StepperParts {
   const System& system;
   Contact* contact;                      // null where nothing can touch
   const OrientationUpdate* orientation;  // for methods with that option; null for the others
+  double tolerance = kDefaultTolerance;  // for adaptive methods
 };
 
 struct Integrator {
@@ -37,6 +41,7 @@ struct Integrator {
   bool symplectic;                  // on undamped smooth scenes
   double velocity_lag;              // in steps, see MethodInfo
   std::string default_orientation;  // "" where the method has one way only
+  bool adaptive = false;            // see MethodInfo
   std::unique_ptr<Stepper> (*make)(const StepperParts& parts);
 };
 

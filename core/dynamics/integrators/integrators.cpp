@@ -5,11 +5,13 @@
 
 namespace rigor {
 
-extern const Integrator kExplicitEuler, kImplicitMidpoint, kRk4, kSemiImplicitEuler, kVelocityVerlet;
+extern const Integrator kDormandPrince, kExplicitEuler, kImplicitMidpoint, kLinearlyImplicitEuler, kMoserVeselov, kRk4,
+    kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8, kVelocityVerlet;
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {
-      kExplicitEuler, kImplicitMidpoint, kRk4, kSemiImplicitEuler, kVelocityVerlet,
+      kDormandPrince, kExplicitEuler,     kImplicitMidpoint, kLinearlyImplicitEuler, kMoserVeselov,   kRk4,
+      kRkmk4,         kSemiImplicitEuler, kSymplectic4,      kSymplectic8,           kVelocityVerlet,
   };
   return table;
 }
