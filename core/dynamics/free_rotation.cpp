@@ -32,15 +32,4 @@ Quat FreeRotation::advance(const Quat& q_WB, const Vec3& L, double dt) const {
 
 std::vector<FreeRotation> free_rotations(const System& system) { return {system.bodies.begin(), system.bodies.end()}; }
 
-void drift(const System& system, const std::vector<FreeRotation>& rotations, MutableBodyColumns state, double dt) {
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    const Inertia& body = system.bodies[i];
-    if (body.fixed) continue;
-    state.set_position(i, state.position(i) + dt * state.velocity(i));
-    const Vec3 L = angular_momentum_of(body, state.rotation(i), state.angular_velocity(i));
-    state.set_orientation(i, rotations[i].advance(state.orientation(i), L, dt));
-    state.set_angular_velocity(i, angular_velocity_of(body, state.rotation(i), L));
-  }
-}
-
 }  // namespace rigor

@@ -26,7 +26,4 @@ class FreeRotation {
 // One for each body of the system.
 std::vector<FreeRotation> free_rotations(const System& system);
 
-// Moves every body that is not fixed over dt without any load.
-void drift(const System& system, const std::vector<FreeRotation>& rotations, MutableBodyColumns state, double dt);
-
 }  // namespace rigor

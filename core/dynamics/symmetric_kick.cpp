@@ -4,24 +4,37 @@ namespace rigor {
 
 SymmetricKick::SymmetricKick(const System& system)
     : system_(system),
+      momenta_(system.size()),
       equations_(system.size()),
       impulse_(6 * static_cast<Eigen::Index>(system.size())),
       change_(impulse_.size()) {}
 
+void SymmetricKick::begin(BodyColumns state) {
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    momenta_[i] = angular_momentum_of(system_.bodies[i], state.rotation(i), state.angular_velocity(i));
+  }
+}
+
+void SymmetricKick::end(MutableBodyColumns state) const {
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state.set_angular_velocity(i, angular_velocity_of(system_.bodies[i], state.rotation(i), momenta_[i]));
+  }
+}
+
 bool SymmetricKick::apply(MutableBodyColumns state, double h, double t, double dt) {
+  if (damped()) end(state);  // dampers need w
   system_.wrenches(state, t, dt, wrenches_);
   if (damped()) return damped_kick(state, h, t, dt);
   kick(state, h);
   return true;
 }
 
-void SymmetricKick::kick(MutableBodyColumns state, double h) const {
+void SymmetricKick::kick(MutableBodyColumns state, double h) {
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Inertia& body = system_.bodies[i];
     if (body.fixed) continue;
     state.set_velocity(i, state.velocity(i) + h * body.inverse_mass * wrenches_[i].force);
-    const Vec3 change = angular_velocity_of(body, state.rotation(i), h * wrenches_[i].torque);
-    state.set_angular_velocity(i, state.angular_velocity(i) + change);
+    momenta_[i] += h * wrenches_[i].torque;
   }
 }
 
@@ -48,7 +61,7 @@ bool SymmetricKick::damped_kick(MutableBodyColumns state, double h, double t, do
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Vec6 change = change_.segment<6>(6 * static_cast<Eigen::Index>(i));
     state.set_velocity(i, state.velocity(i) + change.head<3>());
-    state.set_angular_velocity(i, state.angular_velocity(i) + change.tail<3>());
+    momenta_[i] += angular_momentum_of(system_.bodies[i], state.rotation(i), change.tail<3>());
   }
   return true;
 }

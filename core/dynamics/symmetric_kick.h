@@ -16,15 +16,23 @@ class SymmetricKick {
   explicit SymmetricKick(const System& system);
 
   bool damped() const { return system_.loads.damped(); }
+
+  // Between begin() and end() the rotation is held as the angular momentum in W of each body, for converting it to w
+  // and back at every kick would add a rounding of L at every kick. w is written by end().
+  void begin(BodyColumns state);
+  void end(MutableBodyColumns state) const;
+  const Vec3& angular_momentum(std::size_t body) const { return momenta_[body]; }  // kg m²/s
+
   // Over h, inside the step [t, t + dt] in which timed forces count with their mean. False where the equations for the
   // velocities are singular (an h < 0 with strong damping); the state is then left as it is.
   bool apply(MutableBodyColumns state, double h, double t, double dt);
 
  private:
-  void kick(MutableBodyColumns state, double h) const;
+  void kick(MutableBodyColumns state, double h);
   bool damped_kick(MutableBodyColumns state, double h, double t, double dt);
 
   const System& system_;
+  std::vector<Vec3> momenta_;
   BlockSystem equations_;
   Wrenches wrenches_;
   Eigen::VectorXd impulse_, change_;

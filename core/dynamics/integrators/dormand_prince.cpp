@@ -18,10 +18,6 @@ using dormand_prince::kStages;
 
 constexpr int kMostTries = 20000;  // inner steps, refused ones included, in one step
 
-Eigen::Map<const Eigen::VectorXd> first(const dormand_prince::Row& row, std::size_t count) {
-  return {row.data(), static_cast<Eigen::Index>(count)};
-}
-
 class DormandPrince : public Stepper {
  public:
   explicit DormandPrince(const StepperParts& parts)
@@ -97,7 +93,10 @@ class DormandPrince : public Stepper {
   }
 
   void combine(const dormand_prince::Row& row, std::size_t count, Eigen::VectorXd& out) const {
-    out.noalias() = rates_.leftCols(static_cast<Eigen::Index>(count)) * first(row, count);
+    out = row[0] * rates_.col(0);
+    for (std::size_t s = 1; s < count; ++s) {
+      if (row[s] != 0) out += row[s] * rates_.col(static_cast<Eigen::Index>(s));
+    }
   }
 
   StepperParts parts_;

@@ -11,8 +11,10 @@ void LeapfrogComposition::step(MutableBodyColumns state, double t, double dt) {
     parts_.system.wrenches(state, t, dt, wrenches_);
     resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
   }
+  kick_.begin(state);
   parts_.system.loads.for_each_smooth_part(t, dt,
                                            [&](double from, double length) { smooth_part(state, from, length); });
+  kick_.end(state);
 }
 
 void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double dt) {
@@ -25,7 +27,7 @@ void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double
       owed = 0;
     }
     kick(state, owed + half, t, dt);
-    drift(parts_.system, rotations_, state, weight * dt);
+    drift(state, weight * dt);
     owed = half;
   }
   kick(state, owed, t, dt);
@@ -33,6 +35,14 @@ void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double
 
 void LeapfrogComposition::kick(MutableBodyColumns state, double h, double t, double dt) {
   if (!kick_.apply(state, h, t, dt)) complaint_ = kNoSymmetricKick;
+}
+
+void LeapfrogComposition::drift(MutableBodyColumns state, double h) const {
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    if (parts_.system.bodies[i].fixed) continue;
+    state.set_position(i, state.position(i) + h * state.velocity(i));
+    state.set_orientation(i, rotations_[i].advance(state.orientation(i), kick_.angular_momentum(i), h));
+  }
 }
 
 }  // namespace rigor

@@ -23,6 +23,7 @@ class LeapfrogComposition : public Stepper {
  private:
   void smooth_part(MutableBodyColumns state, double t, double dt);
   void kick(MutableBodyColumns state, double h, double t, double dt);
+  void drift(MutableBodyColumns state, double h) const;
 
   StepperParts parts_;
   std::span<const double> weights_;

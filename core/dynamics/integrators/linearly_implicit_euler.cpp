@@ -3,7 +3,8 @@
 // at the start of the step, G = [w]x I - [I w]x the derivative of the gyroscopic term w x I w:
 //   (M - dt D - dt² P + dt G) (V1 - V0) = dt (W0 - w0 x I w0 + dt P V0),
 //   x1 = x0 + dt v1,  R1 = exp([dt w1]x) R0.
-// Stable for springs and dampers of any stiffness; takes energy from every oscillation, the more the coarser the step.
+// Stable on linear springs and dampers of any stiffness; takes energy from every oscillation, the more the coarser the
+// step. One Newton step does not see how a stiff spring's line turns with a fast body: there it can gain energy.
 // (P. Deuflhard, Recent progress in extrapolation methods for ordinary differential equations, 1985; D. Baraff,
 // A. Witkin, Large steps in cloth simulation, 1998.)
 #include "core/dynamics/block_system.h"

@@ -37,10 +37,12 @@ class MoserVeselov : public Stepper {
 
   void step(MutableBodyColumns state, double t, double dt) override {
     complaint_.clear();
+    kick_.begin(state);
     kick(state, t, dt);
-    if (parts_.contact) parts_.contact->resolve(state);
-    for (std::size_t i = 0; i < state.size(); ++i) drift_body(state, i, dt);
+    if (parts_.contact) resolve_contact(state);
+    for (std::size_t i = 0; i < state.size(); ++i) drift(state, i, dt);
     kick(state, t, dt);
+    kick_.end(state);
   }
 
   std::string complaint() const override { return complaint_; }
@@ -50,12 +52,17 @@ class MoserVeselov : public Stepper {
     if (!kick_.apply(state, 0.5 * dt, t, dt)) complaint_ = kNoSymmetricKick;
   }
 
-  void drift_body(MutableBodyColumns state, std::size_t i, double dt) {
+  void resolve_contact(MutableBodyColumns state) {
+    kick_.end(state);
+    parts_.contact->resolve(state);
+    kick_.begin(state);
+  }
+
+  void drift(MutableBodyColumns state, std::size_t i, double dt) {
     const Inertia& body = parts_.system.bodies[i];
     if (body.fixed) return;
-    const Mat3 R = state.rotation(i);
-    const Vec3 w_B = R.transpose() * state.angular_velocity(i), L_B = body.inertia_B * w_B;
-    const Vec3 guess = 0.5 * dt * w_B;
+    const Vec3 L_B = state.rotation(i).transpose() * kick_.angular_momentum(i);
+    const Vec3 guess = 0.5 * dt * (body.inverse_inertia_B * L_B);
     Vec3 f = guess;
     if (!solve_moser_veselov(body.inertia_B, dt * L_B, f)) {
       complaint_ = "the discrete Moser-Veselov equation has no solution for so much rotation in a step";
@@ -64,7 +71,6 @@ class MoserVeselov : public Stepper {
     const Quat turn(1, f.x(), f.y(), f.z());
     state.set_position(i, state.position(i) + dt * state.velocity(i));
     state.set_orientation(i, (state.orientation(i) * turn).normalized());
-    state.set_angular_velocity(i, angular_velocity_of(body, state.rotation(i), R * L_B));
   }
 
   StepperParts parts_;

@@ -15,7 +15,7 @@ class VelocityVerlet : public Stepper {
     parts_.system.wrenches(state, t, dt, wrenches_);
     for (std::size_t i = 0; i < state.size(); ++i) kick(state, i, dt);
     if (parts_.contact) parts_.contact->resolve(state);
-    drift(parts_.system, rotations_, state, dt);
+    for (std::size_t i = 0; i < state.size(); ++i) drift(state, i, dt);
 
     parts_.system.wrenches(state, t, dt, wrenches_);
     if (parts_.system.loads.damped()) {
@@ -33,6 +33,15 @@ class VelocityVerlet : public Stepper {
     state.set_velocity(i, state.velocity(i) + 0.5 * dt * body.inverse_mass * wrenches_[i].force);
     const Vec3 change = angular_velocity_of(body, state.rotation(i), 0.5 * dt * wrenches_[i].torque);
     state.set_angular_velocity(i, state.angular_velocity(i) + change);
+  }
+
+  void drift(MutableBodyColumns state, std::size_t i, double dt) const {
+    const Inertia& body = parts_.system.bodies[i];
+    if (body.fixed) return;
+    state.set_position(i, state.position(i) + dt * state.velocity(i));
+    const Vec3 L = angular_momentum_of(body, state.rotation(i), state.angular_velocity(i));
+    state.set_orientation(i, rotations_[i].advance(state.orientation(i), L, dt));
+    state.set_angular_velocity(i, angular_velocity_of(body, state.rotation(i), L));
   }
 
   StepperParts parts_;
