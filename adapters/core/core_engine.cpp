@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "adapters/option_values.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/engine/clock.h"
@@ -24,7 +26,7 @@ class CoreWorld : public World {
     contact_ = contact_method_.make(scene, system_);
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
-    stepper_ = integrator_.make({system_, contact_.get(), orientation_, tolerance_});
+    stepper_ = integrator_.make({system_, contact_.get(), orientation_, settings});
   }
 
   void step(double dt) override {
@@ -50,7 +52,7 @@ class CoreWorld : public World {
  private:
   System system_;
   const Integrator& integrator_;
-  double tolerance_;
+  double tolerance_;  // of an adaptive method
   const ContactMethod& contact_method_;
   const OrientationUpdate* orientation_ = nullptr;
   std::unique_ptr<Contact> contact_;
@@ -82,15 +84,8 @@ MethodInfo method_info(const Integrator& integrator) {
          .meaning = "how a rotation is carried over a step; default " + integrator.default_orientation,
          .choices = names_of(orientation_updates())});
   }
-  if (integrator.adaptive) {
-    info.options.push_back(
-        {.name = "tolerance",
-         .meaning =
-             fmt::format("error allowed in each inner step, relative to 1 + the value (m, rad, m/s, rad/s); default {}",
-                         kDefaultTolerance),
-         .min = 1e-14,
-         .max = 1e-2});
-  }
+  info.options.insert(info.options.end(), integrator.options.begin(), integrator.options.end());
+  info.twin_of = integrator.twin_of;
   return info;
 }
 
@@ -103,6 +98,8 @@ EngineInfo CoreEngine::info() const {
     info.features.insert(method.features.begin(), method.features.end());
   }
   for (const Integrator& row : integrators()) info.methods.push_back(method_info(row));
+  // Twins last: the first is what a run named "core" gets.
+  std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.twin_of.empty(); });
   return info;
 }
 

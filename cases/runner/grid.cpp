@@ -114,7 +114,7 @@ std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines) {
   for (const EngineInfo& engine : engines) {
     if (engine.name == "core") {
       for (const MethodInfo& method : engine.methods) {
-        runs.push_back(parse_run_name(engine.name + ":" + method.name, engines));
+        if (method.twin_of.empty()) runs.push_back(parse_run_name(engine.name + ":" + method.name, engines));
       }
     } else {
       runs.push_back(parse_run_name(engine.name, engines));

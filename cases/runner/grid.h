@@ -20,7 +20,7 @@ struct Overrides {
 // Throws InputError for a step longer than the run, or so short that the run would never end.
 void override_run(Case& definition, const Overrides& overrides);
 
-// Every method of the in-house core, and every other engine on both tracks.
+// Every method of the in-house core but the twins of other engines, and every other engine on both tracks.
 std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines);
 
 struct GridOptions {

@@ -21,13 +21,15 @@ struct Simulation {
   std::string complaint;      // the first one of the world, with its time; empty if none
   double complaint_time = 0;  // s
   double cpu_seconds = 0;     // of the steps alone, without recording
+  long steps_per_sample = 1;
 };
 
 // Steps that fit into the duration, one that ends within rounding (1e-9 of a step) of it included.
 long steps_in(double duration, double dt);
 
-// Every step is recorded, or every n-th where the whole would pass kLargestTrajectory bytes.
+// Every step is recorded, or every n-th where the whole would pass kLargestTrajectory bytes; or as told.
 inline constexpr double kLargestTrajectory = 512e6;
-Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration);
+Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
+                    std::optional<long> steps_per_sample = {});
 
 }  // namespace rigor

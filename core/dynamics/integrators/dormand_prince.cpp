@@ -10,6 +10,7 @@
 #include "core/dynamics/integrators/dormand_prince_tableau.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/motion_equations.h"
+#include "core/engine/option_values.h"
 
 namespace rigor {
 namespace {
@@ -22,6 +23,7 @@ class DormandPrince : public Stepper {
  public:
   explicit DormandPrince(const StepperParts& parts)
       : parts_(parts),
+        tolerance_(number_option(parts.settings, "tolerance", kDefaultTolerance)),
         equations_(parts.system, OrientationChart::quaternion),
         rates_(equations_.dimension(), static_cast<Eigen::Index>(kStages)),
         y_(equations_.dimension()),
@@ -44,14 +46,13 @@ class DormandPrince : public Stepper {
  private:
   // Takes y_ over [t, t + length] in equal steps, whose number is found anew after each of them.
   void smooth_part(double t, double length) {
-    const double tolerance = parts_.tolerance;
     double left = length, longest = std::abs(length);
     int tries = 0;
     equations_.rates(y_, t, length, rates_.col(0));
     while (left != 0) {
       const double count = std::ceil(std::abs(left) / longest), h = left / count;
       take_stages(t, length, h);
-      const double error = error_of_stages(h) / tolerance;
+      const double error = error_of_stages(h) / tolerance_;
       const bool given_up = ++tries == kMostTries || !y_.allFinite();
       if (error <= 1 || given_up) {
         y_ = next_;
@@ -60,7 +61,7 @@ class DormandPrince : public Stepper {
       }
       if (given_up) {
         complaint_ = fmt::format("the tolerance of {} was not met in {} inner steps; the rest of the step was left out",
-                                 tolerance, tries);
+                                 tolerance_, tries);
       }
       longest = std::abs(h) * next_length(error);
     }
@@ -100,6 +101,7 @@ class DormandPrince : public Stepper {
   }
 
   StepperParts parts_;
+  double tolerance_;
   MotionEquations equations_;
   Wrenches wrenches_;
   Eigen::MatrixXd rates_;  // k_s in column s
@@ -118,6 +120,12 @@ const Integrator kDormandPrince = {
     .velocity_lag = 0,
     .default_orientation = "",
     .adaptive = true,
+    .options = {{.name = "tolerance",
+                 .meaning =
+                     fmt::format("error of an inner step, relative to 1 + the value in m, rad, m/s, rad/s; default {}",
+                                 kDefaultTolerance),
+                 .min = 1e-14,
+                 .max = 1e-2}},
     .make = make_stepper<DormandPrince>,
 };
 

@@ -5,13 +5,14 @@
 
 namespace rigor {
 
-extern const Integrator kDormandPrince, kExplicitEuler, kImplicitMidpoint, kLinearlyImplicitEuler, kMoserVeselov, kRk4,
-    kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8, kVelocityVerlet;
+extern const Integrator kBulletTwin, kDormandPrince, kExplicitEuler, kImplicitMidpoint, kLinearlyImplicitEuler,
+    kMoserVeselov, kOdeTwin, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8, kVelocityVerlet;
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {
-      kDormandPrince, kExplicitEuler,     kImplicitMidpoint, kLinearlyImplicitEuler, kMoserVeselov,   kRk4,
-      kRkmk4,         kSemiImplicitEuler, kSymplectic4,      kSymplectic8,           kVelocityVerlet,
+      kBulletTwin,     kDormandPrince, kExplicitEuler, kImplicitMidpoint,  kLinearlyImplicitEuler, kMoserVeselov,
+      kOdeTwin,        kRk4,           kRkmk4,         kSemiImplicitEuler, kSymplectic4,           kSymplectic8,
+      kVelocityVerlet,
   };
   return table;
 }

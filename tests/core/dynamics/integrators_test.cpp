@@ -1,7 +1,8 @@
 // Every method of the core is held to the facts that its own row states.
-#include <boost/test/unit_test.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/test/unit_test.hpp>
 #include <utility>
 
 #include "core/dynamics/energy.h"
@@ -32,10 +33,10 @@ std::vector<Method> every_method() {
 
 class Run {
  public:
-  Run(const Scene& scene, const Method& method, double tolerance = kDefaultTolerance)
+  Run(const Scene& scene, const Method& method, const Settings& settings = {})
       : system_(scene), state_(scene.bodies.size(), method.orientation && method.orientation->keeps_matrix) {
     set_initial_state(scene, state_.columns());
-    stepper_ = method.integrator->make({system_, nullptr, method.orientation, tolerance});
+    stepper_ = method.integrator->make({system_, nullptr, method.orientation, settings});
   }
   void steps(double dt, int count) {
     for (int k = 0; k < count; ++k, ++n_) {
@@ -138,7 +139,7 @@ BOOST_AUTO_TEST_CASE(a_symplectic_method_does_not_gain_or_lose_energy_over_many_
     const double drift = std::abs(last - first) / start;
     if (method.integrator->symplectic) {
       BOOST_TEST(drift < 1e-3, method.name() << ": " << drift);  // what the oscillation leaves in a mean of ten periods
-    } else if (method.integrator->order == 1) {
+    } else if (method.integrator->order == 1 && method.integrator->twin_of.empty()) {  // a twin's loss is in its spin
       BOOST_TEST(!(drift < 0.1), method.name() << " is stated not to be symplectic, yet keeps the energy: " << drift);
     }
   }
@@ -275,7 +276,7 @@ BOOST_AUTO_TEST_CASE(an_adaptive_method_meets_its_tolerance_whatever_the_step_an
       const BodyTable truth = accurate(scene, 1);
       for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
         for (const int steps : {1, 30, 300}) {
-          Run run(scene, method, tolerance);
+          Run run(scene, method, {.method = "", .options = {{"tolerance", fmt::format("{}", tolerance)}}});
           run.steps(1.0 / steps, steps);
           // At most some tens of inner steps come near the tolerance; in one second none of these scenes magnifies
           // their errors by much.
