@@ -140,10 +140,13 @@ class GateCheck {
   // A run without an order (its errors are roundings, say) the gate does not meet.
   void check_observed_order(std::size_t run) {
     if (!selects(run)) return;
-    const ObservedOrder order = observed_order(result_, run, [this](const StepSize& dt) { return selects(dt); });
+    const auto worth = errors_worth_comparing(result_);
+    if (worth.empty()) return;
+    const auto is_selected = [this](const StepSize& dt) { return selects(dt); };
+    const ObservedOrder order = observed_order(result_, run, worth.front(), is_selected);
     if (!order.value) return;
     const std::string& name = grid_.runs[run].text;
-    answer(name, "", fmt::format("observed_order of {}", name), *order.value, order.metric + ": " + order.text);
+    answer(name, "", fmt::format("observed_order of {}", name), *order.value, worth.front() + " " + order.text);
   }
 
   // Its answer stands with the first run of the pair; a run that blew up has parted from all others.
