@@ -44,8 +44,10 @@ class GateCheck {
   void check() {
     const std::size_t before = result_.gates.size();
     if (gate_.metric == "observed_order") {
+      fail_what_has_no_result();
       for (std::size_t run = 0; run < grid_.runs.size(); ++run) check_observed_order(run);
     } else if (gate_.metric == "spread" || gate_.metric == "spread_orientation") {
+      fail_what_has_no_result();
       for (const Spread& spread : result_.spreads) check_spread(spread);
     } else if (gate_.at_least_order) {
       for (std::size_t run = 0; run < grid_.runs.size(); ++run) check_order(run);
@@ -137,31 +139,42 @@ class GateCheck {
     add(engine, dt, GateAnswer::failed, fmt::format("{} {}; {}{}", head, fault, detail, because()));
   }
 
-  // A run without an order (its errors are roundings, say) the gate does not meet.
-  void check_observed_order(std::size_t run) {
-    if (!selects(run)) return;
-    const ObservedOrder order = observed_order(result_, run, [this](const StepSize& dt) { return selects(dt); });
-    if (!order.value) return;
-    const std::string& name = grid_.runs[run].text;
-    answer(name, "", fmt::format("observed_order of {}", name), *order.value, order.metric + ": " + order.text);
+  static bool has_result(const Cell& cell) { return cell.status == Status::pass || cell.status == Status::fail; }
+
+  // For what is measured across cells.
+  void fail_what_has_no_result() {
+    for (const Cell& cell : result_.cells) {
+      if (!selects(cell) || has_result(cell)) continue;
+      add(name_of(cell), cell.dt.text, GateAnswer::failed,
+          fmt::format("{} of {} at dt = {} cannot be judged, for the cell is {}: {}", gate_.metric, name_of(cell),
+                      cell.dt.text, word_of(cell.status), cell.reason));
+    }
   }
 
-  // Its answer stands with the first run of the pair; a run that blew up has parted from all others.
+  // A run without an order (its errors are roundings, say) the gate does not meet.
+  void check_observed_order(std::size_t run) {
+    const auto worth = errors_worth_comparing(result_);
+    if (!selects(run) || worth.empty()) return;
+    const auto is_selected = [this](const StepSize& dt) { return selects(dt); };
+    const ObservedOrder order = observed_order(result_, run, worth.front(), is_selected);
+    if (!order.value) return;
+    const std::string& name = grid_.runs[run].text;
+    answer(name, "", fmt::format("observed_order of {}", name), *order.value, worth.front() + " " + order.text);
+  }
+
+  // The answer stands with the first run of the pair.
   void check_spread(const Spread& spread) {
     if (!selects(spread.first) || !selects(spread.second) || !selects(spread.dt)) return;
+    const bool both_have_results = std::all_of(result_.cells.begin(), result_.cells.end(), [&](const Cell& cell) {
+      const bool is_of_pair = cell.run == spread.first || cell.run == spread.second;
+      return !is_of_pair || cell.dt.seconds != spread.dt.seconds || has_result(cell);
+    });
+    if (!both_have_results) return;
     const Furthest& worst = gate_.metric == "spread" ? spread.distance : spread.angle;
     const std::string &one = grid_.runs[spread.first].text, &other = grid_.runs[spread.second].text;
-    const std::string head = fmt::format("{} of {} and {} at dt = {}", gate_.metric, one, other, spread.dt.text);
-    const std::string where =
-        fmt::format("worst at {:.6g} s: {}", worst.time, result_.definition.scene.body_name(worst.body));
-    for (const Cell& cell : result_.cells) {
-      const bool is_of_pair = cell.run == spread.first || cell.run == spread.second;
-      if (!is_of_pair || cell.dt.seconds != spread.dt.seconds || cell.status != Status::diverged) continue;
-      add(one, spread.dt.text, GateAnswer::failed,
-          fmt::format("{} is of no meaning, for {} is {}{}", head, name_of(cell), cell.reason, because()));
-      return;
-    }
-    answer(one, spread.dt.text, head, worst.value, where);
+    answer(one, spread.dt.text, fmt::format("{} of {} and {} at dt = {}", gate_.metric, one, other, spread.dt.text),
+           worst.value,
+           fmt::format("worst at {:.6g} s: {}", worst.time, result_.definition.scene.body_name(worst.body)));
   }
 
   void check_order(std::size_t run) {

@@ -30,7 +30,8 @@ const std::vector<MetricRow>& metrics() {
 
 const std::vector<CrossMetricRow>& cross_metrics() {
   static const std::vector<CrossMetricRow> table = {
-      {"observed_order", "1", "the power of dt with which a run's position error, or else its orientation's, falls"},
+      {"observed_order", "1",
+       "the power of dt by which a run's position error falls, or its orientation error where nothing moves"},
       {"spread", "m", "largest distance between two runs of the same dt; a gate holds each pair of its engines to it"},
       {"spread_orientation", "rad", "likewise, the largest angle between two runs"},
   };

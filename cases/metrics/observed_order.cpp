@@ -65,18 +65,16 @@ std::vector<std::string> errors_worth_comparing(const CaseResult& result) {
   return worth;
 }
 
-ObservedOrder observed_order(const CaseResult& result, std::size_t run,
+ObservedOrder observed_order(const CaseResult& result, std::size_t run, const std::string& metric,
                              const std::function<bool(const StepSize&)>& selects) {
-  const auto worth = errors_worth_comparing(result);
-  if (worth.empty()) return {"", {}, "no run of this case is off by enough to show an order"};
-  ObservedOrder order{worth.front(), {}, ""};
+  ObservedOrder order;
   std::vector<double> dt, errors;
-  for (const ErrorPoint& point : error_points(result, run, order.metric)) {
+  for (const ErrorPoint& point : error_points(result, run, metric)) {
     if (!selects(point.dt) || point.error <= 100 * error_floor(result)) continue;
     dt.push_back(point.dt.seconds), errors.push_back(point.error);
     order.text += fmt::format("{}{:.4g} at {}", order.text.empty() ? "" : ", ", point.error, point.dt.text);
   }
-  if (dt.size() < 2) return {order.metric, {}, "fewer than two step sizes have an error that is the scheme's"};
+  if (dt.size() < 2) return {{}, "fewer than two step sizes have an error that is the scheme's"};
   order.value = fitted_order(dt, errors);
   return order;
 }

@@ -31,13 +31,12 @@ double error_floor(const CaseResult& result);
 std::vector<std::string> errors_worth_comparing(const CaseResult& result);
 
 struct ObservedOrder {
-  std::string metric;           // that it is the order of: the first worth comparing
   std::optional<double> value;  // none where the cells do not show one
   std::string text;             // the errors fitted, or why there is no order
 };
 // Over the cells that `selects` takes, those aside that are within 100 of the floor: there rounding stops the fall.
 ObservedOrder observed_order(
-    const CaseResult& result, std::size_t run,
+    const CaseResult& result, std::size_t run, const std::string& metric,
     const std::function<bool(const StepSize&)>& selects = [](const StepSize&) { return true; });
 
 }  // namespace rigor

@@ -58,9 +58,7 @@ class Tube {
       const double out = std::hypot(moved, turned);
       if (out <= most) continue;
       most = out;
-      const int body = static_cast<int>(i);
-      worst = moved >= turned ? Instant{sample.time, body, "distance", gap.position.norm(), radii_[i]}
-                              : Instant{sample.time, body, "angle", gap.orientation.norm(), kAngle};
+      worst = {sample.time, static_cast<int>(i), "distance in tolerances", out, 1};
     }
     return most;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rigor {
 namespace {
@@ -64,9 +65,21 @@ std::vector<EqualCost> at_equal_cost(const CaseResult& result, std::size_t run, 
   return out;
 }
 
+std::size_t BestOfCore::compared() const {
+  return std::count_if(points.begin(), points.end(), [](const EqualCost& point) { return point.of_run.has_value(); });
+}
+
+double BestOfCore::mean() const {
+  double logs = 0;
+  for (const EqualCost& point : points) logs += point.of_run ? std::log(point.times_less()) : 0;
+  return std::exp(logs / static_cast<double>(compared()));
+}
+
 double BestOfCore::least() const {
-  double least = points.front().times_less();
-  for (const EqualCost& point : points) least = std::min(least, point.times_less());
+  double least = std::numeric_limits<double>::infinity();
+  for (const EqualCost& point : points) {
+    if (point.of_run) least = std::min(least, point.times_less());
+  }
   return least;
 }
 
@@ -75,10 +88,11 @@ std::optional<BestOfCore> best_of_core(const Results& results, const CaseResult&
   std::optional<BestOfCore> best;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
     if (results.runs[run].engine != "core") continue;
-    BestOfCore here{metric, at_equal_cost(result, run, baseline, metric)};
-    const bool is_whole = !here.points.empty() && std::all_of(here.points.begin(), here.points.end(),
-                                                              [](const EqualCost& p) { return p.of_run.has_value(); });
-    if (is_whole && (!best || here.least() > best->least())) best = here;
+    const BestOfCore here{metric, at_equal_cost(result, run, baseline, metric)};
+    if (here.compared() == 0) continue;
+    const bool is_better = !best || here.compared() > best->compared() ||
+                           (here.compared() == best->compared() && here.mean() > best->mean());
+    if (is_better) best = here;
   }
   return best;
 }

@@ -38,12 +38,14 @@ std::vector<std::size_t> baselines(const Results& results);
 std::vector<EqualCost> at_equal_cost(const CaseResult& result, std::size_t run, std::size_t baseline,
                                      const std::string& metric);
 
-// The method of the core that gains most on a baseline where it gains least: none where no method can be compared with
-// every cell of it. Ordered by the baseline's dt, as the cells are.
+// The method of the core that can be compared with most cells of a baseline and, of those, gains most in the geometric
+// mean. One point a cell of the baseline, in their order.
 struct BestOfCore {
   std::string metric;
   std::vector<EqualCost> points;
-  double least() const;  // of times_less over the points
+  std::size_t compared() const;  // points that have a value of the run's
+  double mean() const;           // of times_less, geometric, over those
+  double least() const;
 };
 std::optional<BestOfCore> best_of_core(const Results& results, const CaseResult& result, std::size_t baseline,
                                        const std::string& metric);

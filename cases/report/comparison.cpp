@@ -33,9 +33,8 @@ TextTable errors_and_costs(const Results& results, const CaseResult& result, con
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
     const auto points = error_points(result, run, metric);
     if (points.empty()) continue;
-    const ObservedOrder order = observed_order(result, run);
-    const bool has_order = order.value && order.metric == metric;
-    std::vector<std::string> row = {results.runs[run].text, has_order ? fmt::format("{:.2f}", *order.value) : kNone};
+    const ObservedOrder order = observed_order(result, run, metric);
+    std::vector<std::string> row = {results.runs[run].text, order.value ? fmt::format("{:.2f}", *order.value) : kNone};
     for (const StepSize& dt : result.definition.dt) {
       const auto at = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.dt.text == dt.text; });
       row.push_back(at == points.end() ? kNone : fmt::format("{:.2g} at {:.3g}", at->error, 1e6 * at->cost));
@@ -102,21 +101,21 @@ TextTable spread_table(const Results& results, const CaseResult& result) {
 }
 
 std::string sentence(const Results& results, const BestOfCore& best) {
-  const EqualCost& coarsest = *std::max_element(
-      best.points.begin(), best.points.end(),
-      [](const EqualCost& a, const EqualCost& b) { return a.of_baseline.dt.seconds < b.of_baseline.dt.seconds; });
+  const EqualCost* coarsest = nullptr;  // of those that can be compared
   std::string all;
   for (const EqualCost& point : best.points) {
+    const bool is_coarser = !coarsest || point.of_baseline.dt.seconds > coarsest->of_baseline.dt.seconds;
+    if (point.of_run && is_coarser) coarsest = &point;
     all += fmt::format("{}{} at {}", all.empty() ? "" : ", ", times_text(point), point.of_baseline.dt.text);
   }
   const std::string unit = unit_of(best.metric);
-  const ErrorPoint& of_baseline = coarsest.of_baseline;
+  const ErrorPoint& of_baseline = coarsest->of_baseline;
   return fmt::format(
-      "At the cost of {} at dt = {} s ({:.3g} ns a step, {} error {:.2g} {}) {} has an error of {}{:.2g} {}. "
-      "Times less error at equal cost: {}.",
-      results.runs[coarsest.baseline].text, of_baseline.dt.text, 1e9 * of_baseline.cost * of_baseline.dt.seconds,
-      kind_of(best.metric), of_baseline.error, unit, results.runs[coarsest.run].text,
-      coarsest.of_run->reach == Reach::extrapolated ? "~" : "", coarsest.of_run->error, unit, all);
+      "At the cost of {} at dt = {} s ({:.3g} ns a step, {} error {:.2g} {}) {} has an error of {}{:.2g} {}; "
+      "times less at equal cost: {}.",
+      results.runs[coarsest->baseline].text, of_baseline.dt.text, 1e9 * of_baseline.cost * of_baseline.dt.seconds,
+      kind_of(best.metric), of_baseline.error, unit, results.runs[coarsest->run].text,
+      coarsest->of_run->reach == Reach::extrapolated ? "~" : "", coarsest->of_run->error, unit, all);
 }
 
 }  // namespace
@@ -138,7 +137,7 @@ std::vector<std::string> work_precision_sentences(const Results& results, const 
     std::optional<BestOfCore> tightest;
     for (const std::string& metric : errors_worth_comparing(result)) {
       const auto best = best_of_core(results, result, baseline, metric);
-      if (best && (!tightest || best->least() < tightest->least())) tightest = best;
+      if (best && (!tightest || best->mean() < tightest->mean())) tightest = best;
     }
     if (tightest) sentences.push_back(sentence(results, *tightest));
   }

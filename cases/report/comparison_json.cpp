@@ -17,15 +17,14 @@ Json json_of(const Furthest& furthest, const Scene& scene) {
 
 Json observed_orders_json(const Results& results, const CaseResult& result) {
   Json orders = Json::array();
-  for (std::size_t run = 0; run < results.runs.size(); ++run) {
-    const ObservedOrder order = observed_order(result, run);
-    Json json = {{"engine", results.runs[run].text}, {"metric", order.metric}, {"value", nullptr}};
-    if (order.value) {
-      json["value"] = *order.value, json["errors"] = order.text;
-    } else {
-      json["not_applicable"] = order.text;
+  for (const std::string& metric : errors_worth_comparing(result)) {
+    for (std::size_t run = 0; run < results.runs.size(); ++run) {
+      const ObservedOrder order = observed_order(result, run, metric);
+      Json json = {{"engine", results.runs[run].text}, {"metric", metric}};
+      json["value"] = order.value ? Json(*order.value) : Json(nullptr);
+      json[order.value ? "errors" : "not_applicable"] = order.text;
+      orders.push_back(json);
     }
-    orders.push_back(json);
   }
   return orders;
 }
@@ -72,7 +71,10 @@ Json work_precision_json(const Results& results, const CaseResult& result) {
       if (!best) continue;
       best_ones.push_back({{"baseline", results.runs[baseline].text},
                            {"engine", results.runs[best->points.front().run].text},
-                           {"times_less", best->least()}});
+                           {"times_less", best->mean()},
+                           {"times_less_at_worst", best->least()},
+                           {"cells_compared", best->compared()},
+                           {"cells", best->points.size()}});
     }
     tables.push_back({{"metric", metric}, {"points", points}, {"at_equal_cost", equal}, {"best_of_core", best_ones}});
   }

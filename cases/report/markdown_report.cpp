@@ -61,7 +61,7 @@ std::string table(const TextTable& cells) {
   std::string text = plain(cells.heading) + "\n\n";
   for (std::size_t row = 0; row < cells.rows.size(); ++row) {
     text += "|";
-    for (const std::string& cell : cells.rows[row]) text += " " + plain(cell) + " |";
+    for (const std::string& cell : cells.rows[row]) text += fmt::format(" {} |", plain(cell));
     text += "\n";
     if (row > 0) continue;
     text += "|---|";
