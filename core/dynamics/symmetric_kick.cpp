@@ -17,6 +17,7 @@ void SymmetricKick::begin(BodyColumns state) {
 
 void SymmetricKick::end(MutableBodyColumns state) const {
   for (std::size_t i = 0; i < state.size(); ++i) {
+    if (system_.bodies[i].fixed) continue;
     state.set_angular_velocity(i, angular_velocity_of(system_.bodies[i], state.rotation(i), momenta_[i]));
   }
 }
