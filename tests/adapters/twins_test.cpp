@@ -3,6 +3,7 @@
 
 #include "cases/metrics/measuring.h"
 #include "cases/runner/twin_run.h"
+#include "cases/suite.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/system.h"
 #include "core/scene/turned.h"
@@ -117,6 +118,30 @@ BOOST_AUTO_TEST_CASE(an_engine_does_what_its_published_scheme_does_to_rounding) 
       BOOST_TEST(found.rotation < 1e-9, smooth.name << ", " << text << ": " << found.rotation << " rad");
     }
   }
+}
+
+// The need of the suite: nothing of ODE's or Bullet's motion is left unexplained in any smooth case.
+BOOST_AUTO_TEST_CASE(in_every_smooth_case_of_the_suite_an_engine_does_what_its_scheme_does) {
+  const auto infos = infos_of(engines());
+  int compared = 0;
+  for (const Case& definition : select_cases({}, default_suite_dir())) {
+    const Scene& scene = definition.scene;
+    for (const StepSize& dt : definition.dt) {
+      for (const char* text : {"ode", "ode@stock", "bullet", "bullet@stock"}) {
+        const RunName name = parse_run_name(text, infos);
+        const auto twin = twin_of(engines(), name, scene);
+        if (!twin || !why_unsupported(find_engine(engines(), name.engine).info(), scene, dt.seconds).empty()) continue;
+        const Unexplained found = unexplained(name, *twin, scene, dt.seconds, definition.duration);
+        ++compared;
+        BOOST_TEST_MESSAGE(definition.id << ", " << text << " at " << dt.text << ": " << found.error << ", "
+                                         << found.rotation << " rad until " << found.until << " of "
+                                         << definition.duration << " s");
+        BOOST_TEST(found.error < 1e-9, definition.id << ", " << text << " at " << dt.text << ": " << found.error);
+        BOOST_TEST(found.rotation < 1e-9, definition.id << ", " << text << " at " << dt.text << ": " << found.rotation);
+      }
+    }
+  }
+  BOOST_TEST(compared > 0);
 }
 
 // The known figures of both schemes (20.6 % and 76 % of the energy lost in 60 s), and that the twins alone show them.
