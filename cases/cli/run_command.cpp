@@ -33,7 +33,10 @@ std::vector<RunName> runs_asked_for(const CommandLine& line) {
 Results planned(const CommandLine& line) {
   std::vector<Case> cases = select_cases(line.words, line.suite_dir);
   for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
-  return plan_grid(cases, runs_asked_for(line), engines(), true);
+  const std::vector<RunName> runs = runs_asked_for(line);
+  // Who names engines wants these and no others.
+  const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, infos_of(engines())) : std::vector<RunName>();
+  return plan_grid(cases, runs, engines(), true, of_gates);
 }
 
 Results simulated_and_written(const CommandLine& line) {

@@ -20,12 +20,23 @@ struct TruthSamples {
   const Truth* source = nullptr;  // what was sampled, to be asked between the first sample and the last
 };
 
+// The run's twin: its own scheme, repeated by the core (Engine::twin), at the instants of the run's samples; fewer if
+// the twin blew up before.
+struct TwinRun {
+  Trajectory trajectory;
+  // What roundings alone may have made of the twin up to each sample: the largest distance from the same twin in a
+  // turned world, where the motion is the same and every rounding another. Never falls.
+  std::vector<double> position_rounding;     // m
+  std::vector<double> orientation_rounding;  // rad
+};
+
 // A run, ready to be judged. The trajectory ends before the first sample that is not finite.
 struct JudgedRun {
   const Scene& scene;
   const Trajectory& trajectory;
-  const TruthSamples* truth;                                      // null where the case has none
-  double velocity_lag;                                            // in steps, see MethodInfo
+  const TruthSamples* truth;      // null where the case has none
+  double velocity_lag;            // in steps, see MethodInfo
+  const TwinRun* twin = nullptr;  // null for the core's own schemes, and where bodies can touch
   double cpu_seconds = std::numeric_limits<double>::quiet_NaN();  // s, of the run's steps
 };
 

@@ -13,6 +13,8 @@ MetricRow orthonormality_error();
 MetricRow phase_error();
 MetricRow position_error();
 MetricRow tube();
+MetricRow unexplained_error();
+MetricRow unexplained_rotation();
 
 const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
@@ -21,6 +23,7 @@ const std::vector<MetricRow>& metrics() {
       linear_momentum_drift(),  orientation_error(),
       orthonormality_error(),   phase_error(),
       position_error(),         tube(),
+      unexplained_error(),      unexplained_rotation(),
   };
   return table;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cases/report/comparison.h"
+#include "cases/report/explained_error.h"
 #include "cases/report/explanation.h"
 
 namespace rigor {
@@ -13,13 +14,6 @@ namespace {
 
 constexpr std::size_t kWidth = 100;
 const std::string kNoValue = "-";
-
-// Two or three significant digits: 0.0312, 1.3e-05, 490.
-std::string rounded(double value) {
-  if (!std::isfinite(value)) return "not finite";
-  if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e4)) return fmt::format("{:.1e}", value);
-  return fmt::format("{:.3g}", value);
-}
 
 std::string metric_text(const Cell& cell, const std::string& name, double MetricValue::*part) {
   const auto found = cell.metrics.find(name);
@@ -57,12 +51,6 @@ std::string shortened(std::string text, std::size_t width) {
   while (!text.empty() && (text.back() & 0xc0) == 0x80) text.pop_back();
   if (!text.empty() && (text.back() & 0x80)) text.pop_back();
   return text + "..";
-}
-
-std::string engine_column(const std::string& name) {
-  constexpr std::size_t kColumn = 24;
-  if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
-  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a line of its own
 }
 
 std::string table_line(const RowText& row) {
@@ -109,6 +97,7 @@ std::string block(const Results& results, const CaseResult& result) {
   for (const Cell& cell : result.cells) {
     if (cell.dt.seconds == dt.seconds) text += row_line(row_text(results, result, cell));
   }
+  text += explained_text(explained_rows(results, result, dt));
   for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
   for (const std::string& sentence : work_precision_sentences(results, result))
     text += "  " + wrapped(sentence, 2) + "\n";
@@ -139,6 +128,18 @@ std::string wrapped(const std::string& text, std::size_t indent) {
     rest.erase(0, at + 1);
   }
   return out + rest;
+}
+
+std::string rounded(double value) {
+  if (!std::isfinite(value)) return "not finite";
+  if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e4)) return fmt::format("{:.1e}", value);
+  return fmt::format("{:.3g}", value);
+}
+
+std::string engine_column(const std::string& name) {
+  constexpr std::size_t kColumn = 24;
+  if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
+  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a line of its own
 }
 
 StepSize coarsest_dt(const CaseResult& result) {

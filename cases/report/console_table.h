@@ -26,6 +26,12 @@ std::string truth_sentence(const CaseResult& result);
 // width the caller has written already.
 std::string wrapped(const std::string& text, std::size_t indent);
 
+// Two or three significant digits: 0.0312, 1.3e-05, 490.
+std::string rounded(double value);
+
+// The first column of a table; a long name gets a line of its own.
+std::string engine_column(const std::string& name);
+
 // The coarsest step of a case's run: the headline.
 StepSize coarsest_dt(const CaseResult& result);
 

@@ -5,6 +5,7 @@
 
 #include "cases/report/comparison.h"
 #include "cases/report/console_table.h"
+#include "cases/report/explained_error.h"
 #include "cases/report/explanation.h"
 #include "cases/report/machine.h"
 #include "cases/report/reports.h"
@@ -28,6 +29,19 @@ std::string plain(const std::string& text) {
   return out;
 }
 
+std::string explained_markdown(const std::vector<ExplainedRow>& rows) {
+  if (rows.empty()) return "";
+  std::string text =
+      "| error explained | position, total [m] | by the scheme [m] | unexplained [m] | orientation, total [rad] | by "
+      "the "
+      "scheme [rad] | unexplained [rad] | until [s] |\n|---|---:|---:|---:|---:|---:|---:|---:|\n";
+  for (const ExplainedRow& row : rows) {
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", plain(row.engine), row.total, row.by_scheme,
+                        row.unexplained, row.rotation, row.rotation_by_scheme, row.rotation_unexplained, row.until);
+  }
+  return text;
+}
+
 std::string table(const Results& results, const CaseResult& result, const StepSize& dt) {
   std::string text = fmt::format(
       "| dt = {} s | position error in 1 s [m] | over the run [m] | orientation error [rad] | energy drift, raw [%] | "
@@ -39,7 +53,8 @@ std::string table(const Results& results, const CaseResult& result, const StepSi
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", plain(row.engine), row.first_second, row.whole,
                         row.orientation, row.energy, row.energy_synchronised, row.stable_dt, plain(row.verdict));
   }
-  return text;
+  const std::string explained = explained_markdown(explained_rows(results, result, dt));
+  return explained.empty() ? text : text + "\n" + explained;
 }
 
 std::string table(const TextTable& cells) {

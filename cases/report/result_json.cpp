@@ -56,6 +56,33 @@ MetricValue metric_from(const Json& json, const Scene& scene) {
   return metric;
 }
 
+using Metrics = std::map<std::string, MetricValue>;
+
+Json json_of(const Metrics& metrics, const Scene& scene) {
+  Json json = Json::object();
+  for (const auto& [name, metric] : metrics) json[name] = json_of(metric, name, scene);
+  return json;
+}
+
+Metrics metrics_from(const Json& json, const Scene& scene) {
+  Metrics metrics;
+  for (const auto& [name, metric] : json.items()) metrics[name] = metric_from(metric, scene);
+  return metrics;
+}
+
+Json json_of(const SchemeFindings& scheme, const Scene& scene) {
+  if (scheme.twin.empty()) return nullptr;
+  return {{"twin", scheme.twin},
+          {"metrics", json_of(scheme.metrics, scene)},
+          {"without_gyroscopic_term", json_of(scheme.without_gyroscopic_term, scene)}};
+}
+
+SchemeFindings scheme_from(const Json& json, const Scene& scene) {
+  if (json.is_null()) return {};
+  return {json.at("twin").get<std::string>(), metrics_from(json.at("metrics"), scene),
+          metrics_from(json.at("without_gyroscopic_term"), scene)};
+}
+
 Verdict verdict_of(const std::string& word) {
   for (Verdict verdict : {Verdict::stable, Verdict::drifting, Verdict::blown_up}) {
     if (word_of(verdict) == word) return verdict;
@@ -73,7 +100,8 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
     cell.stability = {verdict_of(verdict.at("word").get<std::string>()), number(verdict.at("time")),
                       body_index(scene, verdict.at("body").get<std::string>()), verdict.at("why").get<std::string>()};
   }
-  for (const auto& [name, metric] : json.at("metrics").items()) cell.metrics[name] = metric_from(metric, scene);
+  cell.metrics = metrics_from(json.at("metrics"), scene);
+  cell.scheme = scheme_from(json.at("by_scheme"), scene);
   for (const auto& [name, value] : json.at("settings").items())
     cell.settings.emplace_back(name, value.get<std::string>());
 }
@@ -112,8 +140,8 @@ Json json_of(const Cell& cell, const Scene& scene) {
                        {"body", scene.body_name(stability.body)},
                        {"why", stability.why}};
   }
-  json["metrics"] = Json::object();
-  for (const auto& [name, metric] : cell.metrics) json["metrics"][name] = json_of(metric, name, scene);
+  json["metrics"] = json_of(cell.metrics, scene);
+  json["by_scheme"] = json_of(cell.scheme, scene);
   json["settings"] = Json::object();
   for (const auto& [name, value] : cell.settings) json["settings"][name] = value;
   json["cpu_seconds"] = cell.cpu_seconds;

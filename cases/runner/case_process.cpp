@@ -11,6 +11,7 @@
 #include "cases/report/result_json.h"
 #include "cases/report/trajectory_csv.h"
 #include "cases/runner/simulate.h"
+#include "cases/runner/twin_run.h"
 #include "core/error.h"
 
 namespace rigor {
@@ -26,19 +27,6 @@ TruthSamples sample_truth(const Truth& truth, const Trajectory& trajectory, std:
     samples.error.push_back(truth.error(sample.time));
   }
   return samples;
-}
-
-MetricValue condensed(const MetricResult& result, const Trajectory& trajectory) {
-  MetricValue out;
-  out.not_applicable = result.not_applicable;
-  if (!result.measurement) return out;
-  const Measurement& measured = *result.measurement;
-  if (measured.series.empty()) out.first_second = std::numeric_limits<double>::quiet_NaN();
-  out.value = measured.value, out.worst = measured.worst, out.compared_until = measured.compared_until;
-  for (std::size_t i = 0; i < measured.series.size() && trajectory.samples[i].time <= 1 + 1e-9; ++i) {
-    if (std::abs(measured.series[i]) > std::abs(out.first_second)) out.first_second = measured.series[i];
-  }
-  return out;
 }
 
 void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
@@ -150,9 +138,8 @@ class CaseJobs {
     cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const RunName& run = run_of(cell.run);
-                       const JudgedCell judged = run_cell(cell, planned_.definition, find_engine(engines_, run.engine),
-                                                          run.settings, truth_, energy_, options_.folder);
+                       const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
+                                                          energy_, options_.folder);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
                        channel.send(packed(judged.path));
                      },
@@ -181,19 +168,24 @@ class CaseJobs {
 
 }  // namespace
 
-JudgedCell run_cell(const Cell& planned, const Case& definition, const Engine& engine, const Settings& settings,
+JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, double largest_kinetic_energy, const std::string& folder) {
   Cell cell = planned;
   const Scene& scene = definition.scene;
-  const double velocity_lag = method_of(engine.info(), settings).velocity_lag;
-  const Simulation run = simulate(engine, settings, scene, cell.dt.seconds, definition.duration);
-  cell.settings = run.settings, cell.cpu_seconds = timed_again(engine, settings, scene, run);
+  const Engine& engine = find_engine(engines, run_name.engine);
+  const double velocity_lag = method_of(engine.info(), run_name.settings).velocity_lag;
+  const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration);
+  cell.settings = run.settings, cell.cpu_seconds = timed_again(engine, run_name.settings, scene, run);
   std::optional<TruthSamples> samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
-  JudgedRun judged{scene, run.trajectory, samples ? &*samples : nullptr, velocity_lag};
-  judged.cpu_seconds = cell.cpu_seconds;
+  const std::optional<RunName> twin_name = twin_of(engines, run_name, scene);
+  std::optional<TwinRun> twin;
+  if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
+  const JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
+                         velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
   cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
   for (const MetricRow& row : metrics()) cell.metrics[row.name] = condensed(row.measure(judged), run.trajectory);
+  if (twin) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   if (!folder.empty()) {
     write_trajectory((std::filesystem::path(folder) / cell.trajectory).string(), scene, run.trajectory);

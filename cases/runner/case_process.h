@@ -16,7 +16,7 @@ struct JudgedCell {
   Cell cell;
   Path path;
 };
-JudgedCell run_cell(const Cell& planned, const Case& definition, const Engine& engine, const Settings& settings,
+JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, double largest_kinetic_energy, const std::string& folder);
 
 }  // namespace rigor

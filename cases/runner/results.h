@@ -29,6 +29,16 @@ struct MetricValue {
   std::string not_applicable;  // why there is no value; empty if there is
 };
 
+// A result without its course over time. `trajectory` is the one it was measured on.
+MetricValue condensed(const MetricResult& result, const Trajectory& trajectory);
+
+// What a run's own scheme does by itself, as its twin in the core shows. `twin` is empty where there is none.
+struct SchemeFindings {
+  std::string twin;                                            // the name of the core's run
+  std::map<std::string, MetricValue> metrics;                  // of the twin, as of a run of its own
+  std::map<std::string, MetricValue> without_gyroscopic_term;  // of the twin with that term off, where it is on
+};
+
 // A gate's answer for one cell, or for an order fitted over several.
 enum class GateAnswer { held, failed, not_checked };
 std::string word_of(GateAnswer answer);
@@ -48,6 +58,7 @@ struct Cell {
   std::string reason = "it did not run";  // why, for all but `pass`
   Stability stability;
   std::map<std::string, MetricValue> metrics;  // by name; empty if the cell did not get so far
+  SchemeFindings scheme;
   SettingsInForce settings;
   double cpu_seconds = 0;
   std::string trajectory;  // file name in trajectories/; empty if there is none

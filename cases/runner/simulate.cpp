@@ -54,7 +54,8 @@ long steps_in(double duration, double dt) {
   return static_cast<long>(std::min(std::floor(duration / dt + kRounding), kMost));
 }
 
-Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration) {
+Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
+                    std::optional<long> steps_per_sample_told) {
   const std::unique_ptr<World> world = engine.load(scene, settings);
   Simulation run;
   run.trajectory.dt = dt;
@@ -62,7 +63,9 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
 
   Snapshot now;
   world->read(now);
-  const long steps = steps_in(duration, dt), every = steps_per_sample(steps, now.bodies());
+  const long steps = steps_in(duration, dt),
+             every = steps_per_sample_told.value_or(steps_per_sample(steps, now.bodies()));
+  run.steps_per_sample = every;
   for (long n = 0;; ++n) {
     if (const auto body = body_not_finite(now.bodies())) {
       run.not_finite = NotFinite{now.time, *body};

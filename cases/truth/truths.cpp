@@ -9,15 +9,19 @@
 namespace rigor {
 
 // One declaration and one row a truth, alphabetical; each is defined in the file of its name.
+TruthRow asymmetric_top_truth();
+TruthRow axisymmetric_top_truth();
 TruthRow bounce_truth();
+TruthRow oscillator_truth();
+TruthRow principal_torque_truth();
 TruthRow projectile_truth();
 TruthRow reference_truth();
+TruthRow steady_precession_truth();
 
 const std::vector<TruthRow>& truths() {
   static const std::vector<TruthRow> table = {
-      bounce_truth(),
-      projectile_truth(),
-      reference_truth(),
+      asymmetric_top_truth(),   axisymmetric_top_truth(), bounce_truth(),    oscillator_truth(),
+      principal_torque_truth(), projectile_truth(),       reference_truth(), steady_precession_truth(),
   };
   return table;
 }

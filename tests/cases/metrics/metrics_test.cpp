@@ -38,7 +38,9 @@ BOOST_AUTO_TEST_CASE(the_truth_itself_has_no_error) {
     const auto truth = make_truth(row.truth, row.scene, 2);
     const Trajectory played = test::played(*truth, row.scene, 0.02, 100);
     const TruthSamples samples = test::sampled(*truth, played, row.scene, 100);
-    JudgedRun run{row.scene, played, &samples, 0};
+    const std::vector<double> no_rounding(played.samples.size());
+    const TwinRun itself{played, no_rounding, no_rounding};
+    JudgedRun run{row.scene, played, &samples, 0, &itself};
     run.cpu_seconds = 0;
     for (const MetricRow& metric : metrics()) {
       BOOST_TEST_CONTEXT(row.truth << " of " << row.scene.bodies[0].name << ": " << metric.name) {

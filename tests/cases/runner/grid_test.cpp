@@ -227,6 +227,7 @@ BOOST_AUTO_TEST_CASE(the_default_runs_are_all_core_methods_and_each_other_engine
     BOOST_TEST(names.contains(name), name);
   }
   BOOST_TEST(names.size() == default_runs(infos).size());
+  for (const std::string& name : names) BOOST_TEST(name.find("twin") == std::string::npos, name);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
