@@ -69,6 +69,7 @@ MethodInfo method_info(const Integrator& integrator) {
       .summary = integrator.summary,
       .order = integrator.order,
       .symplectic = integrator.symplectic,
+      .symmetric = integrator.symmetric,
       .velocity_lag = integrator.velocity_lag,
       .options = {
           {.name = "contact", .meaning = "how touching bodies are treated", .choices = names_of(contact_methods())}}};
