@@ -1,5 +1,7 @@
 #include "adapters/core/core_engine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "adapters/option_values.h"
@@ -16,6 +18,7 @@ class CoreWorld : public World {
   CoreWorld(const Scene& scene, const Settings& settings)
       : system_(scene),
         integrator_(integrator(settings.method)),
+        tolerance_(number_option(settings, "tolerance", kDefaultTolerance)),
         contact_method_(contact_method(word_option(settings, "contact", contact_methods().front().name))) {
     if (!integrator_.default_orientation.empty()) {
       orientation_ = &orientation_update(word_option(settings, "orientation", integrator_.default_orientation));
@@ -39,6 +42,7 @@ class CoreWorld : public World {
   SettingsInForce settings_in_force() const override {
     SettingsInForce settings = {{"integrator", integrator_.name}, {"gyroscopic term", "on"}};
     if (orientation_) settings.emplace_back("orientation", orientation_->name);
+    if (integrator_.adaptive) settings.emplace_back("tolerance", fmt::format("{}", tolerance_));
     settings.emplace_back("contact", contact_ ? contact_method_.name : "none in this scene");
     return settings;
   }
@@ -48,6 +52,7 @@ class CoreWorld : public World {
  private:
   System system_;
   const Integrator& integrator_;
+  double tolerance_;  // of an adaptive method
   const ContactMethod& contact_method_;
   const OrientationUpdate* orientation_ = nullptr;
   std::unique_ptr<Contact> contact_;
@@ -71,6 +76,7 @@ MethodInfo method_info(const Integrator& integrator) {
       .symplectic = integrator.symplectic,
       .symmetric = integrator.symmetric,
       .velocity_lag = integrator.velocity_lag,
+      .adaptive = integrator.adaptive,
       .options = {
           {.name = "contact", .meaning = "how touching bodies are treated", .choices = names_of(contact_methods())}}};
   if (!integrator.default_orientation.empty()) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/report/comparison.h"
 #include "cases/report/explained_error.h"
 #include "cases/report/explanation.h"
 
@@ -98,6 +99,8 @@ std::string block(const Results& results, const CaseResult& result) {
   }
   text += explained_text(explained_rows(results, result, dt));
   for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
+  for (const std::string& sentence : work_precision_sentences(results, result))
+    text += "  " + wrapped(sentence, 2) + "\n";
   return text + gate_lines(result);
 }
 

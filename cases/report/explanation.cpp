@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 namespace rigor {
 namespace {
@@ -155,27 +156,30 @@ class Explainer {
     return std::copysign(found->second.value, found->second.worst.found - found->second.worst.expected);
   }
 
-  // Energy that the engine and its twin lose or gain alike, and the twin keeps once its gyroscopic term is off.
+  // Energy that the engine and its twin lose or gain alike, and that the twin keeps once its gyroscopic term is off.
   void explain_gyroscopic_loss() {
     constexpr double kWorthSaying = 0.01, kAlike = 1e-3, kGone = 0.1;
+    std::map<std::string, std::string> names;  // by what is said of them
     for_headline_cells([&](const Cell& cell, const MethodInfo&) {
       const double engine = signed_drift(cell.metrics, "energy_drift"),
                    scheme = signed_drift(cell.scheme.metrics, "energy_drift"),
-                   without = signed_drift(cell.scheme.without_gyroscopic_term, "energy_drift");
+                   without = signed_drift(cell.scheme.without_gyroscopic_term, "energy_drift"),
+                   momentum = signed_drift(cell.scheme.without_gyroscopic_term, "angular_momentum_drift");
       const bool is_it = std::abs(engine) > kWorthSaying && std::abs(engine - scheme) < kAlike * std::abs(engine) &&
                          std::abs(without) < kGone * std::abs(engine);
       if (!is_it) return;
-      const double momentum = signed_drift(cell.scheme.without_gyroscopic_term, "angular_momentum_drift");
       const std::string wrong =
           std::isnan(momentum)
               ? ""
               : fmt::format(", but its angular momentum strays by {:.2g} kg m^2/s", std::abs(momentum));
-      sentences_.push_back(fmt::format(
-          "Why: {} {} {:.3g} % of its energy, and its scheme, repeated by the core, {:.3g} %: it is the gyroscopic "
-          "term's doing. Without that term the scheme is off by {:.1g} %{}.",
-          name_of(cell), engine < 0 ? "loses" : "gains", 100 * std::abs(engine), 100 * std::abs(scheme),
-          100 * std::abs(without), wrong));
+      append(
+          names[fmt::format("energy changes by {:+.3g} %, and so does that of the scheme alone, repeated by the core: "
+                            "it is the gyroscopic term's doing. Without that term the same step keeps the energy to "
+                            "{:.1g} %{}.",
+                            100 * engine, 100 * std::abs(without), wrong)],
+          name_of(cell));
     });
+    for (const auto& [text, engines] : names) sentences_.push_back(fmt::format("Why: {}: {}", engines, text));
   }
 
   const Results& results_;

@@ -106,6 +106,20 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
     cell.settings.emplace_back(name, value.get<std::string>());
 }
 
+Json json_of(const Furthest& furthest) { return {furthest.value, furthest.time, furthest.body}; }
+
+Furthest furthest_from(const Json& json) { return {number(json.at(0)), number(json.at(1)), json.at(2).get<int>()}; }
+
+Spread spread_from(const Json& json) {
+  Spread spread;
+  spread.first = json.at("first").get<std::size_t>(), spread.second = json.at("second").get<std::size_t>();
+  spread.dt = {json.at("dt_seconds").get<double>(), json.at("dt").get<std::string>()};
+  spread.distance = furthest_from(json.at("distance")), spread.angle = furthest_from(json.at("angle"));
+  if (!json.at("parted_at").is_null()) spread.parted_at = json.at("parted_at").get<double>();
+  spread.compared_until = json.at("compared_until").get<double>();
+  return spread;
+}
+
 void fill_in(StableStepResult& result, const Json& json) {
   result.status = status_of(json.at("status").get<std::string>());
   result.reason = json.at("reason").get<std::string>();
@@ -158,11 +172,30 @@ std::string message_of_stable_step(std::size_t run, const StableStepResult& resu
   return text_of({{"stable_step", run}, {"result", json_of(result)}}, -1);
 }
 
+std::string message_of_spreads(const std::vector<Spread>& spreads) {
+  Json all = Json::array();
+  for (const Spread& spread : spreads) {
+    all.push_back({{"first", spread.first},
+                   {"second", spread.second},
+                   {"dt", spread.dt.text},
+                   {"dt_seconds", spread.dt.seconds},
+                   {"distance", json_of(spread.distance)},
+                   {"angle", json_of(spread.angle)},
+                   {"parted_at", spread.parted_at ? Json(*spread.parted_at) : Json(nullptr)},
+                   {"compared_until", spread.compared_until}});
+  }
+  return text_of({{"spreads", all}}, -1);
+}
+
 bool apply_message(CaseResult& result, const std::string& message) {
   const Json json = Json::parse(message);
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
     result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2))};
+    return false;
+  }
+  if (json.contains("spreads")) {
+    for (const Json& spread : json.at("spreads")) result.spreads.push_back(spread_from(spread));
     return false;
   }
   if (json.contains("cell")) {

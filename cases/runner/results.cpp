@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <iterator>
 
 namespace rigor {
@@ -26,6 +27,7 @@ MetricValue condensed(const MetricResult& result, const Trajectory& trajectory) 
   out.not_applicable = result.not_applicable;
   if (!result.measurement) return out;
   const Measurement& measured = *result.measurement;
+  if (measured.series.empty()) out.first_second = std::numeric_limits<double>::quiet_NaN();
   out.value = measured.value, out.worst = measured.worst, out.compared_until = measured.compared_until;
   for (std::size_t i = 0; i < measured.series.size() && trajectory.samples[i].time <= 1 + 1e-9; ++i) {
     if (std::abs(measured.series[i]) > std::abs(out.first_second)) out.first_second = measured.series[i];

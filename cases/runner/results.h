@@ -8,6 +8,7 @@
 
 #include "cases/case.h"
 #include "cases/metrics/metric.h"
+#include "cases/metrics/spread.h"
 #include "cases/metrics/stability.h"
 #include "core/engine/run_name.h"
 
@@ -22,7 +23,7 @@ Status status_of(const std::string& word);
 // A metric of one cell, without its course over time.
 struct MetricValue {
   double value = 0;
-  double first_second = 0;  // the largest, by magnitude, of its course up to t = 1 s
+  double first_second = 0;  // the largest, by magnitude, of its course up to t = 1 s; not a number if it has none
   Instant worst;
   double compared_until = 0;   // s
   std::string not_applicable;  // why there is no value; empty if there is
@@ -85,6 +86,7 @@ struct CaseResult {
   bool error_is_input = false;      // the case file asks for what cannot be
   std::vector<Cell> cells;          // by engine, then dt
   std::vector<StableStepResult> stable_steps;  // one each of Results::runs
+  std::vector<Spread> spreads;                 // pairs of which one did not run are missing
   std::vector<GateResult> gates;
 };
 

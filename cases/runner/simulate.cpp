@@ -85,4 +85,23 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
   }
 }
 
+double timed_again(const Engine& engine, const Settings& settings, const Scene& scene, const Simulation& run) {
+  constexpr double kLongStep = 20e-6, kEnough = 30e-3;  // s; a hundred times what the clock costs; of timing in all
+  constexpr int kMost = 100;                            // repeats
+  const double dt = run.trajectory.dt;
+  const auto& samples = run.trajectory.samples;
+  const long steps = samples.empty() ? 0 : std::lround(samples.back().time / dt);
+  if (steps == 0 || run.cpu_seconds > kLongStep * static_cast<double>(steps)) return run.cpu_seconds;
+  double quickest = run.cpu_seconds, spent = 0;
+  for (int repeat = 0; repeat < kMost && spent < kEnough; ++repeat) {
+    const std::unique_ptr<World> world = engine.load(scene, settings);
+    const double begin = thread_cpu_seconds();
+    for (long n = 0; n < steps; ++n) world->step(dt);
+    const double seconds = thread_cpu_seconds() - begin;
+    quickest = repeat == 0 ? seconds : std::min(quickest, seconds);
+    spent += seconds;
+  }
+  return quickest;
+}
+
 }  // namespace rigor

@@ -35,6 +35,9 @@ struct MethodInfo {
   // Steps by which the velocities read lag behind the positions (1/2 for a semi-implicit step): the judge brings them
   // to the positions' time before it speaks of lost energy.
   double velocity_lag = 0;
+  // Divides each step by itself until it meets a tolerance: its error does not follow from dt, and `order` is that of
+  // its inner steps.
+  bool adaptive = false;
   std::vector<OptionInfo> options = {};
   // The engine whose scheme this method repeats, to explain that engine's error; "" for a method of its own right. A
   // twin is an instrument and no contestant: it runs where it is named, and not by default.

@@ -23,6 +23,10 @@ class Stepper {
   virtual std::string complaint() const { return ""; }
 };
 
+// What an adaptive method allows each of its inner steps to err by, unless its option says otherwise; see
+// MotionEquations::relative_size().
+inline constexpr double kDefaultTolerance = 1e-12;
+
 // What a stepper is made from. Outlives it.
 struct StepperParts {
   const System& system;
@@ -39,6 +43,7 @@ struct Integrator {
   bool symmetric = false;                // see MethodInfo
   double velocity_lag;                   // in steps, see MethodInfo
   std::string default_orientation;       // "" where the method has one way only
+  bool adaptive = false;                 // see MethodInfo; it then has an option "tolerance"
   std::vector<OptionInfo> options = {};  // of this method alone
   std::string twin_of = "";              // see MethodInfo
   std::unique_ptr<Stepper> (*make)(const StepperParts& parts);

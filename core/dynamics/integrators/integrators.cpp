@@ -5,12 +5,14 @@
 
 namespace rigor {
 
-extern const Integrator kBulletTwin, kExplicitEuler, kImplicitMidpoint, kOdeTwin, kRk4, kSemiImplicitEuler,
-    kVelocityVerlet;
+extern const Integrator kBulletTwin, kDormandPrince, kExplicitEuler, kImplicitMidpoint, kLinearlyImplicitEuler,
+    kMoserVeselov, kOdeTwin, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8, kVelocityVerlet;
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {
-      kBulletTwin, kExplicitEuler, kImplicitMidpoint, kOdeTwin, kRk4, kSemiImplicitEuler, kVelocityVerlet,
+      kBulletTwin,     kDormandPrince, kExplicitEuler, kImplicitMidpoint,  kLinearlyImplicitEuler, kMoserVeselov,
+      kOdeTwin,        kRk4,           kRkmk4,         kSemiImplicitEuler, kSymplectic4,           kSymplectic8,
+      kVelocityVerlet,
   };
   return table;
 }
