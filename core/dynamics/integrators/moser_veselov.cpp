@@ -86,6 +86,7 @@ const Integrator kMoserVeselov = {
     .summary = "the variational discrete rotation of Moser and Veselov with a leapfrog; keeps |L| to rounding",
     .order = 2,
     .symplectic = true,
+    .symmetric = true,
     .velocity_lag = 0,
     .default_orientation = "",
     .make = make_stepper<MoserVeselov>,

@@ -20,6 +20,7 @@ const Integrator kSymplectic4 = {
     .summary = "five leapfrogs a step in Suzuki's composition; keeps |L| to rounding",
     .order = 4,
     .symplectic = true,
+    .symmetric = true,
     .velocity_lag = 0,
     .default_orientation = "",
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {

@@ -23,6 +23,7 @@ const Integrator kSymplectic8 = {
     .summary = "seventeen leapfrogs a step in the composition of Kahan and Li; keeps |L| to rounding",
     .order = 8,
     .symplectic = true,
+    .symmetric = true,
     .velocity_lag = 0,
     .default_orientation = "",
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
