@@ -126,19 +126,19 @@ BOOST_AUTO_TEST_CASE(in_every_smooth_case_of_the_suite_an_engine_does_what_its_s
   int compared = 0;
   for (const Case& definition : select_cases({}, default_suite_dir())) {
     const Scene& scene = definition.scene;
-    for (const StepSize& dt : definition.dt) {
-      for (const char* text : {"ode", "ode@stock", "bullet", "bullet@stock"}) {
-        const RunName name = parse_run_name(text, infos);
-        const auto twin = twin_of(engines(), name, scene);
-        if (!twin || !why_unsupported(find_engine(engines(), name.engine).info(), scene, dt.seconds).empty()) continue;
-        const Unexplained found = unexplained(name, *twin, scene, dt.seconds, definition.duration);
-        ++compared;
-        BOOST_TEST_MESSAGE(definition.id << ", " << text << " at " << dt.text << ": " << found.error << ", "
-                                         << found.rotation << " rad until " << found.until << " of "
-                                         << definition.duration << " s");
-        BOOST_TEST(found.error < 1e-9, definition.id << ", " << text << " at " << dt.text << ": " << found.error);
-        BOOST_TEST(found.rotation < 1e-9, definition.id << ", " << text << " at " << dt.text << ": " << found.rotation);
-      }
+    const StepSize dt = *std::max_element(definition.dt.begin(), definition.dt.end(),
+                                          [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+    for (const char* text : {"ode", "ode@stock", "bullet", "bullet@stock"}) {
+      const RunName name = parse_run_name(text, infos);
+      const auto twin = twin_of(engines(), name, scene);
+      if (!twin || !why_unsupported(find_engine(engines(), name.engine).info(), scene, dt.seconds).empty()) continue;
+      const Unexplained found = unexplained(name, *twin, scene, dt.seconds, definition.duration);
+      ++compared;
+      const std::string what = definition.id + ", " + text + " at " + dt.text;
+      BOOST_TEST_MESSAGE(what << ": " << found.error << ", " << found.rotation << " rad until " << found.until << " of "
+                              << definition.duration << " s");
+      BOOST_TEST(found.error < 1e-9, what << ": " << found.error);
+      BOOST_TEST(found.rotation < 1e-9, what << ": " << found.rotation << " rad");
     }
   }
   BOOST_TEST(compared > 0);
