@@ -74,6 +74,7 @@ MethodInfo method_info(const Integrator& integrator) {
       .summary = integrator.summary,
       .order = integrator.order,
       .symplectic = integrator.symplectic,
+      .symmetric = integrator.symmetric,
       .velocity_lag = integrator.velocity_lag,
       .adaptive = integrator.adaptive,
       .options = {

@@ -31,6 +31,7 @@ struct MethodInfo {
   std::string summary;      // one line
   int order = 1;            // the global error falls as dt^order on smooth scenes
   bool symplectic = false;  // on undamped smooth scenes
+  bool symmetric = false;   // a step back undoes a step forward, to rounding, on undamped smooth scenes
   // Steps by which the velocities read lag behind the positions (1/2 for a semi-implicit step): the judge brings them
   // to the positions' time before it speaks of lost energy.
   double velocity_lag = 0;

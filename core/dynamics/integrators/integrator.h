@@ -40,6 +40,7 @@ struct Integrator {
   std::string summary;
   int order;                             // the global error falls as dt^order on smooth scenes
   bool symplectic;                       // on undamped smooth scenes
+  bool symmetric = false;                // see MethodInfo
   double velocity_lag;                   // in steps, see MethodInfo
   std::string default_orientation;       // "" where the method has one way only
   bool adaptive = false;                 // see MethodInfo; it then has an option "tolerance"

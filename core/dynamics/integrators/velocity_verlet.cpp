@@ -58,6 +58,7 @@ const Integrator kVelocityVerlet = {
     .summary = "kick, drift, kick with an exact splitting of the free rotation; keeps |L| to rounding",
     .order = 2,
     .symplectic = true,
+    .symmetric = true,
     .velocity_lag = 0,
     .default_orientation = "",
     .make = make_stepper<VelocityVerlet>,

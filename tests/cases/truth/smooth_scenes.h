@@ -56,11 +56,11 @@ inline Scene hanging_oscillator(double damping) {
   Scene scene;
   scene.gravity = {0, 0, -9.81};
   Body post = body("post", 1, {1, 1, 1}, {1, 1, 3});
-  post.fixed = true, post.orientation = Quat(std::sqrt(0.5), 0, 0, std::sqrt(0.5));
-  Body mass = body("mass", 2, {0.1, 0.2, 0.3}, {1, 1.5, 1});
+  post.fixed = true, post.orientation = Quat(0, 0, 0, 1);
+  Body mass = body("mass", 2, {0.1, 0.2, 0.3}, {0.5, 1, 1});
   mass.angular_velocity = {0, 0, 4};
   scene.bodies = {post, mass};
-  // A quarter turn about z takes the post's x to W's y.
+  // After half a turn about z the hook of the post is 2 m above the mass.
   scene.springs = {spring(1, {0, 0, 0}, 0, {0.5, 0, 0}, 50, 1, damping)};
   return scene;
 }
