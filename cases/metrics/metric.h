@@ -24,8 +24,8 @@ struct TruthSamples {
 // the twin blew up before.
 struct TwinRun {
   Trajectory trajectory;
-  // What roundings alone may have made of the twin up to each sample: the largest distance from the same twin in a
-  // turned world, where the motion is the same and every rounding another. Never falls.
+  // What roundings alone may have made of the twin up to each sample: the largest distance from the same twin in
+  // worlds turned about, where the motion is the same and every rounding another. Never falls.
   std::vector<double> position_rounding;     // m
   std::vector<double> orientation_rounding;  // rad
 };
