@@ -117,7 +117,8 @@ BOOST_AUTO_TEST_CASE(the_error_never_falls_and_is_small) {
       BOOST_TEST_CONTEXT(row.truth << ", " << row.label) BOOST_TEST(now >= before);
       before = now;
     }
-    BOOST_TEST_CONTEXT(row.truth << ", " << row.label) BOOST_TEST(before < 1e-11);
+    // 1e-9 from the separatrix even quadruple precision leaves only fourteen digits of the square of k'.
+    BOOST_TEST_CONTEXT(row.truth << ", " << row.label) BOOST_TEST(before < 1e-10);
   }
 }
 
