@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(the_integral_agrees_with_a_general_quadrature) {
   boost::math::quadrature::tanh_sinh<long double> quadrature;
   for (const long double complement : {1.0L, 0.6L, 1e-2L, 1e-6L, 0.0L}) {
     for (const long double a : {0.01L, 0.5L, 0.99L}) {
-      const DnWiderature found(a, complement);
+      const DnQuadrature found(a, complement);
       for (const long double u : {0.3L, 2.0L, 5.0L}) {
         const auto slope = [&](long double x) { return 1 / (1 + a * jacobi_elliptic(x, complement).dn); };
         const long double expected = quadrature.integrate(slope, 0.0L, u);
