@@ -61,6 +61,7 @@ void register_steps() {
     for (const int count : {1, 100, 1000, 10000}) {
       for (const auto& engine : engines()) {
         for (const MethodInfo& method : engine->info().methods) {
+          if (!method.twin_of.empty()) continue;  // an instrument, whose speed is of no interest
           const std::string name = fmt::format("{}/{}/{}:{}", row.name, count, engine->info().name, method.name);
           benchmark::RegisterBenchmark(name.c_str(), time_steps, std::cref(*engine),
                                        Settings{method.name, {}, Track::matched}, row, count)

@@ -92,6 +92,9 @@ void read_bounds(const TableReader& table, const Case& of, Gate& gate) {
   gate.equals = number_if_given(table, "equals");
   if (const auto order = table.find("at_least_order")) {
     gate.at_least_order = order->positive();
+    const auto is_it = [&](const CrossMetricRow& row) { return row.name == gate.metric; };
+    if (std::any_of(cross_metrics().begin(), cross_metrics().end(), is_it))
+      order->refuse(fmt::format("{} has no order; give max, min or equals", gate.metric));
     if ((gate.dt.empty() ? of.dt : gate.dt).size() < 2)
       order->refuse("an order is observed over two step sizes or more");
   }
@@ -108,7 +111,9 @@ void read_bounds(const TableReader& table, const Case& of, Gate& gate) {
 Gate read_gate(const TableReader& table, const Case& of) {
   Gate gate;
   gate.where = table.self().where();
-  gate.metric = table.at("metric").choice(names_of(metrics()));
+  Keys known = names_of(metrics());
+  for (const CrossMetricRow& row : cross_metrics()) known.push_back(row.name);
+  gate.metric = table.at("metric").choice(known);
   if (const auto value = table.find("engines")) gate.engines = read_engines(*value);
   if (const auto value = table.find("dt")) gate.dt = read_gate_dt(*value, of.dt);
   read_bounds(table, of, gate);

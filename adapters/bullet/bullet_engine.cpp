@@ -49,4 +49,12 @@ std::unique_ptr<World> BulletEngine::load(const Scene& scene, const Settings& se
   return std::make_unique<BulletWorld>(scene, settings);
 }
 
+// The defaults are those that BulletWorld sets, or leaves.
+std::string BulletEngine::twin(const Settings& settings) const {
+  const std::string name =
+      "core:bullet-twin,gyroscopic=" + word_option(settings, "gyroscopic", "implicit-body") + ",sleeping=";
+  if (settings.track == Track::matched) return name + "off";
+  return fmt::format("{}on,gyroscopic-limit={}", name, btContactSolverInfo().m_maxGyroscopicForce);
+}
+
 }  // namespace rigor

@@ -10,6 +10,7 @@ class BulletEngine : public Engine {
  public:
   EngineInfo info() const override;
   std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override;
+  std::string twin(const Settings& settings) const override;
 };
 
 }  // namespace rigor

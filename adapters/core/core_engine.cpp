@@ -1,5 +1,9 @@
 #include "adapters/core/core_engine.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "adapters/option_values.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/engine/clock.h"
@@ -14,6 +18,7 @@ class CoreWorld : public World {
   CoreWorld(const Scene& scene, const Settings& settings)
       : system_(scene),
         integrator_(integrator(settings.method)),
+        tolerance_(number_option(settings, "tolerance", kDefaultTolerance)),
         contact_method_(contact_method(word_option(settings, "contact", contact_methods().front().name))) {
     if (!integrator_.default_orientation.empty()) {
       orientation_ = &orientation_update(word_option(settings, "orientation", integrator_.default_orientation));
@@ -21,7 +26,7 @@ class CoreWorld : public World {
     contact_ = contact_method_.make(scene, system_);
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
-    stepper_ = integrator_.make({system_, contact_.get(), orientation_});
+    stepper_ = integrator_.make({system_, contact_.get(), orientation_, settings});
   }
 
   void step(double dt) override {
@@ -37,6 +42,7 @@ class CoreWorld : public World {
   SettingsInForce settings_in_force() const override {
     SettingsInForce settings = {{"integrator", integrator_.name}, {"gyroscopic term", "on"}};
     if (orientation_) settings.emplace_back("orientation", orientation_->name);
+    if (integrator_.adaptive) settings.emplace_back("tolerance", fmt::format("{}", tolerance_));
     settings.emplace_back("contact", contact_ ? contact_method_.name : "none in this scene");
     return settings;
   }
@@ -46,6 +52,7 @@ class CoreWorld : public World {
  private:
   System system_;
   const Integrator& integrator_;
+  double tolerance_;  // of an adaptive method
   const ContactMethod& contact_method_;
   const OrientationUpdate* orientation_ = nullptr;
   std::unique_ptr<Contact> contact_;
@@ -67,7 +74,9 @@ MethodInfo method_info(const Integrator& integrator) {
       .summary = integrator.summary,
       .order = integrator.order,
       .symplectic = integrator.symplectic,
+      .symmetric = integrator.symmetric,
       .velocity_lag = integrator.velocity_lag,
+      .adaptive = integrator.adaptive,
       .options = {
           {.name = "contact", .meaning = "how touching bodies are treated", .choices = names_of(contact_methods())}}};
   if (!integrator.default_orientation.empty()) {
@@ -76,6 +85,8 @@ MethodInfo method_info(const Integrator& integrator) {
          .meaning = "how a rotation is carried over a step; default " + integrator.default_orientation,
          .choices = names_of(orientation_updates())});
   }
+  info.options.insert(info.options.end(), integrator.options.begin(), integrator.options.end());
+  info.twin_of = integrator.twin_of;
   return info;
 }
 
@@ -88,6 +99,8 @@ EngineInfo CoreEngine::info() const {
     info.features.insert(method.features.begin(), method.features.end());
   }
   for (const Integrator& row : integrators()) info.methods.push_back(method_info(row));
+  // Twins last: the first is what a run named "core" gets.
+  std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.twin_of.empty(); });
   return info;
 }
 

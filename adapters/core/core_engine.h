@@ -11,6 +11,7 @@ class CoreEngine : public Engine {
  public:
   EngineInfo info() const override;
   std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override;
+  std::string twin(const Settings&) const override { return ""; }
 };
 
 }  // namespace rigor

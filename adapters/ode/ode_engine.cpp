@@ -1,5 +1,6 @@
 #include "adapters/ode/ode_engine.h"
 
+#include <fmt/format.h>
 #include <ode/ode.h>
 #include <ode/version.h>
 
@@ -54,6 +55,13 @@ std::unique_ptr<World> OdeEngine::load(const Scene& scene, const Settings& setti
   refuse_unsupported(engine, scene);
   method_of(engine, settings);  // throws for a method that is not there
   return std::make_unique<OdeWorld>(scene, settings);
+}
+
+// Of its options only these two touch smooth motion. The defaults are those that OdeWorld sets.
+std::string OdeEngine::twin(const Settings& settings) const {
+  const char* rotation = settings.track == Track::matched ? "finite" : "infinitesimal";
+  return fmt::format("core:ode-twin,gyroscopic={},rotation={}", word_option(settings, "gyroscopic", "on"),
+                     word_option(settings, "rotation", rotation));
 }
 
 }  // namespace rigor

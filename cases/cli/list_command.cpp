@@ -63,6 +63,8 @@ Rows metric_rows(const CommandLine&) {
   Rows rows;
   for (const MetricRow& metric : metrics())
     rows.emplace_back(metric.name, fmt::format("[{}] {}", metric.unit, metric.summary));
+  for (const CrossMetricRow& metric : cross_metrics())
+    rows.emplace_back(metric.name, fmt::format("[{}] {}", metric.unit, metric.summary));
   return rows;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/metrics/observed_order.h"
+
 namespace rigor {
 namespace {
 
@@ -14,10 +16,19 @@ bool is_same_run(const RunName& a, const RunName& b) {
 }
 
 std::string unit_of(const std::string& metric) {
+  const auto of_row = [](const auto& row) { return row.unit == "1" ? "" : " " + row.unit; };
   for (const MetricRow& row : metrics()) {
-    if (row.name == metric) return row.unit == "1" ? "" : " " + row.unit;
+    if (row.name == metric) return of_row(row);
+  }
+  for (const CrossMetricRow& row : cross_metrics()) {
+    if (row.name == metric) return of_row(row);
   }
   return "";
+}
+
+bool is_higher_better(const std::string& metric) {
+  return std::any_of(metrics().begin(), metrics().end(),
+                     [&](const MetricRow& row) { return row.name == metric && row.higher_is_better; });
 }
 
 // One gate over one case.
@@ -32,7 +43,13 @@ class GateCheck {
 
   void check() {
     const std::size_t before = result_.gates.size();
-    if (gate_.at_least_order) {
+    if (gate_.metric == "observed_order") {
+      fail_what_has_no_result();
+      for (std::size_t run = 0; run < grid_.runs.size(); ++run) check_observed_order(run);
+    } else if (gate_.metric == "spread" || gate_.metric == "spread_orientation") {
+      fail_what_has_no_result();
+      for (const Spread& spread : result_.spreads) check_spread(spread);
+    } else if (gate_.at_least_order) {
       for (std::size_t run = 0; run < grid_.runs.size(); ++run) check_order(run);
     } else {
       for (Cell& cell : result_.cells) check_cell(cell);
@@ -50,13 +67,13 @@ class GateCheck {
              return is_same_run(parse_run_name(name, grid_.engines), grid_.runs[run]);
            });
   }
-  bool selects(const Cell& cell) const {
+  bool selects(const StepSize& dt) const {
     // "1/30" and "0.0333333333333333" are the same step.
-    const auto is_its_dt = [&](const StepSize& dt) {
-      return std::abs(dt.seconds - cell.dt.seconds) <= 1e-9 * dt.seconds;
-    };
-    return cell.status != Status::unsupported && selects(cell.run) &&
-           (gate_.dt.empty() || std::any_of(gate_.dt.begin(), gate_.dt.end(), is_its_dt));
+    const auto is_it = [&](const StepSize& own) { return std::abs(own.seconds - dt.seconds) <= 1e-9 * own.seconds; };
+    return gate_.dt.empty() || std::any_of(gate_.dt.begin(), gate_.dt.end(), is_it);
+  }
+  bool selects(const Cell& cell) const {
+    return cell.status != Status::unsupported && selects(cell.run) && selects(cell.dt);
   }
   const std::string& name_of(const Cell& cell) const { return grid_.runs[cell.run].text; }
 
@@ -86,13 +103,20 @@ class GateCheck {
     if (cell.status == Status::pass) cell.status = Status::fail, cell.reason = text;
   }
 
-  // What is wrong with the value, or "". Comparisons are written so that a value that is no number never holds.
+  // What is wrong with a cell's value, or "". No value of a run that blew up is good, though a bad one may be asked
+  // for.
   std::string fault_of(const Cell& cell, const MetricValue& metric) const {
-    const double value = metric.value;
+    const std::string fault = fault_of(metric.value);
+    const bool asks_for_good = is_higher_better(gate_.metric) ? gate_.min.has_value() : gate_.max.has_value();
+    if (!fault.empty() || !asks_for_good || cell.status != Status::diverged) return fault;
+    return "is of no meaning, for the run is " + cell.reason;
+  }
+
+  // Comparisons are written so that a value that is no number never holds.
+  std::string fault_of(double value) const {
     if (gate_.max && !(value <= *gate_.max)) {
       return fmt::format("is {:.6g}{}, above the limit of {:g}{}", value, unit_, *gate_.max, unit_);
     }
-    if (gate_.max && cell.status == Status::diverged) return "is of no meaning, for the run is " + cell.reason;
     if (gate_.min && !(value >= *gate_.min)) {
       return fmt::format("is {:.6g}{}, below the limit of {:g}{}", value, unit_, *gate_.min, unit_);
     }
@@ -106,6 +130,51 @@ class GateCheck {
     const Instant& worst = metric.worst;
     return fmt::format("worst at {:.6g} s: {}, {}: found {:.9g}, expected {:.9g}", worst.time,
                        result_.definition.scene.body_name(worst.body), worst.component, worst.found, worst.expected);
+  }
+
+  void answer(const std::string& engine, const std::string& dt, const std::string& head, double value,
+              const std::string& detail) {
+    const std::string fault = fault_of(value);
+    if (fault.empty()) return add(engine, dt, GateAnswer::held, fmt::format("{} is {:.6g}{}", head, value, unit_));
+    add(engine, dt, GateAnswer::failed, fmt::format("{} {}; {}{}", head, fault, detail, because()));
+  }
+
+  static bool has_result(const Cell& cell) { return cell.status == Status::pass || cell.status == Status::fail; }
+
+  // For what is measured across cells.
+  void fail_what_has_no_result() {
+    for (const Cell& cell : result_.cells) {
+      if (!selects(cell) || has_result(cell)) continue;
+      add(name_of(cell), cell.dt.text, GateAnswer::failed,
+          fmt::format("{} of {} at dt = {} cannot be judged, for the cell is {}: {}", gate_.metric, name_of(cell),
+                      cell.dt.text, word_of(cell.status), cell.reason));
+    }
+  }
+
+  // A run without an order (its errors are roundings, say) the gate does not meet.
+  void check_observed_order(std::size_t run) {
+    const auto worth = errors_worth_comparing(result_);
+    if (!selects(run) || worth.empty()) return;
+    const auto is_selected = [this](const StepSize& dt) { return selects(dt); };
+    const ObservedOrder order = observed_order(result_, run, worth.front(), is_selected);
+    if (!order.value) return;
+    const std::string& name = grid_.runs[run].text;
+    answer(name, "", fmt::format("observed_order of {}", name), *order.value, worth.front() + " " + order.text);
+  }
+
+  // The answer stands with the first run of the pair.
+  void check_spread(const Spread& spread) {
+    if (!selects(spread.first) || !selects(spread.second) || !selects(spread.dt)) return;
+    const bool both_have_results = std::all_of(result_.cells.begin(), result_.cells.end(), [&](const Cell& cell) {
+      const bool is_of_pair = cell.run == spread.first || cell.run == spread.second;
+      return !is_of_pair || cell.dt.seconds != spread.dt.seconds || has_result(cell);
+    });
+    if (!both_have_results) return;
+    const Furthest& worst = gate_.metric == "spread" ? spread.distance : spread.angle;
+    const std::string &one = grid_.runs[spread.first].text, &other = grid_.runs[spread.second].text;
+    answer(one, spread.dt.text, fmt::format("{} of {} and {} at dt = {}", gate_.metric, one, other, spread.dt.text),
+           worst.value,
+           fmt::format("worst at {:.6g} s: {}", worst.time, result_.definition.scene.body_name(worst.body)));
   }
 
   void check_order(std::size_t run) {
@@ -147,19 +216,6 @@ class GateCheck {
 };
 
 }  // namespace
-
-double fitted_order(const std::vector<double>& dt, const std::vector<double>& values) {
-  double mean_x = 0, mean_y = 0, xy = 0, xx = 0;
-  for (std::size_t i = 0; i < dt.size(); ++i) {
-    mean_x += std::log(dt[i]) / dt.size();
-    mean_y += std::log(values[i]) / dt.size();
-  }
-  for (std::size_t i = 0; i < dt.size(); ++i) {
-    xy += (std::log(dt[i]) - mean_x) * (std::log(values[i]) - mean_y);
-    xx += (std::log(dt[i]) - mean_x) * (std::log(dt[i]) - mean_x);
-  }
-  return xy / xx;
-}
 
 void check_gates(CaseResult& result, const Results& grid) {
   result.gates.clear();

@@ -17,7 +17,4 @@ void check_gates(CaseResult& result, const Results& grid);
 // Whether every gate was checked and held, and every case could be judged.
 bool all_gates_hold(const Results& grid);
 
-// The exponent p of value = c dt^p, fitted by least squares to the logarithms.
-double fitted_order(const std::vector<double>& dt, const std::vector<double>& values);
-
 }  // namespace rigor

@@ -1,5 +1,6 @@
 #include "cases/metrics/measuring.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace rigor {
@@ -20,6 +21,26 @@ std::size_t samples_within(const JudgedRun& run, double needed) {
   std::size_t count = 0;
   while (count < run.trajectory.samples.size() && run.truth->error[count] <= needed) ++count;
   return count;
+}
+
+std::vector<double> motion_extents(const Trajectory& trajectory) {
+  std::vector<double> extents;
+  double extent = 0;
+  for (const Sample& sample : trajectory.samples) {
+    const BodyColumns bodies = sample.bodies.columns();
+    for (std::size_t i = 0; i < bodies.size(); ++i) extent = std::max(extent, bodies.position(i).norm());
+    extents.push_back(extent);
+  }
+  return extents;
+}
+
+std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& rounding,
+                              const std::vector<double>& scale, double needed_of_truth) {
+  std::size_t count = std::min(run.trajectory.samples.size(), rounding.size());
+  if (run.truth) count = std::min(count, samples_within(run, needed_of_truth));
+  std::size_t n = 0;
+  while (n < count && rounding[n] <= kRoundingShare * scale[n]) ++n;
+  return n;
 }
 
 }  // namespace rigor

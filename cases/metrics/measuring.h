@@ -25,6 +25,21 @@ inline constexpr double kTruthNeededOrientation = 1e-6;  // rad
 // The first samples of the run, all those at which the truth's own error stays within `needed`. No truth: none.
 std::size_t samples_within(const JudgedRun& run, double needed);
 
+// A run is held against its twin while the truth is good enough, if there is one, and while roundings alone cannot have
+// parted them by more than this share of their scale. Roundings grow with the motion's own sensitivity: past that
+// instant no distance between the two says anything of the engine.
+inline constexpr double kRoundingShare = 1e-10;
+
+// m: the farthest from W's origin that a body of the twin has come by each sample. Positions are rounded relative to
+// it.
+std::vector<double> motion_extents(const Trajectory& trajectory);
+
+// The first samples of the run, all those at which it can be held against its twin. `rounding` is the twin's, `scale`
+// what it is relative to at each sample.
+std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& rounding,
+                              const std::vector<double>& scale, double needed_of_truth);
+
+inline constexpr const char* kNoTwin = "the run has no twin: it is the core's own scheme, or bodies can touch";
 inline constexpr const char* kNoTruth = "the case has no truth";
 inline constexpr const char* kNoSamples = "there is no sample at which the truth is good enough";
 

@@ -1,6 +1,7 @@
 // What is measured of one run: a number, the instant at which it is worst, and its course over time.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,19 +12,32 @@
 
 namespace rigor {
 
-// The truth at the instants of a trajectory's samples, so that every metric reads it and none recomputes it.
+// The truth at the instants of a trajectory's samples, so that no metric recomputes it.
 struct TruthSamples {
   std::vector<BodyTable> bodies;  // one for each sample of the trajectory
   std::vector<double> error;      // the truth's own error at each, see Truth::error
   double largest_kinetic_energy;  // J, over the whole run
+  const Truth* source = nullptr;  // what was sampled, to be asked between the first sample and the last
+};
+
+// The run's twin: its own scheme, repeated by the core (Engine::twin), at the instants of the run's samples; fewer if
+// the twin blew up before.
+struct TwinRun {
+  Trajectory trajectory;
+  // What roundings alone may have made of the twin up to each sample: the largest distance from the same twin in a
+  // turned world, where the motion is the same and every rounding another. Never falls.
+  std::vector<double> position_rounding;     // m
+  std::vector<double> orientation_rounding;  // rad
 };
 
 // A run, ready to be judged. The trajectory ends before the first sample that is not finite.
 struct JudgedRun {
   const Scene& scene;
   const Trajectory& trajectory;
-  const TruthSamples* truth;  // null where the case has none
-  double velocity_lag;        // in steps, see MethodInfo
+  const TruthSamples* truth;      // null where the case has none
+  double velocity_lag;            // in steps, see MethodInfo
+  const TwinRun* twin = nullptr;  // null for the core's own schemes, and where bodies can touch
+  double cpu_seconds = std::numeric_limits<double>::quiet_NaN();  // s, of the run's steps
 };
 
 // Where a metric is worst. Body kWorld: the system as a whole.
@@ -53,8 +67,16 @@ struct MetricRow {
   std::string unit;     // "m", "rad", "1"
   std::string summary;  // one line
   MetricResult (*measure)(const JudgedRun& run);
+  bool higher_is_better = false;
 };
 
 const std::vector<MetricRow>& metrics();  // alphabetical
+
+// What is measured across the cells of a case; a gate may name it as it names a metric of one run.
+struct CrossMetricRow {
+  std::string name, unit, summary;
+};
+
+const std::vector<CrossMetricRow>& cross_metrics();  // alphabetical
 
 }  // namespace rigor

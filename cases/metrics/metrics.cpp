@@ -4,18 +4,36 @@ namespace rigor {
 
 // One declaration and one row a metric, alphabetical; each is defined in the file of its name.
 MetricRow angular_momentum_drift();
+MetricRow cost();
 MetricRow energy_drift();
 MetricRow energy_drift_synchronised();
 MetricRow linear_momentum_drift();
 MetricRow orientation_error();
 MetricRow orthonormality_error();
+MetricRow phase_error();
 MetricRow position_error();
+MetricRow tube();
+MetricRow unexplained_error();
+MetricRow unexplained_rotation();
 
 const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
-      angular_momentum_drift(), energy_drift(),      energy_drift_synchronised(),
-      linear_momentum_drift(),  orientation_error(), orthonormality_error(),
-      position_error(),
+      angular_momentum_drift(), cost(),
+      energy_drift(),           energy_drift_synchronised(),
+      linear_momentum_drift(),  orientation_error(),
+      orthonormality_error(),   phase_error(),
+      position_error(),         tube(),
+      unexplained_error(),      unexplained_rotation(),
+  };
+  return table;
+}
+
+const std::vector<CrossMetricRow>& cross_metrics() {
+  static const std::vector<CrossMetricRow> table = {
+      {"observed_order", "1",
+       "the power of dt by which a run's position error falls, or its orientation error where nothing moves"},
+      {"spread", "m", "largest distance between two runs of the same dt; a gate holds each pair of its engines to it"},
+      {"spread_orientation", "rad", "likewise, the largest angle between two runs"},
   };
   return table;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/report/comparison.h"
+#include "cases/report/explained_error.h"
 #include "cases/report/explanation.h"
 
 namespace rigor {
@@ -12,13 +14,6 @@ namespace {
 
 constexpr std::size_t kWidth = 100;
 const std::string kNoValue = "-";
-
-// Two or three significant digits: 0.0312, 1.3e-05, 490.
-std::string rounded(double value) {
-  if (!std::isfinite(value)) return "not finite";
-  if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e4)) return fmt::format("{:.1e}", value);
-  return fmt::format("{:.3g}", value);
-}
 
 std::string metric_text(const Cell& cell, const std::string& name, double MetricValue::*part) {
   const auto found = cell.metrics.find(name);
@@ -46,28 +41,43 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
   if (cell.stability.verdict == Verdict::blown_up) {
     return fmt::format("blown up at {:.2f} s: {}", cell.stability.time, scene.body_name(cell.stability.body));
   }
-  const std::string word = word_of(cell.stability.verdict);
-  return cell.status == Status::pass ? word : fmt::format("{}; {}", word, word_of(cell.status));
+  return cell.status == Status::pass ? word_of(cell.stability.verdict) : word_of(cell.status);
+}
+
+// At most `width` bytes, cut between characters.
+std::string shortened(std::string text, std::size_t width) {
+  if (text.size() <= width) return text;
+  text.resize(width - 2);
+  while (!text.empty() && (text.back() & 0xc0) == 0x80) text.pop_back();
+  if (!text.empty() && (text.back() & 0x80)) text.pop_back();
+  return text + "..";
 }
 
 std::string table_line(const RowText& row) {
   std::string line =
-      fmt::format("  {:<24} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {}", row.engine, row.first_second, row.whole,
+      fmt::format("{} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {}", engine_column(row.engine), row.first_second, row.whole,
                   row.orientation, row.energy, row.energy_synchronised, row.stable_dt, row.verdict);
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
 }
 
+// The verdict stands where the numbers of the whole run would, of which there are none.
+std::string blown_up_line(const RowText& row) {
+  constexpr std::size_t kFourColumns = 34;
+  return fmt::format("{} {:>8}  {:<34} {:>8}\n", engine_column(row.engine), row.first_second,
+                     shortened(row.verdict, kFourColumns), row.stable_dt);
+}
+
 std::string header(const StepSize& dt) {
-  RowText top{
-      fmt::format("dt = {} s", dt.text), "position", "error", "orient.", "energy", "drift", "largest", "", true};
-  RowText bottom{"engine", "1 s [m]", "all [m]", "[rad]", "raw [%]", "sync [%]", "dt [s]", "verdict", true};
+  RowText top{fmt::format("dt = {} s", dt.text), "position", "error", "orient.", "energy", "drift", "largest", ""};
+  RowText bottom{"engine", "1 s [m]", "all [m]", "[rad]", "raw [%]", "sync [%]", "dt [s]", "verdict"};
   return table_line(top) + table_line(bottom);
 }
 
 std::string row_line(const RowText& row) {
+  if (row.is_blown_up) return blown_up_line(row);
   if (row.has_numbers) return table_line(row);
-  return fmt::format("  {:<24} {}\n", row.engine, wrapped(row.verdict, 27));
+  return engine_column(row.engine) + " " + wrapped(row.verdict, 27) + "\n";
 }
 
 // The gates that did not hold.
@@ -87,7 +97,10 @@ std::string block(const Results& results, const CaseResult& result) {
   for (const Cell& cell : result.cells) {
     if (cell.dt.seconds == dt.seconds) text += row_line(row_text(results, result, cell));
   }
+  text += explained_text(explained_rows(results, result, dt));
   for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
+  for (const std::string& sentence : work_precision_sentences(results, result))
+    text += "  " + wrapped(sentence, 2) + "\n";
   return text + gate_lines(result);
 }
 
@@ -117,6 +130,18 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   return out + rest;
 }
 
+std::string rounded(double value) {
+  if (!std::isfinite(value)) return "not finite";
+  if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e4)) return fmt::format("{:.1e}", value);
+  return fmt::format("{:.3g}", value);
+}
+
+std::string engine_column(const std::string& name) {
+  constexpr std::size_t kColumn = 24;
+  if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
+  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a line of its own
+}
+
 StepSize coarsest_dt(const CaseResult& result) {
   return *std::max_element(result.definition.dt.begin(), result.definition.dt.end(),
                            [](const StepSize& a, const StepSize& b) { return a.seconds < b.seconds; });
@@ -133,8 +158,8 @@ std::string truth_sentence(const CaseResult& result) {
                        facts.error_at_end, definition.duration);
   }
   return fmt::format(
-      "truth: {}, known to {:g} m until {:.1f} s of the {:g} s; beyond that the motion is too sensitive.",
-      definition.truth, kHorizonTolerance, facts.horizon, definition.duration);
+      "truth: {}, known to {:g} µm until {:.1f} s of the {:g} s; beyond that the motion is too sensitive.",
+      definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration);
 }
 
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell) {
@@ -147,13 +172,13 @@ RowText row_text(const Results& results, const CaseResult& result, const Cell& c
     return row;
   }
   row.verdict = verdict_text(cell, result.definition.scene);
-  const bool is_blown_up = cell.stability.verdict == Verdict::blown_up;
   row.first_second = metric_text(cell, "position_error", &MetricValue::first_second);
   row.whole = metric_text(cell, "position_error", &MetricValue::value);
   row.orientation = metric_text(cell, "orientation_error", &MetricValue::value);
   row.energy = percent_text(cell, "energy_drift");
   row.energy_synchronised = percent_text(cell, "energy_drift_synchronised");
-  if (is_blown_up) {  // what was measured until it blew up would read like the error of a run
+  row.is_blown_up = cell.stability.verdict == Verdict::blown_up;
+  if (row.is_blown_up) {  // what was measured until it blew up would read like the error of a run
     row.whole = row.orientation = row.energy = row.energy_synchronised = kNoValue;
     if (cell.stability.time < 1) row.first_second = kNoValue;
   }

@@ -16,7 +16,8 @@ std::string gate_summary(const Results& results);
 struct RowText {
   std::string engine;
   std::string first_second, whole, orientation, energy, energy_synchronised, stable_dt, verdict;
-  bool has_numbers;  // if not, `verdict` is a sentence that stands in their place
+  bool has_numbers = true;  // if not, `verdict` is a sentence that stands in their place
+  bool is_blown_up = false;
 };
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell);
 std::string truth_sentence(const CaseResult& result);
@@ -24,6 +25,12 @@ std::string truth_sentence(const CaseResult& result);
 // Broken at spaces to the table's width; each line stands behind `indent` columns, the first behind whatever of that
 // width the caller has written already.
 std::string wrapped(const std::string& text, std::size_t indent);
+
+// Two or three significant digits: 0.0312, 1.3e-05, 490.
+std::string rounded(double value);
+
+// The first column of a table; a long name gets a line of its own.
+std::string engine_column(const std::string& name);
 
 // The coarsest step of a case's run: the headline.
 StepSize coarsest_dt(const CaseResult& result);

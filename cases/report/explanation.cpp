@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 namespace rigor {
 namespace {
@@ -51,6 +52,7 @@ class Explainer {
     if (omega_ > 0) explain_springs();
     if (omega_ == 0) explain_falling_too_far();
     explain_raw_energy();
+    explain_gyroscopic_loss();
     return sentences_;
   }
 
@@ -79,7 +81,8 @@ class Explainer {
         omega_, phase, dt_.text);
     if (!explicit_ones.empty()) {
       text += fmt::format(
-          " {} multiplies the energy of such an oscillation by 1 + (omega dt)^2 = {:.3g} in every step, that "
+          " The explicit Euler step ({}) multiplies the energy of such an oscillation by 1 + (omega dt)^2 = {:.3g} in "
+          "every step, that "
           "is {:.1e} times in a second; without damping a smaller dt slows that growth but never ends it.",
           explicit_ones, 1 + phase * phase, std::pow(1 + phase * phase, 1 / dt_.seconds));
     }
@@ -144,6 +147,39 @@ class Explainer {
         fmt::format("Raw energy drift is mostly sampling for {}: a semi-implicit step leaves the velocity "
                     "half a step from the position; sync brings both to one instant.",
                     list));
+  }
+
+  // A drift with its sign, if there is one; else not a number.
+  static double signed_drift(const std::map<std::string, MetricValue>& metrics, const std::string& name) {
+    const auto found = metrics.find(name);
+    if (found == metrics.end() || !found->second.not_applicable.empty()) return std::nan("");
+    return std::copysign(found->second.value, found->second.worst.found - found->second.worst.expected);
+  }
+
+  // Energy that the engine and its twin lose or gain alike, and that the twin keeps once its gyroscopic term is off.
+  void explain_gyroscopic_loss() {
+    constexpr double kWorthSaying = 0.01, kAlike = 1e-3, kGone = 0.1;
+    std::map<std::string, std::string> names;  // by what is said of them
+    for_headline_cells([&](const Cell& cell, const MethodInfo&) {
+      const double engine = signed_drift(cell.metrics, "energy_drift"),
+                   scheme = signed_drift(cell.scheme.metrics, "energy_drift"),
+                   without = signed_drift(cell.scheme.without_gyroscopic_term, "energy_drift"),
+                   momentum = signed_drift(cell.scheme.without_gyroscopic_term, "angular_momentum_drift");
+      const bool is_it = std::abs(engine) > kWorthSaying && std::abs(engine - scheme) < kAlike * std::abs(engine) &&
+                         std::abs(without) < kGone * std::abs(engine);
+      if (!is_it) return;
+      const std::string wrong =
+          std::isnan(momentum)
+              ? ""
+              : fmt::format(", but its angular momentum strays by {:.2g} kg m^2/s", std::abs(momentum));
+      append(
+          names[fmt::format("energy changes by {:+.3g} %, and so does that of the scheme alone, repeated by the core: "
+                            "it is the gyroscopic term's doing. Without that term the same step keeps the energy to "
+                            "{:.1g} %{}.",
+                            100 * engine, 100 * std::abs(without), wrong)],
+          name_of(cell));
+    });
+    for (const auto& [text, engines] : names) sentences_.push_back(fmt::format("Why: {}: {}", engines, text));
   }
 
   const Results& results_;

@@ -2,6 +2,7 @@
 // change.
 #include <nlohmann/json.hpp>
 
+#include "cases/report/comparison_json.h"
 #include "cases/report/machine.h"
 #include "cases/report/reports.h"
 #include "cases/report/result_json.h"
@@ -61,7 +62,7 @@ Json gates_json(const CaseResult& result) {
   return gates;
 }
 
-Json case_json(const CaseResult& result) {
+Json case_json(const Results& results, const CaseResult& result) {
   const Case& definition = result.definition;
   Json json = {{"id", definition.id},
                {"title", definition.title},
@@ -75,6 +76,9 @@ Json case_json(const CaseResult& result) {
     json["truth"]["horizon_tolerance"] = kHorizonTolerance;
   }
   if (result.truth) json["largest_kinetic_energy"] = result.truth->largest_kinetic_energy;
+  json["observed_order"] = observed_orders_json(results, result);
+  json["work_precision"] = work_precision_json(results, result);
+  json["spread"] = spreads_json(results, result);
   json["gates"] = gates_json(result);
   return json;
 }
@@ -100,7 +104,7 @@ std::string json_report(const Results& results) {
       {"cells", Json::array()},    {"stable_dt", Json::array()}};
   for (const RunName& run : results.runs) json["engines"].push_back(run_json(run, results.engines));
   for (const CaseResult& result : results.cases) {
-    json["cases"].push_back(case_json(result));
+    json["cases"].push_back(case_json(results, result));
     for (const Cell& cell : result.cells) json["cells"].push_back(cell_json(cell, result, results.runs[cell.run].text));
     for (std::size_t run = 0; run < results.runs.size(); ++run) {
       Json stable = {{"case", result.definition.id}, {"engine", results.runs[run].text}};

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "cases/report/comparison.h"
 #include "cases/report/console_table.h"
+#include "cases/report/explained_error.h"
 #include "cases/report/explanation.h"
 #include "cases/report/machine.h"
 #include "cases/report/reports.h"
@@ -20,11 +22,24 @@ std::string plain(const std::string& text) {
     } else if (c == '<') {
       out += "&lt;";
     } else {
-      if (std::string("|`*_[]\\").find(c) != std::string::npos) out += '\\';
+      if (std::string("|`*_[]~\\").find(c) != std::string::npos) out += '\\';
       out += c;
     }
   }
   return out;
+}
+
+std::string explained_markdown(const std::vector<ExplainedRow>& rows) {
+  if (rows.empty()) return "";
+  std::string text =
+      "| error explained | position, total [m] | by the scheme [m] | unexplained [m] | orientation, total [rad] | by "
+      "the "
+      "scheme [rad] | unexplained [rad] | until [s] |\n|---|---:|---:|---:|---:|---:|---:|---:|\n";
+  for (const ExplainedRow& row : rows) {
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", plain(row.engine), row.total, row.by_scheme,
+                        row.unexplained, row.rotation, row.rotation_by_scheme, row.rotation_unexplained, row.until);
+  }
+  return text;
 }
 
 std::string table(const Results& results, const CaseResult& result, const StepSize& dt) {
@@ -38,6 +53,21 @@ std::string table(const Results& results, const CaseResult& result, const StepSi
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", plain(row.engine), row.first_second, row.whole,
                         row.orientation, row.energy, row.energy_synchronised, row.stable_dt, plain(row.verdict));
   }
+  const std::string explained = explained_markdown(explained_rows(results, result, dt));
+  return explained.empty() ? text : text + "\n" + explained;
+}
+
+std::string table(const TextTable& cells) {
+  std::string text = plain(cells.heading) + "\n\n";
+  for (std::size_t row = 0; row < cells.rows.size(); ++row) {
+    text += "|";
+    for (const std::string& cell : cells.rows[row]) text += fmt::format(" {} |", plain(cell));
+    text += "\n";
+    if (row > 0) continue;
+    text += "|---|";
+    for (std::size_t column = 1; column < cells.rows[0].size(); ++column) text += "---:|";
+    text += "\n";
+  }
   return text;
 }
 
@@ -46,6 +76,7 @@ std::string headline(const Results& results, const CaseResult& result) {
                                  plain(truth_sentence(result)));
   text += table(results, result, coarsest_dt(result)) + "\n";
   for (const std::string& sentence : explanations(results, result)) text += plain(sentence) + "\n\n";
+  for (const std::string& sentence : work_precision_sentences(results, result)) text += plain(sentence) + "\n\n";
   for (const GateResult& gate : result.gates) {
     if (gate.answer != GateAnswer::held) text += fmt::format("- gate {}: {}\n", word_of(gate.answer), plain(gate.text));
   }
@@ -61,6 +92,12 @@ std::string finer_steps(const Results& results, const CaseResult& result) {
               "\n";
   }
   return text;
+}
+
+std::string comparisons(const Results& results, const CaseResult& result) {
+  std::string text;
+  for (const TextTable& cells : comparison_tables(results, result)) text += table(cells) + "\n";
+  return text.empty() ? "" : fmt::format("## {}\n\n", plain(result.definition.id)) + text;
 }
 
 std::string settings(const Results& results) {
@@ -86,6 +123,8 @@ std::string markdown_report(const Results& results) {
   for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
   text += "# Other step sizes\n\n";
   for (const CaseResult& result : results.cases) text += finer_steps(results, result);
+  text += "# Work, precision and spread\n\n";
+  for (const CaseResult& result : results.cases) text += comparisons(results, result);
   const Machine machine = this_machine();
   text += fmt::format(
       "# Settings in force\n\nAs read back from each engine, in the first case it ran.\n\n{}\n"

@@ -56,6 +56,33 @@ MetricValue metric_from(const Json& json, const Scene& scene) {
   return metric;
 }
 
+using Metrics = std::map<std::string, MetricValue>;
+
+Json json_of(const Metrics& metrics, const Scene& scene) {
+  Json json = Json::object();
+  for (const auto& [name, metric] : metrics) json[name] = json_of(metric, name, scene);
+  return json;
+}
+
+Metrics metrics_from(const Json& json, const Scene& scene) {
+  Metrics metrics;
+  for (const auto& [name, metric] : json.items()) metrics[name] = metric_from(metric, scene);
+  return metrics;
+}
+
+Json json_of(const SchemeFindings& scheme, const Scene& scene) {
+  if (scheme.twin.empty()) return nullptr;
+  return {{"twin", scheme.twin},
+          {"metrics", json_of(scheme.metrics, scene)},
+          {"without_gyroscopic_term", json_of(scheme.without_gyroscopic_term, scene)}};
+}
+
+SchemeFindings scheme_from(const Json& json, const Scene& scene) {
+  if (json.is_null()) return {};
+  return {json.at("twin").get<std::string>(), metrics_from(json.at("metrics"), scene),
+          metrics_from(json.at("without_gyroscopic_term"), scene)};
+}
+
 Verdict verdict_of(const std::string& word) {
   for (Verdict verdict : {Verdict::stable, Verdict::drifting, Verdict::blown_up}) {
     if (word_of(verdict) == word) return verdict;
@@ -73,9 +100,24 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
     cell.stability = {verdict_of(verdict.at("word").get<std::string>()), number(verdict.at("time")),
                       body_index(scene, verdict.at("body").get<std::string>()), verdict.at("why").get<std::string>()};
   }
-  for (const auto& [name, metric] : json.at("metrics").items()) cell.metrics[name] = metric_from(metric, scene);
+  cell.metrics = metrics_from(json.at("metrics"), scene);
+  cell.scheme = scheme_from(json.at("by_scheme"), scene);
   for (const auto& [name, value] : json.at("settings").items())
     cell.settings.emplace_back(name, value.get<std::string>());
+}
+
+Json json_of(const Furthest& furthest) { return {furthest.value, furthest.time, furthest.body}; }
+
+Furthest furthest_from(const Json& json) { return {number(json.at(0)), number(json.at(1)), json.at(2).get<int>()}; }
+
+Spread spread_from(const Json& json) {
+  Spread spread;
+  spread.first = json.at("first").get<std::size_t>(), spread.second = json.at("second").get<std::size_t>();
+  spread.dt = {json.at("dt_seconds").get<double>(), json.at("dt").get<std::string>()};
+  spread.distance = furthest_from(json.at("distance")), spread.angle = furthest_from(json.at("angle"));
+  if (!json.at("parted_at").is_null()) spread.parted_at = json.at("parted_at").get<double>();
+  spread.compared_until = json.at("compared_until").get<double>();
+  return spread;
 }
 
 void fill_in(StableStepResult& result, const Json& json) {
@@ -98,8 +140,8 @@ Json json_of(const Cell& cell, const Scene& scene) {
                        {"body", scene.body_name(stability.body)},
                        {"why", stability.why}};
   }
-  json["metrics"] = Json::object();
-  for (const auto& [name, metric] : cell.metrics) json["metrics"][name] = json_of(metric, name, scene);
+  json["metrics"] = json_of(cell.metrics, scene);
+  json["by_scheme"] = json_of(cell.scheme, scene);
   json["settings"] = Json::object();
   for (const auto& [name, value] : cell.settings) json["settings"][name] = value;
   json["cpu_seconds"] = cell.cpu_seconds;
@@ -130,11 +172,30 @@ std::string message_of_stable_step(std::size_t run, const StableStepResult& resu
   return text_of({{"stable_step", run}, {"result", json_of(result)}}, -1);
 }
 
+std::string message_of_spreads(const std::vector<Spread>& spreads) {
+  Json all = Json::array();
+  for (const Spread& spread : spreads) {
+    all.push_back({{"first", spread.first},
+                   {"second", spread.second},
+                   {"dt", spread.dt.text},
+                   {"dt_seconds", spread.dt.seconds},
+                   {"distance", json_of(spread.distance)},
+                   {"angle", json_of(spread.angle)},
+                   {"parted_at", spread.parted_at ? Json(*spread.parted_at) : Json(nullptr)},
+                   {"compared_until", spread.compared_until}});
+  }
+  return text_of({{"spreads", all}}, -1);
+}
+
 bool apply_message(CaseResult& result, const std::string& message) {
   const Json json = Json::parse(message);
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
     result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2))};
+    return false;
+  }
+  if (json.contains("spreads")) {
+    for (const Json& spread : json.at("spreads")) result.spreads.push_back(spread_from(spread));
     return false;
   }
   if (json.contains("cell")) {

@@ -10,6 +10,7 @@ namespace rigor {
 
 std::string message_of_truth(const TruthFacts& facts);
 std::string message_of_cell(std::size_t index, const Cell& cell, const Scene& scene);
+std::string message_of_spreads(const std::vector<Spread>& spreads);
 std::string message_of_stable_step(std::size_t run, const StableStepResult& result);
 
 // Fills in what the message says. True if it ends a cell or a stable step.

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 
 #include "cases/report/result_json.h"
 #include "cases/report/trajectory_csv.h"
 #include "cases/runner/simulate.h"
+#include "cases/runner/twin_run.h"
 #include "core/error.h"
 
 namespace rigor {
@@ -18,23 +21,12 @@ TruthSamples sample_truth(const Truth& truth, const Trajectory& trajectory, std:
                           double largest_kinetic_energy) {
   TruthSamples samples;
   samples.largest_kinetic_energy = largest_kinetic_energy;
+  samples.source = &truth;
   for (const Sample& sample : trajectory.samples) {
     truth.at(sample.time, samples.bodies.emplace_back(bodies).columns());
     samples.error.push_back(truth.error(sample.time));
   }
   return samples;
-}
-
-MetricValue condensed(const MetricResult& result, const Trajectory& trajectory) {
-  MetricValue out;
-  out.not_applicable = result.not_applicable;
-  if (!result.measurement) return out;
-  const Measurement& measured = *result.measurement;
-  out.value = measured.value, out.worst = measured.worst, out.compared_until = measured.compared_until;
-  for (std::size_t i = 0; i < measured.series.size() && trajectory.samples[i].time <= 1 + 1e-9; ++i) {
-    if (std::abs(measured.series[i]) > std::abs(out.first_second)) out.first_second = measured.series[i];
-  }
-  return out;
 }
 
 void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
@@ -94,6 +86,7 @@ class CaseJobs {
   void run(const Channel& channel) {
     std::vector<bool> answered(jobs_.size());
     const auto on_message = [&](std::size_t job, const std::string& message) {
+      if (answered[job]) return keep_path(job, message);
       answered[job] = true;
       channel.send(message);
     };
@@ -101,6 +94,7 @@ class CaseJobs {
       if (!answered[job]) channel.send(on_failure_[job](end));
     };
     run_jobs(jobs_, options_.jobs, on_message, on_end);
+    channel.send(message_of_spreads(spreads()));
   }
 
  private:
@@ -122,15 +116,32 @@ class CaseJobs {
     });
   }
 
+  // A cell's second and last message; a stable step has only one.
+  void keep_path(std::size_t job, const std::string& message) { paths_[cell_of_job_.at(job)] = unpacked(message); }
+
+  // Every pair of runs at the same dt that both left a path.
+  std::vector<Spread> spreads() const {
+    std::vector<Spread> found;
+    for (const auto& [a, path_a] : paths_) {
+      for (auto later = paths_.upper_bound(a); later != paths_.end(); ++later) {
+        const Cell &one = planned_.cells[a], &other = planned_.cells[later->first];
+        if (one.dt.seconds != other.dt.seconds) continue;
+        Spread spread = spread_between(path_a, later->second);
+        spread.first = one.run, spread.second = other.run, spread.dt = one.dt;
+        found.push_back(spread);
+      }
+    }
+    return found;
+  }
+
   void add_cell(std::size_t index) {
+    cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const RunName& run = run_of(cell.run);
-                       channel.send(
-                           message_of_cell(index,
-                                           run_cell(cell, planned_.definition, find_engine(engines_, run.engine),
-                                                    run.settings, truth_, energy_, options_.folder),
-                                           planned_.definition.scene));
+                       const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
+                                                          energy_, options_.folder);
+                       channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
+                       channel.send(packed(judged.path));
                      },
                      options_.limit});
     on_failure_.push_back([this, index, &cell](const JobEnd& end) {
@@ -151,28 +162,35 @@ class CaseJobs {
   double stable_energy_;  // J, the same over the stability horizon
   std::vector<Job> jobs_;
   std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
+  std::map<std::size_t, std::size_t> cell_of_job_;
+  std::map<std::size_t, Path> paths_;  // by index of the cell
 };
 
 }  // namespace
 
-Cell run_cell(const Cell& planned, const Case& definition, const Engine& engine, const Settings& settings,
-              const Truth* truth, double largest_kinetic_energy, const std::string& folder) {
+JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
+                    const Truth* truth, double largest_kinetic_energy, const std::string& folder) {
   Cell cell = planned;
   const Scene& scene = definition.scene;
-  const double velocity_lag = method_of(engine.info(), settings).velocity_lag;
-  const Simulation run = simulate(engine, settings, scene, cell.dt.seconds, definition.duration);
-  cell.settings = run.settings, cell.cpu_seconds = run.cpu_seconds;
-  cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag);
-  TruthSamples samples;
+  const Engine& engine = find_engine(engines, run_name.engine);
+  const double velocity_lag = method_of(engine.info(), run_name.settings).velocity_lag;
+  const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration);
+  cell.settings = run.settings, cell.cpu_seconds = timed_again(engine, run_name.settings, scene, run);
+  std::optional<TruthSamples> samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
-  const JudgedRun judged{scene, run.trajectory, truth ? &samples : nullptr, velocity_lag};
-  for (const MetricRow& metric : metrics())
-    cell.metrics[metric.name] = condensed(metric.measure(judged), run.trajectory);
+  const std::optional<RunName> twin_name = twin_of(engines, run_name, scene);
+  std::optional<TwinRun> twin;
+  if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
+  const JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
+                         velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
+  cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
+  for (const MetricRow& row : metrics()) cell.metrics[row.name] = condensed(row.measure(judged), run.trajectory);
+  if (twin) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   if (!folder.empty()) {
     write_trajectory((std::filesystem::path(folder) / cell.trajectory).string(), scene, run.trajectory);
   }
-  return cell;
+  return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
 }
 
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
@@ -181,8 +199,9 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const double seconds = options.stable_steps ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   const TruthFacts facts = facts_of(definition, truth.get());
-  channel.send(message_of_truth(facts));
-  CaseJobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy).run(channel);
+  CaseJobs jobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy);
+  channel.send(message_of_truth(facts));  // from here on each job has a limit of its own
+  jobs.run(channel);
 }
 
 }  // namespace rigor

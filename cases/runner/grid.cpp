@@ -53,10 +53,28 @@ void name_trajectories(Results& grid) {
   }
 }
 
-CaseResult plan_case(const Case& definition, const Results& grid, const EngineTable& engines, bool stable_steps) {
+bool same_run(const RunName& a, const RunName& b) {
+  return a.engine == b.engine && a.settings.method == b.settings.method && a.settings.options == b.settings.options &&
+         a.settings.track == b.settings.track;
+}
+
+bool is_named_by_gates(const RunName& run, const Case& definition, const std::vector<EngineInfo>& engines) {
+  return std::any_of(definition.gates.begin(), definition.gates.end(), [&](const Gate& gate) {
+    return std::any_of(gate.engines.begin(), gate.engines.end(),
+                       [&](const std::string& name) { return same_run(parse_run_name(name, engines), run); });
+  });
+}
+
+// `asked_for`: so many of the grid's runs are for every case; each of the others for those whose gates name it.
+CaseResult plan_case(const Case& definition, const Results& grid, std::size_t asked_for, const EngineTable& engines,
+                     bool stable_steps) {
   CaseResult result;
   result.definition = definition;
   for (std::size_t run = 0; run < grid.runs.size(); ++run) {
+    if (run >= asked_for && !is_named_by_gates(grid.runs[run], definition, grid.engines)) {
+      result.stable_steps.push_back({Status::unsupported, "not asked for", {}});
+      continue;
+    }
     const EngineInfo info = find_engine(engines, grid.runs[run].engine).info();
     double shortest = definition.duration;
     for (const StepSize& dt : definition.dt) {
@@ -114,7 +132,7 @@ std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines) {
   for (const EngineInfo& engine : engines) {
     if (engine.name == "core") {
       for (const MethodInfo& method : engine.methods) {
-        runs.push_back(parse_run_name(engine.name + ":" + method.name, engines));
+        if (method.twin_of.empty()) runs.push_back(parse_run_name(engine.name + ":" + method.name, engines));
       }
     } else {
       runs.push_back(parse_run_name(engine.name, engines));
@@ -124,12 +142,33 @@ std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines) {
   return runs;
 }
 
+std::vector<RunName> runs_of_gates(const std::vector<Case>& cases, const std::vector<RunName>& but,
+                                   const std::vector<EngineInfo>& engines) {
+  std::vector<RunName> found;
+  const auto is_in = [](const std::vector<RunName>& runs, const RunName& run) {
+    return std::any_of(runs.begin(), runs.end(), [&](const RunName& other) { return same_run(other, run); });
+  };
+  for (const Case& definition : cases) {
+    for (const Gate& gate : definition.gates) {
+      for (const std::string& name : gate.engines) {
+        RunName run = parse_run_name(name, engines);
+        if (!is_in(but, run) && !is_in(found, run)) found.push_back(std::move(run));
+      }
+    }
+  }
+  return found;
+}
+
 Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& runs, const EngineTable& engines,
-                  bool stable_steps) {
+                  bool stable_steps, const std::vector<RunName>& only_where_named) {
   Results grid;
   grid.runs = runs;
+  const std::size_t asked_for = runs.size();
+  grid.runs.insert(grid.runs.end(), only_where_named.begin(), only_where_named.end());
   grid.engines = infos_of(engines);
-  for (const Case& definition : cases) grid.cases.push_back(plan_case(definition, grid, engines, stable_steps));
+  for (const Case& definition : cases) {
+    grid.cases.push_back(plan_case(definition, grid, asked_for, engines, stable_steps));
+  }
   const bool is_empty =
       std::all_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& c) { return c.cells.empty(); });
   if (is_empty) throw InputError("nothing to run: no case, no engine or no step size is left of the selection");

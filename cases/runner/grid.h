@@ -20,7 +20,7 @@ struct Overrides {
 // Throws InputError for a step longer than the run, or so short that the run would never end.
 void override_run(Case& definition, const Overrides& overrides);
 
-// Every method of the in-house core, and every other engine on both tracks.
+// Every method of the in-house core but the twins of other engines, and every other engine on both tracks.
 std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines);
 
 struct GridOptions {
@@ -30,10 +30,15 @@ struct GridOptions {
   bool stable_steps = true;  // find the largest stable dt as well
 };
 
-// All cells, none of which has run; those an engine cannot run are `unsupported` already. Throws InputError if there
-// are none.
+// The runs that gates of these cases name and that are not among `but`: an option of a method that only one case is
+// about, say.
+std::vector<RunName> runs_of_gates(const std::vector<Case>& cases, const std::vector<RunName>& but,
+                                   const std::vector<EngineInfo>& engines);
+
+// All cells, none of which has run; those an engine cannot run are `unsupported` already. `runs` are for every case,
+// `only_where_named` for those whose gates name them. Throws InputError if there are none.
 Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& runs, const EngineTable& engines,
-                  bool stable_steps);
+                  bool stable_steps, const std::vector<RunName>& only_where_named = {});
 
 // Runs it and fills it in. One child process a case makes the truth and forks the case's cells, which inherit it; a
 // truth that hangs, throws or crashes so costs one case. `on_progress` is called as cells end.

@@ -8,6 +8,7 @@
 
 #include "cases/case.h"
 #include "cases/metrics/metric.h"
+#include "cases/metrics/spread.h"
 #include "cases/metrics/stability.h"
 #include "core/engine/run_name.h"
 
@@ -22,10 +23,20 @@ Status status_of(const std::string& word);
 // A metric of one cell, without its course over time.
 struct MetricValue {
   double value = 0;
-  double first_second = 0;  // the largest, by magnitude, of its course up to t = 1 s
+  double first_second = 0;  // the largest, by magnitude, of its course up to t = 1 s; not a number if it has none
   Instant worst;
   double compared_until = 0;   // s
   std::string not_applicable;  // why there is no value; empty if there is
+};
+
+// A result without its course over time. `trajectory` is the one it was measured on.
+MetricValue condensed(const MetricResult& result, const Trajectory& trajectory);
+
+// What a run's own scheme does by itself, as its twin in the core shows. `twin` is empty where there is none.
+struct SchemeFindings {
+  std::string twin;                                            // the name of the core's run
+  std::map<std::string, MetricValue> metrics;                  // of the twin, as of a run of its own
+  std::map<std::string, MetricValue> without_gyroscopic_term;  // of the twin with that term off, where it is on
 };
 
 // A gate's answer for one cell, or for an order fitted over several.
@@ -47,6 +58,7 @@ struct Cell {
   std::string reason = "it did not run";  // why, for all but `pass`
   Stability stability;
   std::map<std::string, MetricValue> metrics;  // by name; empty if the cell did not get so far
+  SchemeFindings scheme;
   SettingsInForce settings;
   double cpu_seconds = 0;
   std::string trajectory;  // file name in trajectories/; empty if there is none
@@ -74,6 +86,7 @@ struct CaseResult {
   bool error_is_input = false;      // the case file asks for what cannot be
   std::vector<Cell> cells;          // by engine, then dt
   std::vector<StableStepResult> stable_steps;  // one each of Results::runs
+  std::vector<Spread> spreads;                 // pairs of which one did not run are missing
   std::vector<GateResult> gates;
 };
 

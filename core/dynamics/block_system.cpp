@@ -1,7 +1,5 @@
 #include "core/dynamics/block_system.h"
 
-#include <Eigen/LU>
-
 namespace rigor {
 
 BlockSystem::BlockSystem(std::size_t bodies) : size_(6 * static_cast<Eigen::Index>(bodies)) {
@@ -14,6 +12,7 @@ bool BlockSystem::is_dense() const { return size_ <= 60; }
 void BlockSystem::clear() {
   dense_.setZero();
   triplets_.clear();
+  blocks_.clear();
 }
 
 void BlockSystem::add(std::size_t row, std::size_t column, const Mat6& block) {
@@ -22,6 +21,7 @@ void BlockSystem::add(std::size_t row, std::size_t column, const Mat6& block) {
     dense_.block<6, 6>(r, c) += block;
     return;
   }
+  blocks_.emplace_back(row, column);
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
       triplets_.emplace_back(static_cast<int>(r + i), static_cast<int>(c + j), block(i, j));
@@ -31,15 +31,25 @@ void BlockSystem::add(std::size_t row, std::size_t column, const Mat6& block) {
 
 bool BlockSystem::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
   if (is_dense()) {
-    solution = dense_.partialPivLu().solve(right_side);
+    dense_lu_.compute(dense_);
+    solution = dense_lu_.solve(right_side);
     return solution.allFinite();
   }
-  sparse_.resize(size_, size_);
-  sparse_.setFromTriplets(triplets_.begin(), triplets_.end());
-  sparse_lu_.compute(sparse_);
-  if (sparse_lu_.info() != Eigen::Success) return false;
+  if (!factorise_sparse()) return false;
   solution = sparse_lu_.solve(right_side);
   return solution.allFinite();
+}
+
+// The order of elimination depends on which blocks there are, not on what is in them: it is found once.
+bool BlockSystem::factorise_sparse() {
+  sparse_.resize(size_, size_);
+  sparse_.setFromTriplets(triplets_.begin(), triplets_.end());
+  if (blocks_ != ordered_blocks_) {
+    sparse_lu_.analyzePattern(sparse_);
+    ordered_blocks_ = blocks_;
+  }
+  sparse_lu_.factorize(sparse_);
+  return sparse_lu_.info() == Eigen::Success;
 }
 
 }  // namespace rigor

@@ -2,8 +2,10 @@
 // small, sparse where there are many bodies of which each meets few others.
 #pragma once
 
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
+#include <utility>
 #include <vector>
 
 #include "core/dynamics/load_jacobian.h"
@@ -20,10 +22,13 @@ class BlockSystem {
 
  private:
   bool is_dense() const;
+  bool factorise_sparse();
 
   Eigen::Index size_;
   Eigen::MatrixXd dense_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu_;  // kept, so that its space is
   std::vector<Eigen::Triplet<double>> triplets_;
+  std::vector<std::pair<std::size_t, std::size_t>> blocks_, ordered_blocks_;  // now, and when the unknowns were ordered
   Eigen::SparseMatrix<double> sparse_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_lu_;
 };

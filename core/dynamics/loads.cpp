@@ -63,4 +63,13 @@ void Loads::evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenc
   for (std::size_t i = 0; i < masses_.size(); ++i) out[i].force += masses_[i] * gravity_;
 }
 
+double Loads::next_switch(double t, double end) const {
+  for (const TimedForce& force : forces_) {
+    for (const double s : {force.from, force.until}) {
+      if ((s - t) * (end - s) > 0) end = s;
+    }
+  }
+  return end;
+}
+
 }  // namespace rigor

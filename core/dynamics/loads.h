@@ -37,6 +37,20 @@ class Loads {
   // The same, with m g added for every body that is not fixed.
   void evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenches& out) const;
 
+  // The first instant strictly between t and `end` at which a timed force begins or ends; `end` if there is none.
+  double next_switch(double t, double end) const;
+  // Calls part(from, length) for each part of the step [t, t + dt] in which no timed force begins or ends, in order, so
+  // that a method of high order does not step across a jump.
+  template <typename Part>
+  void for_each_smooth_part(double t, double dt, const Part& part) const {
+    double from = t;
+    for (double to = next_switch(t, t + dt); to != t + dt; to = next_switch(from, t + dt)) {
+      part(from, to - from);
+      from = to;
+    }
+    part(from, from == t ? dt : t + dt - from);
+  }
+
   const std::vector<Spring>& springs() const { return springs_; }
   const std::vector<TimedForce>& forces() const { return forces_; }
   bool empty() const { return springs_.empty() && forces_.empty(); }

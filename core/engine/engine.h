@@ -31,10 +31,17 @@ struct MethodInfo {
   std::string summary;      // one line
   int order = 1;            // the global error falls as dt^order on smooth scenes
   bool symplectic = false;  // on undamped smooth scenes
+  bool symmetric = false;   // a step back undoes a step forward, to rounding, on undamped smooth scenes
   // Steps by which the velocities read lag behind the positions (1/2 for a semi-implicit step): the judge brings them
   // to the positions' time before it speaks of lost energy.
   double velocity_lag = 0;
+  // Divides each step by itself until it meets a tolerance: its error does not follow from dt, and `order` is that of
+  // its inner steps.
+  bool adaptive = false;
   std::vector<OptionInfo> options = {};
+  // The engine whose scheme this method repeats, to explain that engine's error; "" for a method of its own right. A
+  // twin is an instrument and no contestant: it runs where it is named, and not by default.
+  std::string twin_of = "";
 };
 
 struct EngineInfo {
@@ -94,6 +101,10 @@ class Engine {
   virtual ~Engine() = default;
   virtual EngineInfo info() const = 0;
   virtual std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const = 0;
+  // The name of the core's run that repeats, on smooth scenes, the scheme that this engine publishes for these
+  // settings;
+  // "" for an engine that is its own scheme.
+  virtual std::string twin(const Settings& settings) const = 0;
 };
 
 // Why this engine cannot run this scene at this dt; empty if it can. The sentence names the feature and what in the

@@ -83,7 +83,7 @@ void parse_options(std::string rest, const MethodInfo& method, RunName& run, con
 }  // namespace
 
 const MethodInfo& method_of(const EngineInfo& engine, const Settings& settings) {
-  return find_row(engine.methods, settings.method, fmt::format("method of {} called", engine.name), settings.method);
+  return find_row(engine.methods, settings.method, fmt::format("method of {} called", engine.name), engine.name);
 }
 
 RunName parse_run_name(const std::string& text, const std::vector<EngineInfo>& engines) {
@@ -101,7 +101,8 @@ RunName parse_run_name(const std::string& text, const std::vector<EngineInfo>& e
   const EngineInfo& engine = find_row(engines, head, "engine", text);
   run.engine = engine.name;
   run.settings.method = has_method ? method : engine.methods.front().name;
-  const MethodInfo& method_info = method_of(engine, run.settings);
+  const MethodInfo& method_info =
+      find_row(engine.methods, run.settings.method, fmt::format("method of {} called", engine.name), text);
   parse_options(std::move(options), method_info, run, text);
   run.text = text;
   return run;

@@ -187,6 +187,13 @@ BOOST_AUTO_TEST_CASE(every_metric_and_truth_there_is_can_be_named) {
     const std::string gate = "[[gate]]\nmetric = '" + metric.name + "'\nmax = 1\nbecause = 'x'";
     BOOST_TEST(read_case(write("case.toml", kStart + gate), "x").gates.at(0).metric == metric.name);
   }
+  for (const CrossMetricRow& metric : cross_metrics()) {
+    const std::string gate = "[[gate]]\nmetric = '" + metric.name + "'\nbecause = 'x'\n";
+    BOOST_TEST(read_case(write("case.toml", kStart + gate + "min = 1"), "x").gates.at(0).metric == metric.name);
+    const std::string refusal =
+        refusal_of([&] { read_case(write("case.toml", kStart + gate + "at_least_order = 1"), "x"); });
+    BOOST_TEST(refusal.find("order") != std::string::npos, refusal);
+  }
   for (const TruthRow& truth : truths()) {
     const std::string kind = "[truth]\nkind = '" + truth.name + "'";
     BOOST_TEST(read_case(write("case.toml", kStart + kind), "x").truth == truth.name);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/test/unit_test.hpp>
+#include <functional>
 
 #include "adapters/engines.h"
 #include "cases/metrics/metric.h"
@@ -43,7 +44,7 @@ inline BodyTable truth_at(const Truth& truth, double t, std::size_t bodies) {
 
 inline TruthSamples sampled(const Truth& truth, const Trajectory& trajectory, const Scene& scene, double kinetic) {
   TruthSamples samples;
-  samples.largest_kinetic_energy = kinetic;
+  samples.largest_kinetic_energy = kinetic, samples.source = &truth;
   for (const Sample& sample : trajectory.samples) {
     samples.bodies.push_back(truth_at(truth, sample.time, scene.bodies.size()));
     samples.error.push_back(truth.error(sample.time));
@@ -71,6 +72,19 @@ inline MetricResult measured(const std::string& name, const JudgedRun& run) {
   BOOST_FAIL("no metric is called " + name);
   return {};
 }
+
+// A truth of one body that a test states as a formula, without an error of its own up to `good_until`.
+class StatedTruth : public Truth {
+ public:
+  explicit StatedTruth(std::function<BodyState(double t)> state, double good_until = 1e9)
+      : state_(std::move(state)), good_until_(good_until) {}
+  void at(double t, MutableBodyColumns out) const override { out.set_body(0, state_(t)); }
+  double error(double t) const override { return t <= good_until_ ? 0 : 1; }
+
+ private:
+  std::function<BodyState(double t)> state_;
+  double good_until_;
+};
 
 inline auto says(const std::string& part) {
   return [part](const std::exception& e) {

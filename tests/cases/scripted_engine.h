@@ -48,6 +48,7 @@ class ScriptedEngine : public Engine {
     info.name = "scripted";
     return info;
   }
+  std::string twin(const Settings&) const override { return ""; }
   std::unique_ptr<World> load(const Scene& scene, const Settings&) const override {
     return std::make_unique<ScriptedWorld>(script_, scene);
   }

@@ -158,6 +158,7 @@ const Integrator kImplicitMidpoint = {
     .summary = "solved for the velocities at mid-step by Newton's method; symmetric",
     .order = 2,
     .symplectic = true,
+    .symmetric = true,
     .velocity_lag = 0,
     .default_orientation = "",
     .make = make_stepper<ImplicitMidpoint>,

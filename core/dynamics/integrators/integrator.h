@@ -23,20 +23,29 @@ class Stepper {
   virtual std::string complaint() const { return ""; }
 };
 
+// What an adaptive method allows each of its inner steps to err by, unless its option says otherwise; see
+// MotionEquations::relative_size().
+inline constexpr double kDefaultTolerance = 1e-12;
+
 // What a stepper is made from. Outlives it.
 struct StepperParts {
   const System& system;
   Contact* contact;                      // null where nothing can touch
   const OrientationUpdate* orientation;  // for methods with that option; null for the others
+  Settings settings = {};                // with the values of the row's own options
 };
 
 struct Integrator {
   std::string name;
   std::string summary;
-  int order;                        // the global error falls as dt^order on smooth scenes
-  bool symplectic;                  // on undamped smooth scenes
-  double velocity_lag;              // in steps, see MethodInfo
-  std::string default_orientation;  // "" where the method has one way only
+  int order;                             // the global error falls as dt^order on smooth scenes
+  bool symplectic;                       // on undamped smooth scenes
+  bool symmetric = false;                // see MethodInfo
+  double velocity_lag;                   // in steps, see MethodInfo
+  std::string default_orientation;       // "" where the method has one way only
+  bool adaptive = false;                 // see MethodInfo; it then has an option "tolerance"
+  std::vector<OptionInfo> options = {};  // of this method alone
+  std::string twin_of = "";              // see MethodInfo
   std::unique_ptr<Stepper> (*make)(const StepperParts& parts);
 };
 

@@ -5,11 +5,14 @@
 
 namespace rigor {
 
-extern const Integrator kExplicitEuler, kImplicitMidpoint, kRk4, kSemiImplicitEuler, kVelocityVerlet;
+extern const Integrator kBulletTwin, kDormandPrince, kExplicitEuler, kImplicitMidpoint, kLinearlyImplicitEuler,
+    kMoserVeselov, kOdeTwin, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8, kVelocityVerlet;
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {
-      kExplicitEuler, kImplicitMidpoint, kRk4, kSemiImplicitEuler, kVelocityVerlet,
+      kBulletTwin,     kDormandPrince, kExplicitEuler, kImplicitMidpoint,  kLinearlyImplicitEuler, kMoserVeselov,
+      kOdeTwin,        kRk4,           kRkmk4,         kSemiImplicitEuler, kSymplectic4,           kSymplectic8,
+      kVelocityVerlet,
   };
   return table;
 }

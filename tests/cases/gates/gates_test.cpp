@@ -176,4 +176,56 @@ BOOST_AUTO_TEST_CASE(a_blown_up_run_never_passes_a_limit_but_may_be_asked_for) {
   BOOST_TEST((run.check(limit).front().answer == GateAnswer::held));
 }
 
+BOOST_AUTO_TEST_CASE(a_blown_up_run_is_never_good_where_more_is_better) {
+  Fixture run;
+  run.cell(0).status = Status::diverged, run.cell(0).reason = "blown up at 0.1 s: stone";
+  run.cell(0).metrics["tube"].value = 1;  // until it blew up
+  Gate limit = gate("tube");
+  limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}}, limit.min = 0.5;
+  BOOST_TEST((run.check(limit).front().answer == GateAnswer::failed));
+}
+
+BOOST_AUTO_TEST_CASE(an_observed_order_is_held_against_its_bounds) {
+  struct Row {
+    std::optional<double> min, max;
+    GateAnswer answer;
+  };
+  for (const Row& row :
+       {Row{1.99, 2.01, GateAnswer::held}, Row{2.01, {}, GateAnswer::failed}, Row{{}, 1.99, GateAnswer::failed}}) {
+    Fixture run(2);
+    for (Cell& cell : run.result().cells) cell.metrics["cost"].value = 1;
+    Gate limit = gate("observed_order");
+    limit.min = row.min, limit.max = row.max;
+    const auto answers = run.check(limit);
+    BOOST_TEST_REQUIRE(answers.size() == 2u);
+    for (const GateResult& answer : answers) BOOST_TEST((answer.answer == row.answer), answer.text);
+    run.cell(3).status = Status::crashed;
+    BOOST_TEST(run.check(limit).size() == 2u);  // a's order, and b's cell
+    BOOST_TEST(count(run.check(limit), GateAnswer::failed) >= 1);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_spread_is_held_against_every_pair_a_gate_selects) {
+  Fixture run;
+  run.result().spreads = {{0, 1, {0.1, "1/10"}, {0.5, 0.3, 0}, {0.01, 0.2, 0}, 0.1, 0.5},
+                          {0, 1, {0.05, "1/20"}, {0.125, 0.3, 0}, {0.02, 0.2, 0}, 0.1, 0.5}};
+  Gate limit = gate("spread");
+  limit.max = 0.25;
+  BOOST_TEST(count(run.check(limit), GateAnswer::held) == 1);
+  BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 1);
+  const std::string text = run.check(limit).front().text;
+  for (const std::string part : {"a and b", "0.5 m", "0.3 s", "stone"}) {
+    BOOST_TEST(text.find(part) != std::string::npos, part << " in " << text);
+  }
+  Gate turn = gate("spread_orientation");
+  turn.max = 0.015, turn.dt = {{0.1, "1/10"}};
+  BOOST_TEST((run.check(turn).front().answer == GateAnswer::held));
+  limit.engines = {"a"};  // no pair
+  BOOST_TEST((run.check(limit).front().answer == GateAnswer::not_checked));
+  limit.engines = {}, limit.max = 10;
+  run.cell(2).status = Status::diverged;
+  BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 1);
+  BOOST_TEST(count(run.check(limit), GateAnswer::held) == 1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -48,6 +48,9 @@ BOOST_AUTO_TEST_CASE(every_line_fits_a_hundred_columns) {
   for (int i = 0; i < 60; ++i) reason += " of one thing after another";
   results.cases.front().cells[2].metrics.clear();
   results.cases.front().cells[2].reason = reason;
+  results.cases.front().cells[0].stability = {Verdict::blown_up, 123.4, 0, ""};
+  results.cases.front().definition.scene.bodies.front().name = "a body of a name that no table was made for";
+  results.runs[0].text = "core:explicit-euler,orientation=matrix-rodrigues";
   results.cases.front().definition.title = reason;
   results.cases.front().gates.push_back({0, "good", "1/10", GateAnswer::failed, reason});
   std::istringstream lines(console_table(results));

@@ -15,7 +15,8 @@ BOOST_AUTO_TEST_CASE(a_reader_finds_every_part_by_its_name) {
   for (const char* key : {"cpu", "cores", "compiler", "build_type"}) BOOST_TEST(json.at("machine").contains(key), key);
   BOOST_TEST(json.at("program").contains("version"));
   const auto& one_case = json.at("cases").at(0);
-  for (const char* key : {"id", "title", "source", "duration", "truth", "gates"})
+  for (const char* key :
+       {"id", "title", "source", "duration", "truth", "gates", "observed_order", "work_precision", "spread"})
     BOOST_TEST(one_case.contains(key), key);
   BOOST_TEST(json.at("cells").size() == 4u);
   const auto& cell = json.at("cells").at(0);
@@ -69,6 +70,16 @@ BOOST_AUTO_TEST_CASE(a_message_brings_back_the_cell_that_was_sent) {
   }
   BOOST_TEST(!apply_message(received, message_of_truth({1, 2, 3})));
   BOOST_TEST(received.truth->horizon == 2);
+  Spread spread{0, 1, {0.1, "1/10"}, {0.5, 0.25, 0}, {0.125, 0.375, 0}, 0.0625, 2};
+  Spread together{1, 0, {0.05, "1/20"}, {}, {}, {}, 3};
+  BOOST_TEST(!apply_message(received, message_of_spreads({spread, together})));
+  BOOST_TEST_REQUIRE(received.spreads.size() == 2u);
+  const Spread& back = received.spreads.front();
+  BOOST_TEST((back.first == 0 && back.second == 1 && back.dt.seconds == 0.1 && back.dt.text == "1/10"));
+  BOOST_TEST((back.distance.value == 0.5 && back.distance.time == 0.25 && back.distance.body == 0));
+  BOOST_TEST((back.angle.value == 0.125 && back.angle.time == 0.375));
+  BOOST_TEST((back.parted_at == 0.0625 && back.compared_until == 2));
+  BOOST_TEST(!received.spreads.back().parted_at.has_value());
   BOOST_TEST(apply_message(received, message_of_stable_step(0, {Status::pass, "", {0.5, true, false}})));
   BOOST_TEST(received.stable_steps[0].step.is_cap);
 }

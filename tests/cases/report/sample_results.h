@@ -32,6 +32,9 @@ inline Results sample_results() {
       cell.metrics["position_error"] = sample_metric(0.25, {0.3, 0, "position.y", 2, 1.75});
       cell.metrics["energy_drift"] = sample_metric(0.5, {0.3, kWorld, "energy", 10, 15});
       cell.metrics["orientation_error"].not_applicable = "nothing turns";
+      cell.scheme.twin = "core:its-twin";
+      cell.scheme.metrics["position_error"] = sample_metric(0.24, {0.3, 0, "position.y", 2, 1.76});
+      cell.metrics["unexplained_error"] = sample_metric(0.01, {0.4, 0, "position.y", 2, 2.01});
       cell.settings = {{"solver", "exact"}};
       cell.status = Status::pass, cell.reason = "";
       cell.trajectory = "t" + std::to_string(result.cells.size()) + ".csv";

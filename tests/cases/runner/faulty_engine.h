@@ -23,6 +23,7 @@ class FaultyEngine : public Engine {
     return info;
   }
 
+  std::string twin(const Settings&) const override { return ""; }
   std::unique_ptr<World> load(const Scene& scene, const Settings&) const override {
     return std::make_unique<FaultyWorld>(*this, scene);
   }

@@ -87,4 +87,30 @@ BOOST_AUTO_TEST_CASE(the_steps_alone_are_timed) {
   BOOST_TEST(simulate(test::ScriptedEngine({}), {}, scene, 0.1, 10).cpu_seconds < 1e-3);
 }
 
+BOOST_AUTO_TEST_CASE(short_steps_are_timed_again_without_a_pause_and_long_ones_are_not) {
+  int steps = 0;
+  bool is_long = false;
+  volatile double sink = 0;
+  test::Script script;
+  script.play = [&](int step, MutableBodyColumns) {
+    steps += step > 0;
+    for (int i = 0; is_long && i < 200'000; ++i) sink = sink + 1;  // far over the 20 us of a long step
+  };
+  const test::ScriptedEngine engine(script);
+  const Scene scene = test::tumbling_body();
+  const Simulation quick = simulate(engine, {}, scene, 0.1, 10);
+  steps = 0;
+  const double again = timed_again(engine, {}, scene, quick);
+  BOOST_TEST(again > 0);
+  BOOST_TEST(steps % 100 == 0);
+  BOOST_TEST(steps >= 300);  // 100 steps of nothing are repeated, up to a hundred times
+  BOOST_TEST(again < 100 * 20e-6);
+
+  is_long = true;
+  const Simulation slow = simulate(engine, {}, scene, 0.1, 1);
+  steps = 0;
+  BOOST_TEST(timed_again(engine, {}, scene, slow) == slow.cpu_seconds);
+  BOOST_TEST(steps == 0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,7 +1,8 @@
 // Every method of the core is held to the facts that its own row states.
-#include <boost/test/unit_test.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/test/unit_test.hpp>
 #include <utility>
 
 #include "core/dynamics/energy.h"
@@ -32,10 +33,10 @@ std::vector<Method> every_method() {
 
 class Run {
  public:
-  Run(const Scene& scene, const Method& method)
+  Run(const Scene& scene, const Method& method, const Settings& settings = {})
       : system_(scene), state_(scene.bodies.size(), method.orientation && method.orientation->keeps_matrix) {
     set_initial_state(scene, state_.columns());
-    stepper_ = method.integrator->make({system_, nullptr, method.orientation});
+    stepper_ = method.integrator->make({system_, nullptr, method.orientation, settings});
   }
   void steps(double dt, int count) {
     for (int k = 0; k < count; ++k, ++n_) {
@@ -96,15 +97,21 @@ BOOST_AUTO_TEST_CASE(rows_are_alphabetical_and_unique) {
               }) == integrators().end()));
 }
 
-// Tolerance 0.25: at these steps the next term of the error series is a few per cent of the leading one.
+// So many steps a second that the next term of the error series is a few per cent of the leading one, and rounding far
+// below both.
+int steps_for_order(int order) { return order <= 2 ? 1600 : order <= 4 ? 50 : 10; }
+
+// Tolerance 0.25: what those few per cent may do to the order.
 BOOST_AUTO_TEST_CASE(each_converges_at_its_stated_order) {
-  const std::pair<const char*, Scene> scenes[] = {{"a free body of three moments", test::tumbling_body()},
+  Scene free_body = test::tumbling_body();
+  free_body.bodies[0].angular_velocity *= 5;  // fast enough that a method of order 8 has an error to see
+  const std::pair<const char*, Scene> scenes[] = {{"a free body of three moments", free_body},
                                                   {"coupled bodies without damping", test::coupled_bodies(0)},
                                                   {"coupled bodies with damping", test::coupled_bodies(3)}};
   for (const auto& [what, scene] : scenes) {
     for (const Method& method : every_method()) {
-      const int steps = method.integrator->order >= 4 ? 50 : 1600;
-      const double order = observed_order(scene, method, 1.0, steps);
+      if (method.integrator->adaptive) continue;  // held to its tolerance below
+      const double order = observed_order(scene, method, 1.0, steps_for_order(method.integrator->order));
       BOOST_TEST(std::abs(order - method.integrator->order) < 0.25,
                  method.name() << " on " << what << ": observed order " << order);
     }
@@ -132,21 +139,27 @@ BOOST_AUTO_TEST_CASE(a_symplectic_method_does_not_gain_or_lose_energy_over_many_
     const double drift = std::abs(last - first) / start;
     if (method.integrator->symplectic) {
       BOOST_TEST(drift < 1e-3, method.name() << ": " << drift);  // what the oscillation leaves in a mean of ten periods
-    } else if (method.integrator->order == 1) {
-      BOOST_TEST(!(drift < 1), method.name() << " is stated not to be symplectic, yet keeps the energy: " << drift);
+    } else if (method.integrator->order == 1 && method.integrator->twin_of.empty()) {  // a twin's loss is in its spin
+      BOOST_TEST(!(drift < 0.1), method.name() << " is stated not to be symplectic, yet keeps the energy: " << drift);
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(velocity_verlet_keeps_angular_momentum_and_has_no_phase_error_for_equal_moments) {
-  const Method verlet{&integrator("velocity-verlet"), nullptr};
-  const Scene tumbling = test::tumbling_body();
-  Run run(tumbling, verlet);
-  const Vec3 before = angular_momentum(tumbling, run.bodies(), run.bodies().position(0));
-  run.steps(1.0 / 30, 3000);
-  const Vec3 after = angular_momentum(tumbling, run.bodies(), run.bodies().position(0));
-  BOOST_TEST((after - before).norm() / before.norm() < 1e-12);  // 3000 roundings of 1e-16, some in each step
+BOOST_AUTO_TEST_CASE(methods_that_carry_the_angular_momentum_keep_it_without_torque) {
+  const Scene scene = test::tumbling_body();
+  for (const char* name :
+       {"dormand-prince", "moser-veselov", "rk4", "rkmk4", "symplectic4", "symplectic8", "velocity-verlet"}) {
+    Run run(scene, {&integrator(name), nullptr});
+    const Vec3 before = angular_momentum(scene, run.bodies(), run.bodies().position(0));
+    run.steps(1.0 / 30, 3000);
+    const Vec3 after = angular_momentum(scene, run.bodies(), run.bodies().position(0));
+    // 3000 steps with some roundings of 1e-16 in each of their stages.
+    BOOST_TEST((after - before).norm() / before.norm() < 2e-12, name << ": " << (after - before).norm());
+  }
+}
 
+BOOST_AUTO_TEST_CASE(velocity_verlet_has_no_phase_error_for_equal_moments) {
+  const Method verlet{&integrator("velocity-verlet"), nullptr};
   for (const Vec3& moments : {Vec3(2, 2, 2), Vec3(1, 2, 2), Vec3(2, 2, 1), Vec3(2, 1, 2)}) {
     const Scene scene = test::tumbling_body(moments);
     Run symmetric(scene, verlet);
@@ -158,20 +171,128 @@ BOOST_AUTO_TEST_CASE(velocity_verlet_keeps_angular_momentum_and_has_no_phase_err
   }
 }
 
-BOOST_AUTO_TEST_CASE(implicit_midpoint_is_solved_to_rounding_and_says_when_it_is_not) {
-  const Method midpoint{&integrator("implicit-midpoint"), nullptr};
-  // Symmetric: a step forward and a step back return to the start, if the equations were solved to rounding.
-  const Scene scene = test::coupled_bodies(0);
-  Run run(scene, midpoint);
-  const BodyTable start(run.bodies());
-  run.steps(0.05, 1);
-  run.steps(-0.05, 1);
-  BOOST_TEST(distance(run.bodies(), start.columns()) < 1e-13);
-  BOOST_TEST(run.complaint() == "");
+BOOST_AUTO_TEST_CASE(symmetric_methods_undo_their_own_step) {
+  // With dampers too: that is what a composition's order rests on. Equations solved to less than rounding would show.
+  for (const double damping : {0.0, 3.0}) {
+    const Scene scene = test::coupled_bodies(damping);
+    for (const char* name : {"implicit-midpoint", "moser-veselov", "symplectic4", "symplectic8"}) {
+      Run run(scene, {&integrator(name), nullptr});
+      const BodyTable start(run.bodies());
+      run.steps(0.05, 1);
+      BOOST_TEST(distance(run.bodies(), start.columns()) > 1e-2, name);
+      run.steps(-0.05, 1);
+      BOOST_TEST(distance(run.bodies(), start.columns()) < 1e-13, name << ", damping " << damping);
+      BOOST_TEST(run.complaint() == "", name);
+    }
+  }
+}
 
-  Run too_coarse(test::fixed_spring(), midpoint);
+BOOST_AUTO_TEST_CASE(implicit_midpoint_says_when_its_equations_are_not_solved) {
+  Run too_coarse(test::fixed_spring(), {&integrator("implicit-midpoint"), nullptr});
   too_coarse.steps(0.5, 100);
   BOOST_TEST(too_coarse.complaint().find("did not converge") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(moser_veselov_turns_a_steady_spin_by_the_arcsine_and_says_when_there_is_none) {
+  const double dt = 0.1;
+  Scene scene = test::tumbling_body();
+  scene.bodies[0].orientation = Quat::Identity();
+  const auto turned = [&](const Vec3& w) {
+    scene.bodies[0].angular_velocity = w;
+    Run run(scene, {&integrator("moser-veselov"), nullptr});
+    run.steps(dt, 1);
+    return std::pair(angle_between(run.bodies().orientation(0), Quat::Identity()), run.complaint());
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double w : {0.1, 5.0, 9.5}) {
+      const auto [angle, complaint] = turned(w * Vec3::Unit(axis));
+      BOOST_TEST(std::abs(angle - std::asin(w * dt)) < 1e-14);  // a few roundings of an angle up to 1.3
+      BOOST_TEST(complaint == "");
+    }
+    BOOST_TEST(turned(10.5 * Vec3::Unit(axis)).second.find("no solution") != std::string::npos, "axis " << axis);
+  }
+  BOOST_TEST(turned({20, 30, -25}).second.find("no solution") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_spin_about_a_fixed_axis_is_exact_on_rotation_vectors) {
+  Scene scene = test::tumbling_body();
+  scene.bodies[0].orientation = Quat::Identity();
+  scene.bodies[0].angular_velocity = {0, 0, 20};
+  const auto error = [&](const char* name) {
+    Run run(scene, {&integrator(name), nullptr});
+    run.steps(0.1, 10);
+    return angle_between(run.bodies().orientation(0), rotation_by({0, 0, 20}));
+  };
+  BOOST_TEST(error("rkmk4") < 1e-13);  // ten roundings of an angle of 2
+  BOOST_TEST(error("rk4") > 1e-2);
+}
+
+BOOST_AUTO_TEST_CASE(linearly_implicit_euler_is_stable_on_a_spring_and_a_damper_of_any_stiffness) {
+  // omega dt = 180 with dt c/m = 0, and omega dt = 0.3 with dt c/m = 3300: explicit methods blow up on both.
+  for (const auto& [stiffness, damping] : {std::pair(3e9, 0.0), std::pair(1e4, 1e7)}) {
+    Scene scene;
+    scene.bodies = {test::body("ball", 100, {1, 1, 1}, {1.5, 0, 0})};
+    scene.bodies[0].velocity = {1, 0, 0};
+    scene.springs = {test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, stiffness, 1, damping)};
+    Run implicit(scene, {&integrator("linearly-implicit-euler"), nullptr});
+    Run explicit_run(scene, {&integrator("semi-implicit-euler"), &orientation_update("quaternion-exponential")});
+    const double start = energy(scene, implicit.bodies());
+    double before = start;
+    for (int n = 0; n < 300; ++n) {
+      implicit.steps(1.0 / 30, 1);
+      const double now = energy(scene, implicit.bodies());
+      BOOST_TEST(now <= before * (1 + 1e-9));  // rounding of the stretch, 1e-16 of a metre against what is left of it
+      before = now;
+    }
+    BOOST_TEST(implicit.complaint() == "");
+    explicit_run.steps(1.0 / 30, 300);
+    BOOST_TEST(!(energy(scene, explicit_run.bodies()) < 1e6 * start));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(methods_of_high_order_step_to_a_force_that_begins_and_ends_inside_a_step) {
+  Scene scene;
+  scene.bodies = {test::body("ball", 2, {1, 1, 1})};
+  TimedForce push;
+  push.body = 0, push.force = {6, 0, 0}, push.from = 0.123, push.until = 0.777;
+  scene.forces = {push};
+  const double acceleration = 3, during = push.until - push.from, after = 1 - push.until;
+  const double x = 0.5 * acceleration * during * during + acceleration * during * after;
+  for (const Method& method : every_method()) {
+    if (method.integrator->order < 4) continue;
+    for (const int steps : {1, 4, 10}) {
+      Run run(scene, method);
+      run.steps(1.0 / steps, steps);
+      BOOST_TEST(std::abs(run.bodies().position(0).x() - x) < 1e-14, method.name());  // some roundings of 1
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_adaptive_method_meets_its_tolerance_whatever_the_step_and_says_when_it_cannot) {
+  const Scene scenes[] = {test::tumbling_body(), test::coupled_bodies(0), test::coupled_bodies(3)};
+  for (const Method& method : every_method()) {
+    if (!method.integrator->adaptive) continue;
+    for (const Scene& scene : scenes) {
+      const BodyTable truth = accurate(scene, 1);
+      for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
+        for (const int steps : {1, 30, 300}) {
+          Run run(scene, method, {.method = "", .options = {{"tolerance", fmt::format("{}", tolerance)}}});
+          run.steps(1.0 / steps, steps);
+          // At most some tens of inner steps come near the tolerance; in one second none of these scenes magnifies
+          // their errors by much.
+          const double error = distance(run.bodies(), truth.columns());
+          BOOST_TEST(error < 100 * tolerance, method.name()
+                                                  << " at " << tolerance << " in " << steps << " steps: " << error);
+          BOOST_TEST(run.complaint() == "");
+        }
+      }
+    }
+    Scene too_stiff = test::fixed_spring();
+    too_stiff.springs[0].stiffness = 1e18;
+    Run run(too_stiff, method);
+    run.steps(1, 1);
+    BOOST_TEST(run.complaint().find("was not met") != std::string::npos);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_fixed_body_stays_where_it_is) {

@@ -141,4 +141,27 @@ BOOST_AUTO_TEST_CASE(the_load_jacobian_is_the_derivative_of_the_wrenches) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_step_is_divided_where_a_timed_force_begins_or_ends) {
+  Scene scene;
+  scene.bodies = {test::body("ball", 1, {1, 1, 1})};
+  TimedForce first, second;
+  first.body = second.body = 0;
+  first.from = 0.25, first.until = 0.75;
+  second.from = 0.5;  // for ever
+  scene.forces = {first, second};
+  const Loads loads(scene);
+  const auto parts = [&](double t, double dt) {
+    std::vector<double> found;
+    loads.for_each_smooth_part(t, dt, [&](double from, double length) {
+      found.push_back(from);
+      found.push_back(length);
+    });
+    return found;
+  };
+  BOOST_TEST(parts(0, 1) == std::vector<double>({0, 0.25, 0.25, 0.25, 0.5, 0.25, 0.75, 0.25}));
+  BOOST_TEST(parts(0.25, 0.25) == std::vector<double>({0.25, 0.25}));  // switches at the ends divide nothing
+  BOOST_TEST(parts(0.6, -0.2) == std::vector<double>({0.6, 0.5 - 0.6, 0.5, 0.6 - 0.2 - 0.5}));  // backwards
+  BOOST_TEST(parts(3, 0.1) == std::vector<double>({3, 0.1}));  // the very dt, not what is left of it in t + dt
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,25 @@
+// CPU seconds that the steps of one simulated second take, without recording or judging them. A measured time: the only
+// metric that another run of the same cell does not repeat to the last bit.
+#include <cmath>
+
+#include "cases/metrics/metric.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run) {
+  if (run.trajectory.samples.size() < 2) return {{}, "the run has no finite step"};
+  if (std::isnan(run.cpu_seconds)) return {{}, "the run's steps were not timed"};
+  const double simulated = run.trajectory.samples.back().time;
+  Measurement out;
+  out.value = run.cpu_seconds / simulated;
+  out.worst = {simulated, kWorld, "CPU time", run.cpu_seconds, 0};
+  out.compared_until = simulated;
+  return {out, ""};
+}
+
+}  // namespace
+
+MetricRow cost() { return {"cost", "s/s", "CPU seconds that the steps of one simulated second take", measure}; }
+
+}  // namespace rigor

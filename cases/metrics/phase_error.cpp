@@ -1,0 +1,156 @@
+// The one shift in time of the whole truth that fits the run best: s minimises the misfit
+//   J(s) = mean over samples of Σ m |p - P(t - s)|² + φᵀ I φ,  φ = 2 vec(Q(t - s)⁻¹ q),
+// in which a metre and a radian weigh as they do in the kinetic energy. s > 0: the run lags; s < 0: it leads. The best
+// of 33 shifts within half a period either way (a whole one cannot be told from none) brackets the root of dJ/ds.
+#include <fmt/format.h>
+
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "cases/metrics/measuring.h"
+#include "cases/metrics/pose_gap.h"
+
+namespace rigor {
+namespace {
+
+struct Misfit {
+  double value = 0;  // kg m², J
+  double slope = 0;  // kg m²/s, dJ/ds
+};
+
+class Fit {
+ public:
+  Fit(const JudgedRun& run, std::size_t count) : run_(run), count_(count), shifted_(run.scene.bodies.size()) {
+    find_period();
+    widest_ = std::min(period_ / 2, end() / 4);
+    choose_samples();
+  }
+
+  bool is_static() const { return !(period_ > 0); }
+  double widest() const { return widest_; }  // s, the largest shift either way
+  std::size_t samples() const { return chosen_.size(); }
+  double end() const { return run_.trajectory.samples[count_ - 1].time; }
+
+  Misfit at(double shift) {
+    Misfit misfit;
+    for (std::size_t n : chosen_) {
+      const Sample& sample = run_.trajectory.samples[n];
+      run_.truth->source->at(sample.time - shift, shifted_.columns());
+      for_moving([&](std::size_t i, const Body& body) {
+        const PoseGap gap = pose_gap(sample.bodies.columns().body(i), shifted_.columns().body(i));
+        const Vec3 turned = body.inertia * gap.orientation;
+        misfit.value += body.mass * gap.position.squaredNorm() + gap.orientation.dot(turned);
+        // A later shift is an earlier truth.
+        misfit.slope -= 2 * (body.mass * gap.position.dot(gap.position_rate) + gap.orientation_rate.dot(turned));
+      });
+    }
+    const double share = 1.0 / static_cast<double>(chosen_.size());
+    return {misfit.value * share, misfit.slope * share};
+  }
+
+ private:
+  template <typename F>
+  void for_moving(const F& f) const {
+    for (std::size_t i = 0; i < run_.scene.bodies.size(); ++i) {
+      if (!run_.scene.bodies[i].fixed) f(i, run_.scene.bodies[i]);
+    }
+  }
+
+  // 2π √(half the mean square distance from the start / the mean square speed) is the period of an oscillation that
+  // starts at its middle, and of a turn about one axis; else it is of the motion's own measure. The faster of moving
+  // and turning counts, unless it is a trace (1e-9 of the energy) of the other. 0 where nothing moves.
+  void find_period() {
+    double moved = 0, turned = 0, speed = 0, spin = 0, mass = 0;
+    const auto truth = [&](std::size_t n) { return run_.truth->bodies[n].columns(); };
+    for (std::size_t n = 0; n < count_; ++n) {
+      for_moving([&](std::size_t i, const Body& body) {
+        const BodyState now = truth(n).body(i);
+        const PoseGap gap = pose_gap(truth(0).body(i), now);
+        moved += body.mass * gap.position.squaredNorm();
+        turned += gap.orientation.dot(body.inertia * gap.orientation);
+        const Vec3 w_B = now.orientation.conjugate() * now.angular_velocity;
+        speed += body.mass * now.velocity.squaredNorm(), spin += w_B.dot(body.inertia * w_B);
+        if (n == 0) mass += body.mass;
+      });
+    }
+    constexpr double kStill = 1e-9, kTrace = 1e-9;  // m; 1
+    if (!(moved + turned > kStill * kStill * mass * static_cast<double>(count_))) return;
+    const auto period = [](double square_way, double square_rate) {
+      return 2 * std::numbers::pi * std::sqrt(0.5 * square_way / square_rate);
+    };
+    const bool moves = speed > kTrace * (speed + spin), turns = spin > kTrace * (speed + spin);
+    if (moves) period_ = period(moved, speed);
+    if (turns) period_ = moves ? std::min(period_, period(turned, spin)) : period(turned, spin);
+  }
+
+  // At most 500 instants at which the truth can be asked for every shift: the same for all.
+  void choose_samples() {
+    constexpr std::size_t kMost = 500;
+    std::vector<std::size_t> inside;
+    for (std::size_t n = 0; n < count_; ++n) {
+      const double t = run_.trajectory.samples[n].time;
+      if (t >= widest_ && t <= end() - widest_) inside.push_back(n);
+    }
+    const std::size_t every = 1 + inside.size() / kMost;
+    for (std::size_t k = 0; k < inside.size(); k += every) chosen_.push_back(inside[k]);
+  }
+
+  const JudgedRun& run_;
+  std::size_t count_;  // of the samples compared
+  BodyTable shifted_;
+  double period_ = 0, widest_ = 0;  // s
+  std::vector<std::size_t> chosen_;
+};
+
+// The root of the slope between `low` and `high`, or the vertex of the parabola through three misfits where the slope
+// has none there.
+double refined(Fit& fit, double middle, double step, double dt) {
+  const double low = middle - step, high = middle + step;
+  const Misfit before = fit.at(low), here = fit.at(middle), after = fit.at(high);
+  if (!(before.slope < 0 && after.slope > 0)) {
+    const double bend = before.value - 2 * here.value + after.value;
+    return bend > 0 ? middle + 0.5 * step * (before.value - after.value) / bend : middle;
+  }
+  const double close_enough = 1e-12 * dt;  // s
+  std::uintmax_t rounds = 100;
+  const auto root =
+      boost::math::tools::toms748_solve([&](double shift) { return fit.at(shift).slope; }, low, high, before.slope,
+                                        after.slope, [&](double a, double b) { return b - a <= close_enough; }, rounds);
+  return 0.5 * (root.first + root.second);
+}
+
+MetricResult measure(const JudgedRun& run) {
+  if (!run.truth || !run.truth->source) return {{}, kNoTruth};
+  const std::size_t count = samples_within(run, std::min(kTruthNeededPosition, kTruthNeededOrientation));
+  if (count == 0) return {{}, kNoSamples};
+  Fit fit(run, count);
+  if (fit.is_static()) return {{}, "the truth does not move"};
+  if (fit.samples() < 3) return {{}, "there are too few samples to fit a shift to"};
+
+  constexpr int kEitherWay = 16;
+  const double step = fit.widest() / kEitherWay;
+  int best = 0;
+  double least = fit.at(0).value;
+  for (int k = -kEitherWay; k <= kEitherWay; ++k) {
+    const double value = fit.at(k * step).value;
+    if (value < least) best = k, least = value;
+  }
+  if (!std::isfinite(least)) return {{}, "the run is too far from the truth"};
+  if (std::abs(best) == kEitherWay) {
+    return {{}, fmt::format("the best shift is {:.3g} s or more, where the search ends", fit.widest())};
+  }
+  Measurement out;
+  out.value = refined(fit, best * step, step, run.trajectory.dt);
+  out.worst = {fit.end(), kWorld, "shift", out.value, 0};
+  out.compared_until = fit.end();
+  return {out, ""};
+}
+
+}  // namespace
+
+MetricRow phase_error() {
+  return {"phase_error", "s", "the shift in time that fits the run best: it lags (+) or leads (-) the truth", measure};
+}
+
+}  // namespace rigor

@@ -1,0 +1,111 @@
+// The share of a run's time that it is inside a tube round the truth: at some instant within one dt of now, every body
+// was or will be, in truth, within its tolerance, |Δp|²/r² + (Δangle)²/a² <= 1. r is 1 % of the extent of the body's
+// true path, the diagonal of the box round it, or 1 mm if that is more; a is 1 % of half a turn. A run that is right
+// but for a little lag so stays inside where position_error counts every metre of it.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cases/metrics/measuring.h"
+#include "cases/metrics/pose_gap.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kLeastRadius = 1e-3;               // m
+constexpr double kShareOfExtent = 0.01;             // 1
+constexpr double kAngle = 0.01 * std::numbers::pi;  // rad
+
+class Tube {
+ public:
+  Tube(const JudgedRun& run, std::size_t count)
+      : run_(run), end_(run.trajectory.samples[count - 1].time), truth_(run.scene.bodies.size()) {
+    for (std::size_t i = 0; i < run.scene.bodies.size(); ++i) {
+      Eigen::AlignedBox3d box;
+      for (std::size_t n = 0; n < count; ++n) box.extend(run.truth->bodies[n].columns().position(i));
+      radii_.push_back(std::max(kLeastRadius, kShareOfExtent * box.diagonal().norm()));
+    }
+  }
+
+  // 1 or less: inside. Its body and gap are those furthest out at the nearest of the instants tried.
+  double distance(std::size_t n, Instant& worst) {
+    const Sample& sample = run_.trajectory.samples[n];
+    const double first = std::max(0.0, sample.time - run_.trajectory.dt);
+    const double last = std::min(end_, sample.time + run_.trajectory.dt);
+    truth_ = run_.truth->bodies[n].columns();
+    double best = furthest(sample, worst), time = sample.time;
+    constexpr int kRounds = 4;  // of Gauss and Newton's method: within a dt the path is nearly straight
+    for (int round = 0; round < kRounds && best > 1; ++round) {
+      const double forward = time_to_nearest(sample);
+      if (!std::isfinite(forward)) break;
+      const double next = std::clamp(time + forward, first, last);
+      if (next == time) break;
+      time = next;
+      run_.truth->source->at(time, truth_.columns());
+      Instant here;
+      const double value = furthest(sample, here);
+      if (value < best) best = value, worst = here;
+    }
+    return best;
+  }
+
+ private:
+  double furthest(const Sample& sample, Instant& worst) const {
+    double most = -1;
+    for (std::size_t i = 0; i < radii_.size(); ++i) {
+      const PoseGap gap = pose_gap(sample.bodies.columns().body(i), truth_.columns().body(i));
+      const double moved = gap.position.norm() / radii_[i], turned = gap.orientation.norm() / kAngle;
+      const double out = std::hypot(moved, turned);
+      if (out <= most) continue;
+      most = out;
+      worst = {sample.time, static_cast<int>(i), "distance in tolerances", out, 1};
+    }
+    return most;
+  }
+
+  // The step in time, of the truth as it stands, that brings all bodies nearest in the sum of squares.
+  double time_to_nearest(const Sample& sample) const {
+    double down = 0, bend = 0;
+    for (std::size_t i = 0; i < radii_.size(); ++i) {
+      const PoseGap gap = pose_gap(sample.bodies.columns().body(i), truth_.columns().body(i));
+      const double p = 1 / (radii_[i] * radii_[i]), q = 1 / (kAngle * kAngle);
+      down -= p * gap.position.dot(gap.position_rate) + q * gap.orientation.dot(gap.orientation_rate);
+      bend += p * gap.position_rate.squaredNorm() + q * gap.orientation_rate.squaredNorm();
+    }
+    return down / bend;
+  }
+
+  const JudgedRun& run_;
+  double end_;  // s, the last instant compared
+  BodyTable truth_;
+  std::vector<double> radii_;  // m, one a body
+};
+
+MetricResult measure(const JudgedRun& run) {
+  if (!run.truth || !run.truth->source) return {{}, kNoTruth};
+  const std::size_t count = samples_within(run, std::min(kTruthNeededPosition, kTruthNeededOrientation));
+  if (count == 0) return {{}, kNoSamples};
+  Tube tube(run, count);
+  constexpr std::size_t kMost = 10000;  // samples: a share to 1e-4
+  const std::size_t every = 1 + count / kMost;
+  std::size_t inside = 0, all = 0;
+  Measurement out;
+  for (std::size_t n = 0; n < count; n += every, ++all) {
+    Instant here;
+    const bool is_inside = tube.distance(n, here) <= 1;
+    if (is_inside ? n == 0 : inside == all) out.worst = here;  // where it first leaves
+    inside += is_inside;
+  }
+  out.value = static_cast<double>(inside) / static_cast<double>(all);
+  out.compared_until = run.trajectory.samples[count - 1].time;
+  return {out, ""};
+}
+
+}  // namespace
+
+MetricRow tube() {
+  return {"tube", "1", "share of the time within 1 % of the truth's extent, within one dt; higher is better", measure,
+          true};
+}
+
+}  // namespace rigor

@@ -1,0 +1,41 @@
+// The largest distance, over bodies and time, between where the engine has a body and where its twin has it: what is
+// left of the position's error once the scheme's own part is taken off. In metres; relative to motion_extents() it is
+// rounding while below 1e-9.
+#include "cases/metrics/measuring.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run) {
+  if (!run.twin) return {{}, kNoTwin};
+  const Trajectory& twin = run.twin->trajectory;
+  const std::size_t count =
+      samples_with_twin(run, run.twin->position_rounding, motion_extents(twin), kTruthNeededPosition);
+  if (count == 0) return {{}, kNoSamples};
+  Course course;
+  for (std::size_t n = 0; n < count; ++n) {
+    const BodyColumns found = run.trajectory.samples[n].bodies.columns(), expected = twin.samples[n].bodies.columns();
+    double value = 0;
+    Instant worst{.time = twin.samples[n].time, .body = 0, .component = "position.x"};
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Vec3 apart = found.position(i) - expected.position(i);
+      if (i > 0 && apart.norm() <= value) continue;
+      int axis = 0;
+      apart.cwiseAbs().maxCoeff(&axis);
+      value = apart.norm();
+      worst.body = static_cast<int>(i), worst.component = std::string("position.") + "xyz"[axis];
+      worst.found = found.position(i)[axis], worst.expected = expected.position(i)[axis];
+    }
+    course.add(value, worst);
+  }
+  return {std::move(course).finish(), ""};
+}
+
+}  // namespace
+
+MetricRow unexplained_error() {
+  return {"unexplained_error", "m", "largest distance of a body from where the engine's own scheme, repeated, has it",
+          measure};
+}
+
+}  // namespace rigor

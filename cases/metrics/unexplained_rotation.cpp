@@ -1,0 +1,34 @@
+// The largest angle, over bodies and time, of the turn that takes the engine's orientation of a body to its twin's:
+// what is left of the orientation's error once the scheme's own part is taken off. Relative to one radian.
+#include "cases/metrics/measuring.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run) {
+  if (!run.twin) return {{}, kNoTwin};
+  const Trajectory& twin = run.twin->trajectory;
+  const std::vector<double> one_radian(twin.samples.size(), 1.0);
+  const std::size_t count = samples_with_twin(run, run.twin->orientation_rounding, one_radian, kTruthNeededOrientation);
+  if (count == 0) return {{}, kNoSamples};
+  Course course;
+  for (std::size_t n = 0; n < count; ++n) {
+    const BodyColumns found = run.trajectory.samples[n].bodies.columns(), expected = twin.samples[n].bodies.columns();
+    Instant worst{.time = twin.samples[n].time, .body = 0, .component = "orientation"};
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const double angle = angle_between(found.orientation(i), expected.orientation(i));
+      if (angle > worst.found) worst.body = static_cast<int>(i), worst.found = angle;
+    }
+    course.add(worst.found, worst);
+  }
+  return {std::move(course).finish(), ""};
+}
+
+}  // namespace
+
+MetricRow unexplained_rotation() {
+  return {"unexplained_rotation", "rad", "largest angle of a body's orientation from its scheme's own, repeated",
+          measure};
+}
+
+}  // namespace rigor

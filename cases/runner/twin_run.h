@@ -1,0 +1,22 @@
+// What an engine's own scheme does, by the core's word: the run's twin, and what is measured of it.
+#pragma once
+
+#include "adapters/engines.h"
+#include "cases/runner/results.h"
+#include "cases/runner/simulate.h"
+
+namespace rigor {
+
+// The run of the core that repeats this engine's scheme; none for a scheme of the core itself, and none where bodies
+// can touch or are joined: there a step is more than its published formula.
+std::optional<RunName> twin_of(const EngineTable& engines, const RunName& run, const Scene& scene);
+
+TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& scene, const Simulation& run,
+                 double duration);
+
+// Measures the twin like a run of its own, to show how much of the run's error its scheme must make. `judged` is
+// `run`, with its twin.
+SchemeFindings judge_scheme(const EngineTable& engines, const RunName& twin, const JudgedRun& judged,
+                            const Simulation& run, double duration);
+
+}  // namespace rigor

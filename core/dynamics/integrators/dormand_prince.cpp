@@ -1,0 +1,132 @@
+// The Runge–Kutta pair of order 8 by Dormand and Prince on (x, q, v, L), adaptive: each step of dt is divided until the
+// error of each inner step, estimated from the formulas of order 5 and 3 embedded in it as
+//   e5² / sqrt(e5² + e3²/100),
+// is below the tolerance (relative_size() of motion_equations.h). A timed force that begins or ends inside the step
+// divides it there. Every step begins with the whole of dt: nothing is remembered from the one before.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/dynamics/integrators/dormand_prince_tableau.h"
+#include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/motion_equations.h"
+#include "core/engine/option_values.h"
+
+namespace rigor {
+namespace {
+
+using dormand_prince::kStages;
+
+constexpr int kMostTries = 20000;  // inner steps, refused ones included, in one step
+
+class DormandPrince : public Stepper {
+ public:
+  explicit DormandPrince(const StepperParts& parts)
+      : parts_(parts),
+        tolerance_(number_option(parts.settings, "tolerance", kDefaultTolerance)),
+        equations_(parts.system, OrientationChart::quaternion),
+        rates_(equations_.dimension(), static_cast<Eigen::Index>(kStages)),
+        y_(equations_.dimension()),
+        next_(y_.size()),
+        estimate_(y_.size()) {}
+
+  void step(MutableBodyColumns state, double t, double dt) override {
+    complaint_.clear();
+    if (parts_.contact) {
+      parts_.system.wrenches(state, t, dt, wrenches_);
+      resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
+    }
+    equations_.begin(state, y_);
+    parts_.system.loads.for_each_smooth_part(t, dt, [&](double from, double length) { smooth_part(from, length); });
+    equations_.write(y_, state);
+  }
+
+  std::string complaint() const override { return complaint_; }
+
+ private:
+  // Takes y_ over [t, t + length] in equal steps, whose number is found anew after each of them.
+  void smooth_part(double t, double length) {
+    double left = length, longest = std::abs(length);
+    int tries = 0;
+    equations_.rates(y_, t, length, rates_.col(0));
+    while (left != 0) {
+      const double count = std::ceil(std::abs(left) / longest), h = left / count;
+      take_stages(t, length, h);
+      const double error = error_of_stages(h) / tolerance_;
+      const bool given_up = ++tries == kMostTries || !y_.allFinite();
+      if (error <= 1 || given_up) {
+        y_ = next_;
+        left = count == 1 || given_up ? 0 : left - h;
+        if (left != 0) equations_.rates(y_, t, length, rates_.col(0));
+      }
+      if (given_up) {
+        complaint_ = fmt::format("the tolerance of {} was not met in {} inner steps; the rest of the step was left out",
+                                 tolerance_, tries);
+      }
+      longest = std::abs(h) * next_length(error);
+    }
+  }
+
+  // The factor by which the next inner step may be longer.
+  static double next_length(double error) {
+    constexpr double kSafety = 0.9, kLeast = 0.1, kMost = 6;
+    if (!std::isfinite(error)) return kLeast;
+    return error == 0 ? kMost : std::clamp(kSafety * std::pow(error, -1.0 / 8), kLeast, kMost);
+  }
+
+  // From y_ and its rates in column 0: the other columns, and next_.
+  void take_stages(double t, double dt, double h) {
+    for (std::size_t s = 1; s < kStages; ++s) {
+      combine(dormand_prince::kStage[s], s, next_);
+      next_ = y_ + h * next_;
+      equations_.rates(next_, t, dt, rates_.col(static_cast<Eigen::Index>(s)));
+    }
+    combine(dormand_prince::kWeight, kStages, next_);
+    next_ = y_ + h * next_;
+  }
+
+  double error_of_stages(double h) {
+    combine(dormand_prince::kError5, kStages, estimate_);
+    const double error5 = equations_.relative_size(estimate_, y_);
+    combine(dormand_prince::kError3, kStages, estimate_);
+    const double error3 = equations_.relative_size(estimate_, y_);
+    return error5 == 0 ? 0 : std::abs(h) * error5 * error5 / std::hypot(error5, 0.1 * error3);
+  }
+
+  void combine(const dormand_prince::Row& row, std::size_t count, Eigen::VectorXd& out) const {
+    out = row[0] * rates_.col(0);
+    for (std::size_t s = 1; s < count; ++s) {
+      if (row[s] != 0) out += row[s] * rates_.col(static_cast<Eigen::Index>(s));
+    }
+  }
+
+  StepperParts parts_;
+  double tolerance_;
+  MotionEquations equations_;
+  Wrenches wrenches_;
+  Eigen::MatrixXd rates_;  // k_s in column s
+  Eigen::VectorXd y_, next_, estimate_;
+  std::string complaint_;
+};
+
+}  // namespace
+
+extern const Integrator kDormandPrince;
+const Integrator kDormandPrince = {
+    .name = "dormand-prince",
+    .summary = "adaptive Runge-Kutta of order 8: divides each step until its error meets the tolerance",
+    .order = 8,
+    .symplectic = false,
+    .velocity_lag = 0,
+    .default_orientation = "",
+    .adaptive = true,
+    .options = {{.name = "tolerance",
+                 .meaning =
+                     fmt::format("error of an inner step, relative to 1 + the value in m, rad, m/s, rad/s; default {}",
+                                 kDefaultTolerance),
+                 .min = 1e-14,
+                 .max = 1e-2}},
+    .make = make_stepper<DormandPrince>,
+};
+
+}  // namespace rigor

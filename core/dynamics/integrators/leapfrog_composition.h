@@ -1,0 +1,36 @@
+// A symmetric composition of the symmetric map of second order
+//   S(h) = kick over h/2, free drift over h, kick over h/2      (symmetric_kick.h, free_rotation.h):
+// S(g_1 dt) S(g_2 dt) ... S(g_s dt) with g_i = g_(s+1-i). The order is that of its weights g, with dampers as without:
+// it asks nothing of S but that it is symmetric (Hairer, Lubich, Wanner, Geometric Numerical Integration, V.3). Without
+// dampers S is symplectic, and so is the whole. A timed force that begins or ends inside a step divides it there.
+#pragma once
+
+#include <span>
+
+#include "core/dynamics/free_rotation.h"
+#include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/symmetric_kick.h"
+
+namespace rigor {
+
+class LeapfrogComposition : public Stepper {
+ public:
+  // The weights must outlive the stepper.
+  LeapfrogComposition(const StepperParts& parts, std::span<const double> weights);
+  void step(MutableBodyColumns state, double t, double dt) override;
+  std::string complaint() const override { return complaint_; }
+
+ private:
+  void smooth_part(MutableBodyColumns state, double t, double dt);
+  void kick(MutableBodyColumns state, double h, double t, double dt);
+  void drift(MutableBodyColumns state, double h) const;
+
+  StepperParts parts_;
+  std::span<const double> weights_;
+  std::vector<FreeRotation> rotations_;
+  SymmetricKick kick_;
+  Wrenches wrenches_;
+  std::string complaint_;
+};
+
+}  // namespace rigor

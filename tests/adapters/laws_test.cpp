@@ -1,0 +1,222 @@
+// Laws of mechanics that need no truth: the same scene told in another way must move in the same way. Run over every
+// engine, method and track.
+//
+// What may differ is rounding, and what the motion makes of it. Each step adds a few roundings of the numbers' size;
+// each is magnified as a small change of the start is, and that is measured, not guessed: growth().
+#include <algorithm>
+#include <limits>
+
+#include "tests/adapters/seam_runs.h"
+#include "tests/scenes.h"
+
+using namespace rigor;
+
+namespace {
+
+constexpr double kStep = 1.0 / 120;  // s
+constexpr int kSteps = 240;
+
+using States = std::vector<BodyState>;
+
+States states_of(const BodyTable& table) {
+  States states;
+  for (std::size_t i = 0; i < table.size(); ++i) states.push_back(table.columns().body(i));
+  return states;
+}
+
+States end_of(const Run& run, const Scene& scene, int steps = kSteps) {
+  return states_of(state_after(*run.load(scene), kStep, steps));
+}
+
+// The largest difference in m, rad, m/s and rad/s.
+double difference(const States& a, const States& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(
+        {largest, (a[i].position - b[i].position).norm(), angle_between(a[i].orientation, b[i].orientation),
+         (a[i].velocity - b[i].velocity).norm(), (a[i].angular_velocity - b[i].angular_velocity).norm()});
+  }
+  return largest;
+}
+
+// The largest number in a state, at least the 1 of a unit quaternion.
+double size_of(const States& states) {
+  double largest = 1;
+  for (const BodyState& s : states) {
+    largest = std::max({largest, s.position.norm(), s.velocity.norm(), s.angular_velocity.norm()});
+  }
+  return largest;
+}
+
+// How many times larger a small change of the start is at the end.
+double growth(const Run& run, const Scene& scene) {
+  constexpr double kNudge = 1e-7;  // small enough to grow linearly, large beside the roundings
+  Scene nudged = scene;
+  for (std::size_t i = 0; i < nudged.bodies.size(); ++i) {
+    const Vec3 nudge = kNudge * Vec3(1, i % 2 ? 1 : -1, 1);
+    nudged.bodies[i].position += nudge;
+    nudged.bodies[i].velocity += nudge;
+    nudged.bodies[i].orientation = rotation_by(nudge) * nudged.bodies[i].orientation;
+    nudged.bodies[i].angular_velocity += nudge;
+  }
+  return std::max(1.0, difference(end_of(run, scene), end_of(run, nudged)) / kNudge);
+}
+
+// `steps` times some roundings of the numbers' size, each magnified as much as the first can be.
+double tolerance(const Run& run, const Scene& scene, double size, int steps = kSteps) {
+  constexpr double kRoundings = 16;  // a step's: a product of rotations alone has six
+  return kRoundings * std::numeric_limits<double>::epsilon() * size * steps * growth(run, scene);
+}
+
+struct Named {
+  std::string name;
+  Scene scene;
+};
+
+// Damped and driven; free; and tied to each other and nothing else.
+std::vector<Named> smooth_scenes() {
+  Scene pair = test::coupled_bodies(0);
+  pair.springs.erase(pair.springs.begin());
+  pair.forces.clear();
+  return {{"coupled bodies", test::coupled_bodies(0.8)}, {"a free top", top()}, {"a free pair", pair}};
+}
+
+const Mat3 kTurn = rotation_by({0.7, -1.1, 0.4}).toRotationMatrix();
+const Vec3 kShift = {30, -70, 50};  // m
+constexpr double kScale = 37.3;
+
+Scene turned(Scene scene) {
+  const Quat turn(kTurn);
+  scene.gravity = kTurn * scene.gravity;
+  for (Body& body : scene.bodies) {
+    body.position = kTurn * body.position;
+    body.orientation = turn * body.orientation;
+    body.velocity = kTurn * body.velocity;
+    body.angular_velocity = kTurn * body.angular_velocity;
+  }
+  for (Spring& spring : scene.springs) {
+    if (spring.a == kWorld) spring.point_a = kTurn * spring.point_a;
+    if (spring.b == kWorld) spring.point_b = kTurn * spring.point_b;
+  }
+  for (TimedForce& force : scene.forces) force.force = kTurn * force.force, force.torque = kTurn * force.torque;
+  return scene;
+}
+
+States turned_back(States states) {
+  const Quat back(Mat3(kTurn.transpose()));
+  for (BodyState& s : states) {
+    s = {back * s.position, back * s.orientation, back * s.velocity, back * s.angular_velocity};
+  }
+  return states;
+}
+
+Scene shifted(Scene scene) {
+  for (Body& body : scene.bodies) body.position += kShift;
+  for (Spring& spring : scene.springs) {
+    if (spring.a == kWorld) spring.point_a += kShift;
+    if (spring.b == kWorld) spring.point_b += kShift;
+  }
+  return scene;
+}
+
+States shifted_back(States states) {
+  for (BodyState& s : states) s.position -= kShift;
+  return states;
+}
+
+Scene heavier(Scene scene) {
+  for (Body& body : scene.bodies) body.mass *= kScale, body.inertia *= kScale;
+  for (Spring& spring : scene.springs) spring.stiffness *= kScale, spring.damping *= kScale;
+  for (TimedForce& force : scene.forces) force.force *= kScale, force.torque *= kScale;
+  return scene;
+}
+
+// The bodies, springs and forces from last to first.
+Scene reordered(Scene scene) {
+  const int last = static_cast<int>(scene.bodies.size()) - 1;
+  const auto moved = [&](int body) { return body == kWorld ? kWorld : last - body; };
+  std::reverse(scene.bodies.begin(), scene.bodies.end());
+  std::reverse(scene.springs.begin(), scene.springs.end());
+  std::reverse(scene.forces.begin(), scene.forces.end());
+  for (Spring& spring : scene.springs) spring.a = moved(spring.a), spring.b = moved(spring.b);
+  for (TimedForce& force : scene.forces) force.body = moved(force.body);
+  return scene;
+}
+
+States reordered_back(States states) {
+  std::reverse(states.begin(), states.end());
+  return states;
+}
+
+States as_they_are(States states) { return states; }
+
+// The scene that goes on from where a run is, backwards in time.
+Scene reversed_from(Scene scene, const States& states) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    Body& body = scene.bodies[i];
+    body.position = states[i].position;
+    body.orientation = states[i].orientation;
+    body.velocity = -states[i].velocity;
+    body.angular_velocity = -states[i].angular_velocity;
+  }
+  return scene;
+}
+
+struct Law {
+  std::string name;
+  Scene (*tell_otherwise)(Scene);
+  States (*back)(States);
+};
+
+const std::vector<Law> kLaws = {
+    {"other order of bodies", reordered, reordered_back},
+    {"scaled mass", heavier, as_they_are},
+    {"shifted origin", shifted, shifted_back},
+    {"turned frame", turned, turned_back},
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(adapters_laws)
+
+BOOST_AUTO_TEST_CASE(the_same_scene_told_in_another_way_moves_in_the_same_way) {
+  for (const auto& [scene_name, scene] : smooth_scenes()) {
+    for (const Law& law : kLaws) {
+      BOOST_TEST_CONTEXT(law.name << ", " << scene_name) {
+        const Scene other = law.tell_otherwise(scene);
+        for_each_run(scene, kStep, [&](const Run& run) {
+          const States here = end_of(run, scene), there = end_of(run, other);
+          const double size = std::max(size_of(here), size_of(there));
+          const double d = difference(here, law.back(there)), tol = tolerance(run, scene, size);
+          BOOST_TEST_MESSAGE(law.name << "; " << scene_name << "; " << run.name() << "; " << d << " of " << tol << " growth " << growth(run, scene));
+          BOOST_TEST(d <= tol);
+        });
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_symmetric_method_finds_its_way_back) {
+  int checked = 0;
+  for (const auto& [scene_name, damped] : smooth_scenes()) {
+    Scene scene = damped;
+    for (Spring& spring : scene.springs) spring.damping = 0;
+    BOOST_TEST_CONTEXT(scene_name) {
+      for_each_run(scene, kStep, [&](const Run& run) {
+        if (!run.method().symmetric) return;
+        const States there = end_of(run, scene);
+        const States back = end_of(run, reversed_from(scene, there));
+        const States start = states_of(state_of(*run.load(scene)));
+        const States expected = states_of(state_of(*run.load(reversed_from(scene, start))));
+        const double d = difference(back, expected), tol = tolerance(run, scene, size_of(there), 2 * kSteps);
+        BOOST_TEST_MESSAGE("reversed; " << scene_name << "; " << run.name() << "; " << d << " of " << tol);
+        BOOST_TEST(d <= tol);
+        BOOST_TEST(difference(there, start) > 0.1);  // it has been somewhere
+        ++checked;
+      });
+    }
+  }
+  BOOST_TEST(checked > 0, "no method says that it is symmetric");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
