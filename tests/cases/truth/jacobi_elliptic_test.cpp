@@ -30,10 +30,10 @@ BOOST_AUTO_TEST_CASE(the_functions_agree_with_boosts_in_fifty_digits) {
       const Wide sn = boost::math::jacobi_elliptic(modulus(complement), Wide(u), &cn, &dn);
       const JacobiElliptic found = jacobi_elliptic(u, complement);
       BOOST_TEST_CONTEXT("k' = " << complement << ", u = " << u) {
-        // Some roundings, of u too.
-        BOOST_TEST(std::abs(found.sn - static_cast<long double>(sn)) < 20 * kRounding);
-        BOOST_TEST(std::abs(found.cn - static_cast<long double>(cn)) < 20 * kRounding);
-        BOOST_TEST(std::abs(found.dn - static_cast<long double>(dn)) < 20 * kRounding);
+        // Up to eight transformations, of some ten roundings each.
+        BOOST_TEST(std::abs(found.sn - static_cast<long double>(sn)) < 80 * kRounding);
+        BOOST_TEST(std::abs(found.cn - static_cast<long double>(cn)) < 80 * kRounding);
+        BOOST_TEST(std::abs(found.dn - static_cast<long double>(dn)) < 80 * kRounding);
       }
     }
   }

@@ -39,10 +39,12 @@ Scene sleeping_top() {
 }
 
 // The derivative of f at t by central differences of order 8. For a turn at `rate` [rad/s] steps of a fiftieth of a
-// radian leave an error of 1e-16 of the derivative, and a rounding of 1e-14.
+// radian leave an error of 1e-16 of the derivative, and a rounding of 1e-14. They are powers of two, so that the times
+// are exact.
 template <typename F>
 Vec3 derivative(const F& f, double t, double rate) {
-  const double h = 0.02 / rate, weights[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+  const double h = std::exp2(std::floor(std::log2(0.02 / rate))),
+               weights[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
   Vec3 sum = Vec3::Zero();
   for (int k = 1; k <= 4; ++k) sum += weights[k - 1] / h * (f(t + k * h) - f(t - k * h));
   return sum;
