@@ -16,7 +16,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <utility>
+#include <type_traits>
 
 #include "cases/truth/extrapolation.h"
 
@@ -41,17 +41,19 @@ constexpr double kFirstStep = 1e-4;     // s
 constexpr std::size_t kMostTries = 2'000'000;
 constexpr double kMostBytes = 512e6;  // of nodes
 
-// The accepted steps of one solution.
+// The accepted steps of one solution, rounded: a quadruple's to extended, to be filled in; an extended's to double.
 template <typename Real>
 struct Nodes {
-  std::vector<Real> times;   // s
-  std::vector<Real> states;  // `dimension` numbers each
+  using Rounded = std::conditional_t<std::is_same_v<Real, Quad>, Extended, double>;
+
+  std::vector<Extended> times;  // s
+  std::vector<Rounded> states;  // `dimension` numbers each
   std::size_t dimension = 0;
   bool complete = false;
 
   void add(const Real& t, const std::vector<Real>& state) {
-    times.push_back(t);
-    states.insert(states.end(), state.begin(), state.end());
+    times.push_back(static_cast<Extended>(t));
+    for (const Real& number : state) states.push_back(static_cast<Rounded>(number));
   }
 };
 
@@ -81,7 +83,8 @@ bool solve_interval(Stepper stepper, System& system, Real begin, Real end, std::
   for (std::size_t tries = 0; t < end; ++tries) {
     const bool is_last = h >= end - t;
     if (is_last) h = end - t;
-    if (t + h == t || tries == most_tries || nodes.states.size() * sizeof(Real) > kMostBytes) return false;
+    if (t + h == t || tries == most_tries || static_cast<double>(nodes.states.size()) * sizeof(double) > kMostBytes)
+      return false;
     if (stepper.try_step(std::ref(system), state, t, h) == odeint::fail) continue;
     if (!finite(state)) return false;
     if (is_last) t = end;
@@ -118,14 +121,12 @@ Nodes<Extended> filled_in(const Nodes<Quad>& quad, const EquationsOfMotion<Exten
   Nodes<Extended> nodes;
   nodes.dimension = quad.dimension;
   for (std::size_t i = 0; i < quad.times.size(); ++i) {
-    std::vector<Extended> state;
-    for (std::size_t k = 0; k < quad.dimension; ++k) {
-      state.push_back(static_cast<Extended>(quad.states[i * quad.dimension + k]));
-    }
-    const auto t = static_cast<Extended>(quad.times[i]);
+    const auto first = quad.states.begin() + i * quad.dimension;
+    std::vector<Extended> state(first, first + quad.dimension);
+    const Extended t = quad.times[i];
     nodes.add(t, state);
     if (i + 1 == quad.times.size()) break;
-    const auto next = static_cast<Extended>(quad.times[i + 1]);
+    const Extended next = quad.times[i + 1];
     auto system = motion.during(static_cast<double>((t + next) / 2));
     if (!solve_interval<Extended>(fehlberg(), system, t, next, state, nodes)) return nodes;
     // The quadruple's own node takes the place of the last.
@@ -157,8 +158,7 @@ template <typename Real>
 ReferenceSolution judged(const Scene& scene, const Nodes<Extended>& first, const EquationsOfMotion<Real>& second_motion,
                          const Nodes<Real>& second) {
   ReferenceSolution solution;
-  solution.dimension = first.dimension, solution.times = first.times;
-  solution.states.assign(first.states.begin(), first.states.end());
+  solution.dimension = first.dimension, solution.times = first.times, solution.states = first.states;
   const EquationsOfMotion<double> motion(scene, kReferenceForm);
   BodyTable here(scene.bodies.size()), there(scene.bodies.size());
   double largest = 0;

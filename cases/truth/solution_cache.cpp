@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <random>
+#include <sstream>
 
 namespace rigor {
 namespace {
@@ -101,6 +101,15 @@ fs::path file_for(const fs::path& folder, const std::string& content) {
   return folder / fmt::format("reference-{:016x}", hash_of(content));
 }
 
+// Empty if it cannot be read.
+std::string bytes_of(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return {};
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
 // The whole content stands at the head of the file, so that of two scenes with one hash none gets the other's.
 std::string head_of(const std::string& content) {
   Writer writer;
@@ -144,8 +153,7 @@ std::string reference_content(const Scene& scene, double duration) {
 std::optional<ReferenceSolution> kept_solution(const std::string& content) {
   const fs::path folder = cache_folder();
   if (folder.empty()) return std::nullopt;
-  std::ifstream file(file_for(folder, content), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}}, head = head_of(content);
+  const std::string bytes = bytes_of(file_for(folder, content)), head = head_of(content);
   if (bytes.size() < head.size() + 8 || !bytes.starts_with(head)) return std::nullopt;
   const std::string_view all = bytes, sealed = all.substr(0, all.size() - 8);
   if (Reader(all.substr(sealed.size())).number() != hash_of(sealed)) return std::nullopt;

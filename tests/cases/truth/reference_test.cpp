@@ -3,7 +3,7 @@
 
 #include "core/dynamics/energy.h"
 #include "core/error.h"
-#include "tests/cases/judged.h"
+#include "tests/cases/truth/smooth_scenes.h"
 
 using namespace rigor;
 using test::truth_at;
@@ -175,6 +175,27 @@ BOOST_AUTO_TEST_CASE(it_reproduces_published_tumbling) {
   const BodyTable brick_at_30 = truth_at(*make_truth("reference", brick, 30), 30, 1);
   const Vec3 w = brick_at_30.columns().orientation(0).conjugate() * brick_at_30.columns().angular_velocity(0) / kDegree;
   BOOST_TEST((w - Vec3(12.618391, -17.397475, 31.119589)).cwiseAbs().maxCoeff() < 0.6e-6);
+}
+
+// What a scene that is new to it may ask of it.
+BOOST_AUTO_TEST_CASE(its_error_is_small_for_many_bodies_near_a_separatrix_for_stiff_springs_and_over_a_minute) {
+  Scene stiff = test::fixed_spring();
+  stiff.springs[0].stiffness = 1e8;  // 1000 rad/s, and as much in the rotation
+  struct Row {
+    const char* name;
+    Scene scene;
+    double duration, most;  // s; m and rad
+  };
+  const Row rows[] = {
+      {"five bodies", five_bodies(), 5, 1e-10},
+      {"near a separatrix", test::free_body(Vec3(1, 2, 3), 5 * Vec3(1e-8, 1, 1e-8)), 60, 1e-10},
+      {"stiff", stiff, 1, 1e-10},
+      {"free top for a minute", test::free_body(Vec3(1, 2, 3), {1, 2, 3}), 60, 1e-12},
+  };
+  for (const Row& row : rows) {
+    const auto truth = make_truth("reference", row.scene, row.duration);
+    BOOST_TEST_CONTEXT(row.name) BOOST_TEST(truth->error(row.duration) < row.most);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(energy_and_momentum_stay_what_they_were) {
