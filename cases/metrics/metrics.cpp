@@ -12,18 +12,26 @@ MetricRow orientation_error();
 MetricRow orthonormality_error();
 MetricRow phase_error();
 MetricRow position_error();
+MetricRow survival();
 MetricRow tube();
 MetricRow unexplained_error();
 MetricRow unexplained_rotation();
 
 const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
-      angular_momentum_drift(), cost(),
-      energy_drift(),           energy_drift_synchronised(),
-      linear_momentum_drift(),  orientation_error(),
-      orthonormality_error(),   phase_error(),
-      position_error(),         tube(),
-      unexplained_error(),      unexplained_rotation(),
+      angular_momentum_drift(),
+      cost(),
+      energy_drift(),
+      energy_drift_synchronised(),
+      linear_momentum_drift(),
+      orientation_error(),
+      orthonormality_error(),
+      phase_error(),
+      position_error(),
+      survival(),
+      tube(),
+      unexplained_error(),
+      unexplained_rotation(),
   };
   return table;
 }

@@ -6,6 +6,7 @@ namespace rigor {
 const std::vector<ReportRow>& reports() {
   static const std::vector<ReportRow> table = {
       {"json", "results.json", json_report},
+      {"junit", "junit.xml", junit_report},
       {"markdown", "report.md", markdown_report},
   };
   return table;

@@ -17,6 +17,7 @@ struct ReportRow {
 const std::vector<ReportRow>& reports();  // alphabetical
 
 std::string json_report(const Results& results);
+std::string junit_report(const Results& results);
 std::string markdown_report(const Results& results);
 
 }  // namespace rigor

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -60,6 +61,7 @@ Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
                 : end.how == Ending::timed_out ? Status::timed_out
                                                : Status::crashed;
   cell.trajectory.clear();
+  cell.wall_seconds = end.seconds;
   return cell;
 }
 
@@ -186,6 +188,7 @@ class CaseJobs {
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, double largest_kinetic_energy, const GridOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
   const Engine& engine = find_engine(engines, run_name.engine);
@@ -201,15 +204,18 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
     twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;
   if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
-  const JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
-                         velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
+  JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
+                   velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
   cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
+  judged.duration = definition.duration;
+  judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   cell.metrics = measured(judged, definition, options);
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   if (!options.folder.empty()) {
     write_trajectory((std::filesystem::path(options.folder) / cell.trajectory).string(), scene, run.trajectory);
   }
+  cell.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
 }
 
