@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "cases/report/html/playback.h"
 #include "cases/report/result_json.h"
 #include "cases/report/trajectory_csv.h"
 #include "cases/runner/simulate.h"
@@ -138,8 +139,10 @@ class CaseJobs {
     cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
+                       const std::size_t budget =
+                           options_.folder.empty() ? 0 : playback_budget(grid_, planned_, &cell.dt);
                        const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
-                                                          energy_, options_.folder);
+                                                          energy_, options_.folder, budget);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
                        channel.send(packed(judged.path));
                      },
@@ -169,7 +172,8 @@ class CaseJobs {
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, double largest_kinetic_energy, const std::string& folder) {
+                    const Truth* truth, double largest_kinetic_energy, const std::string& folder,
+                    std::size_t playback_budget) {
   Cell cell = planned;
   const Scene& scene = definition.scene;
   const Engine& engine = find_engine(engines, run_name.engine);
@@ -184,7 +188,13 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   const JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
                          velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
   cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
-  for (const MetricRow& row : metrics()) cell.metrics[row.name] = condensed(row.measure(judged), run.trajectory);
+  std::vector<NamedCourse> courses;
+  for (const MetricRow& row : metrics()) {
+    MetricResult result = row.measure(judged);
+    cell.metrics[row.name] = condensed(result, run.trajectory);
+    if (result.measurement) courses.push_back({row.name, std::move(result.measurement->series)});
+  }
+  if (playback_budget > 0) cell.playback = packed_run(judged, courses, largest_kinetic_energy, playback_budget);
   if (twin) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   if (!folder.empty()) {
@@ -198,7 +208,11 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const Case& definition = planned.definition;
   const double seconds = options.stable_steps ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
-  const TruthFacts facts = facts_of(definition, truth.get());
+  TruthFacts facts = facts_of(definition, truth.get());
+  if (truth && !options.folder.empty()) {
+    facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy,
+                                  playback_budget(grid, planned, nullptr));
+  }
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy);
   channel.send(message_of_truth(facts));  // from here on each job has a limit of its own
   jobs.run(channel);
