@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "cases/metrics/work_precision.h"
 
@@ -51,7 +53,8 @@ class Finder {
   }
 
   void say_who_blows_up() {
-    std::vector<std::string> steady, lost;
+    std::vector<std::string> steady;
+    std::map<std::string, std::vector<std::string>> lost;  // runs by what is said of them
     for (std::size_t run = 0; run < results_.runs.size(); ++run) {
       std::vector<std::string> blown;
       int ran = 0;
@@ -61,43 +64,48 @@ class Finder {
       });
       const std::string& name = results_.runs[run].text;
       if (ran > 0 && blown.empty()) steady.push_back(name);
-      if (!blown.empty())
-        lost.push_back(fmt::format("{} in {} of {} ({})", name, blown.size(), ran, listed_names(blown, 2)));
+      if (!blown.empty()) lost[fmt::format("{} of {} ({})", blown.size(), ran, listed_names(blown, 2))].push_back(name);
     }
     if (lost.empty() && !steady.empty()) sentences_.push_back(fmt::format("At dt = {} s nothing blows up.", dt_.text));
     if (lost.empty()) return;
-    std::string text = fmt::format("At dt = {} s these blow up: {}.", dt_.text, listed_names(lost, 6));
-    if (!steady.empty()) text += fmt::format(" Never: {}.", listed_names(steady, 8));
-    sentences_.push_back(text);
+    std::vector<std::string> parts;
+    for (const auto& [cases, names] : lost) parts.push_back(fmt::format("{} in {}", listed_names(names, 3), cases));
+    std::string text = fmt::format("At dt = {} s these blow up: ", dt_.text);
+    for (std::size_t i = 0; i < parts.size(); ++i) text += (i ? "; " : "") + parts[i];
+    if (!steady.empty()) text += fmt::format(". Never: {}", listed_names(steady, 6));
+    sentences_.push_back(text + ".");
   }
 
-  // The case in which a run's energy, both brought to one instant, changes most without blowing up.
+  // The case in which a run's mean energy moves most without its blowing up; of runs of one engine that say the same
+  // only the first.
   void say_where_energy_goes(std::size_t run) {
-    constexpr double kWorthSaying = 0.01, kAlike = 0.01;
     const CaseResult* worst_case = nullptr;
     const Cell* worst = nullptr;
-    const std::string metric = "energy_drift_synchronised";
     for_cells(run, [&](const CaseResult& result, const Cell& cell) {
-      const double drift = std::abs(value_of(cell.metrics, metric));
-      if (!(drift > kWorthSaying) || cell.stability.verdict == Verdict::blown_up) return;
-      if (!worst || drift > std::abs(value_of(worst->metrics, metric))) worst = &cell, worst_case = &result;
+      if (cell.stability.verdict != Verdict::drifting) return;
+      const double drift = std::abs(value_of(cell.metrics, kDrift));
+      if (!(drift > 0.01) || (worst && drift <= std::abs(value_of(worst->metrics, kDrift)))) return;
+      worst = &cell, worst_case = &result;
     });
     if (!worst) return;
-    const double drift = value_of(worst->metrics, metric), scheme = value_of(worst->scheme.metrics, metric),
-                 without = value_of(worst->scheme.without_gyroscopic_term, metric);
-    std::string text = fmt::format("{} {} {:.2g} % of the energy of {} within {:g} s at dt = {} s",
-                                   results_.runs[run].text, drift < 0 ? "loses" : "gains", 100 * std::abs(drift),
-                                   worst_case->definition.id, worst_case->definition.duration, dt_.text);
-    if (std::isnan(scheme)) {
-      text += ", the most of all its cases.";
-    } else if (std::abs(drift - scheme) > kAlike * std::abs(drift)) {
-      text += fmt::format("; of that its scheme explains {:.2g} %.", 100 * scheme / drift);
-    } else if (std::abs(without) < 0.1 * std::abs(drift)) {
-      text += "; all of it is its gyroscopic scheme.";
-    } else {
-      text += "; all of it is its scheme, and comes out the same when the core repeats it.";
-    }
-    sentences_.push_back(text);
+    const double drift = value_of(worst->metrics, kDrift);
+    const std::string text =
+        fmt::format("{} {:.2g} % of the energy of {} within {:g} s at dt = {} s{}", drift < 0 ? "loses" : "gains",
+                    100 * std::abs(drift), worst_case->definition.id, worst_case->definition.duration, dt_.text,
+                    cause_of(*worst, drift));
+    if (said_of_energy_.insert(results_.runs[run].engine + text).second)
+      sentences_.push_back(results_.runs[run].text + " " + text);
+  }
+
+  static std::string cause_of(const Cell& cell, double drift) {
+    constexpr double kAlike = 0.01, kGone = 0.1;
+    const double scheme = value_of(cell.scheme.metrics, kDrift),
+                 without = value_of(cell.scheme.without_gyroscopic_term, kDrift);
+    if (std::isnan(scheme)) return ", the most of all its cases.";
+    if (std::abs(drift - scheme) > kAlike * std::abs(drift))
+      return fmt::format("; of that its scheme explains {:.2g} %.", 100 * scheme / drift);
+    if (std::abs(without) < kGone * std::abs(drift)) return "; all of it is its gyroscopic scheme.";
+    return "; all of it is its scheme: the core, repeating it, comes to the same.";
   }
 
   void say_what_is_unexplained() {
@@ -107,15 +115,15 @@ class Finder {
     for (std::size_t run = 0; run < results_.runs.size(); ++run) {
       for_cells(run, [&](const CaseResult& result, const Cell& cell) {
         const double rest = std::abs(value_of(cell.metrics, "unexplained_error"));
-        if (cell.scheme.twin.empty() || std::isnan(rest)) return;
+        if (cell.scheme.twin.empty() || std::isnan(rest) || cell.stability.verdict == Verdict::blown_up) return;
         ++compared;
         if (rest > largest) largest = rest, where = results_.runs[run].text + " on " + result.definition.id;
       });
     }
     if (compared == 0) return;
     sentences_.push_back(
-        fmt::format("In {} runs the core repeated the engine's own scheme beside it: the largest position error that "
-                    "this leaves unexplained is {:.2g} m{}.",
+        fmt::format("Beside {} runs the core repeated the engine's own scheme: the largest position error that this "
+                    "leaves unexplained is {:.2g} m{}.",
                     compared, largest, where.empty() ? "" : ", by " + where));
   }
 
@@ -141,21 +149,25 @@ class Finder {
       for (const CaseResult& result : results_.cases) {
         if (!error_points(result, run, "position_error").empty()) steps.push_back(step_for(result, run, kMillimetre));
       }
-      if (steps.size() * 2 < results_.cases.size() || steps.empty()) continue;  // too few to speak of a typical case
+      if (steps.empty() || steps.size() * 2 < results_.cases.size()) continue;  // too few to speak of a middle one
       std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
       runs.emplace_back(steps[steps.size() / 2], results_.runs[run].text);
     }
     if (runs.empty()) return;
-    std::sort(runs.begin(), runs.end(), std::greater<>());
-    std::vector<std::string> parts;
+    std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::string> enough, too_few;
     for (const auto& [step, name] : runs)
-      parts.push_back(step > 0 ? fmt::format("{} {:.2g} s", name, step) : name + " less than was tried");
-    sentences_.push_back(
-        "To stay within 1 mm of the truth the middle one of the cases needs a dt of: " + listed_names(parts, 8) + ".");
+      step > 0 ? enough.push_back(fmt::format("{} {:.2g} s", name, step)) : too_few.push_back(name);
+    std::string text = "To stay within 1 mm of the truth in the middle one of the cases takes a dt of: ";
+    text += enough.empty() ? "less than was tried with any of them" : listed_names(enough, 6);
+    if (!enough.empty() && !too_few.empty()) text += "; less than was tried with " + listed_names(too_few, 4);
+    sentences_.push_back(text + ".");
   }
 
+  static constexpr const char* kDrift = "energy_drift";
   const Results& results_;
   StepSize dt_;
+  std::set<std::string> said_of_energy_;
   std::vector<std::string> sentences_;
 };
 

@@ -136,7 +136,7 @@ function strip({ engine, total, scheme, rest }, range) {
 
 // Where the energy goes: the engine's, its scheme's, and that of the scheme without its gyroscopic term.
 function energySplit(cells) {
-  const name = "energy_drift_synchronised";
+  const name = "energy_drift";
   const rows = cells.map(([engine, cell]) => [engine, signedMetric(cell.metrics, name), signedMetric(cell.by_scheme.metrics, name), signedMetric(cell.by_scheme.without_gyroscopic_term, name)]).filter(([, total]) => total !== null);
   if (!rows.some(([, total]) => Math.abs(total) > 1e-9)) return null;
   const sentence = (total, scheme, without) => {
@@ -145,7 +145,7 @@ function energySplit(cells) {
     if (without !== null && Math.abs(without) < 0.1 * Math.abs(total)) return "all of it is the gyroscopic term of its scheme";
     return "all of it is its scheme";
   };
-  return el("table.plain.split", {}, el("caption", {}, "energy, velocities brought to the positions' time"),
+  return el("table.plain.split", {}, el("caption", {}, "energy, largest drift"),
     el("thead", {}, el("tr", {}, ["run", "total", "by its scheme", "scheme without gyroscopic term", "where it goes"].map((t) => el("th", { scope: "col" }, t)))),
     el("tbody", {}, rows.map(([engine, total, scheme, without]) => el("tr", {}, el("th", { scope: "row" }, engine.name), [total, scheme, without].map((v) => el("td", {}, v === null ? "–" : percent(v))), el("td.text", {}, sentence(total, scheme, without))))));
 }

@@ -88,7 +88,7 @@ export class Overview {
       engines.map((engine) => {
         const [who, method] = engineParts(engine.name);
         return el("th.engine", { scope: "col", title: `${engine.name}: ${engine.engine ?? ""} ${engine.version ?? ""}` },
-          el("span.bar", { style: { "--engine": `var(--e${engine.index})` } }), el("span.who", {}, who.replace("@", " @\u200b")),
+          el("span.stripe", { style: { "--engine": `var(--e${engine.index})` } }), el("span.who", {}, who.replace("@", " @\u200b")),
           method ? el("span.method", {}, method.replaceAll("-", "-\u200b")) : null);
       })));
   }
