@@ -32,12 +32,12 @@ class Finder {
   explicit Finder(const Results& results) : results_(results), dt_(headline_dt(results)) {}
 
   std::vector<std::string> sentences() {
-    say_who_blows_up();
     for (std::size_t run = 0; run < results_.runs.size(); ++run) {
       if (results_.runs[run].engine != "core") say_where_energy_goes(run);
     }
-    say_what_is_unexplained();
+    say_who_blows_up();
     say_what_a_millimetre_takes();
+    say_what_is_unexplained();
     return sentences_;
   }
 

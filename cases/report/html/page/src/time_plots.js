@@ -12,10 +12,10 @@ const height = 150;
 export class TimePlots {
   constructor(results, one, data, player, root) {
     Object.assign(this, { results, one, data, player, root, plots: [], engines: [], more: false });
-    const present = new Set([...data.runs.values()].flatMap((run) => Object.entries(run.courses).filter(([, c]) => c.times.length > 1).map(([name]) => name)));
+    const present = new Set([...data.runs.values()].flatMap((run) => Object.entries(run.courses).filter(([, c]) => c.times.length > 1 && c.values.some((v) => Math.abs(v) > 1e-17)).map(([name]) => name)));
     this.names = first.filter((name) => present.has(name));
     this.others = [...present].filter((name) => !first.includes(name));
-    this.body = 0, this.component = 1;
+    [this.body, this.component] = liveliest(one.scene.bodies, data);
     this.stops = [player.onTick(() => this.movePlayheads()), onTheme(() => this.draw())];
     this.resize = new ResizeObserver(() => this.fit());
     this.resize.observe(root);
@@ -158,6 +158,20 @@ export class TimePlots {
       chart.setSeries(at < 0 ? null : at + 1, { focus: true });
     }
   }
+}
+
+// The body and the coordinate that move most; where nothing but turns, the angle.
+function liveliest(bodies, data) {
+  const motion = data.truth?.motion ?? [...data.runs.values()].find((run) => run.motion)?.motion;
+  const moving = Math.max(0, bodies.findIndex((b) => !b.fixed));
+  if (!motion) return [moving, 1];
+  const range = [0, 1, 2].map((k) => {
+    let low = Infinity, high = -Infinity;
+    for (let slot = 7 * moving + k; slot < motion.values.length; slot += 7 * motion.bodies) low = Math.min(low, motion.values[slot]), high = Math.max(high, motion.values[slot]);
+    return high - low;
+  });
+  const best = range.indexOf(Math.max(...range));
+  return [moving, range[best] > 1e-9 ? best : 3];
 }
 
 // Decades; what is zero lies on a floor of its own below the smallest value, marked 0.
