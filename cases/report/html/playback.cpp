@@ -24,7 +24,7 @@ constexpr double kDecadesSeen = 0.04;      // of a logarithmic plot: likewise
 constexpr double kFarthest = 20;           // times the extent of the truth: a run beyond has left the picture
 constexpr std::size_t kMostKeys = 6000;    // of a motion
 constexpr std::size_t kMostPoints = 1500;  // of the courses
-constexpr double kMostPoses = 4e5;         // looked at when thinning, bodies times samples: a second or so at worst
+constexpr double kMostPoses = 1e5;         // looked at when thinning, bodies times samples: some 50 ms
 
 struct Box3 {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -93,20 +93,7 @@ class Motion {
     return chosen;
   }
 
-  // Of sample n from the straight way between two others; 1 is seen.
-  double deviation(std::size_t n, std::size_t a, std::size_t b) const {
-    const double share = static_cast<double>(n - a) / static_cast<double>(b - a);
-    const BodyColumns here = bodies(n), before = bodies(a), after = bodies(b);
-    double worst = 0;
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      const Vec3 line = before.position(i) + share * (after.position(i) - before.position(i));
-      worst = std::max(worst, (here.position(i) - line).norm() / position_seen_);
-      const Quat from = before.orientation(i).normalized(), to = after.orientation(i).normalized();
-      worst = std::max(worst, angle(from.slerp(share, to), here.orientation(i)) / kTurnSeen);
-    }
-    return worst;
-  }
-
+  double position_seen() const { return position_seen_; }
   BodyColumns bodies(std::size_t n) const { return samples_[n].bodies.columns(); }
 
  private:
@@ -143,6 +130,47 @@ class Motion {
   Box3 bounds_;
   double smallest_ = 1e-6;  // m, the largest reach of a body; no scene is smaller
   double position_seen_ = 0;
+};
+
+// The poses at some samples, close together in memory and with unit quaternions: thinning looks at each many times.
+class Poses {
+ public:
+  Poses(const Motion& motion, const std::vector<std::size_t>& samples)
+      : samples_(samples), position_seen_(motion.position_seen()) {
+    for (const std::size_t n : samples) {
+      const BodyColumns bodies = motion.bodies(n);
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        positions_.push_back(bodies.position(i));
+        turns_.push_back(bodies.orientation(i).normalized().coeffs());
+      }
+    }
+    bodies_ = samples.empty() ? 0 : positions_.size() / samples.size();
+  }
+
+  // Of the n-th from the way on which the page takes the bodies from the a-th to the b-th; 1 is seen.
+  double deviation(std::size_t n, std::size_t a, std::size_t b) const {
+    const double from_a = static_cast<double>(samples_[n] - samples_[a]);
+    const double share = from_a / static_cast<double>(samples_[b] - samples_[a]);
+    double position = 0, chord = 0;
+    for (std::size_t i = 0; i < bodies_; ++i) {
+      const std::size_t here = n * bodies_ + i, before = a * bodies_ + i, after = b * bodies_ + i;
+      const Vec3 line = (1 - share) * positions_[before] + share * positions_[after];
+      position = std::max(position, (positions_[here] - line).squaredNorm());
+      const double sign = turns_[before].dot(turns_[after]) < 0 ? -1 : 1;
+      const Eigen::Vector4d between = ((1 - share) * turns_[before] + share * sign * turns_[after]).normalized();
+      chord = std::max(chord, 1 - std::abs(between.dot(turns_[here])));
+    }
+    // Unit quaternions half an angle apart have a product of its cosine.
+    const double angle = 2 * std::sqrt(2 * chord);
+    return std::max(std::sqrt(position) / position_seen_, angle / kTurnSeen);
+  }
+
+ private:
+  const std::vector<std::size_t>& samples_;
+  double position_seen_;
+  std::vector<Vec3> positions_;
+  std::vector<Eigen::Vector4d> turns_;
+  std::size_t bodies_ = 0;
 };
 
 void add_samples(Bytes& bytes, const std::vector<std::size_t>& samples) {
@@ -250,8 +278,9 @@ std::string packed(const Scene& scene, const Trajectory& trajectory, const Truth
   const Courses courses(std::move(named));
   const bool is_like_truth = motion.is_like_truth();
   const std::vector<std::size_t> candidates = is_like_truth ? std::vector<std::size_t>() : motion.candidates();
+  const Poses poses(motion, candidates);
   const auto keys = ranked_samples(candidates.size(), kMostKeys, [&](std::size_t n, std::size_t a, std::size_t b) {
-    return motion.deviation(candidates[n], candidates[a], candidates[b]);
+    return poses.deviation(n, a, b);
   });
   const auto points = ranked_samples(courses.count(), kMostPoints, [&](std::size_t n, std::size_t a, std::size_t b) {
     return courses.deviation(n, a, b);
