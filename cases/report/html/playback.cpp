@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/report/html/motion.h"
 #include "cases/report/html/packing.h"
 #include "cases/report/html/thinning.h"
 #include "core/dynamics/energy.h"
@@ -17,161 +18,11 @@
 namespace rigor {
 namespace {
 
-constexpr double kPositionSeen = 1e-3;     // of the motion's extent: a pixel or so of the picture
-constexpr double kTurnSeen = 0.01;         // rad
 constexpr double kLinearSeen = 5e-3;       // of a course's range: a pixel of a plot
 constexpr double kDecadesSeen = 0.04;      // of a logarithmic plot: likewise
-constexpr double kFarthest = 20;           // times the extent of the truth: a run beyond has left the picture
+constexpr double kNoise = 1e-12;           // of a course in any unit: what is smaller is rounding, and has no shape
 constexpr std::size_t kMostKeys = 6000;    // of a motion
 constexpr std::size_t kMostPoints = 1500;  // of the courses
-constexpr double kMostPoses = 1e5;         // looked at when thinning, bodies times samples: some 50 ms
-
-struct Box3 {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  void add(const Vec3& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
-  double size() const { return low.x() <= high.x() ? (high - low).norm() : 0; }
-};
-
-double reach_of(const Body& body) {
-  if (!body.shape) return 0.1;
-  if (const auto* sphere = std::get_if<Sphere>(&*body.shape)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&*body.shape)) return 0.5 * box->size.norm();
-  if (const auto* capsule = std::get_if<Capsule>(&*body.shape)) return capsule->radius + 0.5 * capsule->length;
-  return 0;
-}
-
-// The run as the page will see it: until it leaves the picture.
-class Motion {
- public:
-  Motion(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth)
-      : scene_(scene), samples_(trajectory.samples), truth_(truth), count_(samples_.size()) {
-    Box3 start;
-    for (const Body& body : scene.bodies) start.add(body.position), smallest_ = std::max(smallest_, reach_of(body));
-    Box3 expected = start;
-    if (truth) {
-      for (const BodyTable& bodies : truth->bodies) extend(expected, bodies.columns());
-    }
-    const double farthest = kFarthest * (expected.size() + smallest_ + 1);
-    for (std::size_t n = 0; n < samples_.size(); ++n) {
-      if (!is_within(samples_[n].bodies.columns(), start.low, farthest)) {
-        count_ = n;
-        break;
-      }
-      extend(bounds_, samples_[n].bodies.columns());
-    }
-    position_seen_ = kPositionSeen * std::max(bounds_.size(), smallest_);
-  }
-
-  std::size_t count() const { return count_; }
-  const Box3& bounds() const { return bounds_; }
-
-  // Whether the truth would make the same picture at every sample.
-  bool is_like_truth() const {
-    if (!truth_ || truth_->bodies.size() < samples_.size() || count_ < samples_.size()) return false;
-    for (std::size_t n = 0; n < count_; ++n) {
-      if (difference(bodies(n), truth_->bodies[n].columns()) > 1) return false;
-    }
-    return true;
-  }
-
-  // At most kMostPoses to look at: of each stretch the sample at which a velocity jumps most, so that no impact is
-  // lost.
-  std::vector<std::size_t> candidates() const {
-    const double poses = static_cast<double>(count_) * scene_.bodies.size();
-    const auto stride = static_cast<std::size_t>(std::ceil(std::max(1.0, poses / kMostPoses)));
-    std::vector<std::size_t> chosen;
-    for (std::size_t from = 0; from < count_; from += stride) {
-      std::size_t best = from;
-      double jump = stride > 1 ? jump_at(from) : 0;
-      for (std::size_t n = from + 1; n < std::min(from + stride, count_); ++n) {
-        if (const double here = jump_at(n); here > jump) best = n, jump = here;
-      }
-      chosen.push_back(best);
-    }
-    if (!chosen.empty()) chosen.front() = 0;
-    if (!chosen.empty() && chosen.back() != count_ - 1) chosen.push_back(count_ - 1);
-    return chosen;
-  }
-
-  double position_seen() const { return position_seen_; }
-  BodyColumns bodies(std::size_t n) const { return samples_[n].bodies.columns(); }
-
- private:
-  static double angle(const Quat& a, const Quat& b) { return a.angularDistance(b.normalized()); }
-  static void extend(Box3& box, BodyColumns bodies) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) box.add(bodies.position(i));
-  }
-  static bool is_within(BodyColumns bodies, const Vec3& centre, double farthest) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (!((bodies.position(i) - centre).norm() <= farthest)) return false;
-    }
-    return true;
-  }
-  double difference(BodyColumns a, BodyColumns b) const {
-    double worst = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      worst = std::max(worst, (a.position(i) - b.position(i)).norm() / position_seen_);
-      worst = std::max(worst, angle(a.orientation(i).normalized(), b.orientation(i)) / kTurnSeen);
-    }
-    return worst;
-  }
-  double jump_at(std::size_t n) const {
-    double jump = 0;
-    for (std::size_t i = 0; n > 0 && i < scene_.bodies.size(); ++i) {
-      jump = std::max(jump, (bodies(n).velocity(i) - bodies(n - 1).velocity(i)).norm());
-    }
-    return jump;
-  }
-
-  const Scene& scene_;
-  const std::vector<Sample>& samples_;
-  const TruthSamples* truth_;
-  std::size_t count_;
-  Box3 bounds_;
-  double smallest_ = 1e-6;  // m, the largest reach of a body; no scene is smaller
-  double position_seen_ = 0;
-};
-
-// The poses at some samples, close together in memory and with unit quaternions: thinning looks at each many times.
-class Poses {
- public:
-  Poses(const Motion& motion, const std::vector<std::size_t>& samples)
-      : samples_(samples), position_seen_(motion.position_seen()) {
-    for (const std::size_t n : samples) {
-      const BodyColumns bodies = motion.bodies(n);
-      for (std::size_t i = 0; i < bodies.size(); ++i) {
-        positions_.push_back(bodies.position(i));
-        turns_.push_back(bodies.orientation(i).normalized().coeffs());
-      }
-    }
-    bodies_ = samples.empty() ? 0 : positions_.size() / samples.size();
-  }
-
-  // Of the n-th from the way on which the page takes the bodies from the a-th to the b-th; 1 is seen.
-  double deviation(std::size_t n, std::size_t a, std::size_t b) const {
-    const double from_a = static_cast<double>(samples_[n] - samples_[a]);
-    const double share = from_a / static_cast<double>(samples_[b] - samples_[a]);
-    double position = 0, chord = 0;
-    for (std::size_t i = 0; i < bodies_; ++i) {
-      const std::size_t here = n * bodies_ + i, before = a * bodies_ + i, after = b * bodies_ + i;
-      const Vec3 line = (1 - share) * positions_[before] + share * positions_[after];
-      position = std::max(position, (positions_[here] - line).squaredNorm());
-      const double sign = turns_[before].dot(turns_[after]) < 0 ? -1 : 1;
-      const Eigen::Vector4d between = ((1 - share) * turns_[before] + share * sign * turns_[after]).normalized();
-      chord = std::max(chord, 1 - std::abs(between.dot(turns_[here])));
-    }
-    // Unit quaternions half an angle apart have a product of its cosine.
-    const double angle = 2 * std::sqrt(2 * chord);
-    return std::max(std::sqrt(position) / position_seen_, angle / kTurnSeen);
-  }
-
- private:
-  const std::vector<std::size_t>& samples_;
-  double position_seen_;
-  std::vector<Vec3> positions_;
-  std::vector<Eigen::Vector4d> turns_;
-  std::size_t bodies_ = 0;
-};
 
 void add_samples(Bytes& bytes, const std::vector<std::size_t>& samples) {
   std::vector<std::uint16_t> low, high;
@@ -219,7 +70,7 @@ class Courses {
       for (const double value : course.values) {
         if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
       }
-      largest_.push_back(largest);
+      largest_.push_back(std::max(largest, kNoise));
       count_ = std::max(count_, course.values.size());
     }
   }
@@ -231,11 +82,15 @@ class Courses {
     double worst = 0;
     for (std::size_t c = 0; c < courses_.size(); ++c) {
       const auto& values = courses_[c].values;
-      if (largest_[c] == 0 || b >= values.size()) continue;
+      if (n >= values.size()) continue;
+      if (b >= values.size()) {  // it ends in this stretch, and its end is kept
+        if (n + 1 == values.size()) return std::numeric_limits<double>::max();
+        continue;
+      }
       const auto off = [&](auto scale) {
         return std::abs(scale(values[n]) - (1 - share) * scale(values[a]) - share * scale(values[b]));
       };
-      const double floor = 1e-6 * largest_[c];
+      const double floor = std::max(kNoise, 1e-6 * largest_[c]);
       worst = std::max(worst, off([&](double v) { return v / largest_[c]; }) / kLinearSeen);
       worst = std::max(worst, off([&](double v) { return std::log10(std::max(std::abs(v), floor)); }) / kDecadesSeen);
     }
@@ -337,7 +192,7 @@ std::string packed_truth(const Scene& scene, const Truth& truth, double duration
 }
 
 std::size_t playback_budget(const Results& grid, const CaseResult& result, const StepSize* dt) {
-  constexpr double kWholePage = 5.2e6, kMost = 300e3, kLeast = 300;  // characters
+  constexpr double kWholePage = 5.2e6, kMost = 300e3;  // characters
   // The coarsest step is the one that is looked at; more bodies take more room, but each of them less.
   const auto weight = [](const CaseResult& one, double seconds) {
     double coarsest = 0;
@@ -353,7 +208,7 @@ std::size_t playback_budget(const Results& grid, const CaseResult& result, const
     }
   }
   const double own = weight(result, dt ? dt->seconds : kTruth);
-  return static_cast<std::size_t>(std::clamp(kWholePage * own / sum, kLeast, kMost));
+  return static_cast<std::size_t>(std::min(kWholePage * own / sum, kMost));
 }
 
 }  // namespace rigor

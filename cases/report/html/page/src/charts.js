@@ -121,7 +121,7 @@ export function schemeSplit({ results, one, dt }) {
       el("tbody", {}, values.map((v) => el("tr", {}, el("th", { scope: "row" }, v.engine.name), el("td", {}, quantity(v.total, unit)), el("td", {}, quantity(v.scheme, unit)),
         el("td", { title: isNumber(v.until) ? `compared until ${v.until.toFixed(2)} s` : "" }, v.rest === null ? "–" : quantity(v.rest, unit)), el("td.strip", {}, strip(v, range))))));
   });
-  return el("div.figures", {}, tables, energySplit(cells));
+  return el("div.figures", {}, [...tables, energySplit(cells)].filter(Boolean).map((table) => el("div.scroll", {}, table)));
 }
 
 function strip({ engine, total, scheme, rest }, range) {
