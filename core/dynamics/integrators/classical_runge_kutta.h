@@ -4,6 +4,7 @@
 
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/motion_equations.h"
+#include "core/dynamics/wrench_columns.h"
 
 namespace rigor {
 
@@ -14,11 +15,14 @@ class ClassicalRungeKutta : public Stepper {
 
  private:
   void smooth_part(MutableBodyColumns state, double t, double dt);
+  void take_stage(std::size_t s, const Bodies& block, MutableBodyColumns state, const double* wrench, double dt);
 
   StepperParts parts_;
-  MotionEquations equations_;
+  OrientationChart chart_;
+  WrenchColumns loads_;
+  BodyTable stage_, sum_;
+  Columns carried_;
   Wrenches wrenches_;
-  Eigen::VectorXd start_, sum_, stage_, rates_;
 };
 
 }  // namespace rigor
