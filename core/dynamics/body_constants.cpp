@@ -1,6 +1,6 @@
 #include "core/dynamics/body_constants.h"
 
-#include "core/dynamics/system.h"
+#include "core/dynamics/free_rotation.h"
 
 namespace rigor {
 
@@ -17,18 +17,17 @@ void BodyConstants::set_body(std::size_t i, const Inertia& body) {
   columns_.column(kMoves)[i] = 1;
   const Vec3 d = body.inertia_B.diagonal();
   const Vec3 gyro((d.y() - d.z()) / d.x(), (d.z() - d.x()) / d.y(), (d.x() - d.y()) / d.z());
-  const PrincipalInertia principal = principal_inertia(body.inertia_B);
-  const Vec3 inverse = principal.moments.cwiseInverse();
+  const FreeRotation rotation(body);
   for (int k = 0; k < 3; ++k) columns_.column(kGyro + k)[i] = gyro[k];
-  for (int k = 0; k < 3; ++k) columns_.column(kAxes + 1 + k)[i] = principal.q_BP.vec()[k];
-  columns_.column(kAxes)[i] = principal.q_BP.w();
-  columns_.column(kInverseMedian)[i] = inverse.y();
-  columns_.column(kExcessLow)[i] = inverse.x() - inverse.y();
-  columns_.column(kExcessHigh)[i] = inverse.z() - inverse.y();
+  for (int k = 0; k < 3; ++k) columns_.column(kAxes + 1 + k)[i] = rotation.q_BP.vec()[k];
+  columns_.column(kAxes)[i] = rotation.q_BP.w();
+  columns_.column(kInverseMedian)[i] = rotation.inverse_median;
+  columns_.column(kExcessLow)[i] = rotation.excess_low;
+  columns_.column(kExcessHigh)[i] = rotation.excess_high;
   set_symmetric(kInertia, i, body.inertia_B);
   set_symmetric(kInverseInertia, i, body.inverse_inertia_B);
   diagonal_ &= body.inertia_B.isDiagonal(0);
-  principal_ &= principal.q_BP.vec().isZero(0);
+  principal_ &= rotation.q_BP.vec().isZero(0);
 }
 
 void BodyConstants::set_symmetric(ConstantColumn column, std::size_t i, const Mat3& m) {

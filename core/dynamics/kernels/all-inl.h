@@ -11,10 +11,13 @@ namespace {
 // Up to so many bodies or springs are taken one at a time.
 inline constexpr std::size_t kFewRows = 1;
 
-#include "core/dynamics/kernels/lane_math-inl.h"
 #include "core/dynamics/kernels/lanes-inl.h"
-// Built on these:
+// which this is built on:
+#include "core/dynamics/kernels/lane_math-inl.h"
+// and on these:
 #include "core/dynamics/kernels/body_kernels-inl.h"
+// and on these:
+#include "core/dynamics/kernels/moser_veselov_kernel-inl.h"
 #include "core/dynamics/kernels/spring_kernel-inl.h"
 #include "core/dynamics/kernels/stage_kernels-inl.h"
 
@@ -30,8 +33,13 @@ const Kernels kTable = {
     .velocity_of = velocity_of,
     .momentum_kick = momentum_kick,
     .free_drift = free_drift,
+    .moser_veselov_drift = moser_veselov_drift,
     .quaternion_stage = quaternion_stage,
     .rotation_vector_stage = rotation_vector_stage,
+    .motion_of = motion_of,
+    .rates_at = rates_at,
+    .combine = combine,
+    .relative_size = relative_size,
     .springs = springs,
 };
 

@@ -89,12 +89,23 @@ struct Kernels {
   void (*momentum_kick)(const Bodies&, double* state, double* carried, const double* wrench, double h);
   // x += h v, and the rotation of free_rotation.h over h with constant L.
   void (*free_drift)(const Bodies&, double* state, const double* carried, double h);
+  // The same with the rotation of moser_veselov.cpp; false if its equation had no solution for some body.
+  bool (*moser_veselov_drift)(const Bodies&, double* state, const double* carried, double dt);
   // One stage of a Runge–Kutta method of which each stage needs only the rates of the one before: adds weight * rates
   // to the sum and goes on to start + next * rates; both in s. On quaternions, or on rotation vectors
-  // (motion_equations.h).
+  // (classical_runge_kutta.h).
   void (*quaternion_stage)(const Bodies&, const StageTables&, const double* wrench, Stage, double weight, double next);
   void (*rotation_vector_stage)(const Bodies&, const StageTables&, const double* wrench, Stage, double weight,
                                 double next);
+  // For methods that keep the rates of several stages. With y a table of x, orientation of any length, v, L: the motion
+  // it means; the rates of y at a motion; out = y + h times the weighted sum of rates, or that sum alone if y is null;
+  // how large a change of y is: the sum of |dx|/(1 m + |x|), |dv|/(1 m/s + |v|), |dw|/(1 rad/s + |w|) and the angle
+  // [rad], with dw what the change of L makes of w; the largest over the bodies.
+  void (*motion_of)(const Bodies&, const double* y, double* state);
+  void (*rates_at)(const Bodies&, const double* state, const double* wrench, double* rates);
+  void (*combine)(const Bodies&, const double* y, double h, const double* weights, const double* const* rates,
+                  std::size_t count, double* out);
+  double (*relative_size)(const Bodies&, const double* change, const double* y);
   void (*springs)(const Springs&, const double* state, std::size_t stride, double* pulls);
 };
 

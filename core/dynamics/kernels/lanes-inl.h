@@ -11,8 +11,8 @@ RIGOR_INLINE Lane square_root(Lane x) { return _mm512_maskz_sqrt_pd(0xff, x); }
 RIGOR_INLINE bool all_at_most(Lane x, double limit) {
   return _mm512_cmp_pd_mask(x, _mm512_set1_pd(limit), _CMP_LE_OQ) == 0xff;
 }
-RIGOR_INLINE Lane if_positive(Lane x, Lane yes, Lane no) {
-  return _mm512_mask_blend_pd(_mm512_cmp_pd_mask(x, _mm512_setzero_pd(), _CMP_GT_OQ), no, yes);
+RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
+  return _mm512_mask_blend_pd(_mm512_cmp_pd_mask(x, limit, _CMP_LE_OQ), no, yes);
 }
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) {
   return Lane{p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]};
@@ -26,8 +26,8 @@ RIGOR_INLINE Lane square_root(Lane x) { return _mm256_sqrt_pd(x); }
 RIGOR_INLINE bool all_at_most(Lane x, double limit) {
   return _mm256_movemask_pd(_mm256_cmp_pd(x, _mm256_set1_pd(limit), _CMP_LE_OQ)) == 0xf;
 }
-RIGOR_INLINE Lane if_positive(Lane x, Lane yes, Lane no) {
-  return _mm256_blendv_pd(no, yes, _mm256_cmp_pd(x, _mm256_setzero_pd(), _CMP_GT_OQ));
+RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
+  return _mm256_blendv_pd(no, yes, _mm256_cmp_pd(x, limit, _CMP_LE_OQ));
 }
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) {
   return Lane{p[i[0]], p[i[1]], p[i[2]], p[i[3]]};
@@ -40,8 +40,8 @@ RIGOR_INLINE Lane load(Lane, const double* p) { return Lane{p[0], p[1]}; }
 RIGOR_INLINE void store(double* p, Lane x) { p[0] = x[0], p[1] = x[1]; }
 RIGOR_INLINE Lane square_root(Lane x) { return Lane{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])}; }
 RIGOR_INLINE bool all_at_most(Lane x, double limit) { return x[0] <= limit && x[1] <= limit; }
-RIGOR_INLINE Lane if_positive(Lane x, Lane yes, Lane no) {
-  return Lane{x[0] > 0 ? yes[0] : no[0], x[1] > 0 ? yes[1] : no[1]};
+RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
+  return Lane{x[0] <= limit[0] ? yes[0] : no[0], x[1] <= limit[1] ? yes[1] : no[1]};
 }
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) { return Lane{p[i[0]], p[i[1]]}; }
 #endif
@@ -52,7 +52,7 @@ RIGOR_INLINE double load(double, const double* p) { return *p; }
 RIGOR_INLINE void store(double* p, double x) { *p = x; }
 RIGOR_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 RIGOR_INLINE bool all_at_most(double x, double limit) { return x <= limit; }
-RIGOR_INLINE double if_positive(double x, double yes, double no) { return x > 0 ? yes : no; }
+RIGOR_INLINE double if_at_most(double x, double limit, double yes, double no) { return x <= limit ? yes : no; }
 RIGOR_INLINE double gather(double, const double* p, const std::int32_t* i) { return p[i[0]]; }
 
 // Calls f(T(), row) for the rows begin, begin + 1, … or, kWidth at once, begin, begin + kWidth, …: a few rows take one

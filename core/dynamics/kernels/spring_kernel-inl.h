@@ -17,8 +17,8 @@ template <class T>
 RIGOR_INLINE SpringEnd<T> spring_end(const Springs& s, const double* state, std::size_t stride,
                                      const std::int32_t* rows, V3<T> point, T moves) {
   const auto pick = [&](V3<T> body, V3<T> world) RIGOR_LAMBDA {
-    return V3<T>{if_positive(moves, body.x, world.x), if_positive(moves, body.y, world.y),
-                 if_positive(moves, body.z, world.z)};
+    return V3<T>{if_at_most(moves, T{}, world.x, body.x), if_at_most(moves, T{}, world.y, body.y),
+                 if_at_most(moves, T{}, world.z, body.z)};
   };
   const double* q_w = state + kOrientation * stride;
   const V3<T> u = gather3(T(), state, stride, kOrientation + 1, rows);
@@ -46,7 +46,7 @@ void springs(const Springs& s, const double* state, std::size_t stride, double* 
     const V3<T> line = b.position - a.position;
     const T length = square_root(dot(line, line));
     // Where the points meet the line has no direction, and the spring no force.
-    const V3<T> n = if_positive(length, broadcast(T(), 1) / length, T{}) * line;
+    const V3<T> n = if_at_most(length, T{}, T{}, broadcast(T(), 1) / length) * line;
     T tension = constant(kStiffness) * (length - constant(kRestLength));
     if (s.damped) tension = tension + constant(kDamping) * dot(n, b.velocity - a.velocity);
     const V3<T> force = (T{} - tension) * n;

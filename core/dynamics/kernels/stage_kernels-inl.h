@@ -19,7 +19,8 @@ struct QuaternionChart {
   RIGOR_INLINE static void keep(const Bodies&, double*, std::size_t, Q4<T>) {}
 };
 
-// … or as rotation vectors from its start, in the places x, y, z of a quaternion (motion_equations.h has their rate).
+// … or as rotation vectors from its start, in the places x, y, z of a quaternion (classical_runge_kutta.h has their
+// rate).
 struct RotationVectorChart {
   template <class T>
   RIGOR_INLINE static Q4<T> start(T, const Bodies&, const double*, std::size_t) {
@@ -112,4 +113,66 @@ void quaternion_stage(const Bodies& b, const StageTables& t, const double* wrenc
 void rotation_vector_stage(const Bodies& b, const StageTables& t, const double* wrench, Stage where, double weight,
                            double next) {
   runge_kutta_stage<RotationVectorChart>(b, t, wrench, where, weight, next);
+}
+
+// For methods that keep the rates of several stages: y is a table of x, quaternion, v, L.
+
+void motion_of(const Bodies& b, const double* y, double* state) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    put_motion<QuaternionChart>(state, b, StageTables{}, i, get_carried(T(), y, b, i));
+  });
+}
+
+void rates_at(const Bodies& b, const double* state, const double* wrench, double* rates) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const Carried<T> at = get_carried(T(), state, b, i);  // with w for L
+    V3<T> torque = {T{}, T{}, T{}};
+    if (wrench) torque = get(T(), b.constants, b, kMoves, i) * get3(T(), wrench, b, kTorque, i);
+    const Q4<T> turning = QuaternionChart::rate(b, nullptr, i, at.q, at.L);
+    put_carried(rates, b, i, Carried<T>{at.v, turning, acceleration(T(), b, i, wrench), torque});
+  });
+}
+
+void combine(const Bodies& b, const double* y, double h, const double* weights, const double* const* rates,
+             std::size_t count, double* out) {
+  for (int c = 0; c < kRotation; ++c) {
+    for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+      using T = decltype(lane);
+      T sum = broadcast(T(), weights[0]) * get(T(), rates[0], b, c, i);
+      for (std::size_t s = 1; s < count; ++s) {
+        if (weights[s] != 0) sum = sum + broadcast(T(), weights[s]) * get(T(), rates[s], b, c, i);
+      }
+      if (y) sum = get(T(), y, b, c, i) + broadcast(T(), h) * sum;
+      store(out + static_cast<std::size_t>(c) * b.stride + i, sum);
+    });
+  }
+}
+
+template <class T>
+RIGOR_INLINE T length(V3<T> a) {
+  return square_root(dot(a, a));
+}
+
+double relative_size(const Bodies& b, const double* change, const double* y) {
+  double largest = 0;
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const T one = broadcast(T(), 1);
+    const Carried<T> d = get_carried(T(), change, b, i), at = get_carried(T(), y, b, i);
+    const Q4<T> q = normalised(at.q);
+    const T spin = length(times_inertia_in_world(b, kInverseInertia, i, q, at.L));
+    const T spin_change = length(times_inertia_in_world(b, kInverseInertia, i, q, d.L));
+    const T angle = broadcast(T(), 2) * square_root(squared_norm(d.q));
+    const T size =
+        length(d.x) / (one + length(at.x)) + length(d.v) / (one + length(at.v)) + spin_change / (one + spin) + angle;
+    double sizes[sizeof(T) / sizeof(double)];
+    store(sizes, size);
+    for (std::size_t k = 0; k < sizeof(T) / sizeof(double) && i + k < b.end; ++k) {
+      // A value that is not a number must not be lost in a comparison. Fixed bodies do not count.
+      if (get(double(), b.constants, b, kMoves, i + k) > 0 && !(sizes[k] <= largest)) largest = sizes[k];
+    }
+  });
+  return largest;
 }
