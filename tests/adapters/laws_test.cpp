@@ -5,6 +5,8 @@
 // each is magnified as a small change of the start is, and that is measured, not guessed: growth().
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "tests/adapters/seam_runs.h"
 #include "tests/scenes.h"
@@ -32,9 +34,9 @@ States end_of(const Run& run, const Scene& scene, int steps = kSteps) {
 double difference(const States& a, const States& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = std::max(
-        {largest, (a[i].position - b[i].position).norm(), angle_between(a[i].orientation, b[i].orientation),
-         (a[i].velocity - b[i].velocity).norm(), (a[i].angular_velocity - b[i].angular_velocity).norm()});
+    largest =
+        std::max({largest, (a[i].position - b[i].position).norm(), angle_between(a[i].orientation, b[i].orientation),
+                  (a[i].velocity - b[i].velocity).norm(), (a[i].angular_velocity - b[i].angular_velocity).norm()});
   }
   return largest;
 }
@@ -62,10 +64,10 @@ double growth(const Run& run, const Scene& scene) {
   return std::max(1.0, difference(end_of(run, scene), end_of(run, nudged)) / kNudge);
 }
 
-// `steps` times some roundings of the numbers' size, each magnified as much as the first can be.
+// A rounding of the numbers' size for each step, magnified as much as the first can be: twice what the longest of the
+// steps, of fifteen stages, was seen to need, and ten times what the others were.
 double tolerance(const Run& run, const Scene& scene, double size, int steps = kSteps) {
-  constexpr double kRoundings = 16;  // a step's: a product of rotations alone has six
-  return kRoundings * std::numeric_limits<double>::epsilon() * size * steps * growth(run, scene);
+  return std::numeric_limits<double>::epsilon() * size * steps * growth(run, scene);
 }
 
 struct Named {
@@ -83,7 +85,6 @@ std::vector<Named> smooth_scenes() {
 
 const Mat3 kTurn = rotation_by({0.7, -1.1, 0.4}).toRotationMatrix();
 const Vec3 kShift = {30, -70, 50};  // m
-constexpr double kScale = 37.3;
 
 Scene turned(Scene scene) {
   const Quat turn(kTurn);
@@ -124,12 +125,14 @@ States shifted_back(States states) {
   return states;
 }
 
-Scene heavier(Scene scene) {
-  for (Body& body : scene.bodies) body.mass *= kScale, body.inertia *= kScale;
-  for (Spring& spring : scene.springs) spring.stiffness *= kScale, spring.damping *= kScale;
-  for (TimedForce& force : scene.forces) force.force *= kScale, force.torque *= kScale;
+Scene scaled(Scene scene, double scale) {
+  for (Body& body : scene.bodies) body.mass *= scale, body.inertia *= scale;
+  for (Spring& spring : scene.springs) spring.stiffness *= scale, spring.damping *= scale;
+  for (TimedForce& force : scene.forces) force.force *= scale, force.torque *= scale;
   return scene;
 }
+Scene heavier(Scene scene) { return scaled(std::move(scene), 3.1e6); }
+Scene lighter(Scene scene) { return scaled(std::move(scene), 3.1e-6); }
 
 // The bodies, springs and forces from last to first.
 Scene reordered(Scene scene) {
@@ -168,10 +171,23 @@ struct Law {
   States (*back)(States);
 };
 
+// What an engine is known to break, and why. Each is looked at too: a row that no longer holds is to go.
+struct Exception {
+  std::string law, engine, because;
+};
+const std::vector<Exception> kExceptions = {
+    {"smaller masses", "bullet", "leaves out the gyroscopic torque of small moments of inertia (bullet_twin.cpp)"},
+    {"smaller masses", "core:bullet-twin", "does as Bullet does"},
+};
+
+bool is_exception(const std::string& law, const Run& run) {
+  return std::any_of(kExceptions.begin(), kExceptions.end(),
+                     [&](const Exception& e) { return e.law == law && run.name().starts_with(e.engine); });
+}
+
 const std::vector<Law> kLaws = {
-    {"other order of bodies", reordered, reordered_back},
-    {"scaled mass", heavier, as_they_are},
-    {"shifted origin", shifted, shifted_back},
+    {"larger masses", heavier, as_they_are},   {"other order of bodies", reordered, reordered_back},
+    {"shifted origin", shifted, shifted_back}, {"smaller masses", lighter, as_they_are},
     {"turned frame", turned, turned_back},
 };
 
@@ -180,6 +196,7 @@ const std::vector<Law> kLaws = {
 BOOST_AUTO_TEST_SUITE(adapters_laws)
 
 BOOST_AUTO_TEST_CASE(the_same_scene_told_in_another_way_moves_in_the_same_way) {
+  std::set<std::string> broken;  // law and engine
   for (const auto& [scene_name, scene] : smooth_scenes()) {
     for (const Law& law : kLaws) {
       BOOST_TEST_CONTEXT(law.name << ", " << scene_name) {
@@ -187,12 +204,17 @@ BOOST_AUTO_TEST_CASE(the_same_scene_told_in_another_way_moves_in_the_same_way) {
         for_each_run(scene, kStep, [&](const Run& run) {
           const States here = end_of(run, scene), there = end_of(run, other);
           const double size = std::max(size_of(here), size_of(there));
-          const double d = difference(here, law.back(there)), tol = tolerance(run, scene, size);
-          BOOST_TEST_MESSAGE(law.name << "; " << scene_name << "; " << run.name() << "; " << d << " of " << tol << " growth " << growth(run, scene));
-          BOOST_TEST(d <= tol);
+          const bool holds = difference(here, law.back(there)) <= tolerance(run, scene, size);
+          if (!holds) broken.insert(law.name + " " + run.name());
+          BOOST_TEST((holds || is_exception(law.name, run)), difference(here, law.back(there)) << " apart");
         });
       }
     }
+  }
+  for (const Exception& e : kExceptions) {
+    const auto first = broken.lower_bound(e.law + " " + e.engine);
+    BOOST_TEST((first != broken.end() && first->starts_with(e.law + " " + e.engine)),
+               e.law << " is no longer broken by " << e.engine);
   }
 }
 
@@ -208,9 +230,7 @@ BOOST_AUTO_TEST_CASE(a_symmetric_method_finds_its_way_back) {
         const States back = end_of(run, reversed_from(scene, there));
         const States start = states_of(state_of(*run.load(scene)));
         const States expected = states_of(state_of(*run.load(reversed_from(scene, start))));
-        const double d = difference(back, expected), tol = tolerance(run, scene, size_of(there), 2 * kSteps);
-        BOOST_TEST_MESSAGE("reversed; " << scene_name << "; " << run.name() << "; " << d << " of " << tol);
-        BOOST_TEST(d <= tol);
+        BOOST_TEST(difference(back, expected) <= tolerance(run, scene, size_of(there), 2 * kSteps));
         BOOST_TEST(difference(there, start) > 0.1);  // it has been somewhere
         ++checked;
       });
