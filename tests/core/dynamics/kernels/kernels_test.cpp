@@ -34,8 +34,8 @@ Scene crowd(int count, bool full_inertia, bool with_fixed) {
     Body b = test::body("body " + std::to_string(i), 1 + 0.3 * i, {0.1 + 0.02 * i, 0.25, 0.3}, {1.1 * i, 0.2 * i, 0});
     if (full_inertia) b.inertia(0, 2) = b.inertia(2, 0) = 0.03, b.inertia(0, 1) = b.inertia(1, 0) = -0.02;
     b.orientation = Quat(1, 0.1 * i, -0.3, 0.2).normalized();
-    b.velocity = {0.1 * i, -0.2, 0.3};
-    b.angular_velocity = {1.5 - 0.1 * i, 0.7, -0.4 * i};
+    b.velocity = {0.1 * (i % 9), -0.2, 0.3};
+    b.angular_velocity = {1.5 - 0.1 * (i % 11), 0.7, -0.4 * (i % 7)};
     b.fixed = with_fixed && i % 5 == 3;
     scene.bodies.push_back(b);
   }
