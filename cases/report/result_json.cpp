@@ -163,11 +163,11 @@ std::string text_of(const Json& value, int indent) {
 }
 
 std::string message_of_truth(const TruthFacts& facts) {
-  return text_of({{"truth", {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy}}}, -1);
+  return text_of({{"truth", {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy, facts.playback}}}, -1);
 }
 
 std::string message_of_cell(std::size_t index, const Cell& cell, const Scene& scene) {
-  return text_of({{"cell", index}, {"result", json_of(cell, scene)}}, -1);
+  return text_of({{"cell", index}, {"result", json_of(cell, scene)}, {"playback", cell.playback}}, -1);
 }
 
 std::string message_of_stable_step(std::size_t run, const StableStepResult& result) {
@@ -193,7 +193,7 @@ bool apply_message(CaseResult& result, const std::string& message) {
   const Json json = Json::parse(message);
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
-    result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2))};
+    result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2)), facts.at(3).get<std::string>()};
     return false;
   }
   if (json.contains("spreads")) {
@@ -201,7 +201,9 @@ bool apply_message(CaseResult& result, const std::string& message) {
     return false;
   }
   if (json.contains("cell")) {
-    fill_in(result.cells.at(json.at("cell").get<std::size_t>()), json.at("result"), result.definition.scene);
+    Cell& cell = result.cells.at(json.at("cell").get<std::size_t>());
+    fill_in(cell, json.at("result"), result.definition.scene);
+    cell.playback = json.at("playback").get<std::string>();
   } else {
     fill_in(result.stable_steps.at(json.at("stable_step").get<std::size_t>()), json.at("result"));
   }

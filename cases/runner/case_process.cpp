@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "cases/report/html/playback.h"
 #include "cases/report/result_json.h"
 #include "cases/report/trajectory_csv.h"
 #include "cases/runner/simulate.h"
@@ -73,12 +74,15 @@ bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
                      [&](const Gate& gate) { return metrics.contains(gate.metric); });
 }
 
-std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options) {
+// Their courses over time come out apart: no result keeps them.
+std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options,
+                                            std::vector<NamedCourse>& courses) {
   std::map<std::string, MetricValue> values;
   for (const MetricRow& row : metrics()) {
     const bool is_wanted = options.is_thorough || !row.is_costly || has_gate_on(definition, {row.name});
-    const MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
+    MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
     values[row.name] = condensed(found, run.trajectory);
+    if (found.measurement) courses.push_back({row.name, std::move(found.measurement->series)});
   }
   return values;
 }
@@ -159,8 +163,10 @@ class CaseJobs {
     cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const JudgedCell judged =
-                           run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, energy_, options_);
+                       const std::size_t budget =
+                           options_.folder.empty() ? 0 : playback_budget(grid_, planned_, &cell.dt);
+                       const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
+                                                          energy_, options_, budget);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
                        channel.send(packed(judged.path));
                      },
@@ -190,7 +196,8 @@ class CaseJobs {
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, double largest_kinetic_energy, const GridOptions& options) {
+                    const Truth* truth, double largest_kinetic_energy, const GridOptions& options,
+                    std::size_t playback_budget) {
   const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
@@ -211,7 +218,9 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
   judged.duration = definition.duration;
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
-  cell.metrics = measured(judged, definition, options);
+  std::vector<NamedCourse> courses;
+  cell.metrics = measured(judged, definition, options, courses);
+  if (playback_budget > 0) cell.playback = packed_run(judged, courses, largest_kinetic_energy, playback_budget);
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   if (!options.folder.empty()) {
@@ -226,7 +235,11 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const Case& definition = planned.definition;
   const double seconds = options.stable_steps ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
-  const TruthFacts facts = facts_of(definition, truth.get());
+  TruthFacts facts = facts_of(definition, truth.get());
+  if (truth && !options.folder.empty()) {
+    facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy,
+                                  playback_budget(grid, planned, nullptr));
+  }
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy);
   channel.send(message_of_truth(facts));  // from here on each job has a limit of its own
   jobs.run(channel);
