@@ -4,6 +4,7 @@ namespace rigor {
 
 // One declaration and one row a metric, alphabetical; each is defined in the file of its name.
 MetricRow angular_momentum_drift();
+MetricRow angular_velocity_error();
 MetricRow cost();
 MetricRow energy_drift();
 MetricRow energy_drift_synchronised();
@@ -16,10 +17,14 @@ MetricRow survival();
 MetricRow tube();
 MetricRow unexplained_error();
 MetricRow unexplained_rotation();
+MetricRow unexplained_spin();
+MetricRow unexplained_velocity();
+MetricRow velocity_error();
 
 const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
       angular_momentum_drift(),
+      angular_velocity_error(),
       cost(),
       energy_drift(),
       energy_drift_synchronised(),
@@ -32,6 +37,9 @@ const std::vector<MetricRow>& metrics() {
       tube(),
       unexplained_error(),
       unexplained_rotation(),
+      unexplained_spin(),
+      unexplained_velocity(),
+      velocity_error(),
   };
   return table;
 }

@@ -66,6 +66,9 @@ Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
   return cell;
 }
 
+const std::set<std::string> kOfTwins = {"unexplained_error", "unexplained_rotation", "unexplained_spin",
+                                        "unexplained_velocity"};
+
 bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
   return std::any_of(definition.gates.begin(), definition.gates.end(),
                      [&](const Gate& gate) { return metrics.contains(gate.metric); });
@@ -207,8 +210,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   std::optional<TruthSamples> samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
   std::optional<RunName> twin_name;
-  if (options.is_thorough || has_gate_on(definition, {"unexplained_error", "unexplained_rotation"}))
-    twin_name = twin_of(engines, run_name, scene);
+  if (options.is_thorough || has_gate_on(definition, kOfTwins)) twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;
   if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
   JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,

@@ -66,7 +66,7 @@ struct Cell {
   double cpu_seconds = 0;
   double wall_seconds = 0;  // of the whole cell: simulated, judged and written
   std::string trajectory;   // file name in trajectories/; empty if there is none
-  std::string playback;    // its thinned motion and courses, see cases/report/html/playback.h; may be empty
+  std::string playback;     // its thinned motion and courses, see cases/report/html/playback.h; may be empty
 };
 
 // The largest stable dt of a case and engine.

@@ -166,7 +166,7 @@ std::vector<Fault> of_bodies() {
       {"mass off by 0.1 %", "springs/oscillator", kPlace, each_body([](Body& b) { b.mass *= 1.001; })},
       {"mass ratio ignored", "springs/mass-ratio", kPlace, equal_masses},
       {"inertia off by 0.1 %", "forces/principal-torque", kTurn, each_body([](Body& b) { b.inertia *= 1.001; })},
-      {"inertia in the wrong frame", "tops/axisymmetric-body", kTurn + kMomentum, each_body([](Body& b) {
+      {"inertia in the wrong frame", "tops/off-diagonal-inertia", kTurn + kMomentum, each_body([](Body& b) {
          const Mat3 R = matrix_of(b.orientation);
          b.inertia = (R.transpose() * b.inertia * R).eval();
        })},
@@ -201,7 +201,7 @@ std::vector<Fault> of_loads() {
       {"spring rest length off by 1 mm", "springs/oscillator", kPlace,
        each_spring([](Spring& s) { s.rest_length += 1e-3; })},
       {"spring rest length left out", "springs/two-bodies", kPlace, each_spring([](Spring& s) { s.rest_length = 0; })},
-      {"spring slack when short", "springs/oscillator", kPlace, {}, slacken_when_short},
+      {"spring slack when short", "springs/mass-ratio", kPlace, {}, slacken_when_short},
       {"torque arm dropped", "springs/fixed-spring", kTurn + "|" + kPlace,
        each_spring([](Spring& s) { s.point_b.setZero(); })},
       {"torque arm reversed", "springs/fixed-spring", kTurn + "|" + kPlace,
@@ -228,8 +228,8 @@ std::vector<Fault> of_loads() {
       {"force never cleared", "forces/switches-inside-steps", kPlace,
        each_force([](TimedForce& f) { f.until = std::numeric_limits<double>::infinity(); })},
       {"force applied one step late", "forces/switches-inside-steps", kPlace, {}, forces_a_step_late},
-      {"force taken in the body frame", "forces/resonance", kPlace, {}, forces_in_body_frame},
-      {"force's arm dropped", "forces/torqued-top", kTurn, each_force([](TimedForce& f) { f.point.setZero(); })},
+      {"force taken in the body frame", "forces/switches-inside-steps", kPlace, {}, forces_in_body_frame},
+      {"force's arm dropped", "forces/compass-needle", kTurn, each_force([](TimedForce& f) { f.point.setZero(); })},
       {"torque left out", "forces/principal-torque", kTurn, each_force([](TimedForce& f) { f.torque.setZero(); })},
       {"torque taken in the body frame", "forces/torqued-top", kTurn, {}, torques_in_body_frame},
       {"torque reversed", "forces/principal-torque", kTurn, each_force([](TimedForce& f) { f.torque *= -1; })},
@@ -283,7 +283,7 @@ std::vector<Fault> of_steps() {
        [](Moment& m) {
          if (m.scene.bodies[0].velocity.norm() < 0.1) m.scene.gravity.setZero();
        }},
-      {"orientation that creeps", "ballistic/free-fall", kTurn, {}, each_moving([](Body& b, double dt) {
+      {"orientation that creeps", "ballistic/projectile", kTurn, {}, each_moving([](Body& b, double dt) {
          b.orientation = rotation_by(Vec3(1e-4 * dt, 0, 0)) * b.orientation;
        })},
       {"positions kept to a grid of 0.1 mm", "springs/oscillator", kPlace, {}, each_moving([](Body& b, double) {
@@ -306,11 +306,12 @@ std::vector<Fault> of_reading() {
               [](BodyState& s) { s.orientation = shifted_components(s.orientation); }),
       on_read("conjugate rotation on reading", "ballistic/projectile", kTurn,
               [](BodyState& s) { s.orientation = s.orientation.conjugate(); }),
-      on_read("angular velocity read in the body frame", "tops/asymmetric-top", "angular_momentum_drift",
+      on_read("angular velocity read in the body frame", "ballistic/projectile",
+              "angular_velocity_error|unexplained_spin",
               [](BodyState& s) { s.angular_velocity = s.orientation.conjugate() * s.angular_velocity; }),
-      on_read("angular velocity reversed on reading", "tops/asymmetric-top", "angular_momentum_drift",
+      on_read("angular velocity reversed on reading", "ballistic/projectile", "angular_velocity_error|unexplained_spin",
               [](BodyState& s) { s.angular_velocity *= -1; }),
-      on_read("velocity off by 1 % on reading", "ballistic/projectile", "energy_drift|linear_momentum_drift",
+      on_read("velocity off by 1 % on reading", "ballistic/projectile", "velocity_error|unexplained_velocity",
               [](BodyState& s) { s.velocity *= 1.01; }),
       on_read("unnormalised quaternion", "ballistic/projectile", "orthonormality_error",
               [](BodyState& s) { s.orientation.coeffs() *= 1.0001; }),

@@ -4,6 +4,7 @@
 #include "tests/faults/faults.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cstdlib>
 #include <regex>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "cases/gates/quick.h"
 #include "cases/runner/grid.h"
 #include "cases/suite.h"
+#include "core/error.h"
 
 using namespace rigor;
 using rigor::test::BrokenEngine;
@@ -62,12 +64,13 @@ std::vector<std::pair<std::string, GateResult>> failures(const std::vector<Case>
   const auto named = runs_of(engine, runs_of_gates(cases, default_runs(infos), infos));
   if (fault.step) std::erase_if(runs, remembers);
   Results grid = plan_grid(cases, runs, table, {false, true}, named);
-  run_grid(grid, table, {1, 60, "", false, false}, [](std::size_t, std::size_t) {});
+  run_grid(grid, table, {2, 60, "", false, false}, [](std::size_t, std::size_t) {});
   std::vector<std::pair<std::string, GateResult>> found;
   for (CaseResult& result : grid.cases) {
     check_gates(result, grid);
     for (const GateResult& answer : result.gates) {
-      if (answer.answer == GateAnswer::failed && !answer.engine.empty()) found.emplace_back(result.definition.gates[answer.gate].metric, answer);
+      if (answer.answer == GateAnswer::failed && !answer.engine.empty())
+        found.emplace_back(result.definition.gates[answer.gate].metric, answer);
     }
   }
   return found;
@@ -77,12 +80,19 @@ Case case_called(const std::string& id, const std::string& engine) {
   return of_engine(select_cases({id}, default_suite_dir()).front(), engine);
 }
 
-// Empty if no gate finds the fault; else the message of the first that points at it.
+// Empty if no gate finds the fault; else the message of the first that points at it. The quick gates are asked first.
 std::string finding(const Fault& fault, const std::string& engine) {
   const Case whole = case_called(fault.shown_by, engine);
   const std::regex pointing(fault.metrics);
-  for (const auto& [metric, answer] : failures({whole}, engine, fault)) {
-    if (std::regex_match(metric, pointing)) return answer.text;
+  std::vector<Case> parts = {whole};
+  try {
+    parts.insert(parts.begin(), quick_selection({whole}, infos_of(engines())).front());
+  } catch (const InputError&) {  // it has none
+  }
+  for (const Case& part : parts) {
+    for (const auto& [metric, answer] : failures({part}, engine, fault)) {
+      if (std::regex_match(metric, pointing)) return answer.text;
+    }
   }
   return "";
 }
@@ -123,7 +133,9 @@ BOOST_AUTO_TEST_CASE(an_engine_that_is_only_wrapped_trips_no_gate) {
 
 BOOST_AUTO_TEST_CASE(every_fault_is_found_by_a_gate_that_points_at_it) {
   std::size_t found = 0, all = 0;
+  const char* only = std::getenv("RIGOR_FAULT");  // a part of a name, to look at one of them
   for (const Fault& fault : faults()) {
+    if (only && fault.name.find(only) == std::string::npos) continue;
     for (const std::string engine : kEngines) {
       const std::string text = finding(fault, engine);
       ++all, found += !text.empty();

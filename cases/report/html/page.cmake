@@ -1,6 +1,7 @@
 # Builds the page of report.html into rigor_cases. npm installs what package-lock.json names into the build tree, once;
 # esbuild bundles it with page/src; the outcome is a C++ source. Nothing of it is needed when Rigor runs.
-target_compile_definitions(rigor_cases PRIVATE RIGOR_HTML_REPORT=$<BOOL:${RIGOR_HTML_REPORT}>)
+set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/../reports.cpp PROPERTIES
+  COMPILE_DEFINITIONS RIGOR_HTML_REPORT=$<BOOL:${RIGOR_HTML_REPORT}>)
 set(page ${CMAKE_CURRENT_LIST_DIR}/page)
 set(page_build ${CMAKE_BINARY_DIR}/page)
 file(MAKE_DIRECTORY ${page_build})
