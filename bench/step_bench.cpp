@@ -30,7 +30,7 @@ double checksum(const Engine& engine, const Settings& settings, const Scene& sce
 void time_steps(benchmark::State& state, const Engine& engine, const Settings& settings, const bench::SceneRow& row,
                 int count) {
   const Scene scene = row.make(count);
-  const std::string obstacle = why_unsupported(engine.info(), scene, kStep);
+  const std::string obstacle = why_unsupported(engine.info(), settings, scene, kStep);
   if (!obstacle.empty()) {
     state.SkipWithError(obstacle.c_str());
     return;
