@@ -7,23 +7,35 @@ MetricRow angular_momentum_drift();
 MetricRow cost();
 MetricRow energy_drift();
 MetricRow energy_drift_synchronised();
+MetricRow friction_anisotropy();
 MetricRow linear_momentum_drift();
 MetricRow orientation_error();
 MetricRow orthonormality_error();
+MetricRow penetration();
 MetricRow phase_error();
 MetricRow position_error();
+MetricRow stop_distance_error();
 MetricRow tube();
 MetricRow unexplained_error();
 MetricRow unexplained_rotation();
 
 const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
-      angular_momentum_drift(), cost(),
-      energy_drift(),           energy_drift_synchronised(),
-      linear_momentum_drift(),  orientation_error(),
-      orthonormality_error(),   phase_error(),
-      position_error(),         tube(),
-      unexplained_error(),      unexplained_rotation(),
+      angular_momentum_drift(),
+      cost(),
+      energy_drift(),
+      energy_drift_synchronised(),
+      friction_anisotropy(),
+      linear_momentum_drift(),
+      orientation_error(),
+      orthonormality_error(),
+      penetration(),
+      phase_error(),
+      position_error(),
+      stop_distance_error(),
+      tube(),
+      unexplained_error(),
+      unexplained_rotation(),
   };
   return table;
 }
