@@ -53,19 +53,6 @@ std::vector<double> truths_energies(const JudgedRun& run, std::size_t count) {
   return energies;
 }
 
-double scale_of(const JudgedRun& run) {
-  if (run.truth && run.truth->largest_kinetic_energy > 0) return run.truth->largest_kinetic_energy;
-  const auto& samples = run.trajectory.samples;
-  const double kinetic = kinetic_energy(run.scene, samples.front().bodies.columns());
-  if (kinetic > 0) return kinetic;
-  const double start = potential_energy(run.scene, samples.front().bodies.columns());
-  double lowest = start;
-  for (const Sample& sample : samples) {
-    lowest = std::min(lowest, potential_energy(run.scene, sample.bodies.columns()));
-  }
-  return lowest < start ? start - lowest : 1;
-}
-
 bool stays(const std::vector<double>& energies, double scale) {
   constexpr double kRounding = 1e-9;  // of the energy scale: far above roundings, far below any real loss
   return !energies.empty() && std::all_of(energies.begin(), energies.end(), [&](double e) {
@@ -81,13 +68,26 @@ std::vector<double> lowest_so_far(const std::vector<double>& found) {
 
 }  // namespace
 
+double energy_scale(const JudgedRun& run) {
+  if (run.truth && run.truth->largest_kinetic_energy > 0) return run.truth->largest_kinetic_energy;
+  const auto& samples = run.trajectory.samples;
+  const double kinetic = kinetic_energy(run.scene, samples.front().bodies.columns());
+  if (kinetic > 0) return kinetic;
+  const double start = potential_energy(run.scene, samples.front().bodies.columns());
+  double lowest = start;
+  for (const Sample& sample : samples) {
+    lowest = std::min(lowest, potential_energy(run.scene, sample.bodies.columns()));
+  }
+  return lowest < start ? start - lowest : 1;
+}
+
 EnergyCourse energy_course(const JudgedRun& run, double lag) {
   EnergyCourse course;
   if (run.trajectory.samples.empty()) {
     course.not_applicable = "the run has no finite sample";
     return course;
   }
-  course.scale = scale_of(run);
+  course.scale = energy_scale(run);
   course.found = energies(run, lag);
   const Exchange exchange = exchange_of(run.scene);
   const auto truth = truths_energies(run, samples_within(run, kTruthNeededPosition));

@@ -4,16 +4,21 @@ namespace rigor {
 
 // One declaration and one row a metric, alphabetical; each is defined in the file of its name.
 MetricRow angular_momentum_drift();
+MetricRow collapse_time();
 MetricRow cost();
+MetricRow creep();
 MetricRow energy_drift();
 MetricRow energy_drift_synchronised();
+MetricRow energy_gain();
 MetricRow friction_anisotropy();
+MetricRow impact_time_error();
 MetricRow linear_momentum_drift();
 MetricRow orientation_error();
 MetricRow orthonormality_error();
 MetricRow penetration();
 MetricRow phase_error();
 MetricRow position_error();
+MetricRow restitution_error();
 MetricRow stop_distance_error();
 MetricRow tube();
 MetricRow unexplained_error();
@@ -22,16 +27,21 @@ MetricRow unexplained_rotation();
 const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
       angular_momentum_drift(),
+      collapse_time(),
       cost(),
+      creep(),
       energy_drift(),
       energy_drift_synchronised(),
+      energy_gain(),
       friction_anisotropy(),
+      impact_time_error(),
       linear_momentum_drift(),
       orientation_error(),
       orthonormality_error(),
       penetration(),
       phase_error(),
       position_error(),
+      restitution_error(),
       stop_distance_error(),
       tube(),
       unexplained_error(),
