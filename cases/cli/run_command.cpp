@@ -30,13 +30,17 @@ std::vector<RunName> runs_asked_for(const CommandLine& line) {
   return runs;
 }
 
+// A gate wants what its gates judge, and no more than that unless engines or steps are named.
+bool is_gate(const CommandLine& line) { return line.command == "gate"; }
+
 Results planned(const CommandLine& line) {
   std::vector<Case> cases = select_cases(line.words, line.suite_dir);
   for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
   const std::vector<RunName> runs = runs_asked_for(line);
   // Who names engines wants these and no others.
   const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, infos_of(engines())) : std::vector<RunName>();
-  return plan_grid(cases, runs, engines(), true, of_gates);
+  const Scope scope{!is_gate(line), is_gate(line) && line.engines.empty() && line.dt.empty()};
+  return plan_grid(cases, runs, engines(), scope, of_gates);
 }
 
 Results simulated_and_written(const CommandLine& line) {
@@ -46,7 +50,7 @@ Results simulated_and_written(const CommandLine& line) {
   OutputFolder folder(line.out, file_names);
   {
     Progress progress;
-    run_grid(grid, engines(), {line.jobs, line.limit, folder.trajectories()},
+    run_grid(grid, engines(), {line.jobs, line.limit, folder.trajectories(), !is_gate(line), !is_gate(line)},
              [&](std::size_t done, std::size_t all) { progress.show(done, all); });
   }
   for (CaseResult& result : grid.cases) check_gates(result, grid);

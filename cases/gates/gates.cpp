@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/gates/selection.h"
 #include "cases/metrics/observed_order.h"
 
 namespace rigor {
 namespace {
-
-bool is_same_run(const RunName& a, const RunName& b) {
-  return a.engine == b.engine && a.settings.method == b.settings.method && a.settings.options == b.settings.options &&
-         a.settings.track == b.settings.track;
-}
 
 std::string unit_of(const std::string& metric) {
   const auto of_row = [](const auto& row) { return row.unit == "1" ? "" : " " + row.unit; };
@@ -39,6 +35,7 @@ class GateCheck {
         grid_(grid),
         index_(index),
         gate_(result.definition.gates[index]),
+        selection_(gate_, grid.engines),
         unit_(unit_of(gate_.metric)) {}
 
   void check() {
@@ -61,17 +58,8 @@ class GateCheck {
   }
 
  private:
-  bool selects(std::size_t run) const {
-    return gate_.engines.empty() ||
-           std::any_of(gate_.engines.begin(), gate_.engines.end(), [&](const std::string& name) {
-             return is_same_run(parse_run_name(name, grid_.engines), grid_.runs[run]);
-           });
-  }
-  bool selects(const StepSize& dt) const {
-    // "1/30" and "0.0333333333333333" are the same step.
-    const auto is_it = [&](const StepSize& own) { return std::abs(own.seconds - dt.seconds) <= 1e-9 * own.seconds; };
-    return gate_.dt.empty() || std::any_of(gate_.dt.begin(), gate_.dt.end(), is_it);
-  }
+  bool selects(std::size_t run) const { return selection_.takes(grid_.runs[run]); }
+  bool selects(const StepSize& dt) const { return selection_.takes(dt); }
   bool selects(const Cell& cell) const {
     return cell.status != Status::unsupported && selects(cell.run) && selects(cell.dt);
   }
@@ -212,6 +200,7 @@ class GateCheck {
   const Results& grid_;
   std::size_t index_;
   const Gate& gate_;
+  GateSelection selection_;
   std::string unit_;
 };
 

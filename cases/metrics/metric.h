@@ -68,6 +68,7 @@ struct MetricRow {
   std::string summary;  // one line
   MetricResult (*measure)(const JudgedRun& run);
   bool higher_is_better = false;
+  bool is_costly = false;  // many times a simulation's own work: a gate that does not name it does without
 };
 
 const std::vector<MetricRow>& metrics();  // alphabetical

@@ -150,7 +150,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow phase_error() {
-  return {"phase_error", "s", "the shift in time that fits the run best: it lags (+) or leads (-) the truth", measure};
+  return {"phase_error", "s",   "the shift in time that fits the run best: it lags (+) or leads (-) the truth",
+          measure,       false, true};
 }
 
 }  // namespace rigor

@@ -104,8 +104,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow tube() {
-  return {"tube", "1", "share of the time within 1 % of the truth's extent, within one dt; higher is better", measure,
-          true};
+  return {"tube",  "1",  "share of the time within 1 % of the truth's extent, within one dt; higher is better",
+          measure, true, true};
 }
 
 }  // namespace rigor

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "cases/report/result_json.h"
 #include "cases/report/trajectory_csv.h"
@@ -60,6 +61,21 @@ Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
                                                : Status::crashed;
   cell.trajectory.clear();
   return cell;
+}
+
+bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
+  return std::any_of(definition.gates.begin(), definition.gates.end(),
+                     [&](const Gate& gate) { return metrics.contains(gate.metric); });
+}
+
+std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options) {
+  std::map<std::string, MetricValue> values;
+  for (const MetricRow& row : metrics()) {
+    const bool is_wanted = options.is_thorough || !row.is_costly || has_gate_on(definition, {row.name});
+    const MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
+    values[row.name] = condensed(found, run.trajectory);
+  }
+  return values;
 }
 
 // How long a step has to hold to be called stable [s]: even where the run is short.
@@ -138,8 +154,8 @@ class CaseJobs {
     cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
-                                                          energy_, options_.folder);
+                       const JudgedCell judged =
+                           run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, energy_, options_);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
                        channel.send(packed(judged.path));
                      },
@@ -169,26 +185,30 @@ class CaseJobs {
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, double largest_kinetic_energy, const std::string& folder) {
+                    const Truth* truth, double largest_kinetic_energy, const GridOptions& options) {
   Cell cell = planned;
   const Scene& scene = definition.scene;
   const Engine& engine = find_engine(engines, run_name.engine);
   const double velocity_lag = method_of(engine.info(), run_name.settings).velocity_lag;
-  const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration);
-  cell.settings = run.settings, cell.cpu_seconds = timed_again(engine, run_name.settings, scene, run);
+  const bool is_timed = options.is_thorough || has_gate_on(definition, {"cost"});
+  const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed);
+  cell.settings = run.settings;
+  cell.cpu_seconds = is_timed ? timed_again(engine, run_name.settings, scene, run) : run.cpu_seconds;
   std::optional<TruthSamples> samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
-  const std::optional<RunName> twin_name = twin_of(engines, run_name, scene);
+  std::optional<RunName> twin_name;
+  if (options.is_thorough || has_gate_on(definition, {"unexplained_error", "unexplained_rotation"}))
+    twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;
   if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
   const JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
                          velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
   cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
-  for (const MetricRow& row : metrics()) cell.metrics[row.name] = condensed(row.measure(judged), run.trajectory);
-  if (twin) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
+  cell.metrics = measured(judged, definition, options);
+  if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
-  if (!folder.empty()) {
-    write_trajectory((std::filesystem::path(folder) / cell.trajectory).string(), scene, run.trajectory);
+  if (!options.folder.empty()) {
+    write_trajectory((std::filesystem::path(options.folder) / cell.trajectory).string(), scene, run.trajectory);
   }
   return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
 }

@@ -11,12 +11,12 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
               const Channel& channel);
 
 // Simulates and judges one cell: everything but its gates. `truth` may be null. Writes the trajectory below
-// options.folder if the cell has a name for it. The path is what the cell's spread from others is found by.
+// options.folder if that is named. The path is what the cell's spread from others is found by.
 struct JudgedCell {
   Cell cell;
   Path path;
 };
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, double largest_kinetic_energy, const std::string& folder);
+                    const Truth* truth, double largest_kinetic_energy, const GridOptions& options);
 
 }  // namespace rigor

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <set>
 
+#include "cases/gates/selection.h"
 #include "cases/report/result_json.h"
 #include "cases/runner/case_process.h"
 #include "cases/runner/process_pool.h"
@@ -53,23 +55,19 @@ void name_trajectories(Results& grid) {
   }
 }
 
-bool same_run(const RunName& a, const RunName& b) {
-  return a.engine == b.engine && a.settings.method == b.settings.method && a.settings.options == b.settings.options &&
-         a.settings.track == b.settings.track;
-}
-
 bool is_named_by_gates(const RunName& run, const Case& definition, const std::vector<EngineInfo>& engines) {
   return std::any_of(definition.gates.begin(), definition.gates.end(), [&](const Gate& gate) {
     return std::any_of(gate.engines.begin(), gate.engines.end(),
-                       [&](const std::string& name) { return same_run(parse_run_name(name, engines), run); });
+                       [&](const std::string& name) { return is_same_run(parse_run_name(name, engines), run); });
   });
 }
 
 // `asked_for`: so many of the grid's runs are for every case; each of the others for those whose gates name it.
 CaseResult plan_case(const Case& definition, const Results& grid, std::size_t asked_for, const EngineTable& engines,
-                     bool stable_steps) {
+                     const Scope& scope) {
   CaseResult result;
   result.definition = definition;
+  const bool only_judged = scope.only_judged && !definition.gates.empty();
   for (std::size_t run = 0; run < grid.runs.size(); ++run) {
     if (run >= asked_for && !is_named_by_gates(grid.runs[run], definition, grid.engines)) {
       result.stable_steps.push_back({Status::unsupported, "not asked for", {}});
@@ -78,6 +76,7 @@ CaseResult plan_case(const Case& definition, const Results& grid, std::size_t as
     const EngineInfo info = find_engine(engines, grid.runs[run].engine).info();
     double shortest = definition.duration;
     for (const StepSize& dt : definition.dt) {
+      if (only_judged && !is_judged(definition, grid.runs[run], dt, grid.engines)) continue;
       Cell cell;
       cell.run = run, cell.dt = dt;
       const std::string why = why_unsupported(info, definition.scene, dt.seconds);
@@ -87,7 +86,7 @@ CaseResult plan_case(const Case& definition, const Results& grid, std::size_t as
     }
     StableStepResult stable;
     const std::string why = why_unsupported(info, definition.scene, shortest);
-    if (!why.empty() || !stable_steps) {
+    if (!why.empty() || !scope.stable_steps) {
       stable.status = Status::unsupported, stable.reason = why.empty() ? "not asked for" : why;
     }
     result.stable_steps.push_back(stable);
@@ -102,6 +101,22 @@ std::size_t cells_to_run(const Results& grid) {
     for (const StableStepResult& stable : result.stable_steps) count += stable.status != Status::unsupported;
   }
   return count;
+}
+
+// The cases by falling count of body steps, so that no long one is left alone at the end.
+std::vector<std::size_t> longest_first(const Results& grid) {
+  std::vector<double> work;
+  for (const CaseResult& result : grid.cases) {
+    double steps = 0;
+    for (const Cell& cell : result.cells) {
+      if (cell.status != Status::unsupported) steps += result.definition.duration / cell.dt.seconds;
+    }
+    work.push_back(steps * static_cast<double>(result.definition.scene.bodies.size()));
+  }
+  std::vector<std::size_t> order(work.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return work[a] > work[b]; });
+  return order;
 }
 
 // Why the case's own process came to no good end: then no cell of it can be trusted that has not been heard of.
@@ -146,7 +161,7 @@ std::vector<RunName> runs_of_gates(const std::vector<Case>& cases, const std::ve
                                    const std::vector<EngineInfo>& engines) {
   std::vector<RunName> found;
   const auto is_in = [](const std::vector<RunName>& runs, const RunName& run) {
-    return std::any_of(runs.begin(), runs.end(), [&](const RunName& other) { return same_run(other, run); });
+    return std::any_of(runs.begin(), runs.end(), [&](const RunName& other) { return is_same_run(other, run); });
   };
   for (const Case& definition : cases) {
     for (const Gate& gate : definition.gates) {
@@ -160,14 +175,14 @@ std::vector<RunName> runs_of_gates(const std::vector<Case>& cases, const std::ve
 }
 
 Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& runs, const EngineTable& engines,
-                  bool stable_steps, const std::vector<RunName>& only_where_named) {
+                  const Scope& scope, const std::vector<RunName>& only_where_named) {
   Results grid;
   grid.runs = runs;
   const std::size_t asked_for = runs.size();
   grid.runs.insert(grid.runs.end(), only_where_named.begin(), only_where_named.end());
   grid.engines = infos_of(engines);
   for (const Case& definition : cases) {
-    grid.cases.push_back(plan_case(definition, grid, asked_for, engines, stable_steps));
+    grid.cases.push_back(plan_case(definition, grid, asked_for, engines, scope));
   }
   const bool is_empty =
       std::all_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& c) { return c.cells.empty(); });
@@ -181,17 +196,24 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   const auto start = std::chrono::steady_clock::now();
   const std::size_t all = cells_to_run(grid);
   std::size_t done = 0;
+  const std::vector<std::size_t> order = longest_first(grid);
+  const int at_once = std::min<int>(options.jobs, static_cast<int>(order.size()));
+  GridOptions of_case = options;
+  of_case.jobs = options.jobs / std::max(1, at_once);
   std::vector<Job> jobs;
-  for (const CaseResult& result : grid.cases) {
-    jobs.push_back({[&](const Channel& channel) { run_case(grid, result, engines, options, channel); }, options.limit});
+  for (const std::size_t index : order) {
+    jobs.push_back({[&grid, &engines, &of_case, index](const Channel& channel) {
+                      run_case(grid, grid.cases[index], engines, of_case, channel);
+                    },
+                    options.limit});
   }
-  const auto on_message = [&](std::size_t index, const std::string& message) {
-    if (apply_message(grid.cases[index], message)) on_progress(++done, all);
+  const auto on_message = [&](std::size_t job, const std::string& message) {
+    if (apply_message(grid.cases[order[job]], message)) on_progress(++done, all);
   };
-  const auto on_end = [&](std::size_t index, const JobEnd& end) {
-    note_case_end(grid.cases[index], end, options.limit);
+  const auto on_end = [&](std::size_t job, const JobEnd& end) {
+    note_case_end(grid.cases[order[job]], end, options.limit);
   };
-  run_jobs(jobs, 1, on_message, on_end);
+  run_jobs(jobs, at_once, on_message, on_end);
   grid.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

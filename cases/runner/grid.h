@@ -28,6 +28,13 @@ struct GridOptions {
   double limit = 60;         // s of wall time, for each cell, each stable step and each truth
   std::string folder;        // where the trajectories go; empty: nowhere
   bool stable_steps = true;  // find the largest stable dt as well
+  bool is_thorough = true;   // times each run and repeats it by its twin, also where no gate asks for it
+};
+
+// Which of all cells are in the grid.
+struct Scope {
+  bool stable_steps = true;  // the largest stable dt of each case and run as well
+  bool only_judged = false;  // only cells that a gate judges; of a case without gates, all
 };
 
 // The runs that gates of these cases name and that are not among `but`: an option of a method that only one case is
@@ -38,10 +45,11 @@ std::vector<RunName> runs_of_gates(const std::vector<Case>& cases, const std::ve
 // All cells, none of which has run; those an engine cannot run are `unsupported` already. `runs` are for every case,
 // `only_where_named` for those whose gates name them. Throws InputError if there are none.
 Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& runs, const EngineTable& engines,
-                  bool stable_steps, const std::vector<RunName>& only_where_named = {});
+                  const Scope& scope, const std::vector<RunName>& only_where_named = {});
 
 // Runs it and fills it in. One child process a case makes the truth and forks the case's cells, which inherit it; a
-// truth that hangs, throws or crashes so costs one case. `on_progress` is called as cells end.
+// truth that hangs, throws or crashes so costs one case. As many cases at once as there are jobs, the long ones first;
+// fewer cases share the jobs out. `on_progress` is called as cells end.
 void run_grid(Results& grid, const EngineTable& engines, const GridOptions& options,
               const std::function<void(std::size_t done, std::size_t all)>& on_progress);
 

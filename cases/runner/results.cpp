@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <iterator>
+#include <limits>
 
 namespace rigor {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rigor {
 namespace {
@@ -55,7 +56,7 @@ long steps_in(double duration, double dt) {
 }
 
 Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
-                    std::optional<long> steps_per_sample_told) {
+                    std::optional<long> steps_per_sample_told, bool is_timed) {
   const std::unique_ptr<World> world = engine.load(scene, settings);
   Simulation run;
   run.trajectory.dt = dt;
@@ -66,6 +67,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
   const long steps = steps_in(duration, dt),
              every = steps_per_sample_told.value_or(steps_per_sample(steps, now.bodies()));
   run.steps_per_sample = every;
+  if (!is_timed) run.cpu_seconds = std::numeric_limits<double>::quiet_NaN();
   for (long n = 0;; ++n) {
     if (const auto body = body_not_finite(now.bodies())) {
       run.not_finite = NotFinite{now.time, *body};
@@ -74,9 +76,9 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     if (n % every == 0 || n == steps) run.trajectory.samples.push_back({now.time, BodyTable(now.bodies())});
     if (n == steps) return run;
 
-    const double begin = thread_cpu_seconds();
+    const double begin = is_timed ? thread_cpu_seconds() : 0;
     world->step(dt);
-    run.cpu_seconds += std::max(0.0, thread_cpu_seconds() - begin - cost_of_reading_the_clock());
+    if (is_timed) run.cpu_seconds += std::max(0.0, thread_cpu_seconds() - begin - cost_of_reading_the_clock());
     world->read(now);
     if (run.complaint.empty()) {
       run.complaint = world->complaint();

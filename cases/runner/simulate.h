@@ -20,7 +20,7 @@ struct Simulation {
   std::optional<NotFinite> not_finite;
   std::string complaint;      // the first one of the world, with its time; empty if none
   double complaint_time = 0;  // s
-  double cpu_seconds = 0;     // of the steps alone, without recording
+  double cpu_seconds = 0;     // of the steps alone, without recording; not a number if nobody timed them
   long steps_per_sample = 1;
 };
 
@@ -30,7 +30,7 @@ long steps_in(double duration, double dt);
 // Every step is recorded, or every n-th where the whole would pass kLargestTrajectory bytes; or as told.
 inline constexpr double kLargestTrajectory = 512e6;
 Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
-                    std::optional<long> steps_per_sample = {});
+                    std::optional<long> steps_per_sample = {}, bool is_timed = true);
 
 // CPU seconds of the run's steps, for comparing engines. Steps of a few microseconds are run again without a pause,
 // from the start and as many as the run had, and the quickest of the repeats counts: reading the clock before and after

@@ -1,22 +1,20 @@
-// First by Fehlberg's Runge-Kutta pair of order 8(7) with body rates, in extended precision; beside it, for the error,
-// by Gragg-Bulirsch-Stoer extrapolation with angular momenta, at a looser tolerance (Hairer, Nørsett, Wanner, Solving
-// Ordinary Differential Equations I, sections II.5 and II.9). All go from one switch of a timed force to the next, so
-// that no step straddles a jump.
+// By Gragg's extrapolation (extrapolation.h) in extended precision: with body rates for the solution, and beside it,
+// for its error, with angular momenta, another order and another tolerance. Both go from one switch of a timed force to
+// the next, so that no step straddles a jump.
 //
 // Where that leaves more of an error than is wanted (near a separatrix, or in chaos, which magnify every rounding),
-// both solutions are found again in quadruple precision, by extrapolations of two orders, if that takes but a few
-// seconds. Its steps are long: between two of them Fehlberg's pair fills in the nodes.
+// solutions are found again in quadruple precision, if that takes but a few seconds. The steps are long: between
+// two of them Fehlberg's Runge-Kutta pair of order 8(7) fills in nodes, in double precision and afresh from each step's
+// end (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, sections II.5 and II.9).
 #include "cases/truth/reference_solver.h"
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <type_traits>
 
 #include "cases/truth/extrapolation.h"
 
@@ -28,12 +26,23 @@ namespace odeint = boost::numeric::odeint;
 using Extended = long double;
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 
-// Relative and absolute, per step: some ten and twenty roundings of a long double. Extrapolation magnifies roundings,
-// so that below that its steps would shrink without end.
-constexpr Extended kTolerance = 1e-18L, kSecondTolerance = 2e-18L;
-// Ten million roundings of a quadruple, more than K = 12 magnifies them.
-constexpr double kQuadTolerance = 1e-27, kSecondQuadTolerance = 2e-27;
-constexpr int kQuadColumns = 12, kSecondQuadColumns = 10;
+// `tolerance` is what an extrapolation allows a step, relative and absolute: the error of the order below its own, so
+// that its own is left with roundings. Its columns magnify these: with more of them, or less of a tolerance, steps
+// would shrink for what no step can mend. Here it is some four hundred roundings of a long double or more, and ten
+// million of a quadruple.
+struct Method {
+  Formulation form;
+  int columns;
+  double tolerance;
+};
+const std::vector<Method> kMethods = {
+    {kReferenceForm, 6, 4e-17}, {Formulation::momentum, 7, 2e-16}, {kReferenceForm, 7, 2e-16}};
+const std::vector<Method> kQuadMethods = {{kReferenceForm, 12, 1e-27}, {Formulation::momentum, 10, 2e-27}};
+constexpr double kFillTolerance = 1e-15;  // some five roundings of a double
+
+// Of the distance between the solutions: all err alike, by roundings that the motion magnifies, and one of the others
+// may for a while err as the first does.
+constexpr double kSafety = 3;
 
 constexpr double kWantedError = 1e-12;  // m and rad, at the end
 constexpr double kMostQuadWork = 1e6;   // changes of a body or spring, of some 5 µs each
@@ -41,19 +50,17 @@ constexpr double kFirstStep = 1e-4;     // s
 constexpr std::size_t kMostTries = 2'000'000;
 constexpr double kMostBytes = 512e6;  // of nodes
 
-// The accepted steps of one solution, rounded: a quadruple's to extended, to be filled in; an extended's to double.
-template <typename Real>
+// The accepted steps of one solution, rounded to double.
 struct Nodes {
-  using Rounded = std::conditional_t<std::is_same_v<Real, Quad>, Extended, double>;
-
   std::vector<Extended> times;  // s
-  std::vector<Rounded> states;  // `dimension` numbers each
+  std::vector<double> states;   // `dimension` numbers each
   std::size_t dimension = 0;
   bool complete = false;
 
-  void add(const Real& t, const std::vector<Real>& state) {
-    times.push_back(static_cast<Extended>(t));
-    for (const Real& number : state) states.push_back(static_cast<Rounded>(number));
+  template <typename Real>
+  void add(Extended t, const std::vector<Real>& state) {
+    times.push_back(t);
+    for (const Real& number : state) states.push_back(static_cast<double>(number));
   }
 };
 
@@ -77,8 +84,8 @@ bool finite(const std::vector<Real>& state) {
 
 // Steps from `begin` to `end`; false if it cannot get there.
 template <typename Real, typename Stepper, typename System>
-bool solve_interval(Stepper stepper, System& system, Real begin, Real end, std::vector<Real>& state, Nodes<Real>& nodes,
-                    std::size_t most_tries = kMostTries) {
+bool solve_interval(Stepper stepper, System& system, Real begin, Real end, std::vector<Real>& state, Nodes& nodes,
+                    std::size_t most_tries) {
   Real t = begin, h = std::min<Real>(kFirstStep, end - begin);
   for (std::size_t tries = 0; t < end; ++tries) {
     const bool is_last = h >= end - t;
@@ -88,16 +95,16 @@ bool solve_interval(Stepper stepper, System& system, Real begin, Real end, std::
     if (stepper.try_step(std::ref(system), state, t, h) == odeint::fail) continue;
     if (!finite(state)) return false;
     if (is_last) t = end;
-    nodes.add(t, state);
+    nodes.add(static_cast<Extended>(t), state);
   }
   return true;
 }
 
 template <typename Real, typename Stepper>
-Nodes<Real> solve(const EquationsOfMotion<Real>& motion, const Stepper& stepper, const std::vector<double>& switches,
-                  std::size_t most_tries = kMostTries) {
+Nodes solve(const EquationsOfMotion<Real>& motion, const Stepper& stepper, const std::vector<double>& switches,
+            std::size_t most_tries) {
   std::vector<Real> state = motion.start();
-  Nodes<Real> nodes;
+  Nodes nodes;
   nodes.dimension = state.size();
   nodes.add(0, state);
   for (std::size_t i = 0; i + 1 < switches.size(); ++i) {
@@ -110,31 +117,28 @@ Nodes<Real> solve(const EquationsOfMotion<Real>& motion, const Stepper& stepper,
   return nodes;
 }
 
-auto fehlberg() {
-  using State = std::vector<Extended>;
-  return odeint::make_controlled(kTolerance, kTolerance,
-                                 odeint::runge_kutta_fehlberg78<State, Extended, State, Extended>());
-}
-
-// Nodes of quadruple precision, with those of an extended solution from each to the next between them.
-Nodes<Extended> filled_in(const Nodes<Quad>& quad, const EquationsOfMotion<Extended>& motion) {
-  Nodes<Extended> nodes;
-  nodes.dimension = quad.dimension;
-  for (std::size_t i = 0; i < quad.times.size(); ++i) {
-    const auto first = quad.states.begin() + i * quad.dimension;
-    std::vector<Extended> state(first, first + quad.dimension);
-    const Extended t = quad.times[i];
-    nodes.add(t, state);
-    if (i + 1 == quad.times.size()) break;
-    const Extended next = quad.times[i + 1];
-    auto system = motion.during(static_cast<double>((t + next) / 2));
-    if (!solve_interval<Extended>(fehlberg(), system, t, next, state, nodes)) return nodes;
-    // The quadruple's own node takes the place of the last.
-    nodes.times.pop_back();
-    nodes.states.resize(nodes.states.size() - nodes.dimension);
+// Nodes with others between them, so near to each other that from each to the next is one step of order 8.
+Nodes filled_in(const Nodes& nodes, const EquationsOfMotion<double>& motion) {
+  using State = std::vector<double>;
+  const auto fehlberg =
+      odeint::make_controlled(kFillTolerance, kFillTolerance, odeint::runge_kutta_fehlberg78<State>());
+  Nodes filled;
+  filled.dimension = nodes.dimension;
+  for (std::size_t i = 0; i < nodes.times.size(); ++i) {
+    State state(&nodes.states[i * nodes.dimension], &nodes.states[(i + 1) * nodes.dimension]);
+    filled.add(nodes.times[i], state);
+    if (i + 1 == nodes.times.size()) break;
+    const Extended begin = nodes.times[i], length = nodes.times[i + 1] - begin;
+    auto system = motion.during(static_cast<double>(begin + length / 2));
+    Nodes between;
+    if (!solve_interval<double>(fehlberg, system, 0, static_cast<double>(length), state, between, kMostTries))
+      return filled;
+    // The last is the next of `nodes`.
+    for (std::size_t k = 0; k + 1 < between.times.size(); ++k) filled.times.push_back(begin + between.times[k]);
+    filled.states.insert(filled.states.end(), between.states.begin(), between.states.end() - nodes.dimension);
   }
-  nodes.complete = quad.complete;
-  return nodes;
+  filled.complete = nodes.complete;
+  return filled;
 }
 
 // The largest distance [m] and angle [rad] between the same body of two tables, and of roundings in them.
@@ -153,58 +157,78 @@ double rounding(BodyColumns bodies) {
   return 4 * std::numeric_limits<double>::epsilon() * largest;
 }
 
-// One solution as the truth, and its distance from the other at each of that one's nodes.
-template <typename Real>
-ReferenceSolution judged(const Scene& scene, const Nodes<Extended>& first, const EquationsOfMotion<Real>& second_motion,
-                         const Nodes<Real>& second) {
-  ReferenceSolution solution;
-  solution.dimension = first.dimension, solution.times = first.times, solution.states = first.states;
-  const EquationsOfMotion<double> motion(scene, kReferenceForm);
-  BodyTable here(scene.bodies.size()), there(scene.bodies.size());
-  double largest = 0;
-  for (std::size_t i = 0; i < second.times.size() && second.times[i] <= first.times.back(); ++i) {
-    const auto t = static_cast<double>(second.times[i]);
-    motion.write(state_at(solution, motion, t).data(), here.columns());
-    second_motion.write(&second.states[i * second.dimension], there.columns());
-    largest = std::max(largest, distance(here.columns(), there.columns()) + rounding(here.columns()));
-    solution.error_times.push_back(t);
-    solution.errors.push_back(largest);
+// One solution, and how far others are from it at each of their nodes.
+class Judged {
+ public:
+  Judged(const Scene& scene, const Nodes& first) : motion_(scene, kReferenceForm), bodies_(scene.bodies.size()) {
+    Nodes filled = filled_in(first, motion_);
+    solution_.dimension = filled.dimension;
+    solution_.times = std::move(filled.times), solution_.states = std::move(filled.states);
+    solution_.complete = filled.complete;
   }
-  solution.complete = first.complete && second.complete;
-  return solution;
+
+  void compare(const EquationsOfMotion<double>& other_motion, const Nodes& other) {
+    BodyTable here(bodies_), there(bodies_);
+    for (std::size_t i = 0; i < other.times.size() && other.times[i] <= solution_.times.back(); ++i) {
+      const auto t = static_cast<double>(other.times[i]);
+      motion_.write(state_at(solution_, motion_, t).data(), here.columns());
+      other_motion.write(&other.states[i * other.dimension], there.columns());
+      const double apart = distance(here.columns(), there.columns());
+      errors_.emplace_back(t, kSafety * apart + rounding(here.columns()));
+    }
+    solution_.complete = solution_.complete && other.complete;
+  }
+
+  ReferenceSolution solution() {
+    std::sort(errors_.begin(), errors_.end());
+    double largest = 0;
+    for (const auto& [t, error] : errors_) {
+      largest = std::max(largest, error);
+      solution_.error_times.push_back(t);
+      solution_.errors.push_back(largest);
+    }
+    return std::move(solution_);
+  }
+
+ private:
+  EquationsOfMotion<double> motion_;
+  std::size_t bodies_;
+  ReferenceSolution solution_;
+  std::vector<std::pair<double, double>> errors_;  // at times
+};
+
+// The first of the methods' solutions, judged by the others.
+template <typename Real>
+ReferenceSolution solve_by(const std::vector<Method>& methods, const Scene& scene, double duration,
+                           std::size_t most_tries) {
+  const std::vector<double> switches = switch_times(scene, duration);
+  const auto nodes_of = [&](const Method& method) {
+    const Extrapolation<Real> stepper(method.columns, method.tolerance);
+    return solve(EquationsOfMotion<Real>(scene, method.form), stepper, switches, most_tries);
+  };
+  Judged judged(scene, nodes_of(methods.front()));
+  for (std::size_t i = 1; i < methods.size(); ++i) {
+    judged.compare(EquationsOfMotion<double>(scene, methods[i].form), nodes_of(methods[i]));
+  }
+  return judged.solution();
 }
 
-ReferenceSolution solve_extended(const Scene& scene, const std::vector<double>& switches) {
-  using State = std::vector<Extended>;
-  const EquationsOfMotion<Extended> motion(scene, kReferenceForm), second_motion(scene, Formulation::momentum);
-  const odeint::bulirsch_stoer<State, Extended, State, Extended> second(kSecondTolerance, kSecondTolerance);
-  return judged(scene, solve(motion, fehlberg(), switches), second_motion, solve(second_motion, second, switches));
-}
-
-ReferenceSolution solve_quad(const Scene& scene, const std::vector<double>& switches, std::size_t most_tries) {
-  const EquationsOfMotion<Quad> motion(scene, kReferenceForm), second_motion(scene, Formulation::momentum);
-  const Extrapolation<Quad> first(kQuadColumns, kQuadTolerance), second(kSecondQuadColumns, kSecondQuadTolerance);
-  const Nodes<Quad> nodes = solve(motion, first, switches, most_tries);
-  if (!nodes.complete) return {};
-  return judged(scene, filled_in(nodes, EquationsOfMotion<Extended>(scene, kReferenceForm)), second_motion,
-                solve(second_motion, second, switches, most_tries));
-}
-
-// An extrapolation's step is about ten times as long as Fehlberg's, and evaluates about as many times more.
-double quad_work(const ReferenceSolution& solution, const Scene& scene) {
-  constexpr double kEvaluations = 2 * 15;  // of both solutions, for each of Fehlberg's steps
+// A step of quadruple precision is about as long as one of extended.
+double quad_work(std::size_t steps, const Scene& scene) {
+  double evaluations = 0;
+  for (const Method& method : kQuadMethods) evaluations += method.columns * (method.columns + 1);
   const std::size_t loads = scene.bodies.size() + scene.springs.size() + scene.forces.size();
-  return kEvaluations * static_cast<double>(solution.times.size() * loads);
+  return evaluations * static_cast<double>(steps * loads);
 }
 
 }  // namespace
 
 ReferenceSolution solve_reference(const Scene& scene, double duration) {
-  const std::vector<double> switches = switch_times(scene, duration);
-  ReferenceSolution extended = solve_extended(scene, switches);
+  ReferenceSolution extended = solve_by<Extended>(kMethods, scene, duration, kMostTries);
   const bool is_good = extended.complete && extended.errors.back() <= kWantedError;
-  if (is_good || !extended.complete || quad_work(extended, scene) > kMostQuadWork) return extended;
-  ReferenceSolution quad = solve_quad(scene, switches, extended.times.size());
+  const std::size_t steps = extended.error_times.size() / (kMethods.size() - 1);
+  if (is_good || !extended.complete || quad_work(steps, scene) > kMostQuadWork) return extended;
+  ReferenceSolution quad = solve_by<Quad>(kQuadMethods, scene, duration, 4 * steps);
   return quad.complete && quad.errors.back() < extended.errors.back() ? quad : extended;
 }
 

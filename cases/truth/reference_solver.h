@@ -10,7 +10,7 @@ namespace rigor {
 
 // To be raised whenever a number of a solution could come out otherwise: what an older solver found, and was kept, is
 // then computed again.
-inline constexpr std::uint64_t kReferenceVersion = 1;
+inline constexpr std::uint64_t kReferenceVersion = 2;
 
 inline constexpr Formulation kReferenceForm = Formulation::body_rates;
 

@@ -48,7 +48,7 @@ std::vector<RunName> runs_of(const EngineTable& table) {
 }
 
 Results run(const std::vector<Case>& cases, const EngineTable& table, const GridOptions& options) {
-  Results grid = plan_grid(cases, runs_of(table), table, options.stable_steps);
+  Results grid = plan_grid(cases, runs_of(table), table, {options.stable_steps});
   run_grid(grid, table, options, [](std::size_t, std::size_t) {});
   return grid;
 }
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(a_truth_that_does_not_fit_costs_one_case) {
   Case wrong = drifting_body("wrong");
   wrong.truth = "projectile", wrong.truth_where = "wrong.toml:9:1";
   wrong.scene.springs.push_back({kWorld, 0, Vec3::Zero(), Vec3(1, 0, 0), 10, 0, 1});
-  Results grid = plan_grid({wrong, drifting_body("right")}, runs_of(table), table, false);
+  Results grid = plan_grid({wrong, drifting_body("right")}, runs_of(table), table, {false});
   for (Cell& cell : grid.cases.front().cells)
     cell.status = Status::crashed, cell.reason = Cell().reason;  // springs and all
   run_grid(grid, table, {2, 60, "", false}, [](std::size_t, std::size_t) {});
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(what_an_engine_cannot_do_is_known_before_it_runs) {
   const EngineTable table = faulty_engines();
   Case definition = drifting_body("springy");
   definition.scene.springs.push_back({kWorld, 0, Vec3::Zero(), Vec3::Zero(), 10, 0, 1});
-  const Results grid = plan_grid({definition}, runs_of(table), table, true);
+  const Results grid = plan_grid({definition}, runs_of(table), table, {true});
   for (const Cell& cell : grid.cases.front().cells) {
     BOOST_TEST((cell.status == Status::unsupported));
     BOOST_TEST(cell.reason.find("spring") != std::string::npos, cell.reason);
@@ -157,14 +157,14 @@ BOOST_AUTO_TEST_CASE(what_an_engine_cannot_do_is_known_before_it_runs) {
 
 BOOST_AUTO_TEST_CASE(a_cell_that_did_not_run_does_not_look_like_one_that_passed) {
   const EngineTable table = faulty_engines();
-  const Results grid = plan_grid({drifting_body("a")}, runs_of(table), table, true);
+  const Results grid = plan_grid({drifting_body("a")}, runs_of(table), table, {true});
   for (const Cell& cell : grid.cases.front().cells) BOOST_TEST((cell.status != Status::pass));
 }
 
 BOOST_AUTO_TEST_CASE(an_empty_selection_is_an_error) {
   const EngineTable table = faulty_engines();
-  BOOST_CHECK_THROW(plan_grid({}, runs_of(table), table, true), InputError);
-  BOOST_CHECK_THROW(plan_grid({drifting_body("a")}, {}, table, true), InputError);
+  BOOST_CHECK_THROW(plan_grid({}, runs_of(table), table, {true}), InputError);
+  BOOST_CHECK_THROW(plan_grid({drifting_body("a")}, {}, table, {true}), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(trajectories_have_names_of_their_own) {
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(trajectories_have_names_of_their_own) {
                                    drifting_body("a?b"),
                                    drifting_body("/" + std::string(5000, 'x')),
                                    drifting_body("y" + std::string(5000, 'x'))};
-  const Results grid = plan_grid(alike, runs_of(table), table, true);
+  const Results grid = plan_grid(alike, runs_of(table), table, {true});
   std::set<std::string> names;
   for (const CaseResult& result : grid.cases) {
     for (const Cell& cell : result.cells) {

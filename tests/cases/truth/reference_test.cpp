@@ -233,15 +233,18 @@ BOOST_AUTO_TEST_CASE(a_force_that_begins_and_ends_between_two_samples_gives_its_
 BOOST_AUTO_TEST_CASE(the_error_estimate_is_neither_too_small_nor_absurdly_large) {
   const Scene scene = test::body_springs();
   const auto truth = make_truth("reference", scene, 30);
-  const double t = 11;
-  const auto expected = MatrixSolver(scene).positions(t, 11 * 4000);
-  const BodyTable found = truth_at(*truth, t, 2);
-  double difference = 0;
-  for (int i = 0; i < 2; ++i) difference = std::max(difference, (found.columns().position(i) - expected[i]).norm());
-  BOOST_TEST_MESSAGE("at 11 s off by " << difference << " m at most; estimate " << truth->error(t));
-  BOOST_TEST(truth->error(t) >= difference);
-  BOOST_TEST(truth->error(t) < 100 * difference);  // the second solution's tolerance is twice the first's
-  BOOST_TEST(truth->error(t) < 1e-10);             // two solutions in double precision part by 1e-10 at 11.7 s
+  double often = 0;  // by how much the estimate is too large where it is least so: one instant may agree by chance
+  for (const double t : {8.0, 9.0, 10.0, 11.0}) {
+    const auto expected = MatrixSolver(scene).positions(t, static_cast<long>(t) * 4000);
+    const BodyTable found = truth_at(*truth, t, 2);
+    double difference = 0;
+    for (int i = 0; i < 2; ++i) difference = std::max(difference, (found.columns().position(i) - expected[i]).norm());
+    BOOST_TEST_MESSAGE("at " << t << " s off by " << difference << " m at most; estimate " << truth->error(t));
+    BOOST_TEST(truth->error(t) >= difference);
+    often = std::max(often, difference / truth->error(t));
+  }
+  BOOST_TEST(often > 0.01);
+  BOOST_TEST(truth->error(11) < 1e-10);            // two solutions in double precision part by 1e-10 at 11.7 s
   // Long before that, the estimate is a few roundings: 4 ulp of 1.4 m.
   BOOST_TEST(truth->error(1) < 1e-14);
   BOOST_TEST(truth->error(0) > 0);

@@ -1,0 +1,35 @@
+#include "cases/gates/selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+
+bool is_same_run(const RunName& a, const RunName& b) {
+  return a.engine == b.engine && a.settings.method == b.settings.method && a.settings.options == b.settings.options &&
+         a.settings.track == b.settings.track;
+}
+
+GateSelection::GateSelection(const Gate& gate, const std::vector<EngineInfo>& engines) : dt_(gate.dt) {
+  for (const std::string& name : gate.engines) runs_.push_back(parse_run_name(name, engines));
+}
+
+bool GateSelection::takes(const RunName& run) const {
+  return runs_.empty() ||
+         std::any_of(runs_.begin(), runs_.end(), [&](const RunName& own) { return is_same_run(own, run); });
+}
+
+bool GateSelection::takes(const StepSize& dt) const {
+  // "1/30" and "0.0333333333333333" are the same step.
+  const auto is_it = [&](const StepSize& own) { return std::abs(own.seconds - dt.seconds) <= 1e-9 * own.seconds; };
+  return dt_.empty() || std::any_of(dt_.begin(), dt_.end(), is_it);
+}
+
+bool is_judged(const Case& definition, const RunName& run, const StepSize& dt, const std::vector<EngineInfo>& engines) {
+  return std::any_of(definition.gates.begin(), definition.gates.end(), [&](const Gate& gate) {
+    const GateSelection selection(gate, engines);
+    return selection.needs(run) && selection.takes(dt);
+  });
+}
+
+}  // namespace rigor
