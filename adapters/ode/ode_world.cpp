@@ -46,6 +46,12 @@ struct MakeGeom {
   }
 };
 
+// Of what the method `auto` decides by.
+bool has_too_many_for_worldstep(const Scene& scene) {
+  const auto can_touch = [](const Body& body) { return body.collides && !body.fixed; };
+  return std::count_if(scene.bodies.begin(), scene.bodies.end(), can_touch) > kMostForWorldStep;
+}
+
 }  // namespace
 
 OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
@@ -53,7 +59,7 @@ OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
       loads_(scene),
       can_touch_(anything_can_touch(scene)),
       matched_(settings.track == Track::matched),
-      quick_(settings.method == "quickstep") {
+      quick_(settings.method == "quickstep" || (settings.method == "auto" && has_too_many_for_worldstep(scene))) {
   ode_library::start();
   world_ = dWorldCreate();
   moving_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);

@@ -5,7 +5,7 @@
 // Between impacts a sphere may drift and spin freely. At an impact with the normal impulse J = m (1 + e) u friction
 // changes the slip of the contact point, (v + w x r)_t, by at most mu J (1/m + r²/I) against its direction, and not
 // below zero: from then on the sphere rolls. Infinite friction ends the slip at the first impact, none never changes
-// it. A slip that outlasts the bounces goes on under mu m g (Goldsmith, Impact, 1960, section 2.1; Brach, Mechanical
+// it. A slip that outlasts the bounces goes on under mu m g (Goldsmith, Impact, 1960, chapter 2; Brach, Mechanical
 // Impact Dynamics, 1991, chapter 2).
 #include <fmt/format.h>
 

@@ -1,9 +1,8 @@
 // Spheres that roll or slip on a plane, level or sloping. With k = I/(m r²), gravity g_n into the plane and g_t along
 // it, and the slip u of the contact point: while it slips, friction is -mu g_n u/|u|, and the slip changes by g_t - mu
 // g_n (1 + 1/k) u/|u|; where it has ended, the sphere rolls with g_t/(1 + k) as long as that asks for no more friction
-// than there is, |g_t| <= mu g_n (1 + k)/k; else it slips on downhill. For a solid sphere k = 2/5: 5/7 g_t, up to
-// tan(slope) = 3.5 mu (Goldsmith and others; the bowling ball of Hecht and of every mechanics course, e.g. Kleppner and
-// Kolenkow, An Introduction to Mechanics, problem 6.36).
+// than there is, |g_t| <= mu g_n (1 + k)/k; else it slips on downhill. For a solid sphere k = 2/5: 5/7 g_t, up
+// to tan(slope) = 3.5 mu (Kleppner and Kolenkow, An Introduction to Mechanics, chapter 6).
 #include <fmt/format.h>
 
 #include <cmath>
