@@ -26,6 +26,10 @@ struct EnergyCourse {
 //   timed forces without a truth                         nothing
 EnergyCourse energy_course(const JudgedRun& run, double lag);
 
+// Whether contact may take energy: an impact below restitution 1 does, and so does friction, even an infinite one when
+// a body slips as it lands.
+bool contact_may_lose(const Scene& scene);
+
 // J: what a change of energy is relative to. The truth's largest kinetic energy; else the run's at the start; else the
 // depth to which its potential energy falls, which is what its motion can have come from; else 1 J, for nothing moves.
 double energy_scale(const JudgedRun& run);

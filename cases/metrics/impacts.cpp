@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "cases/metrics/shape_gap.h"
 #include "cases/metrics/synchronised.h"
@@ -12,6 +11,8 @@ namespace rigor {
 namespace {
 
 using Pair = std::pair<int, int>;
+
+constexpr double kTouch = 1e-6;  // m
 
 // Two bodies at a sample, and their gap along the free flight through it.
 class Flight {
@@ -74,7 +75,10 @@ class Watcher {
     for (auto& [pair, watch] : watched_) {
       if (watch.hit) conclude(pair, watch, {}, trajectory_.samples.back().time);
     }
-    for (auto& [pair, list] : found_) drop_slow(list);
+    for (auto& [pair, list] : found_) {
+      drop_slow(list);
+      if (!are_spheres(pair) && list.size() > 1) list.resize(1);
+    }
     std::erase_if(found_, [](const auto& entry) { return entry.second.empty(); });
     return std::move(found_);
   }
@@ -87,18 +91,19 @@ class Watcher {
     std::map<int, int> touches;  // of each body
     for_each_near_pair(scene_, bodies_.columns(), reach(), [&](int a, int b, double gap) {
       near.push_back({{a, b}, gap});
-      constexpr double kTouch = 1e-6;  // m
       if (gap < kTouch) ++touches[a], ++touches[b];
     });
     for (const auto& [pair, gap] : near) {
-      const bool is_alone = alone(pair.first, touches) && alone(pair.second, touches);
+      const int own = gap < kTouch ? 1 : 0;
+      const bool is_alone = alone(pair.first, touches, own) && alone(pair.second, touches, own);
       look_at_pair(pair, gap, is_alone, sample.time);
     }
   }
 
-  // A plane, or another fixed body, may be touched by any number.
-  bool alone(int body, const std::map<int, int>& touches) const {
-    return scene_.bodies[body].fixed || !touches.contains(body);
+  // Whether the body touches no more than its `own` contacts; a fixed one may be touched by any number.
+  bool alone(int body, const std::map<int, int>& touches, int own) const {
+    const auto known = touches.find(body);
+    return scene_.bodies[body].fixed || known == touches.end() || known->second <= own;
   }
 
   double reach() const {
@@ -137,6 +142,12 @@ class Watcher {
     if (watch.is_alone) found_[pair].push_back(impact);
     watch = {};
   }
+
+  bool is_round(int body) const {
+    const Shape& shape = *scene_.bodies[body].shape;
+    return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Plane>(shape);
+  }
+  bool are_spheres(const Pair& pair) const { return is_round(pair.first) && is_round(pair.second); }
 
   static void drop_slow(std::vector<Impact>& list) {
     double fastest = 0;
