@@ -12,8 +12,6 @@ namespace {
 
 using Pair = std::pair<int, int>;
 
-constexpr double kTouch = 1e-6;  // m
-
 // Two bodies at a sample, and their gap along the free flight through it.
 class Flight {
  public:
@@ -58,7 +56,7 @@ struct Watch {
   std::optional<Flight> approaching;  // the last sample at which they were apart and approached each other
   double since = 0;                   // s, of that sample
   bool hit = false;                   // they stopped approaching after it
-  bool is_alone = true;               // neither touched a third body then
+  bool is_alone = true;               // no third body was near either of them then
 };
 
 class Watcher {
@@ -88,33 +86,31 @@ class Watcher {
     bodies_ = sample.bodies.columns();
     synchroniser_.apply(sample.time, bodies_.columns());
     std::vector<std::pair<Pair, double>> near;
-    std::map<int, int> touches;  // of each body
+    std::map<int, int> neighbours;  // of each body
     for_each_near_pair(scene_, bodies_.columns(), reach(), [&](int a, int b, double gap) {
       near.push_back({{a, b}, gap});
-      if (gap < kTouch) ++touches[a], ++touches[b];
+      ++neighbours[a], ++neighbours[b];
     });
     for (const auto& [pair, gap] : near) {
-      const int own = gap < kTouch ? 1 : 0;
-      const bool is_alone = alone(pair.first, touches, own) && alone(pair.second, touches, own);
+      const bool is_alone = alone(pair.first, neighbours) && alone(pair.second, neighbours);
       look_at_pair(pair, gap, is_alone, sample.time);
     }
   }
 
-  // Whether the body touches no more than its `own` contacts; a fixed one may be touched by any number.
-  bool alone(int body, const std::map<int, int>& touches, int own) const {
-    const auto known = touches.find(body);
-    return scene_.bodies[body].fixed || known == touches.end() || known->second <= own;
+  // Whether nothing else could touch the body before this impact is over; a fixed one does not mind.
+  bool alone(int body, const std::map<int, int>& neighbours) const {
+    return scene_.bodies[body].fixed || neighbours.at(body) == 1;
   }
 
-  double reach() const {
-    double fastest = 0;
+  // m, from which two bodies can meet within two samples; it never falls, so that a pair at rest is still seen.
+  double reach() {
     const BodyColumns now = static_cast<const BodyTable&>(bodies_).columns();
     for (std::size_t i = 0; i < now.size(); ++i) {
       if (!scene_.bodies[i].collides || scene_.bodies[i].fixed) continue;
       const double turning = now.angular_velocity(i).norm() * bounding_radius(*scene_.bodies[i].shape);
-      fastest = std::max(fastest, now.velocity(i).norm() + turning);
+      fastest_ = std::max(fastest_, now.velocity(i).norm() + turning);
     }
-    return 2 * spacing_ * (2 * fastest + slowest_);
+    return 2 * spacing_ * (2 * fastest_ + slowest_);
   }
 
   void look_at_pair(const Pair& pair, double gap, bool is_alone, double time) {
@@ -160,6 +156,7 @@ class Watcher {
   const Trajectory& trajectory_;
   Synchroniser synchroniser_;
   double spacing_, slowest_;  // s between samples; m/s, what gravity adds in two of them: slower is rest
+  double fastest_ = 0;        // m/s, that a surface has moved so far
   BodyTable bodies_;
   std::map<Pair, Watch> watched_;
   std::map<Pair, std::vector<Impact>> found_;

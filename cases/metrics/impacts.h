@@ -17,10 +17,9 @@ struct Impact {
   double after = 0;   // m/s, the speed of separation at the touch; 0 if they stay together
 };
 
-// By pair (a < b), in order of time. Left out are impacts on a body that touches a third one, for several impulses make
-// one speed there; of bodies with corners all but the first, for the next may be of another corner; and impacts slower
-// than a tenth of the pair's fastest are left out: a ball that comes to rest makes any number of them, the last of
-// which no finite step resolves.
+// By pair (a < b), in order of time. Left out are impacts near a third body, for several impulses may make one speed
+// there; of bodies with corners all but the first, for the next may be of another corner; and those slower than a tenth
+// of the pair's fastest: a ball that comes to rest makes any number of them, the last of which no finite step resolves.
 std::map<std::pair<int, int>, std::vector<Impact>> impacts_of(const Scene& scene, const Trajectory& trajectory,
                                                               double velocity_lag);
 

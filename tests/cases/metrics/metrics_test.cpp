@@ -25,7 +25,7 @@ BOOST_AUTO_TEST_CASE(the_metrics_across_cells_are_alphabetical_and_have_names_of
 
 // What a scene must have for some metrics; without it they say so.
 bool is_of_contact(const std::string& metric) {
-  const std::vector<std::string> names = {"collapse_time",      "creep",       "friction_anisotropy",
+  const std::vector<std::string> names = {"collapse_time",      "creep", "energy_gain",       "friction_anisotropy",
                                           "impact_time_error",  "penetration", "restitution_error",
                                           "stop_distance_error"};
   return std::find(names.begin(), names.end(), metric) != names.end();
