@@ -15,6 +15,8 @@
 // still standing, once the box around it and where it will be a step later is 1e6 m across
 // (btCollisionWorld::updateSingleAabb).
 #include <Eigen/LU>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/dynamics/integrators/integrator.h"
@@ -41,11 +43,15 @@ using GyroscopicChange = Vec3 (*)(const Spin& spin);
 
 Vec3 no_change(const Spin&) { return Vec3::Zero(); }
 
-// One Newton step, in the frame of its arguments.
+// One Newton step, in the frame of its arguments. Bullet solves it by Cramer's rule and leaves a determinant below the
+// rounding unit undivided (btMatrix3x3::solve33): of a body whose moments are some 6e-6 kg m² or less, nothing is left
+// of the gyroscopic torque.
 Vec3 newton_change(const Mat3& inertia, const Vec3& w, double dt) {
   const Vec3 L = inertia * w;
   const Mat3 slope = inertia + dt * (cross_matrix(w) * inertia - cross_matrix(L));
-  return -(slope.inverse() * (dt * w.cross(L)));
+  const double determinant = slope.determinant();
+  const bool divides = std::abs(determinant) > std::numeric_limits<double>::epsilon();
+  return -(divides ? 1 : determinant * determinant) * (slope.inverse() * (dt * w.cross(L)));
 }
 
 Vec3 implicit_world_change(const Spin& spin) { return newton_change(spin.inertia_W, spin.w, spin.dt); }

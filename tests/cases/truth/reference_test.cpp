@@ -244,7 +244,7 @@ BOOST_AUTO_TEST_CASE(the_error_estimate_is_neither_too_small_nor_absurdly_large)
     often = std::max(often, difference / truth->error(t));
   }
   BOOST_TEST(often > 0.01);
-  BOOST_TEST(truth->error(11) < 1e-10);            // two solutions in double precision part by 1e-10 at 11.7 s
+  BOOST_TEST(truth->error(11) < 1e-10);  // two solutions in double precision part by 1e-10 at 11.7 s
   // Long before that, the estimate is a few roundings: 4 ulp of 1.4 m.
   BOOST_TEST(truth->error(1) < 1e-14);
   BOOST_TEST(truth->error(0) > 0);
