@@ -90,6 +90,13 @@ std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& de
 // How long a step has to hold to be called stable [s]: even where the run is short.
 double stability_horizon(const Case& definition) { return std::max(30.0, definition.duration); }
 
+// A truth need not hold that long where no stable step is searched for.
+bool searches_steps(const CaseResult& planned, const GridOptions& options) {
+  const auto& steps = planned.stable_steps;
+  return options.stable_steps && std::any_of(steps.begin(), steps.end(),
+                                             [](const auto& stable) { return stable.status != Status::unsupported; });
+}
+
 // The jobs of one case: first the stable steps, which take longest, then the cells.
 class CaseJobs {
  public:
@@ -97,7 +104,7 @@ class CaseJobs {
            const Truth* truth, double largest_energy)
       : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), energy_(largest_energy) {
     const Case& definition = planned.definition;
-    stable_energy_ = options.stable_steps
+    stable_energy_ = searches_steps(planned, options)
                          ? largest_kinetic_energy(definition.scene, truth, stability_horizon(definition))
                          : largest_energy;
     for (std::size_t i = 0; i < planned.stable_steps.size(); ++i) {
@@ -233,7 +240,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel) {
   const Case& definition = planned.definition;
-  const double seconds = options.stable_steps ? stability_horizon(definition) : definition.duration;
+  const double seconds = searches_steps(planned, options) ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
   if (truth && !options.folder.empty()) {
