@@ -1,6 +1,10 @@
 #include "bench/scenes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+
+#include "cases/suite.h"
 
 namespace rigor::bench {
 namespace {
@@ -16,8 +20,9 @@ Body body(int index, const Vec3& position) {
 }
 
 // Tumbling bodies on their way, without gravity, so that nothing grows however long they are timed.
-Scene free_bodies(int count) {
+Scene free_bodies(const SceneRow&, int count) {
   Scene scene;
+  scene.bodies.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     Body b = body(i, {0.5 * i, 0, 0});
     b.velocity = {0, 0.1 * (i % 5), 1};
@@ -26,56 +31,155 @@ Scene free_bodies(int count) {
   return scene;
 }
 
+void tie(Scene& scene, int a, int b, const Vec3& point_a, const Vec3& point_b, double rest_length) {
+  Spring s;
+  s.a = a, s.b = b, s.point_a = point_a, s.point_b = point_b;
+  s.stiffness = 200, s.rest_length = rest_length;
+  scene.springs.push_back(s);
+}
+
+constexpr double kSpacing = 0.5, kArm = 0.1;  // m
+
 // Bodies in a row, each held to the next off-centre, the ends to the world; every other one starts pushed aside.
-Scene spring_chain(int count) {
+Scene spring_chain(const SceneRow&, int count) {
   Scene scene;
   scene.gravity = {0, 0, -9.81};
-  const double spacing = 0.5, arm = 0.1;
   for (int i = 0; i < count; ++i) {
-    Body b = body(i, {spacing * (i + 1), 0, 0});
+    Body b = body(i, {kSpacing * (i + 1), 0, 0});
     b.velocity = {0, i % 2 ? 0.2 : -0.2, 0};
     scene.bodies.push_back(b);
   }
   for (int i = -1; i < count; ++i) {
-    Spring s;
-    s.a = i, s.b = i + 1 < count ? i + 1 : kWorld;
-    s.point_a = i < 0 ? Vec3(arm, 0, 0) : Vec3(arm, 0, 0.02);
-    s.point_b = s.b == kWorld ? Vec3(spacing * (count + 1) - arm, 0, 0) : Vec3(-arm, 0, 0.02);
-    s.stiffness = 200;
-    s.rest_length = spacing - 2 * arm;
-    scene.springs.push_back(s);
+    const bool last = i + 1 == count;
+    tie(scene, i, last ? kWorld : i + 1, i < 0 ? Vec3(kArm, 0, 0) : Vec3(kArm, 0, 0.02),
+        last ? Vec3(kSpacing * (count + 1) - kArm, 0, 0) : Vec3(-kArm, 0, 0.02), kSpacing - 2 * kArm);
   }
   return scene;
 }
 
+// A square net, each body held to its four neighbours; its first and last rows to the world.
+Scene spring_net(const SceneRow&, int count) {
+  Scene scene;
+  scene.gravity = {0, 0, -9.81};
+  const int side = static_cast<int>(std::lround(std::sqrt(count)));
+  for (int i = 0; i < side * side; ++i) {
+    Body b = body(i, {kSpacing * (i % side), kSpacing * (i / side), 0});
+    b.velocity = {0, 0, i % 3 ? 0.2 : -0.4};
+    scene.bodies.push_back(b);
+  }
+  const double rest = kSpacing - 2 * kArm;
+  for (int i = 0; i < side * side; ++i) {
+    const Vec3 p = scene.bodies[static_cast<std::size_t>(i)].position;
+    if ((i + 1) % side) tie(scene, i, i + 1, {kArm, 0, 0.02}, {-kArm, 0, 0.02}, rest);
+    if (i + side < side * side) tie(scene, i, i + side, {0, kArm, 0.02}, {0, -kArm, 0.02}, rest);
+    if (i < side) tie(scene, kWorld, i, p - Vec3(0, kSpacing - kArm, 0), {0, -kArm, 0}, rest);
+    if (i >= side * (side - 1)) tie(scene, i, kWorld, {0, kArm, 0}, p + Vec3(0, kSpacing - kArm, 0), rest);
+  }
+  return scene;
+}
+
+Body ground() {
+  Body b;
+  b.name = "ground";
+  b.shape = Plane{Vec3::UnitZ(), 0};
+  b.fixed = b.collides = true;
+  return b;
+}
+
+Body ball(int index, double mass, const Vec3& position) {
+  Body b = body(index, position);
+  b.mass = mass;
+  b.inertia = 0.4 * mass * 0.01 * Mat3::Identity();
+  b.angular_velocity.setZero();
+  b.shape = Sphere{0.1};
+  b.collides = true;
+  return b;
+}
+
 // Elastic spheres over the ground, in a square grid wide enough that they never meet; each starts at its own height.
-Scene bouncing_spheres(int count) {
+Scene bouncing_spheres(const SceneRow&, int count) {
   Scene scene;
   scene.gravity = {0, 0, -9.81};
   scene.contact_default = {1, kInfiniteFriction};
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
   for (int i = 0; i < count; ++i) {
-    Body b = body(i, {0.5 * (i % side), 0.5 * (i / side), 0.3 + 0.05 * (i % 13)});
-    b.inertia = 0.4 * b.mass * 0.01 * Mat3::Identity();
-    b.angular_velocity.setZero();
-    b.shape = Sphere{0.1};
-    b.collides = true;
-    scene.bodies.push_back(b);
+    scene.bodies.push_back(ball(i, 1 + 0.1 * (i % 7), {0.5 * (i % side), 0.5 * (i / side), 0.3 + 0.05 * (i % 13)}));
   }
-  Body ground;
-  ground.name = "ground";
-  ground.shape = Plane{Vec3::UnitZ(), 0};
-  ground.fixed = ground.collides = true;
-  scene.bodies.push_back(ground);
+  scene.bodies.push_back(ground());
   return scene;
 }
+
+// A cube of spheres 1 cm apart, every one moved aside by up to 1 mm, falls onto the ground and becomes a pile.
+Scene pile(const SceneRow&, int count) {
+  Scene scene;
+  scene.gravity = {0, 0, -9.81};
+  scene.contact_default = {0, 0.5};
+  const int side = static_cast<int>(std::lround(std::cbrt(count)));
+  for (int i = 0; i < count; ++i) {
+    const int x = i % side, y = i / side % side, z = i / side / side;
+    const Vec3 aside(0.001 * std::sin(1.0 * i), 0.001 * std::cos(2.0 * i), 0);
+    scene.bodies.push_back(ball(i, 10, Vec3(0.21 * x, 0.21 * y, 0.1 + 0.21 * z) + aside));
+  }
+  scene.bodies.push_back(ground());
+  return scene;
+}
+
+// A square pyramid of boxes, each layer one box narrower than the one below; 15 layers are 1,240 boxes.
+Scene pyramid(const SceneRow&, int count) {
+  Scene scene;
+  scene.gravity = {0, 0, -9.81};
+  scene.contact_default = {0, 0.5};
+  const double edge = 0.2;
+  int base = 1;
+  for (int boxes = 1; boxes < count; boxes += base * base) ++base;
+  for (int layer = 0; layer < base; ++layer) {
+    const int side = base - layer;
+    for (int i = 0; i < side * side; ++i) {
+      Body b = body(static_cast<int>(scene.bodies.size()),
+                    {edge * (i % side - 0.5 * side), edge * (i / side - 0.5 * side), edge * (layer + 0.5)});
+      b.mass = 8;
+      b.shape = Box{Vec3::Constant(edge)};
+      b.inertia = inertia_of(*b.shape, b.mass);
+      b.angular_velocity.setZero();
+      b.collides = true;
+      scene.bodies.push_back(b);
+    }
+  }
+  scene.bodies.push_back(ground());
+  return scene;
+}
+
+// A scene of the course, by its row's name.
+Scene of_the_suite(const SceneRow& row, int) { return select_cases({row.name}, default_suite_dir()).front().scene; }
 
 }  // namespace
 
 const std::vector<SceneRow>& scenes() {
+  constexpr double kFine = 1.0 / 240, kCourse = 1.0 / 30, kPile = 1.0 / 120;
   static const std::vector<SceneRow> table = {
-      {"bouncing-spheres", bouncing_spheres}, {"free-bodies", free_bodies}, {"spring-chain", spring_chain}};
+      {"ballistic/projectile", {1}, kCourse, Reached::trajectory, false, of_the_suite},
+      {"bouncing-spheres", {1, 100, 1000, 10000}, kFine, Reached::energy, false, bouncing_spheres},
+      {"contact/collision", {1}, kCourse, Reached::energy, false, of_the_suite},
+      {"free-bodies", {1, 10, 100, 1000, 10000, 100000, 1000000}, kFine, Reached::trajectory, true, free_bodies},
+      {"pile", {216}, kPile, Reached::penetration, false, pile},
+      {"pyramid", {1240}, kPile, Reached::penetration, false, pyramid},
+      {"spring-chain", {1, 10, 100, 1000, 10000, 100000}, kFine, Reached::trajectory, false, spring_chain},
+      {"spring-net", {100, 1024, 10000}, kFine, Reached::trajectory, false, spring_net},
+      {"springs/body-springs", {2}, kCourse, Reached::trajectory, false, of_the_suite},
+      {"springs/fixed-spring", {1}, kCourse, Reached::trajectory, false, of_the_suite},
+  };
   return table;
+}
+
+const SceneRow& scene_row(const std::string& name) {
+  return *std::find_if(scenes().begin(), scenes().end(), [&](const SceneRow& row) { return row.name == name; });
+}
+
+const Scene& scene_of(const SceneRow& row, int bodies) {
+  static std::map<std::pair<std::string, int>, Scene> made;
+  const auto [at, is_new] = made.try_emplace({row.name, bodies});
+  if (is_new) at->second = row.make(row, bodies);
+  return at->second;
 }
 
 }  // namespace rigor::bench

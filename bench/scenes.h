@@ -1,4 +1,5 @@
-// The scenes that are timed, for any number of bodies. Every body moves in them for as long as a benchmark lasts.
+// The scenes that are timed. Sleeping is off wherever an engine can be told so, and every body moves for as long as a
+// benchmark lasts.
 #pragma once
 
 #include <string>
@@ -8,11 +9,26 @@
 
 namespace rigor::bench {
 
+// What a method reaches beside its speed.
+enum class Reached {
+  trajectory,   // largest distance [m] from the adaptive method at its tolerance, after kReachedAfter
+  energy,       // largest deviation, relative to the largest kinetic energy
+  penetration,  // deepest overlap [m]
+};
+
 struct SceneRow {
   std::string name;
-  Scene (*make)(int bodies);
+  std::vector<int> sizes;  // bodies
+  double dt;               // s
+  Reached reached;
+  bool goes_on;  // the motion never ends or grows: one world may be stepped for as long as the timing takes
+  Scene (*make)(const SceneRow& row, int bodies);
 };
 
 const std::vector<SceneRow>& scenes();  // one row a scene
+const SceneRow& scene_row(const std::string& name);
+
+// Made once and kept.
+const Scene& scene_of(const SceneRow& row, int bodies);
 
 }  // namespace rigor::bench

@@ -1,83 +1,159 @@
-// Step throughput of every engine and method on every scene of scenes.cpp, for 1 to 10,000 bodies. Absolute times
-// depend on the machine; compare rows of one run. The checksum of the final positions shows that the work was done.
+// Steps of every engine and method on every scene of scenes.cpp. Each timing begins with a fresh world, unless the
+// scene's motion goes on for ever, and takes the same number of steps with every engine, so that all time the same
+// stretch of motion. The checksum of the final positions shows that the work was done.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <malloc.h>
+#include <time.h>
 
-#include "adapters/engines.h"
+#include <algorithm>
+#include <map>
+
+#include "bench/benchmarks.h"
+#include "bench/reached.h"
 #include "bench/scenes.h"
+#include "cases/runner/grid.h"
 
-using namespace rigor;
-
+namespace rigor::bench {
 namespace {
 
-constexpr double kStep = 1.0 / 240;  // s
-// After so many steps a world starts afresh, so that what is timed is always the same stretch of motion: neither at
-// rest nor blown up.
-constexpr int kStepsOfOneRun = 1000;
-
-// Of the positions after a fixed number of steps, however many the timing took.
-double checksum(const Engine& engine, const Settings& settings, const Scene& scene) {
-  const auto world = engine.load(scene, settings);
-  for (int n = 0; n < 100; ++n) world->step(kStep);
-  Snapshot snapshot;
-  world->read(snapshot);
-  double sum = 0;
-  for (std::size_t i = 0; i < snapshot.bodies().size(); ++i) sum += snapshot.bodies().position(i).sum();
-  return sum;
+// So many that reading the clock does not count, so few that a stretch of a slow engine lasts tens of milliseconds.
+int steps_of_stretch(const SceneRow& row, int count) {
+  if (row.reached == Reached::penetration) return 240;
+  return std::clamp(50000 / count, 5, 2000);
 }
 
-// A body-step includes reading the state back, which is what a user of an engine does after each step.
-void time_steps(benchmark::State& state, const Engine& engine, const Settings& settings, const bench::SceneRow& row,
-                int count) {
-  const Scene scene = row.make(count);
-  const std::string obstacle = why_unsupported(engine.info(), settings, scene, kStep);
+double seconds_of_wall() {
+  timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double heap_in_use() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+}
+
+struct Subject {
+  const SceneRow* row;
+  int count;
+  RunName run;
+  const Engine* engine;
+  bool by_wall;  // more than one thread
+};
+
+// A step includes reading the state, which is what a user of an engine does after each.
+double run_stretch(World& world, Snapshot& snapshot, int steps, double dt, bool by_wall) {
+  const double start = by_wall ? seconds_of_wall() : thread_seconds();
+  for (int n = 0; n < steps; ++n) {
+    world.step(dt);
+    world.read(snapshot);
+    benchmark::DoNotOptimize(snapshot.bodies().column(0));
+  }
+  return (by_wall ? seconds_of_wall() : thread_seconds()) - start;
+}
+
+// What does not depend on how long the timing took; found once for each subject.
+struct Facts {
+  double bytes_per_body, checksum, reached;
+};
+
+const Facts& facts_of(const Subject& subject, const std::string& name) {
+  static std::map<std::string, Facts> known;
+  const auto [at, is_new] = known.try_emplace(name);
+  if (!is_new) return at->second;
+  const Scene& scene = scene_of(*subject.row, subject.count);
+  const double before = heap_in_use();
+  const auto world = subject.engine->load(scene, subject.run.settings);
+  at->second.bytes_per_body = (heap_in_use() - before) / subject.count;
+  Snapshot snapshot;
+  run_stretch(*world, snapshot, std::min(100, steps_of_stretch(*subject.row, subject.count)), subject.row->dt, false);
+  double sum = 0;
+  for (std::size_t i = 0; i < snapshot.bodies().size(); ++i) sum += snapshot.bodies().position(i).sum();
+  at->second.checksum = sum;
+  at->second.reached = reached(*subject.row, subject.count, *subject.engine, subject.run.settings);
+  return at->second;
+}
+
+void time_steps(benchmark::State& state, const Subject& subject, const std::string& name) {
+  const SceneRow& row = *subject.row;
+  const Scene& scene = scene_of(row, subject.count);
+  const std::string obstacle = why_unsupported(subject.engine->info(), subject.run.settings, scene, row.dt);
   if (!obstacle.empty()) {
     state.SkipWithError(obstacle.c_str());
     return;
   }
-  auto world = engine.load(scene, settings);
+  const int steps = steps_of_stretch(row, subject.count);
+  const Facts& facts = facts_of(subject, name);
+  auto world = subject.engine->load(scene, subject.run.settings);
   Snapshot snapshot;
-  int steps = 0;
+  bool used = false;
+  double seconds = 0;
   for (auto _ : state) {
-    if (++steps > kStepsOfOneRun) {
-      state.PauseTiming();
-      world = engine.load(scene, settings);
-      steps = 1;
-      state.ResumeTiming();
-    }
-    world->step(kStep);
-    world->read(snapshot);
-    benchmark::DoNotOptimize(snapshot.bodies().column(0));
+    if (used && !row.goes_on) world = subject.engine->load(scene, subject.run.settings);
+    if (!used && row.goes_on) run_stretch(*world, snapshot, 1, row.dt, false);  // touches its memory
+    used = true;
+    const double taken = run_stretch(*world, snapshot, steps, row.dt, subject.by_wall);
+    seconds += taken;
+    state.SetIterationTime(taken);
   }
-  const auto body_steps = static_cast<double>(state.iterations()) * count;
-  state.counters["body_steps"] = benchmark::Counter(body_steps, benchmark::Counter::kIsRate);
-  state.counters["body_step"] =
-      benchmark::Counter(body_steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-  state.counters["checksum"] = checksum(engine, settings, scene);
+  const auto body_steps = static_cast<double>(state.iterations()) * steps * subject.count;
+  state.counters["ns_per_body_step"] = 1e9 * seconds / body_steps;
+  state.counters["body_steps_per_second"] = body_steps / seconds;
+  state.counters["bytes_per_body"] = facts.bytes_per_body;
+  state.counters["checksum"] = facts.checksum;
+  if (std::isfinite(facts.reached)) state.counters[reached_name(row.reached)] = facts.reached;
+}
+
+// Every method of every engine; Bullet and ODE on the matched track. And the core's own on two threads.
+std::vector<RunName> runs() {
+  const std::vector<EngineInfo> infos = infos_of(engines());
+  std::vector<RunName> all;
+  for (const EngineInfo& info : infos) {
+    for (const MethodInfo& method : info.methods) {
+      if (!method.twin_of.empty()) continue;  // an instrument, whose speed is of no interest
+      all.push_back(parse_run_name(info.name + ":" + method.name, infos));
+      for (const OptionInfo& option : method.options) {
+        if (option.name == "threads")
+          all.push_back(parse_run_name(fmt::format("{}:{},threads=2", info.name, method.name), infos));
+        const bool piles_up = std::count(option.choices.begin(), option.choices.end(), "impulse") > 0;
+        if (option.name == "contact" && piles_up)
+          all.push_back(parse_run_name(fmt::format("{}:{},contact=impulse", info.name, method.name), infos));
+      }
+    }
+  }
+  return all;
+}
+
+// Half a gigabyte of bodies is more than Bullet and ODE are asked to hold.
+bool fits(const RunName& run, int count) { return count <= 100000 || run.engine == "core"; }
+
+}  // namespace
+
+double thread_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 void register_steps() {
-  for (const bench::SceneRow& row : bench::scenes()) {
-    for (const int count : {1, 100, 1000, 10000}) {
-      for (const auto& engine : engines()) {
-        for (const MethodInfo& method : engine->info().methods) {
-          if (!method.twin_of.empty()) continue;  // an instrument, whose speed is of no interest
-          const std::string name = fmt::format("{}/{}/{}:{}", row.name, count, engine->info().name, method.name);
-          benchmark::RegisterBenchmark(name.c_str(), time_steps, std::cref(*engine),
-                                       Settings{method.name, {}, Track::matched}, row, count)
-              ->Unit(benchmark::kMicrosecond);
-        }
+  for (const SceneRow& row : scenes()) {
+    for (const int count : row.sizes) {
+      for (const RunName& run : runs()) {
+        if (!fits(run, count)) continue;
+        const std::string text = run.engine + ":" + run.settings.method;
+        std::string options;
+        for (const auto& [key, value] : run.settings.options) options += fmt::format(",{}={}", key, value);
+        const std::string name = fmt::format("step/{}/{}/{}{}", row.name, count, text, options);
+        const Subject subject{&row, count, run, &find_engine(engines(), run.engine),
+                              run.settings.options.contains("threads")};
+        benchmark::RegisterBenchmark(name.c_str(),
+                                     [subject, name](benchmark::State& state) { time_steps(state, subject, name); })
+            ->UseManualTime()
+            ->Unit(benchmark::kMicrosecond);
       }
     }
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  register_steps();
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-}
+}  // namespace rigor::bench

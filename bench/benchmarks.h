@@ -1,0 +1,17 @@
+// What is timed, by name: "step/free-bodies/1000/core:rk4". Every timing is of CPU time of the thread that does the
+// work, unless it says "wall".
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rigor::bench {
+
+void register_steps();    // step_bench.cpp: every engine and method on every scene
+void register_limits();   // limits_bench.cpp: what no method can undercut
+void register_harness();  // harness_bench.cpp: what the seam, a cell, a case file and a truth cost
+
+// Seconds for which this thread has run.
+double thread_seconds();
+
+}  // namespace rigor::bench

@@ -1,0 +1,179 @@
+// What Rigor adds to the work of an engine: the seam around each step, the process around each cell, reading a case
+// file, and the truth with and without what the cache has kept.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "adapters/engines.h"
+#include "bench/benchmarks.h"
+#include "bench/raw_engines.h"
+#include "bench/scenes.h"
+#include "cases/case_reader.h"
+#include "cases/suite.h"
+#include "cases/truth/truth.h"
+
+namespace rigor::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+int steps_of(int count) { return std::max(20, 20000 / count); }
+
+void report(benchmark::State& state, double seconds, double body_steps, double checksum) {
+  state.counters["ns_per_body_step"] = 1e9 * seconds / body_steps;
+  state.counters["checksum"] = checksum;
+}
+
+// Both step the same scene as often from the same start, so that their checksums show that they did the same.
+template <typename MakeWorld, typename Run, typename Checksum>
+void time_fresh_worlds(benchmark::State& state, int count, const MakeWorld& make, const Run& run,
+                       const Checksum& checksum) {
+  double seconds = 0;
+  for (auto _ : state) {
+    auto world = make();
+    const double start = thread_seconds();
+    run(*world);
+    const double taken = thread_seconds() - start;
+    seconds += taken;
+    state.SetIterationTime(taken);
+  }
+  report(state, seconds, static_cast<double>(state.iterations()) * steps_of(count) * count, checksum());
+}
+
+void time_raw(benchmark::State& state, std::unique_ptr<RawWorld> (*make)(const Scene&), int count) {
+  const SceneRow& row = scene_row("free-bodies");
+  const Scene& scene = scene_of(row, count);
+  std::vector<double> read;
+  const auto sum_of_positions = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < read.size(); i += 13) sum += read[i] + read[i + 1] + read[i + 2];
+    return sum;
+  };
+  time_fresh_worlds(
+      state, count, [&] { return make(scene); }, [&](RawWorld& world) { world.run(steps_of(count), row.dt, read); },
+      sum_of_positions);
+}
+
+void time_seam(benchmark::State& state, const std::string& name, const std::string& method, int count) {
+  const SceneRow& row = scene_row("free-bodies");
+  const Scene& scene = scene_of(row, count);
+  const Engine& engine = find_engine(engines(), name);
+  Snapshot snapshot;
+  BodyTable last;
+  const auto run = [&](World& world) {
+    for (int n = steps_of(count); n > 0; --n) {
+      world.step(row.dt);
+      world.read(snapshot);
+      benchmark::DoNotOptimize(snapshot.bodies().column(0));
+    }
+  };
+  const auto sum_of_positions = [&] {
+    const auto world = engine.load(scene, {method, {}, Track::matched});
+    run(*world);
+    double sum = 0;
+    for (std::size_t i = 0; i < snapshot.bodies().size(); ++i) sum += snapshot.bodies().position(i).sum();
+    return sum;
+  };
+  time_fresh_worlds(
+      state, count,
+      [&] {
+        return engine.load(scene, {method, {}, Track::matched});
+      },
+      run, sum_of_positions);
+}
+
+// A folder that goes when the program ends.
+const fs::path& scratch_folder() {
+  struct Folder {
+    fs::path path;
+    Folder() {
+      std::string name = (fs::temp_directory_path() / "rigor-bench-XXXXXX").string();
+      path = mkdtemp(name.data());
+    }
+    ~Folder() {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+  };
+  static const Folder folder;
+  return folder.path;
+}
+
+void time_reading(benchmark::State& state, const std::string& id) {
+  const std::string file = (fs::path(default_suite_dir()) / (id + ".toml")).string();
+  for (auto _ : state) benchmark::DoNotOptimize(read_case(file, id));
+}
+
+void time_truth(benchmark::State& state, const std::string& id, bool is_kept) {
+  const Case definition = select_cases({id}, default_suite_dir()).front();
+  setenv("RIGOR_CACHE_DIR", is_kept ? scratch_folder().c_str() : "", 1);
+  if (is_kept) make_truth(definition.truth, definition.scene, definition.duration);
+  for (auto _ : state) benchmark::DoNotOptimize(make_truth(definition.truth, definition.scene, definition.duration));
+  unsetenv("RIGOR_CACHE_DIR");
+}
+
+// A body that flies for a single step in each of so many cells.
+fs::path one_step_case(int cells) {
+  const fs::path file = scratch_folder() / fmt::format("cells-{}.toml", cells);
+  std::ofstream out(file);
+  out << "title = \"one step\"\nsource = \"timing\"\n[scene]\ngravity = [0, 0, -9.81]\n[[scene.body]]\nname = \"a\"\n"
+         "mass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0]\n[run]\nduration = 0.5\ndt = [";
+  for (int k = 0; k < cells; ++k) out << (k ? ", " : "") << fmt::format("{}", 0.5 - 1e-4 * k);
+  out << "]\n[truth]\nkind = \"none\"\n[[gate]]\nmetric = \"energy_drift\"\nengines = [\"core:rk4\"]\nmax = 1e9\n"
+         "because = \"timing\"\n";
+  return file;
+}
+
+double seconds_of(const std::string& command) {
+  timespec a, b;
+  clock_gettime(CLOCK_MONOTONIC, &a);
+  const int code = std::system(command.c_str());
+  clock_gettime(CLOCK_MONOTONIC, &b);
+  if (code != 0) return -1;
+  return static_cast<double>(b.tv_sec - a.tv_sec) + 1e-9 * static_cast<double>(b.tv_nsec - a.tv_nsec);
+}
+
+// Wall time of a whole `rigor gate`, for one cell more.
+void time_cells(benchmark::State& state) {
+  constexpr int kCells = 65;
+  const auto command = [](int cells) {
+    return fmt::format("'{}' gate '{}' --engine core:rk4 --jobs 1 --out '{}' > /dev/null 2>&1", RIGOR_PROGRAM,
+                       one_step_case(cells).string(), (scratch_folder() / "out").string());
+  };
+  const std::string many = command(kCells), one = command(1);
+  for (auto _ : state) {
+    const double longer = seconds_of(many), shorter = seconds_of(one);
+    if (longer < 0 || shorter < 0) {
+      state.SkipWithError("rigor gate failed");
+      return;
+    }
+    state.SetIterationTime(std::max(0.0, (longer - shorter) / (kCells - 1)));
+    state.counters["whole_program_ms"] = 1e3 * shorter;
+  }
+}
+
+}  // namespace
+
+void register_harness() {
+  for (const int count : {1, 100}) {
+    const auto add = [&](const std::string& name, auto run) {
+      benchmark::RegisterBenchmark(fmt::format("harness/{}/{}", name, count).c_str(), run)->UseManualTime();
+    };
+    add("raw/bullet", [count](benchmark::State& s) { time_raw(s, raw_bullet, count); });
+    add("raw/ode", [count](benchmark::State& s) { time_raw(s, raw_ode, count); });
+    add("seam/bullet", [count](benchmark::State& s) { time_seam(s, "bullet", "sequential-impulse", count); });
+    add("seam/ode", [count](benchmark::State& s) { time_seam(s, "ode", "worldstep", count); });
+  }
+  benchmark::RegisterBenchmark("harness/cell", time_cells)->UseManualTime()->Iterations(2);
+  for (const char* id : {"springs/body-springs", "contact/collision"})
+    benchmark::RegisterBenchmark(fmt::format("harness/read-case/{}", id).c_str(), time_reading, id);
+  for (const char* id : {"springs/fixed-spring", "ballistic/projectile"}) {
+    benchmark::RegisterBenchmark(fmt::format("harness/truth/{}", id).c_str(), time_truth, id, false);
+    benchmark::RegisterBenchmark(fmt::format("harness/truth-kept/{}", id).c_str(), time_truth, id, true);
+  }
+}
+
+}  // namespace rigor::bench

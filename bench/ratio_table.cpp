@@ -1,0 +1,199 @@
+#include "bench/ratio_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "cases/report/machine.h"
+
+namespace rigor::bench {
+namespace {
+
+const std::string kCore = "core:semi-implicit-euler", kOde = "ode:worldstep", kBullet = "bullet:sequential-impulse";
+constexpr int kNameWidth = 58;
+
+std::string step(const std::string& scene, int count, const std::string& run) {
+  return fmt::format("step/{}/{}/{}", scene, count, run);
+}
+
+// One run against both engines.
+void add_pair(std::vector<RatioRow>& rows, const std::string& scene, int count, const std::string& run,
+              const std::string& ode, double times_ode, double times_bullet) {
+  const std::string what = fmt::format("{}, N = {}, {}", scene, count, run);
+  const auto kind = RatioRow::Kind::times_as_fast;
+  rows.push_back({what + " against ODE", step(scene, count, run), step(scene, count, ode), kind, times_ode});
+  if (times_bullet > 0)
+    rows.push_back(
+        {what + " against Bullet", step(scene, count, run), step(scene, count, kBullet), kind, times_bullet});
+}
+
+std::vector<RatioRow> all_rows() {
+  using Kind = RatioRow::Kind;
+  std::vector<RatioRow> rows;
+  add_pair(rows, "free-bodies", 1000, kCore, kOde, 20, 40);
+  add_pair(rows, "free-bodies", 1000, "core:rk4", kOde, 10, 0);
+  add_pair(rows, "free-bodies", 1, kCore, kOde, 5, 10);
+  add_pair(rows, "spring-chain", 1000, kCore, kOde, 8, 15);
+  add_pair(rows, "springs/fixed-spring", 1, "core:rk4", kOde, 1, 0);
+  add_pair(rows, "springs/body-springs", 2, "core:rk4", kOde, 1, 0);
+  add_pair(rows, "bouncing-spheres", 1000, kCore, kOde, 20, 60);
+  const std::string impulse = kCore + ",contact=impulse", quick = "ode:quickstep";
+  add_pair(rows, "pile", 216, impulse, quick, 2, 2);
+  add_pair(rows, "pyramid", 1240, impulse, quick, 1.5, 1.5);
+  rows.push_back({"free-bodies, N = 1000000, against copying the state", step("free-bodies", 1000000, kCore),
+                  "limit/copy/1000000", Kind::at_most_times, 1.25});
+  rows.push_back({"free-bodies, N = 1000, against the arithmetic in cache", step("free-bodies", 1000, kCore),
+                  "limit/in-cache/" + kCore, Kind::at_most_times, 2});
+  rows.push_back({"two threads against one, N = 100000 (wall)", step("free-bodies", 100000, kCore + ",threads=2"),
+                  step("free-bodies", 100000, kCore), Kind::times_as_fast, 1.8});
+  for (const std::string engine : {"ode", "bullet"}) {
+    for (const auto& [count, goal] : {std::pair(1, 10.0), std::pair(100, 5.0)}) {
+      rows.push_back({fmt::format("the seam around {}, N = {}", engine, count),
+                      fmt::format("harness/seam/{}/{}", engine, count), fmt::format("harness/raw/{}/{}", engine, count),
+                      Kind::at_most_percent_more, goal});
+    }
+  }
+  return rows;
+}
+
+const std::vector<std::string> kAlone = {"harness/cell", "harness/read-case/springs/body-springs",
+                                         "harness/truth/springs/fixed-spring",
+                                         "harness/truth-kept/springs/fixed-spring", "limit/copy/1000"};
+const std::vector<int> kGrowth = {100, 1000, 10000, 100000};
+
+// "step/x/real_time/manual_time" and the like: the library appends how it timed.
+std::string plain_name(const benchmark::BenchmarkReporter::Run& run) { return run.run_name.function_name; }
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::string time_text(double ns) {
+  if (ns < 1e4) return fmt::format("{:.3g} ns", ns);
+  if (ns < 1e7) return fmt::format("{:.3g} us", ns / 1e3);
+  return fmt::format("{:.3g} ms", ns / 1e6);
+}
+
+bool holds(const RatioRow& row, double value) {
+  return row.kind == RatioRow::Kind::times_as_fast ? value >= row.goal : value <= row.goal;
+}
+
+std::string value_text(RatioRow::Kind kind, double value) {
+  return kind == RatioRow::Kind::at_most_percent_more ? fmt::format("{:+.1f} %", value)
+                                                      : fmt::format("{:.3g} x", value);
+}
+
+std::string goal_text(const RatioRow& row) {
+  switch (row.kind) {
+    case RatioRow::Kind::times_as_fast:
+      return fmt::format(">= {:g} x", row.goal);
+    case RatioRow::Kind::at_most_times:
+      return fmt::format("<= {:g} x", row.goal);
+    case RatioRow::Kind::at_most_percent_more:
+      return fmt::format("<= {:g} %", row.goal);
+  }
+  return "";
+}
+
+}  // namespace
+
+const std::vector<RatioRow>& ratio_rows() {
+  static const std::vector<RatioRow> table = all_rows();
+  return table;
+}
+
+std::string filter_of_table() {
+  std::vector<std::string> names = kAlone;
+  for (const RatioRow& row : ratio_rows()) names.push_back(row.of), names.push_back(row.against);
+  for (const int count : kGrowth) names.push_back(step("free-bodies", count, kCore));
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return fmt::format("^({})(/|$)", fmt::join(names, "|"));
+}
+
+bool RatioTable::ReportContext(const Context&) {
+  const Machine machine = this_machine();
+  std::cout << fmt::format("{}, {} cores; {}, {}\n", machine.cpu, machine.cores, machine.compiler, machine.build_type);
+  return true;
+}
+
+void RatioTable::ReportRuns(const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    if (run.run_type != Run::RT_Iteration) continue;
+    const std::string name = plain_name(run);
+    if (run.error_occurred) {
+      skipped_[name] = run.error_message;
+      continue;
+    }
+    const auto counter = run.counters.find("ns_per_body_step");
+    const double ns = counter != run.counters.end()
+                          ? counter->second.value
+                          : 1e9 * run.GetAdjustedRealTime() / benchmark::GetTimeUnitMultiplier(run.time_unit);
+    ns_[name].push_back(ns);
+    for (const auto& [key, value] : run.counters) counters_[name][key] = value;
+    std::cerr << fmt::format("{:<{}} {}\n", name, kNameWidth, time_text(ns));
+  }
+}
+
+void RatioTable::print_row(const RatioRow& row) {
+  for (const std::string& name : {row.of, row.against}) {
+    if (ns_.contains(name)) continue;
+    const std::string why = skipped_.contains(name) ? skipped_[name] : "not timed";
+    std::cout << fmt::format("{:<{}}  -  {}: {}\n", row.what, kNameWidth, name, why);
+    return;
+  }
+  const Rounds &of = ns_[row.of], &against = ns_[row.against];
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < std::min(of.size(), against.size()); ++k) {
+    const bool faster = row.kind == RatioRow::Kind::times_as_fast;
+    const double ratio = faster ? against[k] / of[k] : of[k] / against[k];
+    ratios.push_back(row.kind == RatioRow::Kind::at_most_percent_more ? 100 * (ratio - 1) : ratio);
+  }
+  const auto [low, high] = std::minmax_element(ratios.begin(), ratios.end());
+  const double value = median(ratios);
+  std::cout << fmt::format("{:<{}} {:>9} {:>9} {:>9}  {:<19} {:>9}  {}\n", row.what, kNameWidth, time_text(median(of)),
+                           time_text(median(against)), value_text(row.kind, value),
+                           value_text(row.kind, *low) + " .. " + value_text(row.kind, *high), goal_text(row),
+                           holds(row, value) ? "yes" : "no");
+}
+
+void RatioTable::print_growth() {
+  std::vector<double> costs;
+  std::string text;
+  for (const int count : kGrowth) {
+    const std::string name = step("free-bodies", count, kCore);
+    if (!ns_.contains(name)) return;
+    costs.push_back(median(ns_[name]));
+    text += fmt::format("{}{} at {}", text.empty() ? "" : ", ", time_text(costs.back()), count);
+  }
+  std::cout << fmt::format("cost of a body as N grows: {}\n", text);
+}
+
+void RatioTable::print_alone(const std::string& name) {
+  if (!ns_.contains(name)) return;
+  std::cout << fmt::format("{:<{}} {:>9}\n", name, kNameWidth, time_text(median(ns_[name])));
+}
+
+void RatioTable::Finalize() {
+  std::cout << fmt::format("\n{:<{}} {:>9} {:>9} {:>9}  {:<19} {:>9}  met\n", "per body and step", kNameWidth, "this",
+                           "other", "ratio", "range", "goal");
+  for (const RatioRow& row : ratio_rows()) {
+    if (ns_.contains(row.of) || ns_.contains(row.against) || skipped_.contains(row.of)) print_row(row);
+  }
+  print_growth();
+  for (const std::string& name : kAlone) print_alone(name);
+  std::cout << "\nreached\n";
+  for (const auto& [name, values] : counters_) {
+    for (const char* what : {"error_m", "energy_error", "penetration_m"}) {
+      if (const auto value = values.find(what); value != values.end())
+        std::cout << fmt::format("{:<{}} {} {:.3g}\n", name, kNameWidth, what, value->second);
+    }
+  }
+}
+
+}  // namespace rigor::bench
