@@ -8,6 +8,7 @@
 #include "cases/report/comparison.h"
 #include "cases/report/explained_error.h"
 #include "cases/report/explanation.h"
+#include "cases/report/findings.h"
 
 namespace rigor {
 namespace {
@@ -202,6 +203,9 @@ std::string gate_summary(const Results& results) {
 std::string console_table(const Results& results) {
   std::string text;
   for (const CaseResult& result : results.cases) text += block(results, result) + "\n";
+  if (results.cases.size() > 1) {
+    for (const std::string& sentence : findings(results)) text += wrapped(sentence, 2) + "\n";
+  }
   return text + count_line(results);
 }
 

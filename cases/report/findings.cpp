@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <numeric>
 
 #include "cases/metrics/work_precision.h"
+#include "cases/report/console_table.h"
 
 namespace rigor {
 namespace {
@@ -32,9 +33,7 @@ class Finder {
   explicit Finder(const Results& results) : results_(results), dt_(headline_dt(results)) {}
 
   std::vector<std::string> sentences() {
-    for (std::size_t run = 0; run < results_.runs.size(); ++run) {
-      if (results_.runs[run].engine != "core") say_where_energy_goes(run);
-    }
+    say_where_energy_goes();
     say_who_blows_up();
     say_what_a_millimetre_takes();
     say_what_is_unexplained();
@@ -52,49 +51,72 @@ class Finder {
     }
   }
 
+  bool is_ours(std::size_t run) const { return results_.runs[run].engine == "core"; }
+
+  // Engines that are not ours first: they are what a reader has come for.
+  std::vector<std::size_t> runs() const {
+    std::vector<std::size_t> order(results_.runs.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_partition(order.begin(), order.end(), [&](std::size_t run) { return !is_ours(run); });
+    return order;
+  }
+
   void say_who_blows_up() {
-    std::vector<std::string> steady;
-    std::map<std::string, std::vector<std::string>> lost;  // runs by what is said of them
-    for (std::size_t run = 0; run < results_.runs.size(); ++run) {
+    std::vector<std::string> steady, lost;
+    std::map<std::string, std::size_t> said;  // of engines not ours: which sentence they share
+    for (const std::size_t run : runs()) {
       std::vector<std::string> blown;
-      int ran = 0;
+      std::size_t ran = 0;
       for_cells(run, [&](const CaseResult& result, const Cell& cell) {
         ++ran;
         if (cell.stability.verdict == Verdict::blown_up) blown.push_back(result.definition.id);
       });
       const std::string& name = results_.runs[run].text;
-      if (ran > 0 && blown.empty()) steady.push_back(name);
-      if (!blown.empty()) lost[fmt::format("{} of {} ({})", blown.size(), ran, listed_names(blown, 2))].push_back(name);
+      if (blown.empty() && 2 * ran > results_.cases.size()) steady.push_back(name);
+      if (blown.empty()) continue;
+      const std::string where = fmt::format(" in {} of {}", blown.size(), ran) +
+                                (is_ours(run) ? "" : fmt::format(" ({})", listed_names(blown, 3)));
+      if (const auto [at, is_new] = said.emplace(where, lost.size()); is_new) {
+        lost.push_back(name + where);
+      } else {
+        lost[at->second].insert(lost[at->second].size() - where.size(), ", " + name);
+      }
     }
     if (lost.empty() && !steady.empty()) sentences_.push_back(fmt::format("At dt = {} s nothing blows up.", dt_.text));
     if (lost.empty()) return;
-    std::vector<std::string> parts;
-    for (const auto& [cases, names] : lost) parts.push_back(fmt::format("{} in {}", listed_names(names, 3), cases));
-    std::string text = fmt::format("At dt = {} s these blow up: ", dt_.text);
-    for (std::size_t i = 0; i < parts.size(); ++i) text += (i ? "; " : "") + parts[i];
-    if (!steady.empty()) text += fmt::format(". Never: {}", listed_names(steady, 6));
-    sentences_.push_back(text + ".");
+    std::string text = fmt::format("At dt = {} s these blow up: {}.", dt_.text, fmt::join(lost, "; "));
+    if (!steady.empty()) text += fmt::format(" Never: {}.", listed_names(steady, 5));
+    sentences_.push_back(text);
   }
 
-  // The case in which a run's mean energy moves most without its blowing up; of runs of one engine that say the same
-  // only the first.
-  void say_where_energy_goes(std::size_t run) {
+  // For each engine that is not ours: where its mean energy falls most, and where it rises most, without blowing up.
+  void say_where_energy_goes() {
+    for (const bool is_loss : {true, false}) {
+      std::map<std::string, std::vector<std::string>> said;  // who, by what is said of them
+      for (const std::size_t run : runs()) {
+        const std::string text = is_ours(run) ? "" : worst_drift(run, is_loss);
+        if (!text.empty()) said[text].push_back(results_.runs[run].text);
+      }
+      for (const auto& [text, names] : said) {
+        const std::string verb = is_loss ? " lose" : " gain";
+        sentences_.push_back(listed_names(names, 4) + verb + (names.size() == 1 ? "s " : " ") + text);
+      }
+    }
+  }
+
+  std::string worst_drift(std::size_t run, bool is_loss) const {
     const CaseResult* worst_case = nullptr;
     const Cell* worst = nullptr;
+    double largest = 0.01;  // of the largest kinetic energy: what is less is not worth a sentence
     for_cells(run, [&](const CaseResult& result, const Cell& cell) {
-      if (cell.stability.verdict != Verdict::drifting) return;
-      const double drift = std::abs(value_of(cell.metrics, kDrift));
-      if (!(drift > 0.01) || (worst && drift <= std::abs(value_of(worst->metrics, kDrift)))) return;
-      worst = &cell, worst_case = &result;
+      const double drift = value_of(cell.metrics, kDrift);
+      if (cell.stability.verdict != Verdict::drifting || std::isnan(drift) || (drift < 0) != is_loss) return;
+      if (std::abs(drift) > largest) largest = std::abs(drift), worst = &cell, worst_case = &result;
     });
-    if (!worst) return;
-    const double drift = value_of(worst->metrics, kDrift);
-    const std::string text =
-        fmt::format("{} {:.2g} % of the energy of {} within {:g} s at dt = {} s{}", drift < 0 ? "loses" : "gains",
-                    100 * std::abs(drift), worst_case->definition.id, worst_case->definition.duration, dt_.text,
-                    cause_of(*worst, drift));
-    if (said_of_energy_.insert(results_.runs[run].engine + text).second)
-      sentences_.push_back(results_.runs[run].text + " " + text);
+    if (!worst) return "";
+    return fmt::format("{} % of the energy of {} within {:g} s at dt = {} s{}", rounded(100 * largest),
+                       worst_case->definition.id, worst_case->definition.duration, dt_.text,
+                       cause_of(*worst, is_loss ? -largest : largest));
   }
 
   static std::string cause_of(const Cell& cell, double drift) {
@@ -103,9 +125,9 @@ class Finder {
                  without = value_of(cell.scheme.without_gyroscopic_term, kDrift);
     if (std::isnan(scheme)) return ", the most of all its cases.";
     if (std::abs(drift - scheme) > kAlike * std::abs(drift))
-      return fmt::format("; of that its scheme explains {:.2g} %.", 100 * scheme / drift);
-    if (std::abs(without) < kGone * std::abs(drift)) return "; all of it is its gyroscopic scheme.";
-    return "; all of it is its scheme: the core, repeating it, comes to the same.";
+      return fmt::format("; of that the scheme explains {:.2g} %.", 100 * scheme / drift);
+    if (std::abs(without) < kGone * std::abs(drift)) return "; all of it is the gyroscopic part of the scheme.";
+    return "; all of it is the scheme: the core, repeating it, comes to the same.";
   }
 
   void say_what_is_unexplained() {
@@ -143,31 +165,30 @@ class Finder {
 
   void say_what_a_millimetre_takes() {
     constexpr double kMillimetre = 1e-3;
-    std::vector<std::pair<double, std::string>> runs;
-    for (std::size_t run = 0; run < results_.runs.size(); ++run) {
+    std::vector<std::pair<double, std::string>> needs;
+    for (const std::size_t run : runs()) {
       std::vector<double> steps;
       for (const CaseResult& result : results_.cases) {
         if (!error_points(result, run, "position_error").empty()) steps.push_back(step_for(result, run, kMillimetre));
       }
       if (steps.empty() || steps.size() * 2 < results_.cases.size()) continue;  // too few to speak of a middle one
       std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
-      runs.emplace_back(steps[steps.size() / 2], results_.runs[run].text);
+      needs.emplace_back(steps[steps.size() / 2], results_.runs[run].text);
     }
-    if (runs.empty()) return;
-    std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    if (needs.empty()) return;
+    std::stable_sort(needs.begin(), needs.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<std::string> enough, too_few;
-    for (const auto& [step, name] : runs)
+    for (const auto& [step, name] : needs)
       step > 0 ? enough.push_back(fmt::format("{} {:.2g} s", name, step)) : too_few.push_back(name);
     std::string text = "To stay within 1 mm of the truth in the middle one of the cases takes a dt of: ";
-    text += enough.empty() ? "less than was tried with any of them" : listed_names(enough, 6);
-    if (!enough.empty() && !too_few.empty()) text += "; less than was tried with " + listed_names(too_few, 4);
+    text += enough.empty() ? "less than was tried with any of them" : listed_names(enough, 5);
+    if (!enough.empty() && !too_few.empty()) text += "; less than was tried with " + listed_names(too_few, 5);
     sentences_.push_back(text + ".");
   }
 
   static constexpr const char* kDrift = "energy_drift";
   const Results& results_;
   StepSize dt_;
-  std::set<std::string> said_of_energy_;
   std::vector<std::string> sentences_;
 };
 

@@ -11,6 +11,7 @@
 #include "cases/report/reports.h"
 #include "cases/report/result_json.h"
 #include "cases/report/scene_json.h"
+#include "cases/report/verdict_matrix.h"
 
 namespace rigor {
 namespace {
@@ -89,6 +90,7 @@ Json case_json(const Results& results, const CaseResult& result) {
     json["truth"]["horizon_tolerance"] = kHorizonTolerance;
   }
   if (result.truth) json["largest_kinetic_energy"] = result.truth->largest_kinetic_energy;
+  json["main_error"] = main_error(result);
   json["observed_order"] = observed_orders_json(results, result);
   json["work_precision"] = work_precision_json(results, result);
   json["spread"] = spreads_json(results, result);

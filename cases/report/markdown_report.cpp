@@ -7,8 +7,10 @@
 #include "cases/report/console_table.h"
 #include "cases/report/explained_error.h"
 #include "cases/report/explanation.h"
+#include "cases/report/findings.h"
 #include "cases/report/machine.h"
 #include "cases/report/reports.h"
+#include "cases/report/verdict_matrix.h"
 
 namespace rigor {
 namespace {
@@ -120,6 +122,8 @@ std::string settings(const Results& results) {
 
 std::string markdown_report(const Results& results) {
   std::string text = "# Rigor: how right each engine was\n\n";
+  for (const std::string& sentence : findings(results)) text += "- " + plain(sentence) + "\n";
+  text += "\n" + table(verdict_matrix(results)) + "\n";
   for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
   text += "# Other step sizes\n\n";
   for (const CaseResult& result : results.cases) text += finer_steps(results, result);

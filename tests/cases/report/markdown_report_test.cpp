@@ -17,11 +17,11 @@ BOOST_AUTO_TEST_CASE(every_row_has_the_columns_of_its_header_whatever_a_name_hol
     ++rows;
     int bars = 0;
     for (std::size_t i = 0; i < line.size(); ++i) bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
-    BOOST_TEST(bars == 9, line);
+    BOOST_TEST(bars == (rows <= 3 ? 4 : 9), line);
   }
-  // Two step sizes: a header, its rule and two engines each; then the same for the error explained, of which the engine
-  // that crashed has none.
-  BOOST_TEST(rows == 15);
+  // The matrix: a header, its rule and the only case. Two step sizes: a header, its rule and two engines each; then the
+  // same for the error explained, of which the engine that crashed has none.
+  BOOST_TEST(rows == 3 + 15);
 }
 
 BOOST_AUTO_TEST_CASE(no_name_becomes_a_tag) {

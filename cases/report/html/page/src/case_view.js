@@ -29,6 +29,7 @@ export class CaseView {
 
   close() {
     this.closed = true;
+    this.barSize.disconnect();
     this.stop(), this.player.close(), this.stage?.close(), this.plots?.close();
   }
 
@@ -63,7 +64,13 @@ export class CaseView {
       one.explanations.length ? el("ul.findings", {}, one.explanations.map((text) => el("li", {}, text))) : null);
   }
 
-  bar() { return el("div.bar", {}, this.steps, this.chips); }
+  // It stays in sight; the picture below it has to know how high it is.
+  bar() {
+    const bar = el("div.bar", {}, this.steps, this.chips);
+    this.barSize = new ResizeObserver(() => this.root.style.setProperty("--bar", `${bar.offsetHeight}px`));
+    this.barSize.observe(bar);
+    return bar;
+  }
 
   drawBar() {
     replace(this.steps, this.one.dt.map((dt) => el("button", { type: "button", "aria-pressed": String(dt.text === this.dt.text), onclick: () => set({ dt: dt.text }) }, `dt ${dt.text} s`)));

@@ -57,7 +57,7 @@ export function convergence({ results, one, shown }) {
     if (!lines.length || one.dt.length < 2) return null;
     const fitted = (engine) => {
       const found = order(one, engine.name, metric);
-      return isNumber(found?.value) ? `order ${found.value.toFixed(2)}` : "no order";
+      return isNumber(found?.value) ? `order ${digits(Math.round(100 * found.value) / 100)}` : "no order";
     };
     return el("figure.wide", {}, el("figcaption", {}, words(metric)), logLog(lines, { xLabel: "dt [s]", yLabel: `${words(metric)} [${unit}]`, xTicks: one.dt.map((dt) => [dt.seconds, dt.text]), label: `${words(metric)} against step size` }),
       legend(lines.map(({ engine }) => [engine, fitted(engine)])));

@@ -27,7 +27,7 @@ function indexed(results, playback) {
   giveColours(results.engines);
   results.caseById = new Map();
   results.cases.forEach((one, i) => {
-    Object.assign(one, { index: i, cells: [], stable: new Map(), truthPlayback: playback.cases[i].truth });
+    Object.assign(one, { index: i, cells: [], stable: new Map(), truthPlayback: playback.cases[i].truth, main: one.main_error });
     one.family = one.id.includes("/") ? one.id.slice(0, one.id.lastIndexOf("/")) : "";
     one.coarsest = one.dt.reduce((a, b) => (b.seconds > a.seconds ? b : a));
     results.caseById.set(one.id, one);
@@ -38,7 +38,6 @@ function indexed(results, playback) {
     one.cells.push(cell);
   }
   for (const stable of results.stable_dt) results.caseById.get(stable.case).stable.set(stable.engine, stable);
-  results.cases.forEach((one) => (one.main = mainMetric(one)));
   results.dts = distinctDts(results.cases);
   return results;
 }
@@ -97,14 +96,6 @@ export function signedMetric(metrics, name) {
   const metric = metrics?.[name];
   if (!metric || !isNumber(metric.value)) return null;
   return metric.worst && metric.worst.found < metric.worst.expected ? -metric.value : metric.value;
-}
-
-// The error that a case is about: of the position; where nothing moves away, of the orientation; without a truth, energy.
-function mainMetric(one) {
-  const worst = (name) => Math.max(0, ...one.cells.map((cell) => metricOf(cell, name) ?? 0));
-  for (const name of ["position_error", "orientation_error"]) if (worst(name) > 1e-9) return name;
-  return one.cells.some((cell) => metricOf(cell, "position_error") !== null) && worst("energy_drift") < 1e-9
-    ? "position_error" : "energy_drift_synchronised";
 }
 
 export const cellOf = (one, engine, dtText) => one.cells.find((c) => c.engine === engine && c.dt === dtText);

@@ -80,7 +80,8 @@ export class Overview {
   caption() {
     const what = shownAside[state.show] ?? words(state.show);
     const tolerance = state.show === "step" ? ` of ${quantity(state.tolerance, "m")} or ${quantity(state.tolerance, "rad")}` : "";
-    return `dt = ${this.dt.text} s: ${what}${tolerance}. ${this.results.summaries[state.show] ?? ""}`;
+    const main = "the position's; the orientation's where nothing moves away; the energy's drift where there is no truth";
+    return [el("b", {}, `dt = ${this.dt.text} s: ${what}${tolerance}`), " ", el("span.fine", {}, state.show === "main" ? main : this.results.summaries[state.show] ?? "")];
   }
 
   head(engines) {
@@ -109,7 +110,7 @@ export class Overview {
       const steps = cases.filter((one) => one.main !== "energy_drift_synchronised").map((one) => stepFor(one, engine.name, one.main, state.tolerance)).filter(Boolean);
       if (!steps.length) return "–";
       const middle = median(steps.map((s) => (s.mark === "<" ? 0 : s.seconds)));
-      return middle > 0 ? quantity(middle, "s") : "< tried";
+      return middle > 0 ? quantity(middle, "s") : el("span.fine", { title: "smaller than the steps that were tried" }, "smaller");
     };
     const blown = (engine) => {
       const ran = cells(engine), bad = ran.filter((c) => judgement(c).kind === "bad").length;
@@ -117,7 +118,7 @@ export class Overview {
     };
     return el("tbody.summaries", {},
       line("blown up or failed", "cells at this step that blew up, crashed or failed a gate, of those that ran", blown),
-      line("error beside the middle engine's", "geometric mean, over the cases, of the error that matters divided by that of the middle engine; below 1 is better", ratio),
+      line("error ÷ the middle engine's", "geometric mean, over the cases, of the error that matters divided by that of the engine in the middle; below 1 is better than most", ratio),
       line(`dt for ${quantity(state.tolerance, "m")}`, "the middle one of the cases: the largest step that keeps the error that matters within the tolerance", middleStep));
   }
 
@@ -138,7 +139,7 @@ export class Overview {
     if (!cell) return el("td.cell.is-absent", {}, "");
     const title = `${one.id}, ${engine.name}, dt = ${dt.text} s: ${verdict.word}${cell.reason ? ` – ${cell.reason}` : ""}`;
     return el(`td.cell.is-${verdict.kind}`, {}, el("a", { href: address(changes), title, onclick: (event) => this.go(event, one, changes) },
-      el("span.value", {}, value), el("span.word", {}, `${verdict.sign} ${note ?? verdict.word}`)));
+      el("span.value", {}, value), el("span.word", {}, note ?? `${verdict.sign} ${verdict.word}`)));
   }
 
   // The number of a cell, and a word that stands in place of the verdict where it says more.

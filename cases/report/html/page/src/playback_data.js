@@ -127,7 +127,7 @@ export async function loadCase(results, one, dtText) {
     if (run.isLikeTruth) run.motion = truth?.motion ?? null;
     runs.set(cell.engine, run);
   }
-  return { truth, runs };
+  return { dt: dtText, truth, runs };
 }
 
 export function valueAt(course, t) {

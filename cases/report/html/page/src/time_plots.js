@@ -11,7 +11,7 @@ const height = 150;
 
 export class TimePlots {
   constructor(results, one, data, player, root) {
-    Object.assign(this, { results, one, data, player, root, plots: [], engines: [], more: false });
+    Object.assign(this, { results, one, data, player, root, plots: [], engines: [], more: false, dt: data.dt });
     const present = new Set([...data.runs.values()].flatMap((run) => Object.entries(run.courses).filter(([, c]) => c.times.length > 1 && c.values.some((v) => Math.abs(v) > 1e-17)).map(([name]) => name)));
     this.names = first.filter((name) => present.has(name));
     this.others = [...present].filter((name) => !first.includes(name));
@@ -82,7 +82,7 @@ export class TimePlots {
   plot(name, title, unit, courses, { log, truth }) {
     const lines = [...courses];
     if (truth?.times.length) lines.unshift([null, truth]);
-    const scale = log ? logarithmic(courses.map(([, c]) => c.values)) : linear(unit);
+    const scale = log ? logarithmic(courses.map(([, c]) => c.values)) : linear(unit, this.tameRange(courses, truth));
     const tables = lines.map(([, c]) => [Array.from(c.times), Array.from(c.values, scale.put)]);
     const joined = uPlot.join(tables, tables.map((t) => t.slice(1).map(() => 1)));
     const ink = colour("--ink-2"), grid = colour("--line");
@@ -109,6 +109,16 @@ export class TimePlots {
     followTouch(chart, (time) => this.player.seek(time));
     this.plots.push({ name, chart, holder, playhead, readouts, lines, unit });
     return figure;
+  }
+
+  // What the runs that did not blow up and the truth span: those that did would leave nothing of the others to be seen.
+  tameRange(courses, truth) {
+    let low = Infinity, high = -Infinity;
+    const include = ({ values }) => values.forEach((v) => { if (v < low) low = v; if (v > high) high = v; });
+    const tame = courses.filter(([engine]) => this.one.cells.find((c) => c.engine === engine.name && c.dt === this.dt)?.status !== "diverged");
+    for (const [, course] of tame) include(course);
+    if (truth) include(truth);
+    return tame.length === courses.length || !(low < high) ? null : [low - 0.6 * (high - low), high + 0.6 * (high - low)];
   }
 
   fit() {
@@ -199,10 +209,11 @@ function logarithmic(series) {
   };
 }
 
-function linear(unit) {
+function linear(unit, fixed) {
   return {
     put: (value) => (Number.isNaN(value) ? null : value),
     range: (u, min, max) => {
+      if (fixed && (min < fixed[0] || max > fixed[1])) return fixed;
       if (min === null || max === null) return [0, 1];
       const pad = 0.08 * (max - min) || Math.max(1e-12, 0.1 * Math.abs(max)) || 1;
       return [min - pad, max + pad];

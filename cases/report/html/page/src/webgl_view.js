@@ -109,6 +109,7 @@ export class WebglView {
     eye.lookAt(...camera.target);
     eye.near = camera.distance / 200, eye.far = camera.distance * 50 + 20 * camera.radius;
     this.sun.position.copy(eye.position).addScaledVector(new THREE.Vector3(...camera.up), camera.distance);
+    this.seeThrough(panes);
     for (const pane of panes) {
       for (const [, { group, layer }] of this.groups) group.visible = pane.layers.includes(layer) && !layer.isGone;
       const bottom = height - pane.y - pane.height;
@@ -119,6 +120,16 @@ export class WebglView {
       renderer.render(this.scene, eye);
     }
     this.keepPace(performance.now() - began);
+  }
+
+  // Several engines on top of one another: each lets the others be seen.
+  seeThrough(panes) {
+    const isCrowded = panes.some((p) => p.layers.filter((l) => l.engine).length > 1);
+    for (const { layer, material } of this.groups.values()) {
+      if (!layer.engine || material.transparent === isCrowded) continue;
+      material.transparent = isCrowded, material.opacity = isCrowded ? 0.55 : 1, material.depthWrite = !isCrowded;
+      material.needsUpdate = true;
+    }
   }
 
   // Without a GPU a frame can take long: then with fewer pixels, so that the page answers.

@@ -1,0 +1,18 @@
+// The first thing to look at: cases by engines at one step size, a verdict in a word and the error that matters.
+#pragma once
+
+#include <string>
+
+#include "cases/report/comparison.h"
+#include "cases/runner/results.h"
+
+namespace rigor {
+
+// The error that a case is about: its runs' largest position error; where nothing moves away, the orientation's;
+// without a truth, the energy's drift.
+std::string main_error(const CaseResult& result);
+
+// At headline_dt(); a case that has no such step is shown at its coarsest, which its row says.
+TextTable verdict_matrix(const Results& results);
+
+}  // namespace rigor

@@ -1,0 +1,102 @@
+#include "cases/report/findings.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "cases/report/verdict_matrix.h"
+#include "tests/cases/priced_results.h"
+#include "tests/cases/report/sample_results.h"
+
+using namespace rigor;
+
+namespace {
+
+bool has(const std::vector<std::string>& sentences, const std::string& part) {
+  return std::any_of(sentences.begin(), sentences.end(),
+                     [&](const std::string& s) { return s.find(part) != std::string::npos; });
+}
+
+std::string all(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += sentence + "\n";
+  return text;
+}
+
+// The first run drifts in its only case: from 15 J to 10 J where 100 % is 10 J, as its scheme does or does not.
+Results drifting_results(double by_scheme, double without_gyroscopic_term) {
+  Results grid = sample_results();
+  Cell& cell = grid.cases[0].cells[0];
+  cell.stability.verdict = Verdict::drifting;
+  cell.metrics["energy_drift"] = sample_metric(0.5, {0.3, kWorld, "energy", 10, 15});
+  cell.scheme.metrics["energy_drift"] = sample_metric(by_scheme, {0.3, kWorld, "energy", 10, 15});
+  cell.scheme.without_gyroscopic_term["energy_drift"] =
+      sample_metric(without_gyroscopic_term, {0.3, kWorld, "energy", 15, 15});
+  return grid;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_report_findings)
+
+BOOST_AUTO_TEST_CASE(who_blows_up_is_named_with_its_cases) {
+  const auto sentences = findings(sample_results());
+  BOOST_TEST(has(sentences, "At dt = 1/10 s these blow up: wild in 1 of 1 (family/case). Never: good."),
+             all(sentences));
+}
+
+BOOST_AUTO_TEST_CASE(lost_energy_is_laid_to_the_scheme_as_far_as_that_shows_it) {
+  const std::string loss = "good loses 50 % of the energy of family/case within 0.5 s at dt = 1/10 s";
+  const auto gyroscopic = findings(drifting_results(0.5, 0.001));
+  BOOST_TEST(has(gyroscopic, loss + "; all of it is the gyroscopic part of the scheme."), all(gyroscopic));
+  const auto scheme = findings(drifting_results(0.5, 0.4));
+  BOOST_TEST(has(scheme, loss + "; all of it is the scheme:"), all(scheme));
+  const auto part = findings(drifting_results(0.125, 0.4));
+  BOOST_TEST(has(part, loss + "; of that the scheme explains 25 %."), all(part));
+}
+
+BOOST_AUTO_TEST_CASE(what_no_scheme_explains_is_the_largest_of_the_runs_that_held) {
+  const auto sentences = findings(sample_results());
+  // The blown-up cell has a twin too, and does not count.
+  BOOST_TEST(has(sentences, "Beside 1 runs"), all(sentences));
+  BOOST_TEST(has(sentences, "unexplained is 0.01 m, by good on family/case."), all(sentences));
+}
+
+BOOST_AUTO_TEST_CASE(a_millimetre_is_read_off_the_line_through_the_cells) {
+  // Of first order: 4 mm at 0.1 s and 2 mm at 0.05 s, so 1 mm at 0.025 s, which was not tried. Of fourth order: 4 mm
+  // and 0.25 mm, so 1 mm at 0.1 / 4^(1/4) = 0.0707 s.
+  const auto sentences = findings(test::priced_results(
+      {{"first", {{0.1, 4e-3, 1}, {0.05, 2e-3, 2}}}, {"fourth", {{0.1, 4e-3, 1}, {0.05, 0.25e-3, 2}}}}));
+  BOOST_TEST(has(sentences, "takes a dt of: fourth 0.071 s; less than was tried with first."), all(sentences));
+}
+
+BOOST_AUTO_TEST_CASE(the_headline_is_a_thirtieth_if_any_case_has_it) {
+  Results grid = sample_results();
+  BOOST_TEST(headline_dt(grid).text == "1/10");
+  grid.cases.push_back(grid.cases.front());
+  grid.cases.back().definition.dt.push_back({1.0 / 30, "1/30"});
+  BOOST_TEST(headline_dt(grid).text == "1/30");
+}
+
+BOOST_AUTO_TEST_CASE(the_matrix_has_a_word_and_a_number_in_each_cell) {
+  Results grid = sample_results();
+  grid.cases[0].cells[3].status = Status::unsupported;
+  TextTable matrix = verdict_matrix(grid);
+  BOOST_TEST((matrix.rows[0] == std::vector<std::string>{"case", "good", "wild"}));
+  BOOST_TEST((matrix.rows[1] == std::vector<std::string>{"family/case", "✓ stable 0.25 m", "✕ blown up 0.40 s"}));
+  grid.cases[0].definition.dt = {{0.05, "1/20"}};
+  grid.cases.push_back(sample_results().cases.front());
+  grid.cases.back().definition.id = "other";
+  matrix = verdict_matrix(grid);
+  BOOST_TEST((matrix.rows[1] == std::vector<std::string>{"family/case (dt 1/20)", "✓ stable 0.25 m", "– unsupported"}));
+}
+
+BOOST_AUTO_TEST_CASE(the_error_that_matters_is_the_first_that_is_there) {
+  CaseResult result = sample_results().cases.front();
+  BOOST_TEST(main_error(result) == "position_error");
+  for (Cell& cell : result.cells) cell.metrics["position_error"] = sample_metric(0, {});
+  for (Cell& cell : result.cells) cell.metrics["orientation_error"] = sample_metric(1, {});
+  BOOST_TEST(main_error(result) == "orientation_error");
+  for (Cell& cell : result.cells) cell.metrics.erase("position_error"), cell.metrics.erase("orientation_error");
+  BOOST_TEST(main_error(result) == "energy_drift_synchronised");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
