@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <thread>
 
 #include "cases/cli/commands.h"
 #include "cases/gates/deviations.h"
+#include "cases/report/changes.h"
 #include "cases/suite.h"
 #include "core/error.h"
 #include "core/near_match.h"
@@ -19,7 +21,7 @@ namespace {
 // As typed; numbers are read afterwards, so that each is refused in the same words as one in a case file.
 struct Typed {
   std::vector<std::string> dt;
-  std::string duration, jobs, every = "1", limit = "60", times;
+  std::string duration, jobs, every = "1", limit = "60", times, factor = fmt::format("{:g}", kDefaultFactor);
 };
 
 int parse_count(const std::string& text, const std::string& what) {
@@ -30,6 +32,14 @@ int parse_count(const std::string& text, const std::string& what) {
     throw InputError(fmt::format("{}: '{}' is not a whole number from 1 to {}", what, text, kMost));
   }
   return count;
+}
+
+double parse_factor(const std::string& text) {
+  double factor = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), factor);
+  if (error != std::errc() || end != text.data() + text.size() || !(factor >= 1) || !std::isfinite(factor))
+    throw InputError(fmt::format("--factor: '{}' is not a number of 1 or more", text));
+  return factor;
 }
 
 std::vector<double> parse_times(const std::string& text) {
@@ -74,6 +84,11 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
   if (takes("--timeout")) {
     command.add_option("--timeout", typed.limit, "seconds that a cell, or a truth, may take")
         ->type_name("S")
+        ->capture_default_str();
+  }
+  if (takes("--factor")) {
+    command.add_option("--factor", typed.factor, "errors that grow by no more than this are noise")
+        ->type_name("F")
         ->capture_default_str();
   }
   if (takes("--quick"))
@@ -134,6 +149,7 @@ void read_typed(const Typed& typed, CommandLine& line) {
   line.jobs = typed.jobs.empty() ? cores : parse_count(typed.jobs, "--jobs");
   line.every = parse_count(typed.every, "--every");
   line.limit = parse_step_size(typed.limit, "--timeout").seconds;
+  line.factor = parse_factor(typed.factor);
   if (!typed.times.empty()) line.times = parse_times(typed.times);
 }
 

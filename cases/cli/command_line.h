@@ -19,6 +19,7 @@ struct CommandLine {
   int jobs = 1;
   int every = 1;
   double limit = 60;  // s
+  double factor = 0;  // by which an error has to grow to be worse
   std::string out = "out";
   std::string suite_dir;
   std::string adapters_dir;  // of the known deviations

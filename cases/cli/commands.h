@@ -24,6 +24,8 @@ const std::vector<CommandRow>& commands();  // in the order of the README
 int list_command(const CommandLine& line);
 int run_command(const CommandLine& line);
 int gate_command(const CommandLine& line);
+int compare_command(const CommandLine& line);
+int baseline_command(const CommandLine& line);
 int trace_command(const CommandLine& line);
 int truth_command(const CommandLine& line);
 

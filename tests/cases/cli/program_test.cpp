@@ -67,7 +67,8 @@ struct Fixture {
 
   pid_t start(std::vector<std::string> words) const {
     words.insert(words.begin(), RIGOR_PROGRAM);
-    if (words.size() > 1 && !words[1].starts_with("-")) words.insert(words.end(), {"--suite", suite});
+    const bool takes_suite = words.size() > 1 && words[1] != "compare" && words[1] != "baseline";
+    if (takes_suite && !words[1].starts_with("-")) words.insert(words.end(), {"--suite", suite});
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
@@ -114,6 +115,7 @@ BOOST_AUTO_TEST_CASE(help_and_version_are_on_stdout) {
                                                 {"list", "--help"},
                                                 {"run", "--help"},
                                                 {"gate", "--help"},
+                                                {"compare", "--help"},
                                                 {"trace", "--help"},
                                                 {"truth", "--help"}}) {
     const Answer answer = run(words);
@@ -121,7 +123,7 @@ BOOST_AUTO_TEST_CASE(help_and_version_are_on_stdout) {
     BOOST_TEST(!answer.out.empty());
     BOOST_TEST(answer.err == "");
   }
-  for (const char* command : {"list", "run", "gate", "trace", "truth"}) {
+  for (const char* command : {"list", "run", "gate", "compare", "baseline", "trace", "truth"}) {
     BOOST_TEST(run({"--help"}).out.find(command) != std::string::npos, command);
   }
 }
@@ -135,7 +137,12 @@ BOOST_AUTO_TEST_CASE(bad_words_and_numbers_are_answered_on_stderr_with_exit_2_an
   const std::vector<Row> rows = {
       {{}, "list"},
       {{"rnu"}, "did you mean 'run'"},
-      {{"compare"}, "there is no command"},
+      {{"compar"}, "did you mean 'compare'"},
+      {{"compare", file}, "two files"},
+      {{"compare", file, "none"}, "neither"},
+      {{"compare", file, file, "--factor", "0.5"}, "--factor"},
+      {{"baseline", "none"}, "cannot be read"},
+      {{"gate", "stone", "--deviations", "nowhere", "--out", out}, "no such folder"},
       {{"run", "--engin", "ode"}, "did you mean '--engine'"},
       {{"run", "ston"}, "stone"},
       {{"run", "stone", "--engine", "od"}, "did you mean 'ode'"},
@@ -230,6 +237,49 @@ BOOST_AUTO_TEST_CASE(gate_answers_with_its_exit_code) {
   const Answer unchecked = run({"gate", "stone", "--engine", "ode", "--out", out});
   BOOST_TEST(unchecked.code == 1);
   BOOST_TEST(unchecked.out.find("gate not checked") != std::string::npos, unchecked.out);
+}
+
+BOOST_AUTO_TEST_CASE(a_gate_runs_what_its_gates_judge_and_on_a_runner_points_at_them) {
+  const std::string summary = folder.write("summary.md", "before\n");
+  ::setenv("GITHUB_ACTIONS", "true", 1), ::setenv("GITHUB_STEP_SUMMARY", summary.c_str(), 1);
+  const Answer answer = run({"gate", "--out", out});
+  ::unsetenv("GITHUB_ACTIONS"), ::unsetenv("GITHUB_STEP_SUMMARY");
+  BOOST_TEST(answer.code == 1);
+  BOOST_TEST(answer.out.find("::error file=air/strict.toml,line=") != std::string::npos, answer.out);
+  BOOST_TEST(content(summary).starts_with("before\n"));
+  BOOST_TEST(content(summary).find("air/strict") != std::string::npos);
+  const auto json = nlohmann::json::parse(content(fs::path(out) / "results.json"));
+  BOOST_TEST(json.at("cells").size() == 4u);  // of core:rk4, in two cases at two steps
+  BOOST_TEST(content(fs::path(out) / "junit.xml").find("failures=\"2\"") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_known_deviation_beside_an_adapter_lets_the_gate_hold) {
+  const std::string row =
+      "[[deviation]]\ncase = \"air/strict\"\ngate = \"position_error\"\n"
+      "engines = [\"core:rk4\"]\nreason = \"no run is so exact\"\n";
+  folder.write("deviations/core/known_deviations.toml", row);
+  const std::string deviations = (folder.path / "deviations").string();
+  BOOST_TEST(run({"gate", "--deviations", deviations, "--out", out}).code == 0);
+  folder.write("deviations/core/known_deviations.toml",
+               row.substr(0, row.find("strict")) + "stone" + row.substr(row.find("strict") + 6));
+  const Answer unexpected = run({"gate", "stone", "--deviations", deviations, "--out", out});
+  BOOST_TEST(unexpected.code == 1);
+  BOOST_TEST(unexpected.out.find("take the row out") != std::string::npos, unexpected.out);
+}
+
+BOOST_AUTO_TEST_CASE(compare_answers_with_its_exit_code_and_reads_its_own_baseline) {
+  run({"run", "--engine", "core:rk4", "--out", out});
+  const std::string results = (fs::path(out) / "results.json").string();
+  const Answer baseline = run({"baseline", results});
+  BOOST_TEST(baseline.code == 0);
+  const std::string kept = folder.write("baseline.txt", baseline.out);
+  const Answer same = run({"compare", kept, results});
+  BOOST_TEST(same.code == 0);
+  BOOST_TEST(same.out.find("nothing changed") != std::string::npos, same.out);
+  run({"run", "stone", "--engine", "core:rk4", "--out", out});
+  const Answer gone = run({"compare", kept, results});
+  BOOST_TEST(gone.code == 1);
+  BOOST_TEST(gone.out.find("air/strict") != std::string::npos, gone.out);
 }
 
 BOOST_AUTO_TEST_CASE(a_cell_out_of_time_ends_the_run_with_3) {

@@ -1,0 +1,32 @@
+// What a run of the grid came to, in short: the part of results.json that two runs are compared by. A baseline is the
+// same as text, one line a cell, so that it is small and its differences can be read.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+namespace rigor {
+
+inline constexpr const char* kBetweenValues = " | ";
+
+struct Outcomes {
+  struct Cell {
+    std::string status;                     // "pass", "fail", ...
+    std::map<std::string, double> metrics;  // lower is better in all of them; none that is a measured time
+  };
+  // Keys are made of parts parted by tabs, in this order; no name holds a tab.
+  std::map<std::string, Cell> cells;               // case, engine, dt
+  std::map<std::string, std::string> gates;        // case, metric, engine, dt (empty for one over several) -> answer
+  std::map<std::string, std::string> settings;     // engine, setting -> its values over the cases
+  std::set<std::string> left_out;                  // metrics that a cell of a baseline has not where they are rounding
+  std::map<std::string, std::string> case_errors;  // case -> why it could not be judged at all
+};
+
+// Of a results.json or of a baseline. Throws InputError for a file that cannot be read or is neither.
+Outcomes read_outcomes(const std::string& path);
+
+// Numbers have four digits: what changes less than that is not worth a line in a difference.
+std::string baseline_text(const Outcomes& outcomes);
+
+}  // namespace rigor
