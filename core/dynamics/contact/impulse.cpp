@@ -1,6 +1,6 @@
 // Contact by impulses, for piles of thousands: the step is divided into small sub-steps of the integrator, and within
-// each the velocities are corrected where the integrator asks for it and once more at its end (pile_solver.h). Contacts
-// are found once a step (manifolds.h). What is fast and far enough to meet something within the step is seen before it
+// each the bodies move freely by its scheme and are then corrected (pile_solver.h). Contacts are found once a step
+// (manifolds.h). What is fast and far enough to meet something within the step is seen before it
 // does, so that it cannot pass through.
 #include <fmt/format.h>
 
@@ -14,25 +14,28 @@
 namespace rigor {
 namespace {
 
-// So short that what a spring as stiff as it allows gives way under ten bodies is a fraction of a millimetre.
-constexpr double kLongestSubStep = 1.0 / 480;  // s
-constexpr int kFewestSubSteps = 2;
+// So short that what a spring as stiff as a sub-step allows gives way under ten bodies is a fraction of a millimetre.
+// Who takes steps longer than kCoarse wants their number small, and can do with more work in each.
+constexpr double kCoarse = 1.0 / 50, kLongestSubStep = 1.0 / 480, kLongestOfCoarse = 1.0 / 960;  // s
+constexpr int kFewestSubSteps = 4;
 
-class ImpulseStepper : public ContactStepper, private Contact {
+class ImpulseStepper : public ContactStepper {
  public:
   ImpulseStepper(const Scene& scene, const ContactParts& parts)
       : sub_steps_(static_cast<int>(number_option(parts.settings, "substeps", 0))),
         manifolds_(scene),
-        solver_(parts.system, manifolds_.colliders()),
-        stepper_(parts.integrator.make({parts.system, this, parts.orientation, parts.settings})) {}
+        solver_(parts.system, manifolds_.colliders(), parts.integrator.velocity_lag > 0 ? 1 : 0.5),
+        stepper_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
+    if (!(dt > 0)) return stepper_->step(state, t, dt);
     const int count = sub_steps_of(dt);
     const double h = dt / count;
     solver_.begin_step(state, manifolds_.find(state, dt), h);
     for (int k = 0; k < count; ++k) {
       solver_.begin_sub_step(state);
       stepper_->step(state, t + k * h, h);
+      solver_.first_pass(state);
       solver_.second_pass(state);
     }
     solver_.end_step();
@@ -42,19 +45,19 @@ class ImpulseStepper : public ContactStepper, private Contact {
 
   SettingsInForce settings_in_force() const override {
     return {{"contact solver", "sequential impulses, two passes a sub-step, warm start"},
-            {"sub-steps", sub_steps_ > 0 ? fmt::format("{} a step", sub_steps_)
-                                         : fmt::format("at most 1/{:.0f} s long, at least {} a step",
-                                                       1 / kLongestSubStep, kFewestSubSteps)}};
+            {"sub-steps",
+             sub_steps_ > 0 ? fmt::format("{} a step", sub_steps_)
+                            : fmt::format("at least {} a step, none longer than 1/480 s (1/960 s in steps over 1/50 s)",
+                                          kFewestSubSteps)}};
   }
 
  private:
-  void resolve(MutableBodyColumns state) override { solver_.first_pass(state); }
-
   int sub_steps_of(double dt) const {
     if (sub_steps_ > 0) return sub_steps_;
     // A step of exactly so many sub-steps must not get one more by rounding.
     constexpr double kRounding = 1e-9;
-    return std::max(kFewestSubSteps, static_cast<int>(std::ceil(dt / kLongestSubStep - kRounding)));
+    const double longest = dt > kCoarse ? kLongestOfCoarse : kLongestSubStep;
+    return std::max(kFewestSubSteps, static_cast<int>(std::ceil(dt / longest - kRounding)));
   }
 
   int sub_steps_;  // 0: as dt asks
@@ -73,7 +76,8 @@ const ContactMethod kImpulseContact = {
                  "contact:capsule-capsule", "contact:capsule-plane", "contact:capsule-sphere", "contact:plane-sphere",
                  "contact:sphere-sphere", "friction:coulomb", "friction:infinite", "friction:none", "restitution"},
     .options = {{.name = "substeps",
-                 .meaning = "of contact=impulse in a step; default: as many as keep them below 1/480 s",
+                 .meaning = "of contact=impulse in a step; default: at least 4, none longer than 1/480 s, or 1/960 s "
+                            "in steps over 1/50 s",
                  .min = 1,
                  .max = 10000,
                  .whole = true}},

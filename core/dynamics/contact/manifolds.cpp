@@ -86,7 +86,7 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
   const ContactLaw& law = laws_.of(a.body, b.body);
   for (const ContactPoint& point : manifold_) {
     points_.push_back({a.body, b.body, point.feature, point.normal, point.point, point.gap, law.friction,
-                       law.restitution, 0, 0, Vec3::Zero(), Vec3::Zero()});
+                       law.restitution, 0, Vec3::Zero()});
   }
 }
 
@@ -112,9 +112,7 @@ void Manifolds::remember(std::size_t first, std::size_t& old) {
     if (best == end) continue;
     taken |= 1u << (best - old);
     points_[i].normal_impulse = old_points_[best].normal_impulse;
-    points_[i].rest_of_normal = old_points_[best].rest_of_normal;
     points_[i].friction_impulse = old_points_[best].friction_impulse;
-    points_[i].rest_of_friction = old_points_[best].rest_of_friction;
   }
 }
 

@@ -19,9 +19,8 @@ struct PilePoint {
   Vec3 point;   // m, in W
   double gap;   // m
   double friction, restitution;
-  double normal_impulse = 0;                // N s, as far as the integrator's own step knows of it
-  double rest_of_normal = 0;                // N s, what was added to it after that step
-  Vec3 friction_impulse, rest_of_friction;  // N s, in W
+  double normal_impulse = 0;             // N s
+  Vec3 friction_impulse = Vec3::Zero();  // N s, in W
 };
 
 class Manifolds {

@@ -21,13 +21,9 @@ Eigen::Vector2d onto_disc(const Eigen::Vector2d& p, double radius) {
 
 }  // namespace
 
-PileSolver::PileSolver(const System& system, const std::vector<Collider>& colliders)
-    : system_(system), colliders_(colliders), motions_(system.size()) {
-  for (std::size_t i = 0; i < motions_.size(); ++i) {
-    motions_[i] = {Vec3::Zero(), Vec3::Zero(), system.bodies[i].inverse_mass,
-                   Mat3::Zero(), Vec3::Zero(), Quat::Identity(),
-                   Vec3::Zero(), Vec3::Zero()};
-  }
+PileSolver::PileSolver(const System& system, const std::vector<Collider>& colliders, double share)
+    : system_(system), colliders_(colliders), share_(share), motions_(system.size()) {
+  for (std::size_t i = 0; i < motions_.size(); ++i) motions_[i].inverse_mass = system.bodies[i].inverse_mass;
 }
 
 void PileSolver::read(BodyColumns state) {
@@ -95,17 +91,15 @@ void PileSolver::add_row(const PilePoint& point) {
   row.friction = point.friction, row.restitution = point.restitution;
   any_rebound_ = any_rebound_ || point.restitution > 0;
   const double scale = h_ / old_h_;
-  const auto tangential = [&](const Vec3& p) { return Eigen::Vector2d(scale * row.t.dot(p), scale * row.s.dot(p)); };
-  row.first_n = scale * point.normal_impulse, row.first_t = tangential(point.friction_impulse);
-  row.rest_n = scale * point.rest_of_normal, row.rest_t = tangential(point.rest_of_friction);
+  row.p_n = scale * point.normal_impulse;
+  row.p_t = scale * Eigen::Vector2d(row.t.dot(point.friction_impulse), row.s.dot(point.friction_impulse));
 }
 
 void PileSolver::end_step() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
     PilePoint& point = (*points_)[i];
-    point.normal_impulse = row.first_n, point.friction_impulse = row.first_t.x() * row.t + row.first_t.y() * row.s;
-    point.rest_of_normal = row.rest_n, point.rest_of_friction = row.rest_t.x() * row.t + row.rest_t.y() * row.s;
+    point.normal_impulse = row.p_n, point.friction_impulse = row.p_t.x() * row.t + row.p_t.y() * row.s;
   }
 }
 
@@ -127,14 +121,8 @@ void PileSolver::push(const Row& row, double n, const Eigen::Vector2d& t) {
   b.v -= b.inverse_mass * impulse, b.w -= b.inverse_inertia * row.arm_b.cross(impulse);
 }
 
+// The gaps and the speeds at which they close, before the bodies move.
 void PileSolver::begin_sub_step(BodyColumns state) {
-  if (!any_rebound_) return;
-  read(state);
-  for (Row& row : rows_) row.approach = -normal_velocity(row);
-}
-
-// Impulse first, with what the sub-step before needed; then each point in turn, with its bias.
-void PileSolver::first_pass(MutableBodyColumns state) {
   read(state);
   for (const Collider& collider : colliders_) {
     if (collider.fixed) continue;
@@ -144,16 +132,28 @@ void PileSolver::first_pass(MutableBodyColumns state) {
     motion.turn = (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();
   }
   for (Row& row : rows_) {
-    row.p_n = row.first_n, row.p_t = row.first_t;
+    const Motion &a = motions_[row.a], &b = motions_[row.b];
+    row.gap_now = row.gap + row.n.dot(a.way - b.way) + row.arm_a_n.dot(a.turn) - row.arm_b_n.dot(b.turn);
+    row.approach = -normal_velocity(row);
+  }
+}
+
+// After the bodies have moved freely: impulses first, with what the sub-step before needed; then each point in turn,
+// with its bias; and the way that follows from them.
+void PileSolver::first_pass(MutableBodyColumns state) {
+  read(state);
+  for (Motion& motion : motions_) motion.free_v = motion.v, motion.free_w = motion.w;
+  for (Row& row : rows_) {
     if (row.p_n != 0) push(row, row.p_n, row.p_t);
   }
   for (Row& row : rows_) {
-    const Motion &a = motions_[row.a], &b = motions_[row.b];
-    const double gap = row.gap + row.n.dot(a.way - b.way) + row.arm_a_n.dot(a.turn) - row.arm_b_n.dot(b.turn);
-    double bias = gap / h_, mass_share = 1, impulse_share = 0;
-    if (gap < 0) {
-      bias = std::max(push_rate_ * gap, -kFastestPush);
+    double bias, mass_share = 1, impulse_share = 0;
+    if (row.gap_now < 0) {
+      bias = std::max(push_rate_ * row.gap_now, -kFastestPush);
       mass_share = mass_share_, impulse_share = impulse_share_;
+    } else {
+      // The gap closes by h (share u' + (1 - share) u), of which only the velocity after, u', can be chosen.
+      bias = (row.gap_now / h_ - (1 - share_) * row.approach) / share_;
     }
     const double wanted = -mass_share * (normal_velocity(row) + bias) / row.give_n - impulse_share * row.p_n;
     const double p_n = std::max(0.0, row.p_n + wanted);
@@ -161,8 +161,8 @@ void PileSolver::first_pass(MutableBodyColumns state) {
     row.p_n = p_n;
     solve_friction(row);
   }
-  for (Row& row : rows_) row.first_n = row.p_n, row.first_t = row.p_t;
   write(state);
+  follow(state);
 }
 
 void PileSolver::solve_friction(Row& row) {
@@ -179,22 +179,30 @@ void PileSolver::solve_friction(Row& row) {
   row.p_t = p_t;
 }
 
-void PileSolver::second_pass(MutableBodyColumns state) {
-  read(state);
-  for (Row& row : rows_) {
-    const double p_n = std::max(0.0, row.p_n + row.rest_n);
-    push(row, p_n - row.p_n, row.rest_t);
-    row.p_n = p_n, row.p_t += row.rest_t;
+// Positions follow the change of the velocities since read(), which the free sub-step knew nothing of.
+void PileSolver::follow(MutableBodyColumns state) const {
+  for (const Collider& collider : colliders_) {
+    if (collider.fixed) continue;
+    const int i = collider.body;
+    const Motion& motion = motions_[i];
+    const Vec3 way = share_ * h_ * (motion.v - motion.free_v), turn = share_ * h_ * (motion.w - motion.free_w);
+    if (way.isZero(0) && turn.isZero(0)) continue;
+    state.set_position(i, state.position(i) + way);
+    const Quat rotation = rotation_by(turn);
+    state.set_orientation(i, (rotation * state.orientation(i)).normalized());
+    if (state.has_rotation()) state.set_rotation(i, rotation.toRotationMatrix() * state.rotation(i));
   }
+}
+
+void PileSolver::second_pass(MutableBodyColumns state) {
   for (Row& row : rows_) {
-    if (row.p_n == 0 && row.gap > 0 && row.first_n == 0) continue;
+    if (row.p_n == 0) continue;
     const double p_n = std::max(0.0, row.p_n - normal_velocity(row) / row.give_n);
     if (p_n != row.p_n) push_normal(row, p_n - row.p_n);
     row.p_n = p_n;
     solve_friction(row);
   }
   if (any_rebound_) rebound();
-  for (Row& row : rows_) row.rest_n = row.p_n - row.first_n, row.rest_t = row.p_t - row.first_t;
   write(state);
 }
 

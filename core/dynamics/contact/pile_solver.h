@@ -1,11 +1,10 @@
 // Velocity-level contact for many points, in small sub-steps of length h (Macklin et al., Small steps in physics
-// simulation, 2019; Catto, Solver2D, 2024): one pass over the points within each sub-step, before positions move, and
-// one after it. Each pass takes the points in turn:
-//   p_n <- max(0, p_n - (u_n + bias) / k_n),   p_t <- onto the disc of radius mu p_n (p_t - u_t / k_t)
-// starting from the impulses of the sub-step before. In the first pass a point that is still apart may close its gap
-// within h, and one that overlaps is pushed out as by a spring and a damper, stiff enough for h and no stiffer; the
-// second pass has no bias, so that what pushed bodies out leaves them no speed. Then points that came together faster
-// than gravity can have brought them within h get their restitution.
+// simulation, 2019; Catto, Solver2D, 2024). In each, bodies first move freely; then two passes take the points in turn,
+//   p_n <- max(0, p_n - (u_n + bias) / k_n),   p_t <- onto the disc of radius mu p_n (p_t - u_t / k_t),
+// starting from the impulses of the sub-step before. In the first pass a point that is apart may close its gap within
+// h, and one that overlaps is pushed out as by a damped spring, stiff for h; positions follow this pass. The second
+// has no bias, so that what pushed bodies out leaves them no speed. Then points that came together faster than gravity
+// can have brought them within a few h get their restitution.
 #pragma once
 
 #include <vector>
@@ -17,7 +16,9 @@ namespace rigor {
 
 class PileSolver {
  public:
-  PileSolver(const System& system, const std::vector<Collider>& colliders);
+  // `share`: of h for which the velocity after a sub-step counts in its way: 1 for a semi-implicit method, 1/2 for one
+  // that takes the mean of the velocities before and after.
+  PileSolver(const System& system, const std::vector<Collider>& colliders, double share);
 
   // For a step of sub-steps h over these points, which take the impulses with them when it ends.
   void begin_step(BodyColumns state, std::vector<PilePoint>& points, double h);
@@ -28,12 +29,13 @@ class PileSolver {
 
  private:
   struct Motion {
-    Vec3 v, w;
-    double inverse_mass;
-    Mat3 inverse_inertia;  // in W, at the step's start
-    Vec3 start;            // m, at the step's start
-    Quat start_orientation;
-    Vec3 way, turn;  // m and rad since then
+    Vec3 v = Vec3::Zero(), w = Vec3::Zero();
+    double inverse_mass = 0;
+    Mat3 inverse_inertia = Mat3::Zero();  // in W, at the step's start
+    Vec3 start = Vec3::Zero();            // m, at the step's start
+    Quat start_orientation = Quat::Identity();
+    Vec3 way = Vec3::Zero(), turn = Vec3::Zero();       // m and rad since then
+    Vec3 free_v = Vec3::Zero(), free_w = Vec3::Zero();  // without contact in this sub-step
   };
   struct Row {
     int a, b;
@@ -45,13 +47,9 @@ class PileSolver {
     double pace_t;              // kg, 1 / the larger eigenvalue of the tangential give
     Eigen::Matrix2d inverse_t;  // kg, the inverse of that give
     double friction, restitution;
-    double p_n = 0;  // N s
-    Eigen::Vector2d p_t;
-    double first_n = 0;  // what the first pass left
-    Eigen::Vector2d first_t;
-    double rest_n = 0;  // what the second pass of the sub-step before added
-    Eigen::Vector2d rest_t;
-    double approach = 0;  // m/s, before the sub-step
+    double p_n = 0;  // N s, of one sub-step
+    Eigen::Vector2d p_t = Eigen::Vector2d::Zero();
+    double gap_now = 0, approach = 0;  // m, m/s, before the sub-step
   };
 
   void read(BodyColumns state);
@@ -62,9 +60,11 @@ class PileSolver {
   double normal_velocity(const Row& row) const;
   void solve_friction(Row& row);
   void rebound();
+  void follow(MutableBodyColumns state) const;
 
   const System& system_;
   const std::vector<Collider>& colliders_;
+  double share_;
   double h_ = 0, old_h_ = 0;                                   // s
   double rest_speed_ = 0;                                      // m/s
   double push_rate_ = 0, mass_share_ = 0, impulse_share_ = 0;  // of the spring and damper
