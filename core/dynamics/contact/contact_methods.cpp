@@ -5,11 +5,11 @@
 
 namespace rigor {
 
-extern const ContactMethod kCourseContact, kEventContact;
+extern const ContactMethod kCourseContact, kEventContact, kImpulseContact;
 
 // Not alphabetical: a run that names no method gets the first that expresses its scene.
 const std::vector<ContactMethod>& contact_methods() {
-  static const std::vector<ContactMethod> table = {kCourseContact, kEventContact};
+  static const std::vector<ContactMethod> table = {kCourseContact, kImpulseContact, kEventContact};
   return table;
 }
 

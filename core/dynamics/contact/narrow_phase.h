@@ -30,6 +30,7 @@ class Manifold {
   void add(const Vec3& normal, const Vec3& point, double gap, std::uint32_t feature) {
     if (count_ < kMost) points_[count_++] = {normal, point, gap, feature};
   }
+  void keep(int first) { count_ = first; }
   int size() const { return count_; }
   ContactPoint& operator[](int i) { return points_[i]; }
   const ContactPoint& operator[](int i) const { return points_[i]; }
