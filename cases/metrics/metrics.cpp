@@ -4,6 +4,7 @@ namespace rigor {
 
 // One declaration and one row a metric, alphabetical; each is defined in the file of its name.
 MetricRow angular_momentum_drift();
+MetricRow angular_velocity_error();
 MetricRow collapse_time();
 MetricRow cost();
 MetricRow creep();
@@ -20,13 +21,18 @@ MetricRow phase_error();
 MetricRow position_error();
 MetricRow restitution_error();
 MetricRow stop_distance_error();
+MetricRow survival();
 MetricRow tube();
 MetricRow unexplained_error();
 MetricRow unexplained_rotation();
+MetricRow unexplained_spin();
+MetricRow unexplained_velocity();
+MetricRow velocity_error();
 
 const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
       angular_momentum_drift(),
+      angular_velocity_error(),
       collapse_time(),
       cost(),
       creep(),
@@ -43,9 +49,13 @@ const std::vector<MetricRow>& metrics() {
       position_error(),
       restitution_error(),
       stop_distance_error(),
+      survival(),
       tube(),
       unexplained_error(),
       unexplained_rotation(),
+      unexplained_spin(),
+      unexplained_velocity(),
+      velocity_error(),
   };
   return table;
 }
