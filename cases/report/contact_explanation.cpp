@@ -43,6 +43,11 @@ std::string in_its_words(const Cell& cell, const std::string& setting) {
   return "";
 }
 
+std::string how_it_corrects(const Cell& cell) {
+  const std::string split = in_its_words(cell, "split impulse threshold");
+  return split.empty() ? in_its_words(cell, "erp") : split;
+}
+
 // Of a first-order engine the error falls with dt; this one's is, at some finer step, larger than at the coarsest.
 std::string restitution_that_does_not_converge(const std::string& name, const Course& course) {
   constexpr double kWorthSaying = 0.05;
@@ -54,16 +59,17 @@ std::string restitution_that_does_not_converge(const std::string& name, const Co
                      course.text(), in_its_words(*course.cells.front(), "restitution"));
 }
 
-// Bodies that should stay together part: an overlap is given back as speed.
+// Bodies that should stay together part: an overlap is given back as speed, a share of the one they met with. One that
+// keeps more than half has not been stopped at all.
 std::string pop(const std::string& name, const Course& course) {
-  constexpr double kWorthSaying = 0.02;
+  constexpr double kWorthSaying = 0.02, kMostGivenBack = 0.5;
   for (std::size_t i = course.values.size(); i-- > 0;) {
     const Instant& worst = course.values[i]->worst;
-    if (worst.expected != 0 || worst.found < kWorthSaying) continue;
+    if (worst.expected != 0 || worst.found < kWorthSaying || worst.found > kMostGivenBack) continue;
     return fmt::format(
         "Why: after an impact without bounce {} parts the bodies at {:.2g} of the speed they met with, at "
         "dt = {} s: an overlap is pushed out as speed.{}",
-        name, worst.found, course.cells[i]->dt.text, in_its_words(*course.cells[i], "erp"));
+        name, worst.found, course.cells[i]->dt.text, how_it_corrects(*course.cells[i]));
   }
   return "";
 }
