@@ -53,14 +53,18 @@ Json gates_json(const CaseResult& result) {
     Json answers = Json::array();
     for (const GateResult& answer : result.gates) {
       if (answer.gate != i) continue;
-      answers.push_back(
-          {{"engine", answer.engine}, {"dt", answer.dt}, {"answer", word_of(answer.answer)}, {"text", answer.text}});
+      answers.push_back({{"engine", answer.engine},
+                         {"dt", answer.dt},
+                         {"answer", word_of(answer.answer)},
+                         {"text", answer.text},
+                         {"value", bound(answer.value)}});
     }
     gates.push_back({{"metric", gate.metric},
                      {"max", bound(gate.max)},
                      {"min", bound(gate.min)},
                      {"equals", bound(gate.equals)},
                      {"at_least_order", bound(gate.at_least_order)},
+                     {"better_than", gate.better_than.empty() ? Json(nullptr) : Json(gate.better_than)},
                      {"because", gate.because},
                      {"where", gate.where},
                      {"answers", answers}});

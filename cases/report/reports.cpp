@@ -9,6 +9,7 @@ const std::vector<ReportRow>& reports() {
     {"html", "report.html", html_report},
 #endif
     {"json", "results.json", json_report},
+    {"junit", "junit.xml", junit_report},
     {"markdown", "report.md", markdown_report},
   };
   return table;

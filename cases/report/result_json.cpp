@@ -94,6 +94,7 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
   cell.status = status_of(json.at("status").get<std::string>());
   cell.reason = json.at("reason").get<std::string>();
   cell.cpu_seconds = number(json.at("cpu_seconds"));
+  cell.wall_seconds = number(json.at("wall_seconds"));
   cell.trajectory = json.at("trajectory").is_null() ? "" : json.at("trajectory").get<std::string>();
   if (!json.at("verdict").is_null()) {
     const Json& verdict = json.at("verdict");
@@ -145,6 +146,7 @@ Json json_of(const Cell& cell, const Scene& scene) {
   json["settings"] = Json::object();
   for (const auto& [name, value] : cell.settings) json["settings"][name] = value;
   json["cpu_seconds"] = cell.cpu_seconds;
+  json["wall_seconds"] = cell.wall_seconds;
   json["trajectory"] = cell.trajectory.empty() ? Json(nullptr) : Json(cell.trajectory);
   return json;
 }

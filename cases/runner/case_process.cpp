@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -61,8 +62,12 @@ Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
                 : end.how == Ending::timed_out ? Status::timed_out
                                                : Status::crashed;
   cell.trajectory.clear();
+  cell.wall_seconds = end.seconds;
   return cell;
 }
+
+const std::set<std::string> kOfTwins = {"unexplained_error", "unexplained_rotation", "unexplained_spin",
+                                        "unexplained_velocity"};
 
 bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
   return std::any_of(definition.gates.begin(), definition.gates.end(),
@@ -193,6 +198,7 @@ class CaseJobs {
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, double largest_kinetic_energy, const GridOptions& options,
                     std::size_t playback_budget) {
+  const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
   const Engine& engine = find_engine(engines, run_name.engine);
@@ -204,13 +210,14 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   std::optional<TruthSamples> samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
   std::optional<RunName> twin_name;
-  if (options.is_thorough || has_gate_on(definition, {"unexplained_error", "unexplained_rotation"}))
-    twin_name = twin_of(engines, run_name, scene);
+  if (options.is_thorough || has_gate_on(definition, kOfTwins)) twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;
   if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
-  const JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
-                         velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
+  JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
+                   velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
   cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
+  judged.duration = definition.duration;
+  judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   std::vector<NamedCourse> courses;
   cell.metrics = measured(judged, definition, options, courses);
   if (playback_budget > 0) cell.playback = packed_run(judged, courses, largest_kinetic_energy, playback_budget);
@@ -219,6 +226,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   if (!options.folder.empty()) {
     write_trajectory((std::filesystem::path(options.folder) / cell.trajectory).string(), scene, run.trajectory);
   }
+  cell.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
 }
 

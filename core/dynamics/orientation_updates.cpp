@@ -50,8 +50,8 @@ const std::vector<OrientationUpdate>& orientation_updates() {
   static const std::vector<OrientationUpdate> table = {
       {"matrix-additive", true, matrix_additive},
       {"matrix-rodrigues", true, matrix_rodrigues},
-      {"quaternion-additive", false, quaternion_additive},
-      {"quaternion-exponential", false, quaternion_exponential},
+      {"quaternion-additive", false, quaternion_additive, Turn::additive},
+      {"quaternion-exponential", false, quaternion_exponential, Turn::exponential},
   };
   return table;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/dynamics/kernels/kernels.h"
 #include "core/engine/body_table.h"
 
 namespace rigor {
@@ -16,6 +17,7 @@ struct OrientationUpdate {
   std::string name;
   bool keeps_matrix;  // the state's orientation is R, and the quaternion follows from it
   void (*advance)(MutableBodyColumns state, std::size_t body, const Vec3& w, double dt);
+  Turn turn = Turn::exponential;  // what the kernels call it, where it keeps no matrix
 };
 
 const std::vector<OrientationUpdate>& orientation_updates();           // alphabetical

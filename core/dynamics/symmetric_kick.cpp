@@ -4,39 +4,28 @@ namespace rigor {
 
 SymmetricKick::SymmetricKick(const System& system)
     : system_(system),
-      momenta_(system.size()),
-      equations_(system.size()),
+      carried_(kCarriedColumns, system.size()),
+      loads_(system.loads, system.size()),
+      equations_(damped() ? system.size() : 0),
       impulse_(6 * static_cast<Eigen::Index>(system.size())),
       change_(impulse_.size()) {}
 
 void SymmetricKick::begin(BodyColumns state) {
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    momenta_[i] = angular_momentum_of(system_.bodies[i], state.rotation(i), state.angular_velocity(i));
-  }
+  kernels().momentum_of(system_.constants.all(), state.column(0), carried());
 }
 
 void SymmetricKick::end(MutableBodyColumns state) const {
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    if (system_.bodies[i].fixed) continue;
-    state.set_angular_velocity(i, angular_velocity_of(system_.bodies[i], state.rotation(i), momenta_[i]));
-  }
+  kernels().velocity_of(system_.constants.all(), state.column(0), carried_.data());
 }
 
 bool SymmetricKick::apply(MutableBodyColumns state, double h, double t, double dt) {
-  if (damped()) end(state);  // dampers need w
-  system_.wrenches(state, t, dt, wrenches_);
-  if (damped()) return damped_kick(state, h, t, dt);
-  kick(state, h);
-  return true;
-}
-
-void SymmetricKick::kick(MutableBodyColumns state, double h) {
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    const Inertia& body = system_.bodies[i];
-    if (body.fixed) continue;
-    state.set_velocity(i, state.velocity(i) + h * body.inverse_mass * wrenches_[i].force);
-    momenta_[i] += h * wrenches_[i].torque;
+  if (damped()) {
+    end(state);  // dampers need w
+    system_.wrenches(state, t, dt, wrenches_);
+    return damped_kick(state, h, t, dt);
   }
+  kernels().momentum_kick(system_.constants.all(), state.column(0), carried(), loads_.over_step(state, t, dt), h);
+  return true;
 }
 
 bool SymmetricKick::damped_kick(MutableBodyColumns state, double h, double t, double dt) {
@@ -62,7 +51,8 @@ bool SymmetricKick::damped_kick(MutableBodyColumns state, double h, double t, do
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Vec6 change = change_.segment<6>(6 * static_cast<Eigen::Index>(i));
     state.set_velocity(i, state.velocity(i) + change.head<3>());
-    momenta_[i] += angular_momentum_of(system_.bodies[i], state.rotation(i), change.tail<3>());
+    const Vec3 momentum = angular_momentum_of(system_.bodies[i], state.rotation(i), change.tail<3>());
+    for (int k = 0; k < 3; ++k) carried_.column(kMomentum + k)[i] += momentum[k];
   }
   return true;
 }

@@ -8,6 +8,7 @@
 
 #include "core/dynamics/block_system.h"
 #include "core/dynamics/system.h"
+#include "core/dynamics/wrench_columns.h"
 
 namespace rigor {
 
@@ -21,18 +22,18 @@ class SymmetricKick {
   // and back at every kick would add a rounding of L at every kick. w is written by end().
   void begin(BodyColumns state);
   void end(MutableBodyColumns state) const;
-  const Vec3& angular_momentum(std::size_t body) const { return momenta_[body]; }  // kg m²/s
+  double* carried() { return carried_.data(); }  // columns of CarriedColumn
 
   // Over h, inside the step [t, t + dt] in which timed forces count with their mean. False where the equations for the
   // velocities are singular (an h < 0 with strong damping); the state is then left as it is.
   bool apply(MutableBodyColumns state, double h, double t, double dt);
 
  private:
-  void kick(MutableBodyColumns state, double h);
   bool damped_kick(MutableBodyColumns state, double h, double t, double dt);
 
   const System& system_;
-  std::vector<Vec3> momenta_;
+  Columns carried_;
+  WrenchColumns loads_;
   BlockSystem equations_;
   Wrenches wrenches_;
   Eigen::VectorXd impulse_, change_;

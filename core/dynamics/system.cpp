@@ -28,6 +28,7 @@ System::System(const Scene& scene) : scene_gravity(scene.gravity), loads(scene) 
     }
     bodies.push_back(inertia);
   }
+  constants = BodyConstants(bodies, scene_gravity);
 }
 
 Vec3 angular_acceleration(const Inertia& body, const Mat3& R, const Vec3& w, const Vec3& torque) {

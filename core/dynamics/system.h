@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "core/dynamics/body_constants.h"
 #include "core/dynamics/loads.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
@@ -39,6 +40,7 @@ class System {
   Vec3 scene_gravity;  // m/s²
   std::vector<Inertia> bodies;
   Loads loads;
+  BodyConstants constants;  // `bodies` and gravity in columns
 };
 
 // w' [rad/s²] under a torque [N m] about the centre of mass; all in W. R takes B to W.

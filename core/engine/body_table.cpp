@@ -5,10 +5,9 @@
 namespace rigor {
 
 void BodyTable::resize(std::size_t size, bool has_rotation) {
-  constexpr std::size_t kDoublesPerCacheLine = 8;
   size_ = size;
   has_rotation_ = has_rotation;
-  stride_ = (size + kDoublesPerCacheLine - 1) / kDoublesPerCacheLine * kDoublesPerCacheLine;
+  stride_ = column_stride(size);
   data_.assign(stride_ * (has_rotation ? 22 : 13), 0.0);
 }
 

@@ -5,8 +5,9 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
+#include "core/engine/body_column.h"
+#include "core/engine/columns.h"
 #include "core/math.h"
 
 namespace rigor {
@@ -21,7 +22,6 @@ struct BodyState {
 // In the order of the trajectory file.
 inline constexpr std::array<const char*, 13> kColumnNames = {"px", "py", "pz", "qw", "qx", "qy", "qz",
                                                              "vx", "vy", "vz", "wx", "wy", "wz"};
-enum Column { kPosition = 0, kOrientation = 3, kVelocity = 7, kAngularVelocity = 10, kRotation = 13 };
 
 // A view that owns nothing: column c of body i is column(c)[i]. Columns kRotation.. (row-major) are there only if
 // has_rotation(). Valid as long as what it was taken from.
@@ -34,6 +34,7 @@ class BodyColumnsOf {
       : first_(first), stride_(stride), size_(size), has_rotation_(has_rotation) {}
 
   std::size_t size() const { return size_; }
+  std::size_t stride() const { return stride_; }
   bool has_rotation() const { return has_rotation_; }
   Scalar* column(int c) const { return first_ + c * stride_; }
 
@@ -95,8 +96,8 @@ class BodyTable {
   MutableBodyColumns columns() { return {data_.data(), stride_, size_, has_rotation_}; }
 
  private:
-  std::vector<double, Eigen::aligned_allocator<double>> data_;
-  std::size_t size_ = 0, stride_ = 0;  // the stride is the size rounded up to a whole cache line
+  AlignedDoubles data_;
+  std::size_t size_ = 0, stride_ = 0;  // see column_stride()
   bool has_rotation_ = false;
 };
 

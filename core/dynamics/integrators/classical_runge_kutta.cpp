@@ -4,8 +4,21 @@
 
 namespace rigor {
 
+namespace {
+
+constexpr std::size_t kStages = 4;
+constexpr std::array<double, kStages> kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+constexpr std::array<double, kStages> kNextStage = {0.5, 0.5, 1, 0};
+
+}  // namespace
+
 ClassicalRungeKutta::ClassicalRungeKutta(const StepperParts& parts, OrientationChart chart)
-    : parts_(parts), equations_(parts.system, chart), rates_(equations_.dimension()) {}
+    : parts_(parts),
+      chart_(chart),
+      loads_(parts.system.loads, parts.system.size()),
+      stage_(parts.system.size()),
+      sum_(parts.system.size()),
+      carried_(kCarriedColumns, parts.system.size()) {}
 
 void ClassicalRungeKutta::step(MutableBodyColumns state, double t, double dt) {
   if (parts_.contact) {
@@ -17,16 +30,26 @@ void ClassicalRungeKutta::step(MutableBodyColumns state, double t, double dt) {
 }
 
 void ClassicalRungeKutta::smooth_part(MutableBodyColumns state, double t, double dt) {
-  constexpr std::array<double, 4> kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-  constexpr std::array<double, 4> kNextStage = {0.5, 0.5, 1, 0};
-  equations_.begin(state, start_);
-  sum_ = stage_ = start_;
-  for (std::size_t s = 0; s < kWeight.size(); ++s) {
-    equations_.rates(stage_, t, dt, rates_);
-    sum_ += dt * kWeight[s] * rates_;
-    stage_ = start_ + dt * kNextStage[s] * rates_;
+  const BodyConstants& bodies = parts_.system.constants;
+  if (parts_.system.loads.empty()) {
+    bodies.for_each_block([&](const Bodies& block) {
+      for (std::size_t s = 0; s < kStages; ++s) take_stage(s, block, state, nullptr, dt);
+    });
+    return;
   }
-  equations_.write(sum_, state);
+  for (std::size_t s = 0; s < kStages; ++s) {
+    const double* const wrench = loads_.over_step(s == 0 ? state : stage_.columns(), t, dt);
+    bodies.for_each_block([&](const Bodies& block) { take_stage(s, block, state, wrench, dt); });
+  }
+}
+
+void ClassicalRungeKutta::take_stage(std::size_t s, const Bodies& block, MutableBodyColumns state, const double* wrench,
+                                     double dt) {
+  const auto stage =
+      chart_ == OrientationChart::quaternion ? kernels().quaternion_stage : kernels().rotation_vector_stage;
+  const StageTables tables = {state.column(0), stage_.columns().column(0), sum_.columns().column(0), carried_.data()};
+  const Stage where = s == 0 ? Stage::first : s + 1 == kStages ? Stage::last : Stage::middle;
+  stage(block, tables, wrench, where, dt * kWeight[s], dt * kNextStage[s]);
 }
 
 }  // namespace rigor

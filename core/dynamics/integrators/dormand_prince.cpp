@@ -24,11 +24,12 @@ class DormandPrince : public Stepper {
   explicit DormandPrince(const StepperParts& parts)
       : parts_(parts),
         tolerance_(number_option(parts.settings, "tolerance", kDefaultTolerance)),
-        equations_(parts.system, OrientationChart::quaternion),
-        rates_(equations_.dimension(), static_cast<Eigen::Index>(kStages)),
-        y_(equations_.dimension()),
-        next_(y_.size()),
-        estimate_(y_.size()) {}
+        equations_(parts.system),
+        y_(parts.system.size()),
+        next_(parts.system.size()),
+        estimate_(parts.system.size()) {
+    equations_.keep_stages(kStages);
+  }
 
   void step(MutableBodyColumns state, double t, double dt) override {
     complaint_.clear();
@@ -48,16 +49,16 @@ class DormandPrince : public Stepper {
   void smooth_part(double t, double length) {
     double left = length, longest = std::abs(length);
     int tries = 0;
-    equations_.rates(y_, t, length, rates_.col(0));
+    equations_.rates(y_, t, length, equations_.rates_of_stage(0));
     while (left != 0) {
       const double count = std::ceil(std::abs(left) / longest), h = left / count;
       take_stages(t, length, h);
       const double error = error_of_stages(h) / tolerance_;
-      const bool given_up = ++tries == kMostTries || !y_.allFinite();
+      const bool given_up = ++tries == kMostTries || !is_finite(y_);
       if (error <= 1 || given_up) {
-        y_ = next_;
+        std::swap(y_, next_);
         left = count == 1 || given_up ? 0 : left - h;
-        if (left != 0) equations_.rates(y_, t, length, rates_.col(0));
+        if (left != 0) equations_.rates(y_, t, length, equations_.rates_of_stage(0));
       }
       if (given_up) {
         complaint_ = fmt::format("the tolerance of {} was not met in {} inner steps; the rest of the step was left out",
@@ -74,38 +75,36 @@ class DormandPrince : public Stepper {
     return error == 0 ? kMost : std::clamp(kSafety * std::pow(error, -1.0 / 8), kLeast, kMost);
   }
 
-  // From y_ and its rates in column 0: the other columns, and next_.
+  // From y_ and its rates in stage 0: those of the other stages, and next_.
   void take_stages(double t, double dt, double h) {
     for (std::size_t s = 1; s < kStages; ++s) {
-      combine(dormand_prince::kStage[s], s, next_);
-      next_ = y_ + h * next_;
-      equations_.rates(next_, t, dt, rates_.col(static_cast<Eigen::Index>(s)));
+      equations_.combine(&y_, h, std::span(dormand_prince::kStage[s]).first(s), next_);
+      equations_.rates(next_, t, dt, equations_.rates_of_stage(s));
     }
-    combine(dormand_prince::kWeight, kStages, next_);
-    next_ = y_ + h * next_;
+    equations_.combine(&y_, h, dormand_prince::kWeight, next_);
   }
 
   double error_of_stages(double h) {
-    combine(dormand_prince::kError5, kStages, estimate_);
+    equations_.combine(nullptr, h, dormand_prince::kError5, estimate_);
     const double error5 = equations_.relative_size(estimate_, y_);
-    combine(dormand_prince::kError3, kStages, estimate_);
+    equations_.combine(nullptr, h, dormand_prince::kError3, estimate_);
     const double error3 = equations_.relative_size(estimate_, y_);
     return error5 == 0 ? 0 : std::abs(h) * error5 * error5 / std::hypot(error5, 0.1 * error3);
   }
 
-  void combine(const dormand_prince::Row& row, std::size_t count, Eigen::VectorXd& out) const {
-    out = row[0] * rates_.col(0);
-    for (std::size_t s = 1; s < count; ++s) {
-      if (row[s] != 0) out += row[s] * rates_.col(static_cast<Eigen::Index>(s));
+  static bool is_finite(const BodyTable& y) {
+    for (int c = 0; c < kRotation; ++c) {
+      const double* column = y.columns().column(c);
+      if (!std::all_of(column, column + y.size(), [](double x) { return std::isfinite(x); })) return false;
     }
+    return true;
   }
 
   StepperParts parts_;
   double tolerance_;
   MotionEquations equations_;
   Wrenches wrenches_;
-  Eigen::MatrixXd rates_;  // k_s in column s
-  Eigen::VectorXd y_, next_, estimate_;
+  BodyTable y_, next_, estimate_;
   std::string complaint_;
 };
 

@@ -3,7 +3,7 @@
 namespace rigor {
 
 LeapfrogComposition::LeapfrogComposition(const StepperParts& parts, std::span<const double> weights)
-    : parts_(parts), weights_(weights), rotations_(free_rotations(parts.system)), kick_(parts.system) {}
+    : parts_(parts), weights_(weights), kick_(parts.system) {}
 
 void LeapfrogComposition::step(MutableBodyColumns state, double t, double dt) {
   complaint_.clear();
@@ -11,10 +11,26 @@ void LeapfrogComposition::step(MutableBodyColumns state, double t, double dt) {
     parts_.system.wrenches(state, t, dt, wrenches_);
     resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
   }
+  if (parts_.system.loads.empty()) return free_step(state, dt);
   kick_.begin(state);
   parts_.system.loads.for_each_smooth_part(t, dt,
                                            [&](double from, double length) { smooth_part(state, from, length); });
   kick_.end(state);
+}
+
+// No body knows of another: each block takes the whole step.
+void LeapfrogComposition::free_step(MutableBodyColumns state, double dt) {
+  parts_.system.constants.for_each_block([&](const Bodies& block) {
+    kernels().momentum_of(block, state.column(0), kick_.carried());
+    double owed = 0;  // the second half kick of the stage before
+    for (const double weight : weights_) {
+      kernels().momentum_kick(block, state.column(0), kick_.carried(), nullptr, owed + 0.5 * weight * dt);
+      kernels().free_drift(block, state.column(0), kick_.carried(), weight * dt);
+      owed = 0.5 * weight * dt;
+    }
+    kernels().momentum_kick(block, state.column(0), kick_.carried(), nullptr, owed);
+    kernels().velocity_of(block, state.column(0), kick_.carried());
+  });
 }
 
 void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double dt) {
@@ -27,7 +43,7 @@ void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double
       owed = 0;
     }
     kick(state, owed + half, t, dt);
-    drift(state, weight * dt);
+    kernels().free_drift(parts_.system.constants.all(), state.column(0), kick_.carried(), weight * dt);
     owed = half;
   }
   kick(state, owed, t, dt);
@@ -35,14 +51,6 @@ void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double
 
 void LeapfrogComposition::kick(MutableBodyColumns state, double h, double t, double dt) {
   if (!kick_.apply(state, h, t, dt)) complaint_ = kNoSymmetricKick;
-}
-
-void LeapfrogComposition::drift(MutableBodyColumns state, double h) const {
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    if (parts_.system.bodies[i].fixed) continue;
-    state.set_position(i, state.position(i) + h * state.velocity(i));
-    state.set_orientation(i, rotations_[i].advance(state.orientation(i), kick_.angular_momentum(i), h));
-  }
 }
 
 }  // namespace rigor

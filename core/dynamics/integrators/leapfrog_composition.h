@@ -7,7 +7,6 @@
 
 #include <span>
 
-#include "core/dynamics/free_rotation.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/symmetric_kick.h"
 
@@ -21,13 +20,12 @@ class LeapfrogComposition : public Stepper {
   std::string complaint() const override { return complaint_; }
 
  private:
+  void free_step(MutableBodyColumns state, double dt);
   void smooth_part(MutableBodyColumns state, double t, double dt);
   void kick(MutableBodyColumns state, double h, double t, double dt);
-  void drift(MutableBodyColumns state, double h) const;
 
   StepperParts parts_;
   std::span<const double> weights_;
-  std::vector<FreeRotation> rotations_;
   SymmetricKick kick_;
   Wrenches wrenches_;
   std::string complaint_;

@@ -4,32 +4,11 @@
 //   dt [Rᵀ L]x = F J_d - J_d Fᵀ,   J_d = tr(J)/2 - J,
 // which for F = (1 + [f]x) (1 - [f]x)⁻¹ is  2 (J f + f x J f) = (1 + |f|²) dt Rᵀ L,  solved by Newton's method.
 // About a principal axis it says sin(angle) = dt w: there is no solution once a body turns by about a radian a step.
-#include <Eigen/LU>
-
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/symmetric_kick.h"
 
 namespace rigor {
 namespace {
-
-constexpr int kMostIterations = 50;
-constexpr double kLastCorrection = 1e-9;  // relative; Newton's next correction is about its square
-
-// Solves for f from the explicit guess; false where there is no solution on the branch that begins at f = 0. The
-// determinant of the derivative is positive there and vanishes where the branch ends.
-bool solve_moser_veselov(const Mat3& J, const Vec3& a, Vec3& f) {
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-    const Vec3 Jf = J * f;
-    const Vec3 residual = 2 * (Jf + f.cross(Jf)) - (1 + f.squaredNorm()) * a;
-    const Mat3 derivative = 2 * (J + cross_matrix(f) * J - cross_matrix(Jf) - a * f.transpose());
-    const double determinant = derivative.determinant();
-    const Vec3 correction = derivative.inverse() * residual;
-    if (!correction.allFinite()) return false;
-    f -= correction;
-    if (correction.norm() <= kLastCorrection * (1 + f.norm())) return determinant > 0;
-  }
-  return false;
-}
 
 class MoserVeselov : public Stepper {
  public:
@@ -40,7 +19,8 @@ class MoserVeselov : public Stepper {
     kick_.begin(state);
     kick(state, t, dt);
     if (parts_.contact) resolve_contact(state);
-    for (std::size_t i = 0; i < state.size(); ++i) drift(state, i, dt);
+    if (!kernels().moser_veselov_drift(parts_.system.constants.all(), state.column(0), kick_.carried(), dt))
+      complaint_ = "the discrete Moser-Veselov equation has no solution for so much rotation in a step";
     kick(state, t, dt);
     kick_.end(state);
   }
@@ -56,21 +36,6 @@ class MoserVeselov : public Stepper {
     kick_.end(state);
     parts_.contact->resolve(state);
     kick_.begin(state);
-  }
-
-  void drift(MutableBodyColumns state, std::size_t i, double dt) {
-    const Inertia& body = parts_.system.bodies[i];
-    if (body.fixed) return;
-    const Vec3 L_B = state.rotation(i).transpose() * kick_.angular_momentum(i);
-    const Vec3 guess = 0.5 * dt * (body.inverse_inertia_B * L_B);
-    Vec3 f = guess;
-    if (!solve_moser_veselov(body.inertia_B, dt * L_B, f)) {
-      complaint_ = "the discrete Moser-Veselov equation has no solution for so much rotation in a step";
-      f = guess;
-    }
-    const Quat turn(1, f.x(), f.y(), f.z());
-    state.set_position(i, state.position(i) + dt * state.velocity(i));
-    state.set_orientation(i, (state.orientation(i) * turn).normalized());
   }
 
   StepperParts parts_;

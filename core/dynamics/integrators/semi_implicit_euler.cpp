@@ -3,37 +3,36 @@
 // The course's rule for contact acts between the two. Its velocities belong half a step before its positions. On an
 // oscillation of frequency f it is stable while f dt < 2. The gyroscopic term is explicit, so that a free body's spin
 // is not symplectic.
-#include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/euler_passes.h"
+#include "core/dynamics/wrench_columns.h"
 
 namespace rigor {
 namespace {
 
 class SemiImplicitEuler : public Stepper {
  public:
-  explicit SemiImplicitEuler(const StepperParts& parts) : parts_(parts) {}
+  explicit SemiImplicitEuler(const StepperParts& parts)
+      : parts_(parts), passes_(parts), wrenches_(parts.system.loads, parts.system.size()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    parts_.system.wrenches(state, t, dt, wrenches_);
-    for (std::size_t i = 0; i < state.size(); ++i) kick(state, i, dt);
-    if (parts_.contact) parts_.contact->resolve(state);
-    for (std::size_t i = 0; i < state.size(); ++i) drift(state, i, dt);
+    const BodyConstants& bodies = parts_.system.constants;
+    const double* const wrench = wrenches_.over_step(state, t, dt);
+    if (!parts_.contact) {
+      bodies.for_each_block([&](const Bodies& block) {
+        passes_.kick(block, state, wrench, dt);
+        passes_.drift(block, state, dt);
+      });
+      return;
+    }
+    passes_.kick(bodies.all(), state, wrench, dt);
+    parts_.contact->resolve(state);
+    passes_.drift(bodies.all(), state, dt);
   }
 
  private:
-  void kick(MutableBodyColumns state, std::size_t i, double dt) const {
-    const Inertia& body = parts_.system.bodies[i];
-    const Vec3 w = state.angular_velocity(i);
-    state.set_velocity(i, state.velocity(i) + dt * body.inverse_mass * wrenches_[i].force);
-    state.set_angular_velocity(i, w + dt * angular_acceleration(body, state.rotation(i), w, wrenches_[i].torque));
-  }
-
-  void drift(MutableBodyColumns state, std::size_t i, double dt) const {
-    state.set_position(i, state.position(i) + dt * state.velocity(i));
-    parts_.orientation->advance(state, i, state.angular_velocity(i), dt);
-  }
-
   StepperParts parts_;
-  Wrenches wrenches_;
+  EulerPasses passes_;
+  WrenchColumns wrenches_;
 };
 
 }  // namespace

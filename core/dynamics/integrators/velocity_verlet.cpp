@@ -1,52 +1,74 @@
 // Velocity Verlet: half a kick, a drift, half a kick, for v and for the angular momentum L.
 //   v += dt/2 F/m, L += dt/2 tau;   x += dt v, R by free_rotation.h;   the same kick at the new positions
 // With dampers the second kick needs the velocity at its own end: one predictor and one corrector keep second order.
-#include "core/dynamics/free_rotation.h"
 #include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/wrench_columns.h"
 
 namespace rigor {
 namespace {
 
 class VelocityVerlet : public Stepper {
  public:
-  explicit VelocityVerlet(const StepperParts& parts) : parts_(parts), rotations_(free_rotations(parts.system)) {}
+  explicit VelocityVerlet(const StepperParts& parts)
+      : parts_(parts),
+        wrenches_(parts.system.loads, parts.system.size()),
+        carried_(kCarriedColumns, parts.system.size()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    parts_.system.wrenches(state, t, dt, wrenches_);
-    for (std::size_t i = 0; i < state.size(); ++i) kick(state, i, dt);
-    if (parts_.contact) parts_.contact->resolve(state);
-    for (std::size_t i = 0; i < state.size(); ++i) drift(state, i, dt);
-
-    parts_.system.wrenches(state, t, dt, wrenches_);
-    if (parts_.system.loads.damped()) {
-      predicted_ = BodyColumns(state);
-      for (std::size_t i = 0; i < state.size(); ++i) kick(predicted_.columns(), i, dt);
-      parts_.system.wrenches(predicted_.columns(), t, dt, wrenches_);
+    const BodyConstants& bodies = parts_.system.constants;
+    const double* const wrench = wrenches_.over_step(state, t, dt);
+    if (parts_.contact) {
+      bodies.for_each_block([&](const Bodies& block) {
+        first_kick(block, state, wrench, dt);
+        kernels().velocity_of(block, state.column(0), carried_.data());
+      });
+      parts_.contact->resolve(state);
+      bodies.for_each_block([&](const Bodies& block) {
+        kernels().momentum_of(block, state.column(0), carried_.data());
+        drift(block, state, dt);
+      });
+    } else {
+      bodies.for_each_block([&](const Bodies& block) {
+        first_kick(block, state, wrench, dt);
+        drift(block, state, dt);
+      });
     }
-    for (std::size_t i = 0; i < state.size(); ++i) kick(state, i, dt);
+    second_kick(state, t, dt);
   }
 
  private:
-  // Half a kick: w changes as L does, at the orientation of the moment.
-  void kick(MutableBodyColumns state, std::size_t i, double dt) const {
-    const Inertia& body = parts_.system.bodies[i];
-    state.set_velocity(i, state.velocity(i) + 0.5 * dt * body.inverse_mass * wrenches_[i].force);
-    const Vec3 change = angular_velocity_of(body, state.rotation(i), 0.5 * dt * wrenches_[i].torque);
-    state.set_angular_velocity(i, state.angular_velocity(i) + change);
+  void first_kick(const Bodies& block, MutableBodyColumns state, const double* wrench, double dt) {
+    kernels().momentum_of(block, state.column(0), carried_.data());
+    kernels().momentum_kick(block, state.column(0), carried_.data(), wrench, 0.5 * dt);
   }
 
-  void drift(MutableBodyColumns state, std::size_t i, double dt) const {
-    const Inertia& body = parts_.system.bodies[i];
-    if (body.fixed) return;
-    state.set_position(i, state.position(i) + dt * state.velocity(i));
-    const Vec3 L = angular_momentum_of(body, state.rotation(i), state.angular_velocity(i));
-    state.set_orientation(i, rotations_[i].advance(state.orientation(i), L, dt));
-    state.set_angular_velocity(i, angular_velocity_of(body, state.rotation(i), L));
+  // Leaves behind w of the drift's end.
+  void drift(const Bodies& block, MutableBodyColumns state, double dt) {
+    kernels().free_drift(block, state.column(0), carried_.data(), dt);
+    kernels().velocity_of(block, state.column(0), carried_.data());
+  }
+
+  void second_kick(MutableBodyColumns state, double t, double dt) {
+    const double* wrench = wrenches_.over_step(state, t, dt);
+    if (parts_.system.loads.damped()) {
+      predicted_ = BodyColumns(state);
+      predicted_momenta_ = carried_;
+      kick(predicted_.columns(), predicted_momenta_, wrench, dt);
+      wrench = wrenches_.over_step(predicted_.columns(), t, dt);
+    }
+    kick(state, carried_, wrench, dt);
+  }
+
+  void kick(MutableBodyColumns state, Columns& carried, const double* wrench, double dt) const {
+    parts_.system.constants.for_each_block([&](const Bodies& block) {
+      kernels().momentum_kick(block, state.column(0), carried.data(), wrench, 0.5 * dt);
+      if (wrench) kernels().velocity_of(block, state.column(0), carried.data());
+    });
   }
 
   StepperParts parts_;
-  std::vector<FreeRotation> rotations_;
-  Wrenches wrenches_;
+  WrenchColumns wrenches_;
+  Columns carried_, predicted_momenta_;  // of CarriedColumn
   BodyTable predicted_;
 };
 

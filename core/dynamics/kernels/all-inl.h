@@ -1,0 +1,47 @@
+// What each kernels_*.cpp compiles for its instruction set, in a namespace of its own, so that no two of them share a
+// function. Nothing from other headers may come after the compiler is told of the instruction set: what they define
+// would be compiled for it, and could be linked into the rest of the program.
+#define RIGOR_INLINE __attribute__((always_inline)) inline
+#define RIGOR_LAMBDA __attribute__((always_inline))
+
+namespace rigor {
+namespace RIGOR_LANES_OF {
+namespace {
+
+// Up to so many bodies or springs are taken one at a time.
+inline constexpr std::size_t kFewRows = 1;
+
+#include "core/dynamics/kernels/lanes-inl.h"
+// which this is built on:
+#include "core/dynamics/kernels/lane_math-inl.h"
+// and on these:
+#include "core/dynamics/kernels/body_kernels-inl.h"
+// and on these:
+#include "core/dynamics/kernels/moser_veselov_kernel-inl.h"
+#include "core/dynamics/kernels/spring_kernel-inl.h"
+#include "core/dynamics/kernels/stage_kernels-inl.h"
+
+}  // namespace
+
+extern const Kernels kTable;
+const Kernels kTable = {
+    .name = RIGOR_LANES_NAME,
+    .kick = kick,
+    .drift = drift,
+    .explicit_step = explicit_step,
+    .momentum_of = momentum_of,
+    .velocity_of = velocity_of,
+    .momentum_kick = momentum_kick,
+    .free_drift = free_drift,
+    .moser_veselov_drift = moser_veselov_drift,
+    .quaternion_stage = quaternion_stage,
+    .rotation_vector_stage = rotation_vector_stage,
+    .motion_of = motion_of,
+    .rates_at = rates_at,
+    .combine = combine,
+    .relative_size = relative_size,
+    .springs = springs,
+};
+
+}  // namespace RIGOR_LANES_OF
+}  // namespace rigor

@@ -1,0 +1,45 @@
+#include "core/dynamics/kernels/kernels.h"
+
+namespace rigor {
+
+namespace plain {
+extern const Kernels kTable;
+}
+#ifdef __x86_64__
+namespace avx2 {
+extern const Kernels kTable;
+}
+namespace avx512 {
+extern const Kernels kTable;
+}
+#endif
+
+namespace {
+
+const Kernels*& in_use() {
+  static const Kernels* table = [] {
+    const Kernels* all[kMostKernelTables];
+    return all[available_kernels(all) - 1];
+  }();
+  return table;
+}
+
+}  // namespace
+
+const Kernels& kernels() { return *in_use(); }
+
+std::size_t available_kernels(const Kernels* (&out)[kMostKernelTables]) {
+  std::size_t count = 0;
+  out[count++] = &plain::kTable;
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2")) out[count++] = &avx2::kTable;
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    out[count++] = &avx512::kTable;
+#endif
+  return count;
+}
+
+KernelsForTest::KernelsForTest(const Kernels& table) : before_(in_use()) { in_use() = &table; }
+KernelsForTest::~KernelsForTest() { in_use() = before_; }
+
+}  // namespace rigor

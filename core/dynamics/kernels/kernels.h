@@ -1,0 +1,130 @@
+// The inner loops of the core, over columns of bodies (body_table.h), several bodies at once in the lanes of a vector
+// register. One source (*-inl.h) is compiled for plain x86-64 (or whatever the machine is), AVX2 and AVX-512, and the
+// widest that the processor has is chosen when the program starts. No lane knows of another and no product is fused
+// with a sum: every path gives the same bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/engine/body_column.h"
+
+namespace rigor {
+
+// Columns of what does not change about a body; see body_constants.h, which fills them.
+enum ConstantColumn {
+  kInverseMass = 0,      // 1/kg, 0 for a fixed body
+  kMoves = 1,            // 1, or 0 for a fixed body
+  kGyro = 2,             // (I_y - I_z)/I_x and so on round, for an inertia that is diagonal in B
+  kInertia = 5,          // xx, yy, zz, xy, xz, yz [kg m²]
+  kInverseInertia = 11,  // the same of its inverse
+  kAxes = 17,            // principal axes to B: w, x, y, z
+  kInverseMedian = 21,   // 1/a, a the median principal moment
+  kExcessLow = 22,       // 1/b - 1/a of the smallest,
+  kExcessHigh = 23,      // and of the largest
+  kConstantColumns = 24
+};
+
+// Columns of a wrench: force [N], torque about the centre of mass [N m], both in W.
+enum WrenchColumn { kForce = 0, kTorque = 3, kWrenchColumns = 6 };
+
+// Columns of what a step carries beside the state: the angular momentum in W [kg m²/s], a rotation vector [rad].
+enum CarriedColumn { kMomentum = 0, kTurned = 3, kCarriedColumns = 6 };
+
+// A block of bodies. All tables of one system have the same stride. `begin` is a multiple of kRowsPerLine.
+struct Bodies {
+  std::size_t begin = 0, end = 0, stride = 0;
+  const double* constants = nullptr;
+  double gravity[3] = {0, 0, 0};  // m/s²
+  bool has_gravity = false, has_fixed = false;
+  bool diagonal = false;   // every inertia is diagonal in its B
+  bool principal = false;  // every B is its body's principal axes, moments ascending
+};
+
+// How a rotation by dt w is made: exactly, or by q + dt/2 (0, w) q, normalised.
+enum class Turn { exponential, additive };
+
+// Where a Runge–Kutta stage stands in its step.
+enum class Stage { first, middle, last };
+
+struct StageTables {
+  double* state;    // at the start of the step; after the last stage at its end
+  double* stage;    // at which this stage's rates are taken, and then the next one's
+  double* sum;      // the start plus the weighted rates: x, orientation (or rotation vector), v, L
+  double* carried;  // L at the start of the step, the stage's rotation vector
+};
+
+// A block of springs, for the force on b's point and the torques on both bodies (see loads.cpp for the law).
+struct Springs {
+  std::size_t count = 0, stride = 0;
+  const double* constants = nullptr;              // columns of SpringColumn
+  const std::int32_t *a = nullptr, *b = nullptr;  // rows of the bodies; 0 for the world
+  bool damped = false;
+};
+enum SpringColumn {
+  kPointA = 0,  // m, in a's frame
+  kPointB = 3,  // m, in b's frame
+  kAMoves = 6,  // 1 for a body, 0 for the world
+  kBMoves = 7,
+  kStiffness = 8,    // N/m
+  kDamping = 9,      // N s/m
+  kRestLength = 10,  // m
+  kSpringColumns = 11
+};
+enum PullColumn { kPull = 0, kTorqueA = 3, kTorqueB = 6, kPullColumns = 9 };
+
+// `wrench` is null where nothing but gravity acts. Steps in s.
+struct Kernels {
+  const char* name;
+  // v and w over dt at a fixed pose: v += dt F/m, w += dt I⁻¹ (tau - w x I w).
+  void (*kick)(const Bodies&, double* state, const double* wrench, double dt);
+  // x += dt v, and a turn by dt w.
+  void (*drift)(const Bodies&, double* state, Turn turn, double dt);
+  // Both from the state at the start of the step.
+  void (*explicit_step)(const Bodies&, double* state, const double* wrench, Turn turn, double dt);
+  // L from w and back.
+  void (*momentum_of)(const Bodies&, const double* state, double* carried);
+  void (*velocity_of)(const Bodies&, double* state, const double* carried);
+  // v += h F/m, L += h tau.
+  void (*momentum_kick)(const Bodies&, double* state, double* carried, const double* wrench, double h);
+  // x += h v, and the rotation of free_rotation.h over h with constant L.
+  void (*free_drift)(const Bodies&, double* state, const double* carried, double h);
+  // The same with the rotation of moser_veselov.cpp; false if its equation had no solution for some body.
+  bool (*moser_veselov_drift)(const Bodies&, double* state, const double* carried, double dt);
+  // One stage of a Runge–Kutta method of which each stage needs only the rates of the one before: adds weight * rates
+  // to the sum and goes on to start + next * rates; both in s. On quaternions, or on rotation vectors
+  // (classical_runge_kutta.h).
+  void (*quaternion_stage)(const Bodies&, const StageTables&, const double* wrench, Stage, double weight, double next);
+  void (*rotation_vector_stage)(const Bodies&, const StageTables&, const double* wrench, Stage, double weight,
+                                double next);
+  // For methods that keep the rates of several stages. With y a table of x, orientation of any length, v, L: the motion
+  // it means; the rates of y at a motion; out = y + h times the weighted sum of rates, or that sum alone if y is null;
+  // how large a change of y is: the sum of |dx|/(1 m + |x|), |dv|/(1 m/s + |v|), |dw|/(1 rad/s + |w|) and the angle
+  // [rad], with dw what the change of L makes of w; the largest over the bodies.
+  void (*motion_of)(const Bodies&, const double* y, double* state);
+  void (*rates_at)(const Bodies&, const double* state, const double* wrench, double* rates);
+  void (*combine)(const Bodies&, const double* y, double h, const double* weights, const double* const* rates,
+                  std::size_t count, double* out);
+  double (*relative_size)(const Bodies&, const double* change, const double* y);
+  void (*springs)(const Springs&, const double* state, std::size_t stride, double* pulls);
+};
+
+// The table in use.
+const Kernels& kernels();
+
+// For tests: every table that this processor can run, the plain one first; and one put to use in place of the widest
+// until the object goes. Not for worlds in other threads.
+inline constexpr std::size_t kMostKernelTables = 3;
+std::size_t available_kernels(const Kernels* (&out)[kMostKernelTables]);
+class KernelsForTest {
+ public:
+  explicit KernelsForTest(const Kernels& table);
+  ~KernelsForTest();
+  KernelsForTest(const KernelsForTest&) = delete;
+  KernelsForTest& operator=(const KernelsForTest&) = delete;
+
+ private:
+  const Kernels* before_;
+};
+
+}  // namespace rigor

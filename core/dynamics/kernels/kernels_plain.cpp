@@ -1,0 +1,11 @@
+// Two lanes, for every machine.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/dynamics/kernels/kernels.h"
+
+#define RIGOR_LANES 2
+#define RIGOR_LANES_OF plain
+#define RIGOR_LANES_NAME "plain"
+#include "core/dynamics/kernels/all-inl.h"

@@ -1,0 +1,55 @@
+// Columns of doubles, each beginning on a cache line and padded to whole ones, all with the same distance between two
+// of them: what kernels work on, row by row, several rows at once. The rows of the padding may be read and written, and
+// mean nothing.
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace rigor {
+
+inline constexpr std::size_t kCacheLine = 64;  // bytes
+inline constexpr std::size_t kRowsPerLine = kCacheLine / sizeof(double);
+
+// From the start of a column of `rows` doubles to the next [doubles]. An odd number of cache lines: with a power of two
+// all columns would compete for the same few places of a cache.
+inline constexpr std::size_t column_stride(std::size_t rows) {
+  return kRowsPerLine * ((rows + kRowsPerLine - 1) / kRowsPerLine | 1);
+}
+
+template <typename T>
+struct CacheLineAllocator {
+  using value_type = T;
+  CacheLineAllocator() = default;
+  template <typename U>
+  CacheLineAllocator(const CacheLineAllocator<U>&) {}
+  T* allocate(std::size_t count) {
+    return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{kCacheLine}));
+  }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{kCacheLine}); }
+  bool operator==(const CacheLineAllocator&) const { return true; }
+};
+using AlignedDoubles = std::vector<double, CacheLineAllocator<double>>;
+
+class Columns {
+ public:
+  Columns() = default;
+  Columns(std::size_t columns, std::size_t rows) { resize(columns, rows); }
+
+  void resize(std::size_t columns, std::size_t rows) {
+    stride_ = column_stride(rows);
+    data_.assign(columns * stride_, 0.0);
+  }
+  std::size_t stride() const { return stride_; }
+  double* data() { return data_.data(); }
+  const double* data() const { return data_.data(); }
+  double* column(std::size_t c) { return data_.data() + c * stride_; }
+  const double* column(std::size_t c) const { return data_.data() + c * stride_; }
+
+ private:
+  AlignedDoubles data_;
+  std::size_t stride_ = 0;
+};
+
+}  // namespace rigor

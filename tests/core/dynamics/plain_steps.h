@@ -1,0 +1,23 @@
+// One step of the core's methods written down body by body, after their formulas and nothing else: what the kernels'
+// steps are held to.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/dynamics/system.h"
+
+namespace rigor::test {
+
+// No contact, no timed force that begins or ends inside the step, dampers only where the method's own formula has them.
+using PlainStep = void (*)(const System& system, BodyTable& state, double t, double dt);
+
+struct PlainMethod {
+  std::string name;         // a row of integrators.cpp
+  std::string orientation;  // a row of orientation_updates.cpp, "" where the method has one way only
+  bool takes_dampers;
+  PlainStep step;
+};
+const std::vector<PlainMethod>& plain_methods();
+
+}  // namespace rigor::test
