@@ -35,6 +35,7 @@ class Finder {
   std::vector<std::string> sentences() {
     say_where_energy_goes();
     say_who_blows_up();
+    say_whose_friction_is_a_pyramid();
     say_what_a_millimetre_takes();
     say_what_is_unexplained();
     return sentences_;
@@ -128,6 +129,30 @@ class Finder {
       return fmt::format("; of that the scheme explains {:.2g} %.", 100 * scheme / drift);
     if (std::abs(without) < kGone * std::abs(drift)) return "; all of it is the gyroscopic part of the scheme.";
     return "; all of it is the scheme: the core, repeating it, comes to the same.";
+  }
+
+  // Two friction forces along fixed axes, each limited by itself, brake along the diagonal with sqrt(2) of the force:
+  // distances to a stop then spread by 1 - 1/sqrt(2) = 0.29 over the directions. A cone has no spread.
+  void say_whose_friction_is_a_pyramid() {
+    constexpr double kPyramid = 0.2, kCone = 0.05;
+    std::vector<std::string> pyramids, cones;
+    std::string where;
+    for (const std::size_t run : runs()) {
+      double worst = -1;
+      for_cells(run, [&](const CaseResult& result, const Cell& cell) {
+        const double spread = std::abs(value_of(cell.metrics, "friction_anisotropy"));
+        if (cell.stability.verdict != Verdict::blown_up && spread > worst) worst = spread, where = result.definition.id;
+      });
+      if (worst >= kPyramid) pyramids.push_back(fmt::format("{} ({:.0f} %)", results_.runs[run].text, 100 * worst));
+      if (worst >= 0 && worst < kCone) cones.push_back(results_.runs[run].text);
+    }
+    if (pyramids.empty() && cones.empty()) return;
+    const std::string none = "none";
+    sentences_.push_back(fmt::format(
+        "Friction is a pyramid, braking harder along its diagonals, with: {}; a cone, as Coulomb's, with: {}. The per "
+        "cent are how distances to a stop spread over directions ({}, dt = {} s).",
+        pyramids.empty() ? none : listed_names(pyramids, 6), cones.empty() ? none : listed_names(cones, 6), where,
+        dt_.text));
   }
 
   void say_what_is_unexplained() {

@@ -60,6 +60,17 @@ BOOST_AUTO_TEST_CASE(what_no_scheme_explains_is_the_largest_of_the_runs_that_hel
   BOOST_TEST(has(sentences, "unexplained is 0.01 m, by good on family/case."), all(sentences));
 }
 
+BOOST_AUTO_TEST_CASE(friction_is_told_a_pyramid_from_a_cone_by_its_spread) {
+  BOOST_TEST(!has(findings(sample_results()), "pyramid"));  // nothing slides
+  Results grid = sample_results();
+  grid.cases[0].cells[0].metrics["friction_anisotropy"] = sample_metric(0.293, {0.3, 0, "distance", 1.8, 2.5});
+  auto sentences = findings(grid);
+  BOOST_TEST(has(sentences, "with: good (29 %); a cone, as Coulomb's, with: none."), all(sentences));
+  grid.cases[0].cells[0].metrics["friction_anisotropy"] = sample_metric(1e-3, {0.3, 0, "distance", 2.5, 2.5});
+  sentences = findings(grid);
+  BOOST_TEST(has(sentences, "with: none; a cone, as Coulomb's, with: good."), all(sentences));
+}
+
 BOOST_AUTO_TEST_CASE(a_millimetre_is_read_off_the_line_through_the_cells) {
   // Of first order: 4 mm at 0.1 s and 2 mm at 0.05 s, so 1 mm at 0.025 s, which was not tried. Of fourth order: 4 mm
   // and 0.25 mm, so 1 mm at 0.1 / 4^(1/4) = 0.0707 s.
