@@ -23,6 +23,7 @@ class CoreWorld : public World {
     if (!integrator_.default_orientation.empty()) {
       orientation_ = &orientation_update(word_option(settings, "orientation", integrator_.default_orientation));
     }
+    system_.constants.use_threads(static_cast<int>(number_option(settings, "threads", 1)));
     contact_ = contact_method_.make(scene, system_);
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
@@ -79,6 +80,12 @@ MethodInfo method_info(const Integrator& integrator) {
       .adaptive = integrator.adaptive,
       .options = {
           {.name = "contact", .meaning = "how touching bodies are treated", .choices = names_of(contact_methods())}}};
+  info.options.push_back(
+      {.name = "threads",
+       .meaning = "threads that share the bodies of a large scene; default 1, and the result is the same",
+       .min = 1,
+       .max = 64,
+       .whole = true});
   if (!integrator.default_orientation.empty()) {
     info.options.push_back(
         {.name = "orientation",
