@@ -14,12 +14,14 @@ struct StepSize {
   std::string text;  // as it was written, "1/30": what tables and file names show
 };
 
-// What a metric's value is held against. Exactly one of the bounds is set, or min and max together.
+// What a metric's value is held against. Exactly one of the bounds is set (an empty better_than is none), or min and
+// max together.
 struct Gate {
   std::string metric;                // a row of metrics.cpp
   std::vector<std::string> engines;  // run names; empty: every engine that supports the scene
   std::vector<StepSize> dt;          // empty: every dt of the run
   std::optional<double> max, min, equals, at_least_order;
+  std::string better_than = "";  // a run's name, at the same dt: the value must be better than its value
   std::string because;
   std::string where;  // "file:line:column" of the gate
 };

@@ -50,18 +50,33 @@ void read_truth(const TableReader& table, Case& out) {
   out.truth_where = kind.where();
 }
 
-std::vector<std::string> read_engines(const TomlValue& value) {
+RunName read_run_name(const TomlValue& value) {
   static const std::vector<EngineInfo> infos = infos_of(engines());
-  std::vector<std::string> names;
-  for (const TomlValue& item : value.items()) {
-    const std::string name = item.text();
-    try {
-      names.push_back(parse_run_name(name, infos).text);
-    } catch (const InputError& error) {
-      item.refuse(error.what());
-    }
+  try {
+    return parse_run_name(value.text(), infos);
+  } catch (const InputError& error) {
+    value.refuse(error.what());
   }
+}
+
+std::vector<std::string> read_engines(const TomlValue& value) {
+  std::vector<std::string> names;
+  for (const TomlValue& item : value.items()) names.push_back(read_run_name(item).text);
   return names;
+}
+
+bool is_cross_metric(const std::string& name) {
+  return std::any_of(cross_metrics().begin(), cross_metrics().end(), [&](const auto& row) { return row.name == name; });
+}
+
+// A ranking: the metric of every run the gate names must be better than this one's.
+void read_better_than(const TomlValue& value, Gate& gate) {
+  if (is_cross_metric(gate.metric))
+    value.refuse(fmt::format("{} does not rank runs; give max, min or equals", gate.metric));
+  gate.better_than = read_run_name(value).text;
+  if (gate.engines.empty()) value.refuse("a ranking names the runs that are better; give engines");
+  if (std::find(gate.engines.begin(), gate.engines.end(), gate.better_than) != gate.engines.end())
+    value.refuse(fmt::format("found {}, which is among engines; no run is better than itself", gate.better_than));
 }
 
 // The run's own step sizes that the gate names.
@@ -92,16 +107,19 @@ void read_bounds(const TableReader& table, const Case& of, Gate& gate) {
   gate.equals = number_if_given(table, "equals");
   if (const auto order = table.find("at_least_order")) {
     gate.at_least_order = order->positive();
-    const auto is_it = [&](const CrossMetricRow& row) { return row.name == gate.metric; };
-    if (std::any_of(cross_metrics().begin(), cross_metrics().end(), is_it))
+    if (is_cross_metric(gate.metric))
       order->refuse(fmt::format("{} has no order; give max, min or equals", gate.metric));
     if ((gate.dt.empty() ? of.dt : gate.dt).size() < 2)
       order->refuse("an order is observed over two step sizes or more");
   }
-  const int bounds = (gate.max || gate.min) + gate.equals.has_value() + gate.at_least_order.has_value();
+  if (const auto other = table.find("better_than")) read_better_than(*other, gate);
+  const int bounds =
+      (gate.max || gate.min) + gate.equals.has_value() + gate.at_least_order.has_value() + !gate.better_than.empty();
   if (bounds != 1) {
-    table.refuse(fmt::format("found {}; allowed: one of max, min, equals, at_least_order, or min and max together",
-                             bounds == 0 ? "no bound" : "bounds that do not go together"));
+    table.refuse(
+        fmt::format("found {}; allowed: one of max, min, equals, at_least_order, better_than, or min and max "
+                    "together",
+                    bounds == 0 ? "no bound" : "bounds that do not go together"));
   }
   if (gate.min && gate.max && *gate.min > *gate.max) {
     table.at("min").refuse(fmt::format("found {}, more than max, {}", *gate.min, *gate.max));
@@ -135,8 +153,8 @@ Case read_case(const std::string& path, const std::string& id) {
   read_run(root.at("run").table({"duration", "dt"}), out);
   if (const auto truth = root.find("truth")) read_truth(truth->table({"kind"}), out);
   if (const auto gates = root.find("gate")) {
-    for (const TableReader& gate :
-         gates->tables({"metric", "engines", "dt", "max", "min", "at_least_order", "equals", "because"})) {
+    for (const TableReader& gate : gates->tables(
+             {"metric", "engines", "dt", "max", "min", "at_least_order", "equals", "better_than", "because"})) {
       out.gates.push_back(read_gate(gate, out));
     }
   }

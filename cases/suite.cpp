@@ -31,6 +31,27 @@ std::vector<fs::path> case_files(const fs::path& folder) {
   return files;
 }
 
+// Below `folder` and named from it; empty if it is not below.
+std::string named_from(const fs::path& folder, const fs::path& path) {
+  std::error_code error;
+  const fs::path base = fs::weakly_canonical(folder, error), whole = fs::weakly_canonical(path, error);
+  const fs::path relative = whole.lexically_relative(base);
+  return relative.empty() || *relative.begin() == ".." ? "" : relative.generic_string();
+}
+
+// Results say where a gate stands by a path from the current folder, which is what annotations of a repository need, or
+// from the suite: not where this machine keeps its files.
+void shorten_places(Case& definition, const std::string& path, const std::string& suite_dir) {
+  std::error_code error;
+  std::string shorter = named_from(fs::current_path(error), path);
+  if (shorter.empty()) shorter = named_from(suite_dir, path);
+  const auto shorten = [&](std::string& where) {
+    if (!shorter.empty() && where.starts_with(path)) where.replace(0, path.size(), shorter);
+  };
+  shorten(definition.truth_where);
+  for (Gate& gate : definition.gates) shorten(gate.where);
+}
+
 // A case's file, and the id by which it goes.
 struct Found {
   std::string id, path;
@@ -148,8 +169,9 @@ std::vector<Case> select_cases(const std::vector<std::string>& words, const std:
   std::set<std::string> seen;  // by file, however it was named
   for (const Found& found : selected) {
     std::error_code error;
-    if (seen.insert(fs::weakly_canonical(found.path, error).string()).second)
-      cases.push_back(read_case(found.path, found.id));
+    if (!seen.insert(fs::weakly_canonical(found.path, error).string()).second) continue;
+    cases.push_back(read_case(found.path, found.id));
+    shorten_places(cases.back(), found.path, suite_dir);
   }
   return cases;
 }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "cases/cli/commands.h"
+#include "cases/gates/deviations.h"
 #include "cases/suite.h"
 #include "core/error.h"
 #include "core/near_match.h"
@@ -75,6 +76,13 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
         ->type_name("S")
         ->capture_default_str();
   }
+  if (takes("--quick"))
+    command.add_flag("--quick", line.quick, "only gates whose cells take a moment; for each change, not each night");
+  if (takes("--deviations")) {
+    command.add_option("--deviations", line.adapters_dir, "folder of ENGINE/known_deviations.toml")
+        ->type_name("DIR")
+        ->capture_default_str();
+  }
   if (takes("--suite")) {
     command.add_option("--suite", line.suite_dir, "folder of the cases")->type_name("DIR")->capture_default_str();
   }
@@ -134,7 +142,7 @@ void read_typed(const Typed& typed, CommandLine& line) {
 CommandLine parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
   Typed typed;
-  line.suite_dir = default_suite_dir();
+  line.suite_dir = default_suite_dir(), line.adapters_dir = default_adapters_dir();
   CLI::App app("How right is a rigid-body simulator?", "rigor");
   app.set_version_flag("--version", "rigor " RIGOR_VERSION);
   app.set_help_flag("--help", "print this and leave");

@@ -21,6 +21,8 @@ struct CommandLine {
   double limit = 60;  // s
   std::string out = "out";
   std::string suite_dir;
+  std::string adapters_dir;  // of the known deviations
+  bool quick = false, resume = false;
   std::string printed;  // --help or --version: what to print instead of doing anything
 };
 

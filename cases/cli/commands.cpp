@@ -3,8 +3,10 @@
 namespace rigor {
 
 const std::vector<CommandRow>& commands() {
-  static const std::vector<std::string> grid_options = {"--engine", "--dt",    "--duration", "--jobs",
-                                                        "--out",    "--suite", "--timeout"};
+  static const std::vector<std::string> grid_options = {"--deviations", "--dt",  "--duration", "--engine",
+                                                        "--jobs",       "--out", "--suite",    "--timeout"};
+  static const std::vector<std::string> gate_options = {"--deviations", "--dt",    "--duration", "--engine", "--jobs",
+                                                        "--out",        "--quick", "--suite",    "--timeout"};
   static const std::string grid_words = "cases by id, family, file or folder; default: the whole suite";
   static const std::vector<CommandRow> table = {
       {"list",
@@ -15,7 +17,7 @@ const std::vector<CommandRow>& commands() {
        list_command},
       {"run", "simulate and judge; print the table and write the reports", "CASE", grid_words, grid_options,
        run_command},
-      {"gate", "the same, and exit 1 if a gate does not hold", "CASE", grid_words, grid_options, gate_command},
+      {"gate", "the same, and exit 1 if a gate does not hold", "CASE", grid_words, gate_options, gate_command},
       {"trace",
        "print one run's trajectory as CSV",
        "CASE",

@@ -3,12 +3,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress.h"
+#include "cases/gates/deviations.h"
 #include "cases/gates/gates.h"
+#include "cases/gates/quick.h"
 #include "cases/report/console_table.h"
+#include "cases/report/job_summary.h"
 #include "cases/report/output_folder.h"
 #include "cases/report/reports.h"
 #include "cases/runner/grid.h"
@@ -33,9 +38,11 @@ std::vector<RunName> runs_asked_for(const CommandLine& line) {
 // A gate wants what its gates judge, and no more than that unless engines or steps are named.
 bool is_gate(const CommandLine& line) { return line.command == "gate"; }
 
-Results planned(const CommandLine& line) {
+Results planned(const CommandLine& line, const std::vector<KnownDeviation>& deviations) {
   std::vector<Case> cases = select_cases(line.words, line.suite_dir);
+  if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, infos_of(engines()));
   for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
+  if (line.quick) cases = quick_selection(cases, infos_of(engines()));
   const std::vector<RunName> runs = runs_asked_for(line);
   // Who names engines wants these and no others.
   const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, infos_of(engines())) : std::vector<RunName>();
@@ -44,7 +51,8 @@ Results planned(const CommandLine& line) {
 }
 
 Results simulated_and_written(const CommandLine& line) {
-  Results grid = planned(line);
+  const auto deviations = read_known_deviations(line.adapters_dir, infos_of(engines()));
+  Results grid = planned(line, deviations);
   std::vector<std::string> file_names;
   for (const ReportRow& report : reports()) file_names.push_back(report.file_name);
   OutputFolder folder(line.out, file_names);
@@ -53,7 +61,10 @@ Results simulated_and_written(const CommandLine& line) {
     run_grid(grid, engines(), {line.jobs, line.limit, folder.trajectories(), !is_gate(line), !is_gate(line)},
              [&](std::size_t done, std::size_t all) { progress.show(done, all); });
   }
-  for (CaseResult& result : grid.cases) check_gates(result, grid);
+  for (CaseResult& result : grid.cases) {
+    check_gates(result, grid);
+    apply_known_deviations(result, grid, deviations);
+  }
   for (const ReportRow& report : reports()) folder.write(report.file_name, report.write(grid));
   folder.publish();
   return grid;
@@ -79,6 +90,17 @@ int ending_of(const Results& grid) {
   return something_broke(grid) ? kBroken : kGood;
 }
 
+// On a GitHub runner: annotations on stdout, where it looks for them, and the job's summary.
+void tell_the_runner(const Results& grid, const std::vector<Shortfall>& rows) {
+  const char *is_one = std::getenv("GITHUB_ACTIONS"), *summary = std::getenv("GITHUB_STEP_SUMMARY");
+  if (is_one && std::string(is_one) == "true") print(annotations(rows));
+  if (!summary || !*summary) return;
+  std::ofstream file(summary, std::ios::binary | std::ios::app);
+  file << job_summary(grid);
+  file.close();
+  if (!file) fmt::print(stderr, "rigor: the job's summary could not be written to '{}'\n", summary);
+}
+
 }  // namespace
 
 int run_command(const CommandLine& line) {
@@ -91,7 +113,9 @@ int run_command(const CommandLine& line) {
 int gate_command(const CommandLine& line) {
   const Results grid = simulated_and_written(line);
   const int ending = ending_of(grid);
-  print(console_table(grid) + gate_summary(grid));
+  const std::vector<Shortfall> rows = shortfalls(grid);
+  print(console_table(grid) + gate_summary(grid) + shortfalls_text(rows));
+  tell_the_runner(grid, rows);
   return ending == kGood && !all_gates_hold(grid) ? int{kGateFailed} : ending;
 }
 

@@ -12,6 +12,7 @@ bool is_same_run(const RunName& a, const RunName& b) {
 
 GateSelection::GateSelection(const Gate& gate, const std::vector<EngineInfo>& engines) : dt_(gate.dt) {
   for (const std::string& name : gate.engines) runs_.push_back(parse_run_name(name, engines));
+  if (!gate.better_than.empty()) better_than_ = parse_run_name(gate.better_than, engines);
 }
 
 bool GateSelection::takes(const RunName& run) const {
@@ -19,10 +20,20 @@ bool GateSelection::takes(const RunName& run) const {
          std::any_of(runs_.begin(), runs_.end(), [&](const RunName& own) { return is_same_run(own, run); });
 }
 
+bool GateSelection::needs(const RunName& run) const {
+  return takes(run) || (better_than_ && is_same_run(*better_than_, run));
+}
+
 bool GateSelection::takes(const StepSize& dt) const {
   // "1/30" and "0.0333333333333333" are the same step.
   const auto is_it = [&](const StepSize& own) { return std::abs(own.seconds - dt.seconds) <= 1e-9 * own.seconds; };
   return dt_.empty() || std::any_of(dt_.begin(), dt_.end(), is_it);
+}
+
+std::vector<std::string> runs_named_by(const Gate& gate) {
+  std::vector<std::string> names = gate.engines;
+  if (!gate.better_than.empty()) names.push_back(gate.better_than);
+  return names;
 }
 
 bool is_judged(const Case& definition, const RunName& run, const StepSize& dt, const std::vector<EngineInfo>& engines) {

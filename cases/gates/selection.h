@@ -1,6 +1,7 @@
 // Which cells of a case a gate judges: its engines and step sizes, or all where it names none.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,16 @@ class GateSelection {
   bool takes(const RunName& run) const;
   bool takes(const StepSize& dt) const;
   // Whether the gate cannot be answered without this run: it judges it, or holds others against it.
-  bool needs(const RunName& run) const { return takes(run); }
+  bool needs(const RunName& run) const;
 
  private:
   std::vector<RunName> runs_;
+  std::optional<RunName> better_than_;
   std::vector<StepSize> dt_;
 };
+
+// The runs that a gate names, to judge them or to hold others against them.
+std::vector<std::string> runs_named_by(const Gate& gate);
 
 // Whether a gate of the case needs this cell.
 bool is_judged(const Case& definition, const RunName& run, const StepSize& dt, const std::vector<EngineInfo>& engines);

@@ -38,6 +38,8 @@ struct JudgedRun {
   double velocity_lag;            // in steps, see MethodInfo
   const TwinRun* twin = nullptr;  // null for the core's own schemes, and where bodies can touch
   double cpu_seconds = std::numeric_limits<double>::quiet_NaN();  // s, of the run's steps
+  double survived = std::numeric_limits<double>::quiet_NaN();     // s, until it blew up, or `duration`
+  double duration = 0;                                            // s, of the case
 };
 
 // Where a metric is worst. Body kWorld: the system as a whole.

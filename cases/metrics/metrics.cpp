@@ -4,6 +4,7 @@ namespace rigor {
 
 // One declaration and one row a metric, alphabetical; each is defined in the file of its name.
 MetricRow angular_momentum_drift();
+MetricRow angular_velocity_error();
 MetricRow cost();
 MetricRow energy_drift();
 MetricRow energy_drift_synchronised();
@@ -12,18 +13,33 @@ MetricRow orientation_error();
 MetricRow orthonormality_error();
 MetricRow phase_error();
 MetricRow position_error();
+MetricRow survival();
 MetricRow tube();
 MetricRow unexplained_error();
 MetricRow unexplained_rotation();
+MetricRow unexplained_spin();
+MetricRow unexplained_velocity();
+MetricRow velocity_error();
 
 const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
-      angular_momentum_drift(), cost(),
-      energy_drift(),           energy_drift_synchronised(),
-      linear_momentum_drift(),  orientation_error(),
-      orthonormality_error(),   phase_error(),
-      position_error(),         tube(),
-      unexplained_error(),      unexplained_rotation(),
+      angular_momentum_drift(),
+      angular_velocity_error(),
+      cost(),
+      energy_drift(),
+      energy_drift_synchronised(),
+      linear_momentum_drift(),
+      orientation_error(),
+      orthonormality_error(),
+      phase_error(),
+      position_error(),
+      survival(),
+      tube(),
+      unexplained_error(),
+      unexplained_rotation(),
+      unexplained_spin(),
+      unexplained_velocity(),
+      velocity_error(),
   };
   return table;
 }

@@ -84,7 +84,7 @@ std::string row_line(const RowText& row) {
 std::string gate_lines(const CaseResult& result) {
   std::string lines;
   for (const GateResult& gate : result.gates) {
-    if (gate.answer == GateAnswer::held) continue;
+    if (gate.answer == GateAnswer::held || gate.answer == GateAnswer::known_deviation) continue;
     lines += "  " + wrapped(fmt::format("gate {}: {}", word_of(gate.answer), gate.text), 4) + "\n";
   }
   return lines;
@@ -190,8 +190,13 @@ std::string gate_summary(const Results& results) {
   for (const CaseResult& result : results.cases) {
     for (const GateResult& gate : result.gates) ++counts[gate.answer];
   }
-  return fmt::format("gates: {} held, {} failed, {} not checked\n", counts[GateAnswer::held],
-                     counts[GateAnswer::failed], counts[GateAnswer::not_checked]);
+  std::string text = fmt::format("gates: {} held, {} failed, {} not checked", counts[GateAnswer::held],
+                                 counts[GateAnswer::failed], counts[GateAnswer::not_checked]);
+  for (const auto& [answer, words] : {std::pair{GateAnswer::known_deviation, "known deviations"},
+                                      {GateAnswer::unexpected_pass, "unexpected passes"}}) {
+    if (counts[answer] > 0) text += fmt::format(", {} {}", counts[answer], words);
+  }
+  return text + "\n";
 }
 
 std::string console_table(const Results& results) {

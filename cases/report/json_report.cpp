@@ -1,11 +1,16 @@
 // results.json: everything that the other reports show, for programs. `schema` rises when a reader would have to
 // change.
+#include "cases/report/json_report.h"
+
 #include <nlohmann/json.hpp>
 
 #include "cases/report/comparison_json.h"
+#include "cases/report/explanation.h"
+#include "cases/report/findings.h"
 #include "cases/report/machine.h"
 #include "cases/report/reports.h"
 #include "cases/report/result_json.h"
+#include "cases/report/scene_json.h"
 
 namespace rigor {
 namespace {
@@ -47,14 +52,18 @@ Json gates_json(const CaseResult& result) {
     Json answers = Json::array();
     for (const GateResult& answer : result.gates) {
       if (answer.gate != i) continue;
-      answers.push_back(
-          {{"engine", answer.engine}, {"dt", answer.dt}, {"answer", word_of(answer.answer)}, {"text", answer.text}});
+      answers.push_back({{"engine", answer.engine},
+                         {"dt", answer.dt},
+                         {"answer", word_of(answer.answer)},
+                         {"text", answer.text},
+                         {"value", bound(answer.value)}});
     }
     gates.push_back({{"metric", gate.metric},
                      {"max", bound(gate.max)},
                      {"min", bound(gate.min)},
                      {"equals", bound(gate.equals)},
                      {"at_least_order", bound(gate.at_least_order)},
+                     {"better_than", gate.better_than.empty() ? Json(nullptr) : Json(gate.better_than)},
                      {"because", gate.because},
                      {"where", gate.where},
                      {"answers", answers}});
@@ -67,9 +76,13 @@ Json case_json(const Results& results, const CaseResult& result) {
   Json json = {{"id", definition.id},
                {"title", definition.title},
                {"source", definition.source},
+               {"file", definition.text},
+               {"scene", json_of(definition.scene)},
                {"duration", definition.duration},
+               {"dt", Json::array()},
                {"truth", {{"kind", definition.truth}}},
                {"error", result.error.empty() ? Json(nullptr) : Json(result.error)}};
+  for (const StepSize& step : definition.dt) json["dt"].push_back({{"text", step.text}, {"seconds", step.seconds}});
   if (result.truth && definition.truth != "none") {
     json["truth"]["error_at_end"] = result.truth->error_at_end;
     json["truth"]["horizon"] = result.truth->horizon;
@@ -80,7 +93,15 @@ Json case_json(const Results& results, const CaseResult& result) {
   json["work_precision"] = work_precision_json(results, result);
   json["spread"] = spreads_json(results, result);
   json["gates"] = gates_json(result);
+  json["explanations"] = result.stable_steps.empty() ? Json::array() : Json(explanations(results, result));
   return json;
+}
+
+Json metrics_json() {
+  Json rows = Json::array();
+  for (const MetricRow& row : metrics())
+    rows.push_back({{"name", row.name}, {"unit", row.unit}, {"summary", row.summary}});
+  return rows;
 }
 
 Json cell_json(const Cell& cell, const CaseResult& result, const std::string& run) {
@@ -96,12 +117,18 @@ Json cell_json(const Cell& cell, const CaseResult& result, const std::string& ru
 
 }  // namespace
 
-std::string json_report(const Results& results) {
-  Json json = {
-      {"schema", kSchema},         {"program", {{"name", "rigor"}, {"version", this_machine().program_version}}},
-      {"machine", machine_json()}, {"wall_seconds", results.wall_seconds},
-      {"engines", Json::array()},  {"cases", Json::array()},
-      {"cells", Json::array()},    {"stable_dt", Json::array()}};
+Json results_json(const Results& results) {
+  Json json = {{"schema", kSchema},
+               {"program", {{"name", "rigor"}, {"version", this_machine().program_version}}},
+               {"machine", machine_json()},
+               {"wall_seconds", results.wall_seconds},
+               {"headline_dt", headline_dt(results).text},
+               {"findings", findings(results)},
+               {"metrics", metrics_json()},
+               {"engines", Json::array()},
+               {"cases", Json::array()},
+               {"cells", Json::array()},
+               {"stable_dt", Json::array()}};
   for (const RunName& run : results.runs) json["engines"].push_back(run_json(run, results.engines));
   for (const CaseResult& result : results.cases) {
     json["cases"].push_back(case_json(results, result));
@@ -112,7 +139,9 @@ std::string json_report(const Results& results) {
       json["stable_dt"].push_back(stable);
     }
   }
-  return text_of(json, 1) + "\n";
+  return json;
 }
+
+std::string json_report(const Results& results) { return text_of(results_json(results), 1) + "\n"; }
 
 }  // namespace rigor

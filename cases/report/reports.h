@@ -16,7 +16,9 @@ struct ReportRow {
 
 const std::vector<ReportRow>& reports();  // alphabetical
 
+std::string html_report(const Results& results);  // only in a build with RIGOR_HTML_REPORT
 std::string json_report(const Results& results);
+std::string junit_report(const Results& results);
 std::string markdown_report(const Results& results);
 
 }  // namespace rigor

@@ -94,6 +94,7 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
   cell.status = status_of(json.at("status").get<std::string>());
   cell.reason = json.at("reason").get<std::string>();
   cell.cpu_seconds = number(json.at("cpu_seconds"));
+  cell.wall_seconds = number(json.at("wall_seconds"));
   cell.trajectory = json.at("trajectory").is_null() ? "" : json.at("trajectory").get<std::string>();
   if (!json.at("verdict").is_null()) {
     const Json& verdict = json.at("verdict");
@@ -145,6 +146,7 @@ Json json_of(const Cell& cell, const Scene& scene) {
   json["settings"] = Json::object();
   for (const auto& [name, value] : cell.settings) json["settings"][name] = value;
   json["cpu_seconds"] = cell.cpu_seconds;
+  json["wall_seconds"] = cell.wall_seconds;
   json["trajectory"] = cell.trajectory.empty() ? Json(nullptr) : Json(cell.trajectory);
   return json;
 }
@@ -161,11 +163,11 @@ std::string text_of(const Json& value, int indent) {
 }
 
 std::string message_of_truth(const TruthFacts& facts) {
-  return text_of({{"truth", {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy}}}, -1);
+  return text_of({{"truth", {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy, facts.playback}}}, -1);
 }
 
 std::string message_of_cell(std::size_t index, const Cell& cell, const Scene& scene) {
-  return text_of({{"cell", index}, {"result", json_of(cell, scene)}}, -1);
+  return text_of({{"cell", index}, {"result", json_of(cell, scene)}, {"playback", cell.playback}}, -1);
 }
 
 std::string message_of_stable_step(std::size_t run, const StableStepResult& result) {
@@ -191,7 +193,7 @@ bool apply_message(CaseResult& result, const std::string& message) {
   const Json json = Json::parse(message);
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
-    result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2))};
+    result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2)), facts.at(3).get<std::string>()};
     return false;
   }
   if (json.contains("spreads")) {
@@ -199,7 +201,9 @@ bool apply_message(CaseResult& result, const std::string& message) {
     return false;
   }
   if (json.contains("cell")) {
-    fill_in(result.cells.at(json.at("cell").get<std::size_t>()), json.at("result"), result.definition.scene);
+    Cell& cell = result.cells.at(json.at("cell").get<std::size_t>());
+    fill_in(cell, json.at("result"), result.definition.scene);
+    cell.playback = json.at("playback").get<std::string>();
   } else {
     fill_in(result.stable_steps.at(json.at("stable_step").get<std::size_t>()), json.at("result"));
   }

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "cases/report/html/playback.h"
 #include "cases/report/result_json.h"
 #include "cases/report/trajectory_csv.h"
 #include "cases/runner/simulate.h"
@@ -60,20 +62,27 @@ Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
                 : end.how == Ending::timed_out ? Status::timed_out
                                                : Status::crashed;
   cell.trajectory.clear();
+  cell.wall_seconds = end.seconds;
   return cell;
 }
+
+const std::set<std::string> kOfTwins = {"unexplained_error", "unexplained_rotation", "unexplained_spin",
+                                        "unexplained_velocity"};
 
 bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
   return std::any_of(definition.gates.begin(), definition.gates.end(),
                      [&](const Gate& gate) { return metrics.contains(gate.metric); });
 }
 
-std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options) {
+// Their courses over time come out apart: no result keeps them.
+std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options,
+                                            std::vector<NamedCourse>& courses) {
   std::map<std::string, MetricValue> values;
   for (const MetricRow& row : metrics()) {
     const bool is_wanted = options.is_thorough || !row.is_costly || has_gate_on(definition, {row.name});
-    const MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
+    MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
     values[row.name] = condensed(found, run.trajectory);
+    if (found.measurement) courses.push_back({row.name, std::move(found.measurement->series)});
   }
   return values;
 }
@@ -154,8 +163,10 @@ class CaseJobs {
     cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const JudgedCell judged =
-                           run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, energy_, options_);
+                       const std::size_t budget =
+                           options_.folder.empty() ? 0 : playback_budget(grid_, planned_, &cell.dt);
+                       const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
+                                                          energy_, options_, budget);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
                        channel.send(packed(judged.path));
                      },
@@ -185,7 +196,9 @@ class CaseJobs {
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, double largest_kinetic_energy, const GridOptions& options) {
+                    const Truth* truth, double largest_kinetic_energy, const GridOptions& options,
+                    std::size_t playback_budget) {
+  const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
   const Engine& engine = find_engine(engines, run_name.engine);
@@ -197,19 +210,23 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   std::optional<TruthSamples> samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
   std::optional<RunName> twin_name;
-  if (options.is_thorough || has_gate_on(definition, {"unexplained_error", "unexplained_rotation"}))
-    twin_name = twin_of(engines, run_name, scene);
+  if (options.is_thorough || has_gate_on(definition, kOfTwins)) twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;
   if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
-  const JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
-                         velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
+  JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
+                   velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
   cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
-  cell.metrics = measured(judged, definition, options);
+  judged.duration = definition.duration;
+  judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
+  std::vector<NamedCourse> courses;
+  cell.metrics = measured(judged, definition, options, courses);
+  if (playback_budget > 0) cell.playback = packed_run(judged, courses, largest_kinetic_energy, playback_budget);
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   if (!options.folder.empty()) {
     write_trajectory((std::filesystem::path(options.folder) / cell.trajectory).string(), scene, run.trajectory);
   }
+  cell.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
 }
 
@@ -218,7 +235,11 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const Case& definition = planned.definition;
   const double seconds = options.stable_steps ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
-  const TruthFacts facts = facts_of(definition, truth.get());
+  TruthFacts facts = facts_of(definition, truth.get());
+  if (truth && !options.folder.empty()) {
+    facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy,
+                                  playback_budget(grid, planned, nullptr));
+  }
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy);
   channel.send(message_of_truth(facts));  // from here on each job has a limit of its own
   jobs.run(channel);

@@ -57,7 +57,8 @@ void name_trajectories(Results& grid) {
 
 bool is_named_by_gates(const RunName& run, const Case& definition, const std::vector<EngineInfo>& engines) {
   return std::any_of(definition.gates.begin(), definition.gates.end(), [&](const Gate& gate) {
-    return std::any_of(gate.engines.begin(), gate.engines.end(),
+    const auto names = runs_named_by(gate);
+    return std::any_of(names.begin(), names.end(),
                        [&](const std::string& name) { return is_same_run(parse_run_name(name, engines), run); });
   });
 }
@@ -165,7 +166,7 @@ std::vector<RunName> runs_of_gates(const std::vector<Case>& cases, const std::ve
   };
   for (const Case& definition : cases) {
     for (const Gate& gate : definition.gates) {
-      for (const std::string& name : gate.engines) {
+      for (const std::string& name : runs_named_by(gate)) {
         RunName run = parse_run_name(name, engines);
         if (!is_in(but, run) && !is_in(found, run)) found.push_back(std::move(run));
       }

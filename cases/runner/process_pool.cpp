@@ -188,6 +188,7 @@ class Child {
     JobEnd end;
     end.last_words = last_line(spoken_);
     end.text = closing_text_;
+    end.seconds = std::chrono::duration<double>(Time::now() - begin_).count();
     if (timed_out_) {
       end.how = Ending::timed_out;
     } else if (closing_kind_) {
@@ -215,7 +216,7 @@ class Child {
     }
   }
 
-  Time::time_point deadline_;
+  Time::time_point begin_ = Time::now(), deadline_;
   pid_t pid_ = -1;
   int status_ = 0;
   Descriptor messages_, words_;

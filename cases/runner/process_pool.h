@@ -34,6 +34,7 @@ struct JobEnd {
   int code = 0;            // the signal, or the exit code
   std::string text;        // what was thrown
   std::string last_words;  // the last line the child printed
+  double seconds = 0;      // wall time from its start to its end
 };
 
 // "killed by SIGABRT (abort); its last words: ...", for whatever is not `finished`.

@@ -11,7 +11,7 @@ namespace {
 // In the order of the enumeration.
 constexpr const char* kStatusWords[] = {"pass",     "fail",    "known-deviation", "unexpected-pass", "unsupported",
                                         "diverged", "crashed", "timed-out",       "invalid"};
-constexpr const char* kAnswerWords[] = {"held", "failed", "not checked"};
+constexpr const char* kAnswerWords[] = {"held", "failed", "not checked", "known deviation", "unexpected pass"};
 }  // namespace
 
 std::string word_of(Status status) { return kStatusWords[static_cast<int>(status)]; }

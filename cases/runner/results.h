@@ -39,15 +39,18 @@ struct SchemeFindings {
   std::map<std::string, MetricValue> without_gyroscopic_term;  // of the twin with that term off, where it is on
 };
 
-// A gate's answer for one cell, or for an order fitted over several.
-enum class GateAnswer { held, failed, not_checked };
+// A gate's answer for one cell, or for an order fitted over several. known_deviation: it failed where the adapter's
+// known_deviations.toml says that it does; unexpected_pass: it held there.
+enum class GateAnswer { held, failed, not_checked, known_deviation, unexpected_pass };
 std::string word_of(GateAnswer answer);
 struct GateResult {
   std::size_t gate = 0;  // index in Case::gates
   std::string engine;    // a run's name; empty if the gate met no cell at all
   std::string dt;        // as written; empty for an order
   GateAnswer answer = GateAnswer::not_checked;
-  std::string text;  // a sentence
+  std::string text;                   // a sentence
+  std::optional<double> value = {};   // in the metric's unit; none where there was nothing to judge
+  std::optional<Instant> worst = {};  // where the metric has one
 };
 
 // case × engine × dt.
@@ -61,7 +64,9 @@ struct Cell {
   SchemeFindings scheme;
   SettingsInForce settings;
   double cpu_seconds = 0;
-  std::string trajectory;  // file name in trajectories/; empty if there is none
+  double wall_seconds = 0;  // of the whole cell: simulated, judged and written
+  std::string trajectory;   // file name in trajectories/; empty if there is none
+  std::string playback;     // its thinned motion and courses, see cases/report/html/playback.h; may be empty
 };
 
 // The largest stable dt of a case and engine.
@@ -76,6 +81,7 @@ struct TruthFacts {
   double error_at_end = 0;            // of the truth itself: m and rad
   double horizon = 0;                 // s, to which that error stays below kHorizonTolerance
   double largest_kinetic_energy = 0;  // J
+  std::string playback = "";          // its thinned motion, as a cell's
 };
 inline constexpr double kHorizonTolerance = 1e-6;  // m and rad
 

@@ -228,4 +228,39 @@ BOOST_AUTO_TEST_CASE(a_spread_is_held_against_every_pair_a_gate_selects) {
   BOOST_TEST(count(run.check(limit), GateAnswer::held) == 1);
 }
 
+BOOST_AUTO_TEST_CASE(a_ranking_holds_each_run_against_another_at_the_same_step) {
+  Fixture run;  // a: .01 .0025; b: .1 .025
+  Gate ranking = gate("position_error");
+  ranking.engines = {"a"}, ranking.better_than = "b";
+  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 2);
+  ranking.engines = {"b"}, ranking.better_than = "a";
+  const auto answers = run.check(ranking);
+  BOOST_TEST(count(answers, GateAnswer::failed) == 2);
+  BOOST_TEST(answers.front().text.find("0.1 m, not better than the 0.01 m of a") != std::string::npos,
+             answers.front().text);
+  BOOST_TEST((run.cell(2).status == Status::fail));
+}
+
+BOOST_AUTO_TEST_CASE(who_blew_up_is_better_than_nobody) {
+  Fixture run;
+  Gate ranking = gate("position_error");
+  ranking.engines = {"b"}, ranking.better_than = "a";
+  run.cell(0).status = Status::diverged;  // a at the first step: its small error means nothing
+  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 1);
+  run.cell(2).status = Status::diverged;  // and so does b
+  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 0);
+  run.cell(0).status = Status::pass;
+  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_ranking_against_a_run_that_came_to_nothing_fails) {
+  Fixture run;
+  Gate ranking = gate("position_error");
+  ranking.engines = {"a"}, ranking.better_than = "b";
+  run.cell(2).status = Status::crashed;
+  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 1);
+  run.cell(2).status = Status::unsupported;  // that is nobody's fault
+  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

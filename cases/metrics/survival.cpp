@@ -1,0 +1,26 @@
+// How long a run lasted: the instant at which the verdict on its stability (stability.h) says that it blew up, or the
+// end of the run if it did not.
+#include <cmath>
+
+#include "cases/metrics/metric.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run) {
+  if (std::isnan(run.survived)) return {{}, "nobody judged the run's stability"};
+  Measurement out;
+  out.value = run.survived;
+  out.worst = {run.survived, kWorld, "time", run.survived, run.duration};
+  out.compared_until = run.survived;
+  return {out, ""};
+}
+
+}  // namespace
+
+MetricRow survival() {
+  return {"survival", "s", "how long the run lasts before it blows up; its whole duration if it does not", measure,
+          true};
+}
+
+}  // namespace rigor

@@ -1,0 +1,34 @@
+// Velocities and angular velocities, as read, against those of the engine's twin, for as long as its positions and
+// orientations can be held against each other. A rounding of a position is one of a velocity times the motion's
+// fastest frequency.
+#include <algorithm>
+
+#include "cases/metrics/rate_gap.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run, RateOf rate, const char* letter) {
+  if (!run.twin) return {{}, kNoTwin};
+  const Trajectory& twin = run.twin->trajectory;
+  const std::vector<double> one_radian(twin.samples.size(), 1.0);
+  const std::size_t count =
+      std::min(samples_with_twin(run, run.twin->position_rounding, motion_extents(twin), kTruthNeededPosition),
+               samples_with_twin(run, run.twin->orientation_rounding, one_radian, kTruthNeededOrientation));
+  return rate_gap(run, count, rate, letter, [&](std::size_t n) { return twin.samples[n].bodies.columns(); });
+}
+
+}  // namespace
+
+MetricRow unexplained_spin() {
+  return {"unexplained_spin", "rad/s",
+          "largest difference of a body's angular velocity from its scheme's own, repeated",
+          [](const JudgedRun& run) { return measure(run, &BodyColumns::angular_velocity, "w"); }};
+}
+
+MetricRow unexplained_velocity() {
+  return {"unexplained_velocity", "m/s", "largest difference of a body's velocity from its scheme's own, repeated",
+          [](const JudgedRun& run) { return measure(run, &BodyColumns::velocity, "v"); }};
+}
+
+}  // namespace rigor

@@ -1,0 +1,26 @@
+// Velocities and angular velocities, as read, against the truth's. A semi-implicit step leaves them half a step behind
+// the positions, which is an error of first order here: what is read belongs to no one instant.
+#include "cases/metrics/rate_gap.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run, RateOf rate, const char* letter) {
+  if (!run.truth) return {{}, kNoTruth};
+  return rate_gap(run, samples_within(run, kTruthNeededPosition), rate, letter,
+                  [&](std::size_t n) { return run.truth->bodies[n].columns(); });
+}
+
+}  // namespace
+
+MetricRow angular_velocity_error() {
+  return {"angular_velocity_error", "rad/s", "largest difference of a body's angular velocity from the truth's",
+          [](const JudgedRun& run) { return measure(run, &BodyColumns::angular_velocity, "w"); }};
+}
+
+MetricRow velocity_error() {
+  return {"velocity_error", "m/s", "largest difference of a body's velocity from the truth's",
+          [](const JudgedRun& run) { return measure(run, &BodyColumns::velocity, "v"); }};
+}
+
+}  // namespace rigor

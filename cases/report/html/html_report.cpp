@@ -1,0 +1,85 @@
+// report.html: one file that needs nothing else. The page's script and style, then the data: results.json and, apart
+// from it so that a case is unpacked when it is looked at, the thinned motions. All of it is JSON in <script> elements
+// that no browser runs; results.json is deflated in it, for it is long and says much the same many times.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cases/report/html/packing.h"
+#include "cases/report/html/page_bundle.h"
+#include "cases/report/html/playback.h"
+#include "cases/report/json_report.h"
+#include "cases/report/reports.h"
+#include "cases/report/result_json.h"
+
+namespace rigor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Seven digits, more than the page shows anywhere: the rest would only be bytes.
+void round_numbers(Json& json) {
+  if (json.is_number_float()) {
+    const double value = json.get<double>();
+    if (std::isfinite(value)) json = std::stod(fmt::format("{:.7g}", value));
+  } else if (json.is_structured()) {
+    for (Json& part : json) round_numbers(part);
+  }
+}
+
+// results.json without what the page does not show.
+std::string results_data(const Results& results) {
+  Json json = results_json(results);
+  for (Json& one : json["cases"]) {
+    one.erase("spread");
+    for (Json& table : one["work_precision"]) table.erase("at_equal_cost");
+  }
+  round_numbers(json);
+  return base64(deflated(text_of(json, -1)));
+}
+
+Json playbacks(const Results& results) {
+  Json cases = Json::array();
+  for (const CaseResult& result : results.cases) {
+    Json cells = Json::array();
+    for (const Cell& cell : result.cells) cells.push_back(cell.playback);
+    cases.push_back({{"truth", result.truth ? result.truth->playback : ""}, {"cells", cells}});
+  }
+  return {{"courses", course_names()}, {"cases", cases}};
+}
+
+// JSON that may stand in a <script>: no "<" is left that could end it or begin a comment.
+std::string inside_script(const Json& json) {
+  std::string text = text_of(json, -1), safe;
+  for (const char c : text) c == '<' ? safe += "\\u003c" : safe += c;
+  return safe;
+}
+
+void add_data(std::string& page, const char* id, const Json& json) {
+  page += std::string("<script type=\"application/json\" id=\"") + id + "\">" + inside_script(json) + "</script>\n";
+}
+
+}  // namespace
+
+std::string html_report(const Results& results) {
+  std::string page =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Rigor: how right each engine was</title>\n<style>\n";
+  page += kPageStyle;
+  page +=
+      "</style>\n</head>\n<body>\n<main id=\"page\"><p class=\"loading\">Unpacking the results …</p>"
+      "<noscript>This report draws itself with JavaScript, which is off here; report.md says the same in words."
+      "</noscript></main>\n";
+  add_data(page, "rigor-results", {{"encoding", "base64 of zlib of results.json"}, {"data", results_data(results)}});
+  add_data(page, "rigor-playback", playbacks(results));
+  page += "<script>\n";
+  page += kPageScript;
+  page += "</script>\n<!--\n";
+  page += kPageLicences;
+  page += "-->\n</body>\n</html>\n";
+  return page;
+}
+
+}  // namespace rigor

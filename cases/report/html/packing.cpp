@@ -1,0 +1,72 @@
+#include "cases/report/html/packing.h"
+
+#include <zlib.h>
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+namespace rigor {
+
+void Bytes::add_u16(std::uint16_t value) {
+  add_u8(static_cast<std::uint8_t>(value)), add_u8(static_cast<std::uint8_t>(value >> 8));
+}
+
+void Bytes::add_u32(std::uint32_t value) {
+  add_u16(static_cast<std::uint16_t>(value)), add_u16(static_cast<std::uint16_t>(value >> 16));
+}
+
+void Bytes::add_f32(float value) {
+  std::uint32_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  add_u32(bits);
+}
+
+void Bytes::add_f64(double value) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  add_u32(static_cast<std::uint32_t>(bits)), add_u32(static_cast<std::uint32_t>(bits >> 32));
+}
+
+void Bytes::add_differences(const std::vector<std::uint16_t>& values) {
+  const auto difference = [&](std::size_t i) -> unsigned { return values[i] - (i == 0 ? 0u : values[i - 1]); };
+  for (std::size_t i = 0; i < values.size(); ++i) add_u8(static_cast<std::uint8_t>(difference(i)));
+  for (std::size_t i = 0; i < values.size(); ++i) add_u8(static_cast<std::uint8_t>(difference(i) >> 8));
+}
+
+std::uint16_t half_of_float(double value) {
+  constexpr std::uint16_t kNotANumber = 0x7fc0;
+  const float number = static_cast<float>(value);
+  if (!std::isfinite(number)) return kNotANumber;
+  std::uint32_t bits;
+  std::memcpy(&bits, &number, sizeof bits);
+  return static_cast<std::uint16_t>((bits + 0x8000u) >> 16);
+}
+
+std::string base64(const std::string& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) -> unsigned {
+      return k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0;
+    };
+    const unsigned group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    for (int digit = 0; digit < 4; ++digit) {
+      text += i + digit <= bytes.size() ? kDigits[group >> (18 - 6 * digit) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+std::string deflated(const std::string& bytes) {
+  std::string out(compressBound(bytes.size()), '\0');
+  uLongf size = out.size();
+  const int answer = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
+                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
+  if (answer != Z_OK) throw std::runtime_error("zlib could not deflate the report's data");
+  out.resize(size);
+  return out;
+}
+
+}  // namespace rigor

@@ -1,0 +1,37 @@
+# Builds the page of report.html into rigor_cases. npm installs what package-lock.json names into the build tree, once;
+# esbuild bundles it with page/src; the outcome is a C++ source. Nothing of it is needed when Rigor runs.
+set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/../reports.cpp PROPERTIES
+  COMPILE_DEFINITIONS RIGOR_HTML_REPORT=$<BOOL:${RIGOR_HTML_REPORT}>)
+set(page ${CMAKE_CURRENT_LIST_DIR}/page)
+set(page_build ${CMAKE_BINARY_DIR}/page)
+file(MAKE_DIRECTORY ${page_build})
+set(RIGOR_PAGE_MODULES ${page_build}/node_modules)
+
+if(NOT RIGOR_HTML_REPORT)
+  get_target_property(sources rigor_cases SOURCES)
+  list(FILTER sources EXCLUDE REGEX "/html_report\\.cpp$")
+  set_target_properties(rigor_cases PROPERTIES SOURCES "${sources}")
+  return()
+endif()
+
+find_program(RIGOR_NPM npm)
+find_program(RIGOR_NODE NAMES node nodejs)
+if(NOT RIGOR_NPM OR NOT RIGOR_NODE)
+  message(FATAL_ERROR "The HTML report is bundled with Node's npm, which was not found. "
+    "Install nodejs and npm, or build without that report: -DRIGOR_HTML_REPORT=OFF")
+endif()
+
+add_custom_command(OUTPUT ${page_build}/installed
+  COMMAND ${CMAKE_COMMAND} -E copy ${page}/package.json ${page}/package-lock.json ${page_build}
+  COMMAND ${RIGOR_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
+  COMMAND ${CMAKE_COMMAND} -E touch ${page_build}/installed
+  DEPENDS ${page}/package.json ${page}/package-lock.json
+  WORKING_DIRECTORY ${page_build}
+  COMMENT "Installing what the report's page is made of" VERBATIM)
+
+file(GLOB_RECURSE page_sources CONFIGURE_DEPENDS ${page}/src/*)
+add_custom_command(OUTPUT ${page_build}/page_bundle.cpp
+  COMMAND ${RIGOR_NODE} ${page}/build.mjs ${RIGOR_PAGE_MODULES} ${page_build}/page_bundle.cpp
+  DEPENDS ${page_build}/installed ${page}/build.mjs ${page_sources}
+  COMMENT "Bundling the report's page" VERBATIM)
+target_sources(rigor_cases PRIVATE ${page_build}/page_bundle.cpp)

@@ -1,0 +1,86 @@
+// What is looked at, as one object, and the same in the address behind the "#", so that a view can be sent on.
+const listeners = new Set();
+export const state = {
+  case: "",          // id; "" is the first page
+  dt: "",            // as written
+  engines: null,     // names that are shown; null: the choice the page makes
+  time: 0,           // s, of the playback and the plots' cursor
+  show: "main",      // what the matrix shows
+  tolerance: 1e-3,   // m, for "dt for"
+  layout: "overlay",
+  log: true,
+  zoom: null,        // [from, to] in s
+};
+const defaults = { ...state };
+
+export function set(changes, { push = false } = {}) {
+  const changed = Object.keys(changes).filter((key) => state[key] !== changes[key]);
+  if (!changed.length) return;
+  Object.assign(state, changes);
+  writeAddress(push);
+  for (const listener of [...listeners]) listener(new Set(changed));
+}
+
+export function onChange(listener) {
+  listeners.add(listener);
+  return () => listeners.delete(listener);
+}
+
+// The address of the present view, some of it changed.
+export function address(changes = {}) {
+  const view = { ...state, ...changes };
+  const query = new URLSearchParams();
+  if (view.dt !== defaults.dt) query.set("dt", view.dt);
+  if (view.show !== defaults.show) query.set("show", view.show);
+  if (view.tolerance !== defaults.tolerance) query.set("tolerance", view.tolerance);
+  if (view.case) {
+    if (view.engines) query.set("engines", [...view.engines].join("~"));
+    if (view.time > 0) query.set("t", Number(view.time.toFixed(4)));
+    if (view.layout !== defaults.layout) query.set("layout", view.layout);
+    if (!view.log) query.set("log", "0");
+    if (view.zoom) query.set("zoom", view.zoom.map((t) => Number(t.toFixed(4))).join("~"));
+  }
+  const text = query.toString().replaceAll("%2F", "/").replaceAll("%3A", ":").replaceAll("%40", "@");
+  return `#/${encodeURIComponent(view.case).replaceAll("%2F", "/")}${text ? "?" + text : ""}`;
+}
+
+let pending = 0;
+function writeAddress(push) {
+  if (push) {
+    clearTimeout(pending), pending = 0;
+    history.pushState(null, "", address());
+  } else if (!pending) {
+    // Browsers bear only so many changes of the address in a second, and playback makes sixty.
+    pending = setTimeout(() => {
+      pending = 0;
+      if (address() !== location.hash) history.replaceState(null, "", address());
+    }, 300);
+  }
+}
+
+function fromAddress() {
+  const [path, query = ""] = location.hash.replace(/^#\/?/, "").split("?");
+  const given = new URLSearchParams(query);
+  const number = (text, otherwise) => (text !== null && text !== "" && Number.isFinite(Number(text)) ? Number(text) : otherwise);
+  const zoom = given.get("zoom")?.split("~").map(Number) ?? [];
+  let id = path;
+  try { id = decodeURIComponent(path); } catch { /* taken as it stands */ }
+  return {
+    case: id, dt: given.get("dt") ?? "", engines: given.has("engines") ? new Set(given.get("engines").split("~").filter(Boolean)) : null,
+    time: Math.max(0, number(given.get("t"), 0)), show: given.get("show") ?? "main",
+    tolerance: Math.abs(number(given.get("tolerance"), 1e-3)) || 1e-3,
+    layout: given.get("layout") === "side" ? "side" : "overlay", log: given.get("log") !== "0",
+    zoom: zoom.length === 2 && zoom[1] > zoom[0] ? zoom : null,
+  };
+}
+
+export function followAddress() {
+  Object.assign(state, fromAddress());
+  window.addEventListener("popstate", () => {
+    clearTimeout(pending), pending = 0;
+    const now = fromAddress();
+    const changed = new Set(Object.keys(now).filter((key) => String(now[key]) !== String(state[key])));
+    Object.assign(state, now);
+    for (const listener of [...listeners]) listener(changed);
+  });
+}

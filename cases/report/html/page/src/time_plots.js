@@ -1,0 +1,225 @@
+// Courses over time, one plot a quantity, all with one cursor, which is the playback's time, and one zoom.
+import uPlot from "uplot";
+import { el, replace } from "./dom.js";
+import { percent, power, quantity, words } from "./format.js";
+import { valueAt } from "./playback_data.js";
+import { colour, isDark, onTheme } from "./theme.js";
+import { set, state } from "./state.js";
+
+const first = ["position_error", "orientation_error", "energy_change", "energy_drift_synchronised", "angular_momentum_drift", "linear_momentum_drift"];
+const height = 150;
+
+export class TimePlots {
+  constructor(results, one, data, player, root) {
+    Object.assign(this, { results, one, data, player, root, plots: [], engines: [], more: false });
+    const present = new Set([...data.runs.values()].flatMap((run) => Object.entries(run.courses).filter(([, c]) => c.times.length > 1 && c.values.some((v) => Math.abs(v) > 1e-17)).map(([name]) => name)));
+    this.names = first.filter((name) => present.has(name));
+    this.others = [...present].filter((name) => !first.includes(name));
+    [this.body, this.component] = liveliest(one.scene.bodies, data);
+    this.stops = [player.onTick(() => this.movePlayheads()), onTheme(() => this.draw())];
+    this.resize = new ResizeObserver(() => this.fit());
+    this.resize.observe(root);
+  }
+  close() {
+    this.stops.forEach((stop) => stop());
+    this.resize.disconnect();
+    this.plots.forEach((plot) => plot.chart.destroy());
+    this.plots = [];
+  }
+
+  show(engines) {
+    this.engines = engines.filter((e) => this.data.runs.has(e.name));
+    this.draw();
+  }
+
+  draw() {
+    this.plots.forEach((plot) => plot.chart.destroy());
+    this.plots = [];
+    const holders = [this.coordinate(), ...[...this.names, ...(this.more ? this.others : [])].map((name) => this.course(name))].filter(Boolean);
+    const scale = el("button.quiet", { type: "button", onclick: () => set({ log: !state.log }), title: "l" }, state.log ? "logarithmic" : "linear");
+    const whole = state.zoom ? el("button.quiet", { type: "button", onclick: () => set({ zoom: null }), title: "z" }, "whole time") : null;
+    const more = this.others.length ? el("button.quiet", { type: "button", onclick: () => (this.more = !this.more, this.draw()) }, this.more ? "fewer" : `${this.others.length} more`) : null;
+    replace(this.root, el("div.plot-bar", {}, el("span.fine", {}, "over time"), scale, whole, more), holders);
+    if (!this.data.runs.size) replace(this.root, el("p.fine", {}, "Of no run at this step size is there anything to plot."));
+    this.fit();
+    this.movePlayheads();
+  }
+
+  // A body's coordinate itself, with the truth.
+  coordinate() {
+    const bodies = this.one.scene.bodies, moving = bodies.map((b, i) => i).filter((i) => !bodies[i].fixed);
+    if (!moving.length || ![...this.data.runs.values()].some((run) => run.motion)) return null;
+    if (!moving.includes(this.body)) this.body = moving[0];
+    const slots = [["x", 0], ["y", 1], ["z", 2], ["turned from the start", 3]];
+    const read = (motion) => {
+      if (!motion) return null;
+      const stride = 7 * motion.bodies, offset = 7 * this.body, v = motion.values;
+      const at = (key) => {
+        if (this.component < 3) return v[key * stride + offset + this.component];
+        let dot = 0;
+        for (let k = 3; k < 7; ++k) dot += v[offset + k] * v[key * stride + offset + k];
+        return 2 * Math.acos(Math.min(1, Math.abs(dot)));
+      };
+      return { times: motion.times, values: Array.from(motion.times, (_, key) => at(key)) };
+    };
+    const courses = this.engines.map((e) => [e, read(this.data.runs.get(e.name).motion)]).filter(([, c]) => c);
+    const truth = read(this.data.truth?.motion);
+    const choose = (options, value, pick) => el("select", { onchange: (event) => (pick(Number(event.target.value)), this.draw()), "aria-label": "what is plotted" },
+      options.map(([text, key]) => el("option", { value: key, selected: key === value }, text)));
+    const title = el("span", {}, "position of ", choose(moving.slice(0, 500).map((i) => [bodies[i].name, i]), this.body, (v) => (this.body = v)),
+      choose(slots, this.component, (v) => (this.component = v)));
+    return this.plot("coordinate", title, this.component < 3 ? "m" : "rad", courses, { log: false, truth });
+  }
+
+  course(name) {
+    const courses = this.engines.map((e) => [e, this.data.runs.get(e.name).courses[name]]).filter(([, c]) => c && c.times.length);
+    if (!courses.length) return null;
+    const isChange = name === "energy_change", unit = isChange ? "1" : this.results.units[name] ?? "";
+    const title = el("span", { title: this.results.summaries[name] ?? "energy since the start, as read, as a part of the truth's largest kinetic energy" }, isChange ? "energy since the start" : words(name));
+    return this.plot(name, title, unit, courses, { log: state.log && !isChange, truth: isChange ? this.data.truth?.courses[name] : null });
+  }
+
+  plot(name, title, unit, courses, { log, truth }) {
+    const lines = [...courses];
+    if (truth?.times.length) lines.unshift([null, truth]);
+    const scale = log ? logarithmic(courses.map(([, c]) => c.values)) : linear(unit);
+    const tables = lines.map(([, c]) => [Array.from(c.times), Array.from(c.values, scale.put)]);
+    const joined = uPlot.join(tables, tables.map((t) => t.slice(1).map(() => 1)));
+    const ink = colour("--ink-2"), grid = colour("--line");
+    const readouts = el("div.readouts"), holder = el("div.plot-holder");
+    const figure = el("figure.plot", { "data-plot": name }, el("figcaption", {}, title, el("span.fine", {}, unit === "1" ? "%" : unit), readouts), holder);
+    const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
+    const options = {
+      width: 400, height, legend: { show: false }, focus: { alpha: 0.2 },
+      cursor: { x: false, y: false, points: { show: false }, drag: { x: true, y: false, setScale: false }, bind: { dblclick: () => () => set({ zoom: null }) } },
+      scales: { x: { time: false, range: () => state.zoom ?? [0, this.one.duration] }, y: { range: scale.range } },
+      axes: [{ ...axis, size: 22, values: (u, ticks) => ticks.map((t) => `${Number(t.toPrecision(6))} s`) }, { ...axis, size: 54, splits: scale.splits, values: (u, ticks) => ticks.map(scale.tick) }],
+      series: [{}, ...lines.map(([engine]) => (engine
+        ? { stroke: engine.hex[isDark() ? 1 : 0], width: 1.5, dash: engine.dash ?? undefined, spanGaps: true, points: { show: false } }
+        : { stroke: colour("--truth"), width: 3.5, spanGaps: true, points: { show: false } }))],
+      hooks: {
+        setCursor: [(u) => this.hover(u)],
+        setSelect: [(u) => this.zoomed(u)],
+        draw: [() => this.movePlayheads()],
+      },
+    };
+    const chart = new uPlot(options, joined, holder);
+    const playhead = el("div.playhead");
+    chart.over.append(playhead);
+    followTouch(chart, (time) => this.player.seek(time));
+    this.plots.push({ name, chart, holder, playhead, readouts, lines, unit });
+    return figure;
+  }
+
+  fit() {
+    for (const { chart, holder } of this.plots) {
+      const width = Math.floor(holder.clientWidth);
+      if (width > 0 && width !== chart.width) chart.setSize({ width, height });
+    }
+  }
+
+  hover(chart) {
+    if (this.player.playing || this.telling || chart.cursor.left < 0 || !chart.cursor.event) return;
+    this.player.seek(chart.posToVal(chart.cursor.left, "x"));
+  }
+
+  zoomed(chart) {
+    const { left, width } = chart.select;
+    if (width < 3) return;
+    chart.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
+    set({ zoom: [chart.posToVal(left, "x"), chart.posToVal(left + width, "x")] });
+  }
+
+  redraw(changed) {
+    const [min, max] = state.zoom ?? [0, this.one.duration];
+    if (changed.has("log")) this.draw();
+    else for (const { chart } of this.plots) chart.setScale("x", { min, max });
+  }
+
+  movePlayheads() {
+    const { time } = this.player;
+    for (const { chart, playhead, readouts, lines, unit } of this.plots) {
+      const left = chart.valToPos(time, "x"), { min, max } = chart.scales.x;
+      playhead.style.display = time >= min - 1e-9 && time <= max + 1e-9 ? "" : "none";
+      playhead.style.transform = `translateX(${left}px)`;
+      while (readouts.children.length < lines.length) readouts.append(el("span", {}, el("i"), el("b")));
+      lines.forEach(([engine, course], i) => {
+        const value = valueAt(course, time), [mark, text] = readouts.children[i].children;
+        mark.style.background = engine ? `var(--e${engine.index})` : "var(--truth)";
+        readouts.children[i].title = engine?.name ?? "truth";
+        text.textContent = value === null ? "–" : unit === "1" ? percent(value) : quantity(value, unit);
+      });
+    }
+  }
+
+  focus(name) {
+    for (const { chart, lines } of this.plots) {
+      const at = lines.findIndex(([engine]) => engine?.name === name);
+      chart.setSeries(at < 0 ? null : at + 1, { focus: true });
+    }
+  }
+}
+
+// The body and the coordinate that move most; where nothing but turns, the angle.
+function liveliest(bodies, data) {
+  const motion = data.truth?.motion ?? [...data.runs.values()].find((run) => run.motion)?.motion;
+  const moving = Math.max(0, bodies.findIndex((b) => !b.fixed));
+  if (!motion) return [moving, 1];
+  const range = [0, 1, 2].map((k) => {
+    let low = Infinity, high = -Infinity;
+    for (let slot = 7 * moving + k; slot < motion.values.length; slot += 7 * motion.bodies) low = Math.min(low, motion.values[slot]), high = Math.max(high, motion.values[slot]);
+    return high - low;
+  });
+  const best = range.indexOf(Math.max(...range));
+  return [moving, range[best] > 1e-9 ? best : 3];
+}
+
+// Decades; what is zero lies on a floor of its own below the smallest value, marked 0.
+function logarithmic(series) {
+  let smallest = Infinity, largest = 0, hasZero = false;
+  for (const values of series) {
+    for (const value of values) {
+      const size = Math.abs(value);
+      if (size > 1e-17 && size < smallest) smallest = size;
+      if (size <= 1e-17) hasZero = true;
+      if (size > largest) largest = size;
+    }
+  }
+  if (!(largest > 0) || smallest === Infinity) smallest = largest = 1;
+  const top = Math.ceil(Math.log10(largest) + 0.05), bottom = Math.max(Math.floor(Math.log10(smallest)), top - 18);
+  const floor = hasZero || Math.log10(smallest) < bottom ? bottom - 1 : bottom;
+  const step = Math.max(1, Math.ceil((top - bottom) / 5));
+  const splits = [];
+  for (let e = top; e > floor; e -= step) splits.unshift(e);
+  if (floor < bottom) splits.unshift(floor);
+  return {
+    put: (value) => (Number.isNaN(value) ? null : Math.max(floor, Math.abs(value) > 1e-17 ? Math.log10(Math.abs(value)) : floor)),
+    range: () => [floor - 0.1, top], splits: () => splits,
+    tick: (value) => (value === floor && floor < bottom ? "0" : `10${power(value)}`),
+  };
+}
+
+function linear(unit) {
+  return {
+    put: (value) => (Number.isNaN(value) ? null : value),
+    range: (u, min, max) => {
+      if (min === null || max === null) return [0, 1];
+      const pad = 0.08 * (max - min) || Math.max(1e-12, 0.1 * Math.abs(max)) || 1;
+      return [min - pad, max + pad];
+    },
+    splits: undefined,
+    tick: (value) => (unit === "1" ? percent(value) : quantity(value, unit)),
+  };
+}
+
+// A finger on a plot sets the time; up and down still scrolls the page.
+function followTouch(chart, seek) {
+  const { over } = chart;
+  over.style.touchAction = "pan-y";
+  const move = (event) => {
+    if (event.pointerType !== "touch") return;
+    seek(chart.posToVal(event.clientX - over.getBoundingClientRect().left, "x"));
+  };
+  over.addEventListener("pointerdown", move);
+  over.addEventListener("pointermove", move);
+}

@@ -1,0 +1,53 @@
+#include "cases/report/html/thinning.h"
+
+#include <algorithm>
+#include <queue>
+
+namespace rigor {
+namespace {
+
+// A stretch between two kept samples and the sample in it that deviates most.
+struct Stretch {
+  std::size_t first, last, worst;
+  double deviation;
+  bool operator<(const Stretch& other) const { return deviation < other.deviation; }
+};
+
+Stretch examined(std::size_t first, std::size_t last, const Deviation& deviation) {
+  Stretch stretch{first, last, first, 0};
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const double here = deviation(i, first, last);
+    if (here > stretch.deviation) stretch.worst = i, stretch.deviation = here;
+  }
+  return stretch;
+}
+
+}  // namespace
+
+std::vector<KeptSample> ranked_samples(std::size_t count, std::size_t limit, const Deviation& deviation) {
+  std::vector<KeptSample> kept;
+  if (count == 0) return kept;
+  kept.push_back({0, 0});
+  if (count == 1) return kept;
+  kept.push_back({count - 1, 0});
+  std::priority_queue<Stretch> open;
+  open.push(examined(0, count - 1, deviation));
+  while (!open.empty() && kept.size() < limit) {
+    const Stretch worst = open.top();
+    open.pop();
+    if (worst.deviation <= 1) break;
+    kept.push_back({worst.worst, worst.deviation});
+    open.push(examined(worst.first, worst.worst, deviation));
+    open.push(examined(worst.worst, worst.last, deviation));
+  }
+  return kept;
+}
+
+std::vector<std::size_t> first_samples(const std::vector<KeptSample>& ranked, std::size_t number) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < std::min(number, ranked.size()); ++i) indices.push_back(ranked[i].index);
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
+}  // namespace rigor

@@ -1,0 +1,27 @@
+// Which samples of a course to keep so that straight lines between them stay close to it. Top-down as by Ramer, Douglas
+// and Peucker, worst deviation first: an impact or an extreme is the worst of its stretch and so among the first.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace rigor {
+
+// How far sample i is from the straight line between samples a and b, a < i < b; 1 is what a reader begins to see.
+using Deviation = std::function<double(std::size_t i, std::size_t a, std::size_t b)>;
+
+// A sample worth keeping, and how far the course strays from those before it in the list if it is left out.
+struct KeptSample {
+  std::size_t index;
+  double deviation;
+};
+
+// The first and the last of `count` samples, then at most `limit` in all in the order of what they are worth, as far as
+// they deviate by more than 1.
+std::vector<KeptSample> ranked_samples(std::size_t count, std::size_t limit, const Deviation& deviation);
+
+// The indices of the first `number` of them, ascending.
+std::vector<std::size_t> first_samples(const std::vector<KeptSample>& ranked, std::size_t number);
+
+}  // namespace rigor

@@ -1,0 +1,128 @@
+#include "cases/gates/deviations.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "cases/gates/gates.h"
+#include "cases/suite.h"
+#include "core/error.h"
+#include "tests/cases/judged.h"
+#include "tests/cases/runner/faulty_engine.h"
+#include "tests/folder.h"
+
+using namespace rigor;
+using rigor::test::says;
+
+namespace {
+
+const std::vector<EngineInfo>& infos() {
+  static const std::vector<EngineInfo> all = infos_of(engines());
+  return all;
+}
+
+constexpr const char* kRow = R"([[deviation]]
+case    = "drift"
+gate    = "position_error"
+engines = ["ode"]
+dt      = ["1/10"]
+reason  = "it slips"
+)";
+
+std::vector<KnownDeviation> read(const std::string& text) {
+  const Folder folder;
+  folder.write("ode/known_deviations.toml", text);
+  return read_known_deviations(folder.path.string(), infos());
+}
+
+// Two cells of ODE under one limit of 1 m: `errors` at dt = 1/10 and 1/20.
+Results judged(double coarse, double fine, const std::vector<KnownDeviation>& rows) {
+  Results grid;
+  grid.engines = infos();
+  grid.runs = {parse_run_name("ode", infos())};
+  CaseResult result;
+  result.definition = drifting_body("drift");
+  Gate gate;
+  gate.metric = "position_error", gate.max = 1, gate.because = "a reason", gate.where = "drift.toml:7:1";
+  result.definition.gates = {gate};
+  for (std::size_t i = 0; i < 2; ++i) {
+    Cell cell;
+    cell.dt = result.definition.dt[i], cell.status = Status::pass, cell.reason = "";
+    cell.metrics["position_error"].value = i == 0 ? coarse : fine;
+    result.cells.push_back(cell);
+  }
+  grid.cases = {result};
+  check_gates(grid.cases.front(), grid);
+  apply_known_deviations(grid.cases.front(), grid, rows);
+  return grid;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_gates_deviations)
+
+BOOST_AUTO_TEST_CASE(a_failure_that_is_known_lets_the_gate_hold) {
+  const Results grid = judged(2, 0.5, read(kRow));
+  const CaseResult& result = grid.cases.front();
+  BOOST_TEST(word_of(result.cells[0].status) == "known-deviation");
+  BOOST_TEST(word_of(result.cells[1].status) == "pass");
+  BOOST_TEST(result.cells[0].reason.find("it slips") != std::string::npos);
+  BOOST_TEST(all_gates_hold(grid));
+}
+
+BOOST_AUTO_TEST_CASE(one_that_is_not_known_still_fails) {
+  const Results grid = judged(2, 2, read(kRow));
+  BOOST_TEST(word_of(grid.cases.front().cells[1].status) == "fail");
+  BOOST_TEST(!all_gates_hold(grid));
+}
+
+BOOST_AUTO_TEST_CASE(a_pass_that_nobody_expected_fails_until_the_row_goes) {
+  const Results grid = judged(0.5, 0.5, read(kRow));
+  BOOST_TEST(word_of(grid.cases.front().cells[0].status) == "unexpected-pass");
+  BOOST_TEST(grid.cases.front().cells[0].reason.find("known_deviations.toml:1:1") != std::string::npos);
+  BOOST_TEST(!all_gates_hold(grid));
+}
+
+BOOST_AUTO_TEST_CASE(a_row_without_steps_speaks_of_all) {
+  std::string text = kRow;
+  text.erase(text.find("dt "), std::string("dt      = [\"1/10\"]\n").size());
+  BOOST_TEST(all_gates_hold(judged(2, 2, read(text))));
+  BOOST_TEST(!all_gates_hold(judged(2, 0.5, read(text))));  // the row says more than is true
+}
+
+BOOST_AUTO_TEST_CASE(what_is_mistyped_is_refused_with_its_place) {
+  const auto with = [](const std::string& part, const std::string& instead) {
+    std::string text = kRow;
+    return text.replace(text.find(part), part.size(), instead);
+  };
+  BOOST_CHECK_EXCEPTION(read(with("reason", "resaon")), InputError, says("resaon"));
+  BOOST_CHECK_EXCEPTION(read(with("position_error", "positon_error")), InputError, says("position_error"));
+  BOOST_CHECK_EXCEPTION(read(with("\"ode\"", "\"bullet\"")), InputError, says("runs of ode"));
+  BOOST_CHECK_EXCEPTION(read(with("\"ode\"", "\"oed\"")), InputError, says("known_deviations.toml:4:"));
+  BOOST_CHECK_EXCEPTION(read(with("1/10", "ten")), InputError, says("ten"));
+  BOOST_CHECK_EXCEPTION(read_known_deviations("/no/such/folder", infos()), InputError, says("no such folder"));
+}
+
+BOOST_AUTO_TEST_CASE(a_row_that_no_gate_can_meet_is_refused) {
+  Case definition = drifting_body("drift");
+  const auto rows = read(kRow);
+  BOOST_CHECK_EXCEPTION(check_known_deviations(rows, {definition}, infos()), InputError, says("no gate of drift"));
+  Gate gate;
+  gate.metric = "position_error", gate.engines = {"ode:worldstep"};
+  definition.gates = {gate};
+  check_known_deviations(rows, {definition}, infos());
+  definition.gates.front().engines = {"bullet"};
+  BOOST_CHECK_THROW(check_known_deviations(rows, {definition}, infos()), InputError);
+  definition.id = "another";  // not selected: nothing to say
+  check_known_deviations(rows, {definition}, infos());
+}
+
+// The shipped ones name cases of the suite, and are met by its gates.
+BOOST_AUTO_TEST_CASE(the_shipped_rows_speak_of_gates_that_there_are) {
+  const auto rows = read_known_deviations(default_adapters_dir(), infos());
+  const auto cases = select_cases({}, default_suite_dir());
+  for (const KnownDeviation& row : rows) {
+    BOOST_TEST(std::any_of(cases.begin(), cases.end(), [&](const Case& c) { return c.id == row.case_id; }), row.where);
+  }
+  check_known_deviations(rows, cases, infos());
+}
+
+BOOST_AUTO_TEST_SUITE_END()

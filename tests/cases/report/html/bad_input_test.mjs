@@ -1,0 +1,49 @@
+// Whether a report shows every case of it, whatever its names hold and however its runs ended:
+//   node bad_input_test.mjs REPORT.html RESULTS.json SHOTS-FOLDER
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { setTimeout as sleep } from "node:timers/promises";
+import { Browser } from "./browser.mjs";
+
+const [report, resultsFile, shots] = process.argv.slice(2);
+const results = JSON.parse(readFileSync(resultsFile, "utf8"));
+mkdirSync(shots, { recursive: true });
+const browser = await Browser.open();
+const expect = (condition, message) => { if (!condition) throw new Error(message); };
+
+try {
+  const began = Date.now();
+  await browser.goTo(pathToFileURL(report).href);
+  await browser.until("document.documentElement.dataset.ready === 'true'", "the page to be ready");
+  const took = Date.now() - began;
+  console.log(`ready after ${took} ms`);
+  expect(took < 2000, `it took ${took} ms until the page was ready`);
+  const ids = await browser.run("return [...document.querySelectorAll('.matrix th.case a')].map(a => a.textContent)");
+  expect(ids.length === results.cases.length, `${ids.length} of ${results.cases.length} cases are in the matrix`);
+  const words = await browser.run("return [...document.querySelectorAll('.matrix td.cell .word')].map(w => w.textContent).join(' ')");
+  for (const cell of results.cells.filter((c) => c.dt === results.headline_dt)) {
+    const word = { diverged: "blown up", fail: "gate failed", pass: "stable" }[cell.status] ?? cell.status.replace("-", " ");
+    expect(words.includes(word), `no cell says "${word}"`);
+  }
+  writeFileSync(join(shots, "first.png"), await browser.screenshot());
+  for (const one of results.cases.slice(0, 14)) {
+    await browser.run("location.hash = '#/' + encodeURIComponent(arguments[0])", one.id);
+    await browser.until(`document.querySelector('.view').dataset.loaded?.startsWith(${JSON.stringify(one.id)})`, `${one.id} to be shown`);
+    const shown = await browser.run("return document.querySelector('h1').textContent");
+    expect(shown === one.title, `${one.id} has the title ${shown}`);
+    const played = await browser.run("return [...document.querySelectorAll('.stage canvas')].length");
+    expect(played === 1, `${one.id} has no picture`);
+    const answered = Date.now();
+    await browser.keys(" ");
+    await sleep(400);
+    await browser.keys(" ");
+    expect(Date.now() - answered < 3000, `${one.id}: the page froze for ${Date.now() - answered} ms`);
+    if (one.id.startsWith("crowd")) writeFileSync(join(shots, "crowd.png"), await browser.screenshot());
+    expect(await browser.run("return window.harm === undefined"), `${one.id}: what stands in a name was run`);
+  }
+  const complaints = (await browser.complaints()).filter((text) => !text.includes("GPU stall due to ReadPixels"));
+  expect(!complaints.length, complaints.join("\n"));
+} finally {
+  await browser.close();
+}

@@ -1,0 +1,164 @@
+// The report that the program itself writes, in a headless Chromium. Screenshots stay in the build tree.
+#include <sys/wait.h>
+
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cases/report/html/playback.h"
+#include "cases/report/json_report.h"
+#include "cases/report/reports.h"
+#include "tests/cases/report/html/unpacking.h"
+#include "tests/cases/report/sample_results.h"
+#include "tests/folder.h"
+
+using namespace rigor;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kHere = RIGOR_SOURCE_DIR "/tests/cases/report/html/";
+const std::string kModules = RIGOR_BUILD_DIR "/page/node_modules";
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Runs a command whose words hold no quotes, and shows what it said if it fails.
+bool succeeds(const std::string& command, const Folder& folder) {
+  const std::string said = (folder.path / "said").string();
+  const int answer = std::system((command + " >" + said + " 2>&1").c_str());
+  const bool good = WIFEXITED(answer) && WEXITSTATUS(answer) == 0;
+  if (!good) BOOST_TEST_MESSAGE(command << "\n" << content(said));
+  return good;
+}
+
+bool opens_well(const std::string& script, const Folder& folder, const std::string& page, const std::string& results,
+                const std::string& name) {
+  const std::string shots = RIGOR_BUILD_DIR "/screenshots/" + name;
+  return succeeds("node " + kHere + script + " " + page + " " + results + " " + shots, folder);
+}
+
+bool is_valid(const std::string& results, const Folder& folder) {
+  return succeeds("node " + kHere + "schema_test.mjs " + kModules + " " + RIGOR_SOURCE_DIR +
+                      "/cases/report/results.schema.json " + results,
+                  folder);
+}
+
+// What stands between the tags of the element with this id.
+std::string data_of(const std::string& page, const std::string& id) {
+  const std::string opening = "<script type=\"application/json\" id=\"" + id + "\">";
+  const std::size_t from = page.find(opening) + opening.size();
+  return page.substr(from, page.find("</script>", from) - from);
+}
+
+// Bodies on a line that fall, drawn as boxes, with a name each that would do harm as markup.
+CaseResult crowd(const Results& grid, int bodies, const std::string& id) {
+  CaseResult result = grid.cases.front();
+  result.definition.id = id;
+  result.definition.scene.bodies.clear();
+  Trajectory run{.dt = 0.1, .samples = {}};
+  for (int i = 0; i < bodies; ++i) {
+    Body body;
+    body.name = "</script><img src=x onerror=window.harm=1> \"'&\xf0\x9f\x8e\xb2 " + std::to_string(i);
+    body.position = Vec3(i % 40, 0, i / 40), body.shape = Box{Vec3(0.4, 0.5, 0.6)};
+    result.definition.scene.bodies.push_back(body);
+  }
+  for (int n = 0; n <= 30; ++n) {
+    Sample sample{n * 0.1, BodyTable(bodies)};
+    for (int i = 0; i < bodies; ++i) {
+      sample.bodies.columns().set_body(i, {result.definition.scene.bodies[i].position - Vec3(0, 0.05 * n * n, 0),
+                                           Quat(std::cos(n * .1), 0, 0, std::sin(n * .1)), Vec3::Zero(), Vec3::Zero()});
+    }
+    run.samples.push_back(sample);
+  }
+  const JudgedRun judged{result.definition.scene, run, nullptr, 0};
+  for (Cell& cell : result.cells) {
+    if (cell.status == Status::pass) cell.playback = packed_run(judged, {}, 1, 200000);
+  }
+  return result;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_report_html_html_report)
+
+BOOST_AUTO_TEST_CASE(the_programs_own_report_works_in_a_browser, *boost::unit_test::timeout(540)) {
+  Folder folder;
+  const std::string out = (folder.path / "out").string();
+  const std::string engines =
+      " --engine ode --engine ode@stock --engine bullet --engine core:explicit-euler --engine core:rk4 --engine "
+      "core:semi-implicit-euler";
+  BOOST_TEST_REQUIRE(succeeds(std::string(RIGOR_PROGRAM) +
+                                  " run springs/fixed-spring springs/stiff-3 tops/asymmetric-top contact/collision "
+                                  "--jobs 2 --out " +
+                                  out + engines,
+                              folder));
+  BOOST_TEST(is_valid(out + "/results.json", folder));
+  BOOST_TEST(opens_well("page_test.mjs", folder, out + "/report.html", out + "/results.json", "report"));
+}
+
+BOOST_AUTO_TEST_CASE(names_that_would_do_harm_and_runs_of_every_ending_are_shown) {
+  Folder folder;
+  Results grid = sample_results();
+  grid.cases.push_back(crowd(grid, 1, "<b>markup</b>/\"quoted\" & \xf0\x9f\x8e\xb2"));
+  grid.cases.push_back(crowd(grid, 1000, "crowd/thousand"));
+  grid.cases.back().definition.text = "# </script><script>window.harm = 1</script>\n";
+  for (Status status : {Status::fail, Status::known_deviation, Status::unexpected_pass, Status::unsupported,
+                        Status::timed_out, Status::invalid}) {
+    CaseResult other = grid.cases.front();
+    other.definition.id = "endings/" + word_of(status);
+    other.cells.front().status = status;
+    if (status != Status::fail) other.cells.front().metrics.clear();
+    grid.cases.push_back(other);
+  }
+  grid.cases.back().error = "the truth was not found", grid.cases.back().truth.reset();
+  const std::string page = folder.write("report.html", html_report(grid));
+  const std::string results = folder.write("results.json", json_report(grid));
+  BOOST_TEST(is_valid(results, folder));
+  BOOST_TEST(opens_well("bad_input_test.mjs", folder, page, results, "bad-input"));
+}
+
+BOOST_AUTO_TEST_CASE(three_hundred_cases_stay_small_and_quick) {
+  Folder folder;
+  Results grid = sample_results();
+  const CaseResult one = grid.cases.front();
+  for (int i = 1; i < 300; ++i) {
+    grid.cases.push_back(one);
+    grid.cases.back().definition.id = "family-" + std::to_string(i % 12) + "/case-" + std::to_string(i);
+  }
+  const std::string text = html_report(grid);
+  BOOST_TEST(text.size() < 8e6);
+  const std::string page = folder.write("report.html", text), results = folder.write("results.json", json_report(grid));
+  BOOST_TEST(opens_well("bad_input_test.mjs", folder, page, results, "three-hundred"));
+}
+
+BOOST_AUTO_TEST_CASE(the_data_in_the_page_is_that_of_results_json) {
+  const Results grid = sample_results();
+  const std::string page = html_report(grid);
+  const auto packed = nlohmann::json::parse(data_of(page, "rigor-results"));
+  const auto data = nlohmann::json::parse(inflated(from_base64(packed.at("data").get<std::string>())));
+  const nlohmann::json results = results_json(grid);
+  BOOST_TEST(data.at("cells").size() == results.at("cells").size());
+  BOOST_TEST((data.at("cells").at(0).at("settings") == results.at("cells").at(0).at("settings")));
+  BOOST_TEST((data.at("findings") == results.at("findings")));
+  BOOST_TEST(data.at("cells").at(2).at("metrics").at("position_error").at("value").is_null());  // it was infinite
+  const auto playback = nlohmann::json::parse(data_of(page, "rigor-playback"));
+  BOOST_TEST(playback.at("cases").size() == grid.cases.size());
+  BOOST_TEST(playback.at("cases").at(0).at("cells").size() == grid.cases[0].cells.size());
+}
+
+BOOST_AUTO_TEST_CASE(nothing_in_the_page_comes_from_elsewhere) {
+  const std::string page = html_report(sample_results());
+  const std::string outside = page.substr(0, page.find("<script type=\"application/json\""));
+  for (const char* word : {" src=", "<link", "@import", "url(http", "url(//"})
+    BOOST_TEST(outside.find(word) == std::string::npos, word);
+  BOOST_TEST(page.find("<!doctype html>") == 0u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,169 @@
+#include "cases/report/html/playback.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+
+#include "tests/cases/report/html/unpacking.h"
+
+using namespace rigor;
+
+namespace {
+
+Scene one_ball() {
+  Scene scene;
+  scene.gravity = Vec3(0, -10, 0);
+  Body ball;
+  ball.name = "ball", ball.shape = Sphere{0.1};
+  scene.bodies.push_back(ball);
+  return scene;
+}
+
+// A ball that bounces elastically from 1.25 m: half a second down, one second from impact to impact, while it spins.
+Trajectory bouncing(double seconds, double dt) {
+  Trajectory run{.dt = dt, .samples = {}};
+  for (int n = 0; n * dt <= seconds + 1e-9; ++n) {
+    const double t = n * dt, since_apex = std::remainder(t, 1.0);
+    Sample sample{t, BodyTable(1)};
+    BodyState state;
+    state.position = Vec3(0.3 * t, 1.25 - 5 * since_apex * since_apex, 0);
+    state.velocity = Vec3(0.3, -10 * since_apex, 0);
+    state.orientation = Quat(std::cos(2 * t), 0, std::sin(2 * t), 0);
+    sample.bodies.columns().set_body(0, state);
+    run.samples.push_back(sample);
+  }
+  return run;
+}
+
+// Where the page has the body at `time`: on the straight line between two keys.
+Vec3 position_at(const UnpackedRun& run, double time) {
+  std::size_t k = 0;
+  while (k + 2 < run.keys.size() && run.keys[k + 1] * run.interval <= time) ++k;
+  const double from = run.keys[k] * run.interval, to = std::min(run.keys[k + 1] * run.interval, run.last);
+  return run.positions[k] + (time - from) / (to - from) * (run.positions[k + 1] - run.positions[k]);
+}
+
+JudgedRun judged(const Scene& scene, const Trajectory& run, const TruthSamples* truth = nullptr) {
+  return {scene, run, truth, 0};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_report_html_playback)
+
+BOOST_AUTO_TEST_CASE(a_thinned_motion_stays_close_and_keeps_its_impacts) {
+  const Scene scene = one_ball();
+  const Trajectory run = bouncing(5, 1e-3);
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 100000));
+  BOOST_TEST(page.keys.size() < run.samples.size() / 10);
+  BOOST_TEST(page.last == 5.0, boost::test_tools::tolerance(1e-12));
+  for (const Sample& sample : run.samples) {
+    // What is seen is a thousandth of the motion's extent, some 2 m; a 65536th of it comes from rounding.
+    const double off = (position_at(page, sample.time) - sample.bodies.columns().position(0)).norm();
+    BOOST_TEST(off < 2.1e-3, "off by " << off << " m at " << sample.time << " s");
+    if (off >= 2.1e-3) break;
+  }
+  for (const double impact : {0.5, 1.5, 2.5, 3.5, 4.5}) BOOST_TEST(position_at(page, impact).y() < 5e-3);
+  for (std::size_t k = 0; k < page.keys.size(); ++k) {
+    const Quat exact = run.samples[page.keys[k]].bodies.columns().orientation(0);
+    // The page has the quaternion's w from the other three, which is worst where w is 0: there sqrt(2 * 3 / 65535).
+    BOOST_TEST(page.orientations[k].angularDistance(exact) < 0.02);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_small_budget_is_kept_and_the_impacts_with_it) {
+  const Scene scene = one_ball();
+  const Trajectory run = bouncing(5, 1e-3);
+  for (const std::size_t budget : {500u, 1000u, 4000u}) {
+    const std::string text = packed_run(judged(scene, run), {}, 1, budget);
+    BOOST_TEST(text.size() <= budget);
+    BOOST_TEST(!text.empty());
+  }
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 1000));
+  for (const double impact : {0.5, 1.5, 2.5, 3.5, 4.5}) BOOST_TEST(position_at(page, impact).y() < 0.05);
+  BOOST_TEST(packed_run(judged(scene, run), {}, 1, 10) == "");
+}
+
+BOOST_AUTO_TEST_CASE(courses_keep_their_extremes_and_end_where_they_were_compared) {
+  const Scene scene = one_ball();
+  const Trajectory run = bouncing(5, 1e-3);
+  NamedCourse error{"position_error", {}};
+  for (int n = 0; n < 3000; ++n) error.values.push_back(1e-9 * std::exp(n / 150.0));
+  error.values[1234] = 0.5;  // one sample alone
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {error}, 1, 100000));
+  BOOST_TEST_REQUIRE(page.courses.size() == 2u);
+  BOOST_TEST(course_names()[page.courses[0]] == kEnergyChange);
+  BOOST_TEST(course_names()[page.courses[1]] == "position_error");
+  double largest = 0;
+  for (std::size_t p = 0; p < page.points.size(); ++p) {
+    const double value = page.values[1][p];
+    if (page.points[p] >= error.values.size()) {
+      BOOST_TEST(std::isnan(value));
+      continue;
+    }
+    BOOST_TEST(value == error.values[page.points[p]], boost::test_tools::tolerance(0.004));  // eight bits of mantissa
+    largest = std::max(largest, value);
+  }
+  BOOST_TEST(largest == 0.5, boost::test_tools::tolerance(0.004));
+}
+
+BOOST_AUTO_TEST_CASE(a_run_like_the_truth_has_no_motion_of_its_own) {
+  const Scene scene = one_ball();
+  const Trajectory run = bouncing(2, 0.01);
+  TruthSamples truth{{}, std::vector<double>(run.samples.size(), 0), 1};
+  for (const Sample& sample : run.samples) truth.bodies.push_back(sample.bodies);
+  const UnpackedRun same = unpacked_run(packed_run(judged(scene, run, &truth), {}, 1, 100000));
+  BOOST_TEST(same.is_like_truth);
+  BOOST_TEST(same.keys.empty());
+  truth.bodies[77].columns().set_position(0, truth.bodies[77].columns().position(0) + Vec3(0, 0.05, 0));
+  BOOST_TEST(!unpacked_run(packed_run(judged(scene, run, &truth), {}, 1, 100000)).is_like_truth);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_leaves_the_picture_is_shown_until_then) {
+  const Scene scene = one_ball();
+  Trajectory run = bouncing(2, 0.01);
+  for (std::size_t n = 100; n < run.samples.size(); ++n)
+    run.samples[n].bodies.columns().set_position(0, Vec3(0, std::pow(10.0, n), 0));
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 100000));
+  BOOST_TEST(page.keys.back() >= 98u);
+  BOOST_TEST(page.keys.back() <= 102u);
+  for (const Vec3& position : page.positions) BOOST_TEST(position.norm() < 200);
+}
+
+BOOST_AUTO_TEST_CASE(no_sample_is_no_trouble) {
+  const Scene scene = one_ball();
+  BOOST_TEST(packed_run(judged(scene, Trajectory{}), {}, 1, 100000) == "");
+  Trajectory start = bouncing(0, 0.01);
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, start), {}, 0, 100000));
+  BOOST_TEST(page.keys.size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(shares_of_the_page_add_up_to_its_budget) {
+  Results grid;
+  CaseResult small, pile;
+  small.definition.scene = one_ball();
+  pile.definition.scene.bodies.assign(216, Body());
+  for (CaseResult* one : {&small, &pile}) one->definition.dt = {{1.0 / 30, "1/30"}, {1.0 / 240, "1/240"}};
+  for (int i = 0; i < 300; ++i) grid.cases.push_back(small);
+  for (int i = 0; i < 5; ++i) grid.cases.push_back(pile);
+  double sum = 0;
+  for (CaseResult& one : grid.cases) {
+    for (std::size_t run = 0; run < 15; ++run) {
+      for (const StepSize& dt : one.definition.dt) {
+        one.cells.emplace_back();
+        one.cells.back().run = run, one.cells.back().dt = dt;
+      }
+    }
+  }
+  for (const CaseResult& one : grid.cases) {
+    sum += playback_budget(grid, one, nullptr);
+    for (const Cell& cell : one.cells) sum += playback_budget(grid, one, &cell.dt);
+  }
+  BOOST_TEST(sum <= 5.2e6);
+  BOOST_TEST(sum > 5e6);
+  const StepSize &coarse = pile.definition.dt[0], &fine = pile.definition.dt[1];
+  BOOST_TEST(playback_budget(grid, grid.cases.back(), &coarse) > playback_budget(grid, grid.cases.back(), &fine));
+  BOOST_TEST(playback_budget(grid, grid.cases.back(), &coarse) > 20 * playback_budget(grid, grid.cases[0], &coarse));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

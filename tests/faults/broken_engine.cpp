@@ -1,0 +1,86 @@
+#include "tests/faults/broken_engine.h"
+
+namespace rigor::test {
+namespace {
+
+// The scene with its bodies where they are at time t, and its clock set to zero there.
+Scene restarted(const Scene& original, BodyColumns bodies, double t) {
+  Scene scene = original;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    Body& body = scene.bodies[i];
+    if (body.fixed) continue;
+    body.position = bodies.position(i), body.orientation = bodies.orientation(i);
+    body.velocity = bodies.velocity(i), body.angular_velocity = bodies.angular_velocity(i);
+  }
+  for (TimedForce& force : scene.forces) force.from -= t, force.until -= t;
+  return scene;
+}
+
+class BrokenWorld : public World {
+ public:
+  BrokenWorld(const Engine& engine, const Settings& settings, const Fault& fault, const Scene& scene)
+      : engine_(engine), settings_(settings), fault_(fault), scene_(scene) {
+    if (fault_.scene) fault_.scene(scene_);
+    world_ = engine_.load(scene_, settings_);
+    remember();
+  }
+
+  void step(double dt) override {
+    if (fault_.reads_late) remember();
+    if (fault_.step) {
+      step_anew(dt);
+    } else {
+      world_->step(dt);
+    }
+    clock_.advance(dt), ++steps_;
+    if (!fault_.reads_late) remember();
+  }
+
+  void read(Snapshot& out) const override {
+    const BodyColumns now = seen_.columns();
+    const MutableBodyColumns told = out.own(now.size(), now.has_rotation());
+    for (int c = 0; c < (now.has_rotation() ? kRotation + 9 : kRotation); ++c) {
+      for (std::size_t i = 0; i < now.size(); ++i) told.column(c)[i] = now.column(c)[i];
+    }
+    if (fault_.read) fault_.read(told, scene_);
+    out.time = clock_.time();
+  }
+
+  SettingsInForce settings_in_force() const override { return world_->settings_in_force(); }
+  std::string complaint() const override { return world_->complaint(); }
+
+ private:
+  void remember() {
+    Snapshot now;
+    world_->read(now);
+    seen_ = now.bodies();
+  }
+
+  void step_anew(double dt) {
+    Snapshot now;
+    world_->read(now);
+    Scene scene = restarted(scene_, now.bodies(), clock_.time());
+    int times = 1;
+    Moment moment{scene, scene_, dt, times, steps_, clock_.time()};
+    fault_.step(moment);
+    world_ = engine_.load(scene, settings_);
+    for (int i = 0; i < times; ++i) world_->step(dt);
+  }
+
+  const Engine& engine_;
+  Settings settings_;
+  const Fault& fault_;
+  Scene scene_;
+  std::unique_ptr<World> world_;
+  BodyTable seen_;
+  Clock clock_;
+  long steps_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<World> BrokenEngine::load(const Scene& scene, const Settings& settings) const {
+  return std::make_unique<BrokenWorld>(engine_, settings, fault_, scene);
+}
+
+}  // namespace rigor::test

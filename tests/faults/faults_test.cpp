@@ -1,0 +1,149 @@
+// The mutation test: every engine is broken in one way after another, and the default gates must find each, in the case
+// that is about it and by a metric that points at it. The score is printed. First the controls: the wrapper alone, with
+// nothing broken, and with the world made anew before each step, must trip no gate.
+#include "tests/faults/faults.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cstdlib>
+#include <regex>
+#include <set>
+
+#include "cases/gates/gates.h"
+#include "cases/gates/quick.h"
+#include "cases/runner/grid.h"
+#include "cases/suite.h"
+#include "core/error.h"
+
+using namespace rigor;
+using rigor::test::BrokenEngine;
+using rigor::test::Fault;
+using rigor::test::faults;
+
+namespace {
+
+// The table of engines with one of them broken.
+EngineTable broken_table(const std::string& name, const Fault& fault) {
+  // Each is wrapped, so that the table owns no engine of the shipped one; all but one by a fault that is none.
+  EngineTable table;
+  for (const auto& engine : engines())
+    table.push_back(std::make_unique<BrokenEngine>(*engine, engine->info().name == name ? fault : Fault{}));
+  return table;
+}
+
+std::vector<RunName> runs_of(const std::string& engine, const std::vector<RunName>& runs) {
+  std::vector<RunName> own;
+  for (const RunName& run : runs) {
+    if (run.engine == engine) own.push_back(run);
+  }
+  return own;
+}
+
+// Stock Bullet knows how long a body has been slow, and puts it to sleep; a world made anew does not.
+bool remembers(const RunName& run) { return run.engine == "bullet" && run.settings.track == Track::stock; }
+
+// Only gates whose runs are all of one engine. The twins of a broken core would be broken with it, so that no gate on
+// another engine is asked.
+Case of_engine(Case definition, const std::string& engine) {
+  const auto infos = infos_of(engines());
+  std::erase_if(definition.gates, [&](Gate& gate) {
+    const auto is_other = [&](const std::string& name) { return parse_run_name(name, infos).engine != engine; };
+    if (!gate.better_than.empty() && is_other(gate.better_than)) return true;
+    const bool names_some = !gate.engines.empty();
+    std::erase_if(gate.engines, is_other);
+    return names_some && gate.engines.empty();
+  });
+  return definition;
+}
+
+// The answers of the default gates on one engine, which is broken.
+std::vector<std::pair<std::string, GateResult>> failures(const std::vector<Case>& cases, const std::string& engine,
+                                                         const Fault& fault) {
+  const EngineTable table = broken_table(engine, fault);
+  const auto infos = infos_of(table);
+  auto runs = runs_of(engine, default_runs(infos));
+  const auto named = runs_of(engine, runs_of_gates(cases, default_runs(infos), infos));
+  if (fault.step) std::erase_if(runs, remembers);
+  Results grid = plan_grid(cases, runs, table, {false, true}, named);
+  run_grid(grid, table, {2, 60, "", false, false}, [](std::size_t, std::size_t) {});
+  std::vector<std::pair<std::string, GateResult>> found;
+  for (CaseResult& result : grid.cases) {
+    check_gates(result, grid);
+    for (const GateResult& answer : result.gates) {
+      if (answer.answer == GateAnswer::failed && !answer.engine.empty())
+        found.emplace_back(result.definition.gates[answer.gate].metric, answer);
+    }
+  }
+  return found;
+}
+
+Case case_called(const std::string& id, const std::string& engine) {
+  return of_engine(select_cases({id}, default_suite_dir()).front(), engine);
+}
+
+// Empty if no gate finds the fault; else the message of the first that points at it. The quick gates are asked first.
+std::string finding(const Fault& fault, const std::string& engine) {
+  const Case whole = case_called(fault.shown_by, engine);
+  const std::regex pointing(fault.metrics);
+  std::vector<Case> parts = {whole};
+  try {
+    parts.insert(parts.begin(), quick_selection({whole}, infos_of(engines())).front());
+  } catch (const InputError&) {  // it has none
+  }
+  for (const Case& part : parts) {
+    for (const auto& [metric, answer] : failures({part}, engine, fault)) {
+      if (std::regex_match(metric, pointing)) return answer.text;
+    }
+  }
+  return "";
+}
+
+const char* kEngines[] = {"bullet", "core", "ode"};
+
+std::set<std::string> cases_of_faults() {
+  std::set<std::string> ids;
+  for (const Fault& fault : faults()) ids.insert(fault.shown_by);
+  return ids;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(faults_faults)
+
+BOOST_AUTO_TEST_CASE(the_table_is_long_enough_and_has_each_once) {
+  std::set<std::string> names;
+  for (const Fault& fault : faults()) BOOST_TEST(names.insert(fault.name).second, fault.name);
+  BOOST_TEST(names.size() >= 50u);
+}
+
+BOOST_AUTO_TEST_CASE(an_engine_that_is_only_wrapped_trips_no_gate) {
+  Fault nothing, anew;
+  anew.step = [](test::Moment&) {};
+  for (const std::string engine : kEngines) {
+    std::vector<Case> cases;
+    for (const std::string& id : cases_of_faults()) {
+      Case definition = case_called(id, engine);
+      if (!definition.gates.empty()) cases.push_back(definition);
+    }
+    for (const auto& [name, fault] : {std::pair{"wrapped", &nothing}, {"made anew", &anew}}) {
+      for (const auto& [metric, answer] : failures(cases, engine, *fault))
+        BOOST_ERROR(engine << ", " << name << ": " << answer.text);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_fault_is_found_by_a_gate_that_points_at_it) {
+  std::size_t found = 0, all = 0;
+  const char* only = std::getenv("RIGOR_FAULT");  // a part of a name, to look at one of them
+  for (const Fault& fault : faults()) {
+    if (only && fault.name.find(only) == std::string::npos) continue;
+    for (const std::string engine : kEngines) {
+      const std::string text = finding(fault, engine);
+      ++all, found += !text.empty();
+      BOOST_TEST(!text.empty(), fault.name << " in " << engine << " is not found by " << fault.shown_by);
+      BOOST_TEST_MESSAGE(fault.name << " in " << engine << ": " << text);
+    }
+  }
+  BOOST_TEST_MESSAGE("score: " << found << " of " << all << " faults found");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
