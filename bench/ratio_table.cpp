@@ -189,7 +189,7 @@ void RatioTable::Finalize() {
   for (const std::string& name : kAlone) print_alone(name);
   std::cout << "\nreached\n";
   for (const auto& [name, values] : counters_) {
-    for (const char* what : {"error_m", "energy_error", "penetration_m"}) {
+    for (const char* what : {"error_m_rad", "energy_error", "penetration_m"}) {
       if (const auto value = values.find(what); value != values.end())
         std::cout << fmt::format("{:<{}} {} {:.3g}\n", name, kNameWidth, what, value->second);
     }

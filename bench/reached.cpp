@@ -30,7 +30,8 @@ const BodyTable& truth_of(const SceneRow& row, int count) {
 double distance(BodyColumns a, BodyColumns b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const double d = (a.position(i) - b.position(i)).norm();
+    const double d =
+        std::max((a.position(i) - b.position(i)).norm(), angle_between(a.orientation(i), b.orientation(i)));
     if (!(d <= largest)) largest = d;
   }
   return largest;
@@ -54,7 +55,7 @@ double measured(const char* metric, const SceneRow& row, int count, const Engine
 const char* reached_name(Reached what) {
   switch (what) {
     case Reached::trajectory:
-      return "error_m";
+      return "error_m_rad";
     case Reached::energy:
       return "energy_error";
     case Reached::penetration:

@@ -11,7 +11,7 @@ namespace rigor::bench {
 
 // What a method reaches beside its speed.
 enum class Reached {
-  trajectory,   // largest distance [m] from the adaptive method at its tolerance, after kReachedAfter
+  trajectory,   // largest distance [m] or angle [rad] from the adaptive method at its tolerance, after 1 s
   energy,       // largest deviation, relative to the largest kinetic energy
   penetration,  // deepest overlap [m]
 };

@@ -26,6 +26,7 @@ class CoreWorld : public World {
     if (!integrator_.default_orientation.empty()) {
       orientation_ = &orientation_update(word_option(settings, "orientation", integrator_.default_orientation));
     }
+    system_.constants.use_threads(static_cast<int>(number_option(settings, "threads", 1)));
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
     if (anything_can_touch(scene)) {
@@ -95,6 +96,12 @@ MethodInfo method_info(const Integrator& integrator) {
                   .velocity_lag = integrator.velocity_lag,
                   .adaptive = integrator.adaptive,
                   .options = {contact_option()}};
+  info.options.push_back(
+      {.name = "threads",
+       .meaning = "threads that share the bodies of a large scene; default 1, and the result is the same",
+       .min = 1,
+       .max = 64,
+       .whole = true});
   if (!integrator.default_orientation.empty()) {
     info.options.push_back(
         {.name = "orientation",

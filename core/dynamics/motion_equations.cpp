@@ -5,10 +5,7 @@
 namespace rigor {
 
 MotionEquations::MotionEquations(const System& system)
-    : system_(system),
-      loads_(system.loads, system.size()),
-      stage_(system.size()),
-      carried_(kCarriedColumns, system.size()) {}
+    : system_(system), loads_(system), stage_(system.size()), carried_(kCarriedColumns, system.size()) {}
 
 void MotionEquations::keep_stages(std::size_t count) {
   rates_.assign(count, BodyTable(system_.size()));
@@ -24,10 +21,12 @@ void MotionEquations::begin(BodyColumns state, BodyTable& y) {
 }
 
 void MotionEquations::rates(const BodyTable& y, double t, double dt, BodyTable& out) {
-  const Bodies bodies = system_.constants.all();
   double* const stage = stage_.columns().column(0);
-  kernels().motion_of(bodies, y.columns().column(0), stage);
-  kernels().rates_at(bodies, stage, loads_.over_step(stage_.columns(), t, dt), out.columns().column(0));
+  system_.constants.for_each_block(
+      [&](const Bodies& block) { kernels().motion_of(block, y.columns().column(0), stage); });
+  const double* const wrench = loads_.over_step(stage_.columns(), t, dt);
+  system_.constants.for_each_block(
+      [&](const Bodies& block) { kernels().rates_at(block, stage, wrench, out.columns().column(0)); });
 }
 
 void MotionEquations::write(const BodyTable& y, MutableBodyColumns state) const {
@@ -35,8 +34,10 @@ void MotionEquations::write(const BodyTable& y, MutableBodyColumns state) const 
 }
 
 void MotionEquations::combine(const BodyTable* y, double h, std::span<const double> weights, BodyTable& out) const {
-  kernels().combine(system_.constants.all(), y ? y->columns().column(0) : nullptr, h, weights.data(),
-                    first_columns_.data(), weights.size(), out.columns().column(0));
+  system_.constants.for_each_block([&](const Bodies& block) {
+    kernels().combine(block, y ? y->columns().column(0) : nullptr, h, weights.data(), first_columns_.data(),
+                      weights.size(), out.columns().column(0));
+  });
 }
 
 double MotionEquations::relative_size(const BodyTable& change, const BodyTable& y) const {

@@ -5,17 +5,19 @@ namespace rigor {
 SymmetricKick::SymmetricKick(const System& system)
     : system_(system),
       carried_(kCarriedColumns, system.size()),
-      loads_(system.loads, system.size()),
+      loads_(system),
       equations_(damped() ? system.size() : 0),
       impulse_(6 * static_cast<Eigen::Index>(system.size())),
       change_(impulse_.size()) {}
 
 void SymmetricKick::begin(BodyColumns state) {
-  kernels().momentum_of(system_.constants.all(), state.column(0), carried());
+  system_.constants.for_each_block(
+      [&](const Bodies& block) { kernels().momentum_of(block, state.column(0), carried()); });
 }
 
 void SymmetricKick::end(MutableBodyColumns state) const {
-  kernels().velocity_of(system_.constants.all(), state.column(0), carried_.data());
+  system_.constants.for_each_block(
+      [&](const Bodies& block) { kernels().velocity_of(block, state.column(0), carried_.data()); });
 }
 
 bool SymmetricKick::apply(MutableBodyColumns state, double h, double t, double dt) {
@@ -24,7 +26,9 @@ bool SymmetricKick::apply(MutableBodyColumns state, double h, double t, double d
     system_.wrenches(state, t, dt, wrenches_);
     return damped_kick(state, h, t, dt);
   }
-  kernels().momentum_kick(system_.constants.all(), state.column(0), carried(), loads_.over_step(state, t, dt), h);
+  const double* const wrench = loads_.over_step(state, t, dt);
+  system_.constants.for_each_block(
+      [&](const Bodies& block) { kernels().momentum_kick(block, state.column(0), carried(), wrench, h); });
   return true;
 }
 

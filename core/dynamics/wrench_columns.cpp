@@ -4,15 +4,15 @@
 
 namespace rigor {
 
-WrenchColumns::WrenchColumns(const Loads& loads, std::size_t bodies)
-    : loads_(loads),
-      bodies_(bodies),
-      constants_(kSpringColumns, loads.springs().size()),
-      pulls_(kPullColumns, loads.springs().size()),
+WrenchColumns::WrenchColumns(const System& system)
+    : loads_(system.loads),
+      bodies_(system.constants),
+      constants_(kSpringColumns, loads_.springs().size()),
+      pulls_(kPullColumns, loads_.springs().size()),
       a_(constants_.stride()),
       b_(constants_.stride()) {
-  if (!loads.empty()) wrenches_.resize(kWrenchColumns, bodies);
-  for (std::size_t k = 0; k < loads.springs().size(); ++k) set_spring(k, loads.springs()[k]);
+  if (!loads_.empty()) wrenches_.resize(kWrenchColumns, system.size());
+  for (std::size_t k = 0; k < loads_.springs().size(); ++k) set_spring(k, loads_.springs()[k]);
   list_pulls_on_bodies();
 }
 
@@ -32,13 +32,13 @@ void WrenchColumns::set_spring(std::size_t k, const Spring& spring) {
 
 void WrenchColumns::list_pulls_on_bodies() {
   const std::vector<Spring>& springs = loads_.springs();
-  first_pull_.assign(bodies_ + 1, 0);
+  first_pull_.assign(bodies_.size() + 1, 0);
   for (const Spring& s : springs) {
     for (const int body : {s.a, s.b}) {
       if (body != kWorld) ++first_pull_[body + 1];
     }
   }
-  for (std::size_t i = 0; i < bodies_; ++i) first_pull_[i + 1] += first_pull_[i];
+  for (std::size_t i = 0; i < bodies_.size(); ++i) first_pull_[i + 1] += first_pull_[i];
   pulls_on_.resize(first_pull_.back());
   std::vector<std::size_t> next(first_pull_.begin(), first_pull_.end() - 1);
   for (std::size_t k = 0; k < springs.size(); ++k) {
@@ -51,24 +51,27 @@ const double* WrenchColumns::over_step(BodyColumns state, double t, double dt) {
   if (loads_.empty()) return nullptr;
   const bool has_springs = !loads_.springs().empty();
   if (has_springs) {
-    const Springs springs = {.count = loads_.springs().size(),
-                             .stride = constants_.stride(),
-                             .constants = constants_.data(),
-                             .a = a_.data(),
-                             .b = b_.data(),
-                             .damped = loads_.damped()};
-    kernels().springs(springs, state.column(0), state.stride(), pulls_.data());
-    sum_pulls();
+    bodies_.for_each_share(loads_.springs().size(), [&](std::size_t first, std::size_t last) {
+      const Springs springs = {.begin = first,
+                               .end = last,
+                               .stride = constants_.stride(),
+                               .constants = constants_.data(),
+                               .a = a_.data(),
+                               .b = b_.data(),
+                               .damped = loads_.damped()};
+      kernels().springs(springs, state.column(0), state.stride(), pulls_.data());
+    });
+    bodies_.for_each_share(bodies_.size(), [&](std::size_t first, std::size_t last) { sum_pulls(first, last); });
   }
   const bool acts = add_forces(state, t, dt, has_springs);
   return has_springs || acts ? wrenches_.data() : nullptr;
 }
 
-void WrenchColumns::sum_pulls() {
+void WrenchColumns::sum_pulls(std::size_t first, std::size_t last) {
   const std::size_t from = pulls_.stride(), to = wrenches_.stride();
   const double* const pulls = pulls_.data();
-  double* out = wrenches_.data();
-  for (std::size_t i = 0; i < bodies_; ++i, ++out) {
+  double* out = wrenches_.data() + first;
+  for (std::size_t i = first; i < last; ++i, ++out) {
     double sum[kWrenchColumns] = {};
     for (std::size_t p = first_pull_[i]; p < first_pull_[i + 1]; ++p) {
       const bool on_b = pulls_on_[p] & 1;

@@ -4,14 +4,14 @@
 #pragma once
 
 #include "core/dynamics/kernels/kernels.h"
-#include "core/dynamics/loads.h"
+#include "core/dynamics/system.h"
 #include "core/engine/columns.h"
 
 namespace rigor {
 
 class WrenchColumns {
  public:
-  WrenchColumns(const Loads& loads, std::size_t bodies);
+  explicit WrenchColumns(const System& system);
 
   // Columns of WrenchColumn, as Loads::evaluate() has them; null where nothing acts in that step. Valid until the next
   // call.
@@ -20,11 +20,11 @@ class WrenchColumns {
  private:
   void set_spring(std::size_t k, const Spring& spring);
   void list_pulls_on_bodies();
-  void sum_pulls();
+  void sum_pulls(std::size_t first, std::size_t last);
   bool add_forces(BodyColumns state, double t, double dt, bool is_clear);
 
   const Loads& loads_;
-  std::size_t bodies_;
+  const BodyConstants& bodies_;
   Columns constants_, pulls_, wrenches_;
   std::vector<std::int32_t> a_, b_;  // rows of the springs' bodies
   // The ends of springs on body i: pulls_on_[first_pull_[i]] up to the next body's, in the springs' order. An end is

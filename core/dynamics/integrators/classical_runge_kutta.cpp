@@ -15,7 +15,7 @@ constexpr std::array<double, kStages> kNextStage = {0.5, 0.5, 1, 0};
 ClassicalRungeKutta::ClassicalRungeKutta(const StepperParts& parts, OrientationChart chart)
     : parts_(parts),
       chart_(chart),
-      loads_(parts.system.loads, parts.system.size()),
+      loads_(parts.system),
       stage_(parts.system.size()),
       sum_(parts.system.size()),
       carried_(kCarriedColumns, parts.system.size()) {}

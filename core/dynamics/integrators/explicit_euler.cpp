@@ -9,8 +9,7 @@ namespace {
 
 class ExplicitEuler : public Stepper {
  public:
-  explicit ExplicitEuler(const StepperParts& parts)
-      : parts_(parts), passes_(parts), wrenches_(parts.system.loads, parts.system.size()) {}
+  explicit ExplicitEuler(const StepperParts& parts) : parts_(parts), passes_(parts), wrenches_(parts.system) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     const double* const wrench = wrenches_.over_step(state, t, dt);

@@ -43,7 +43,8 @@ void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double
       owed = 0;
     }
     kick(state, owed + half, t, dt);
-    kernels().free_drift(parts_.system.constants.all(), state.column(0), kick_.carried(), weight * dt);
+    parts_.system.constants.for_each_block(
+        [&](const Bodies& block) { kernels().free_drift(block, state.column(0), kick_.carried(), weight * dt); });
     owed = half;
   }
   kick(state, owed, t, dt);

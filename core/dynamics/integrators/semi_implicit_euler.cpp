@@ -11,8 +11,7 @@ namespace {
 
 class SemiImplicitEuler : public Stepper {
  public:
-  explicit SemiImplicitEuler(const StepperParts& parts)
-      : parts_(parts), passes_(parts), wrenches_(parts.system.loads, parts.system.size()) {}
+  explicit SemiImplicitEuler(const StepperParts& parts) : parts_(parts), passes_(parts), wrenches_(parts.system) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     const BodyConstants& bodies = parts_.system.constants;
@@ -24,9 +23,9 @@ class SemiImplicitEuler : public Stepper {
       });
       return;
     }
-    passes_.kick(bodies.all(), state, wrench, dt);
+    bodies.for_each_block([&](const Bodies& block) { passes_.kick(block, state, wrench, dt); });
     parts_.contact->resolve(state);
-    passes_.drift(bodies.all(), state, dt);
+    bodies.for_each_block([&](const Bodies& block) { passes_.drift(block, state, dt); });
   }
 
  private:

@@ -10,9 +10,7 @@ namespace {
 class VelocityVerlet : public Stepper {
  public:
   explicit VelocityVerlet(const StepperParts& parts)
-      : parts_(parts),
-        wrenches_(parts.system.loads, parts.system.size()),
-        carried_(kCarriedColumns, parts.system.size()) {}
+      : parts_(parts), wrenches_(parts.system), carried_(kCarriedColumns, parts.system.size()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     const BodyConstants& bodies = parts_.system.constants;

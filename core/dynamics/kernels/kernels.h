@@ -56,7 +56,7 @@ struct StageTables {
 
 // A block of springs, for the force on b's point and the torques on both bodies (see loads.cpp for the law).
 struct Springs {
-  std::size_t count = 0, stride = 0;
+  std::size_t begin = 0, end = 0, stride = 0;
   const double* constants = nullptr;              // columns of SpringColumn
   const std::int32_t *a = nullptr, *b = nullptr;  // rows of the bodies; 0 for the world
   bool damped = false;

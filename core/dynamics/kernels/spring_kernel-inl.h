@@ -35,7 +35,7 @@ RIGOR_INLINE SpringEnd<T> spring_end(const Springs& s, const double* state, std:
 }
 
 void springs(const Springs& s, const double* state, std::size_t stride, double* pulls) {
-  for_rows(0, s.count, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+  for_rows(s.begin, s.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
     const auto constant = [&](int c) RIGOR_LAMBDA {
       return load(T(), s.constants + static_cast<std::size_t>(c) * s.stride + i);

@@ -149,6 +149,28 @@ BOOST_AUTO_TEST_CASE(a_body_moves_the_same_whatever_the_number_of_others) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
+  const int count = 9000;  // enough that threads are used
+  for (const Scene& scene : {crowd(count, false, true), tied_crowd(count, false, 0)}) {
+    for (const char* name : {"dormand-prince", "rk4", "semi-implicit-euler", "symplectic4", "velocity-verlet"}) {
+      const Integrator& method = integrator(name);
+      const auto run = [&](int threads) {
+        System system(scene);
+        system.constants.use_threads(threads);
+        BodyTable state = initial(scene);
+        const OrientationUpdate* update =
+            method.default_orientation.empty() ? nullptr : &orientation_update(method.default_orientation);
+        const auto stepper = method.make({system, nullptr, update});
+        for (int n = 0; n < 3; ++n) stepper->step(state.columns(), n / 240.0, 1 / 240.0);
+        return state;
+      };
+      const BodyTable alone = run(1);
+      for (const int threads : {2, 3})
+        BOOST_TEST(same_bits(run(threads).columns(), alone.columns(), alone.size()), name << ", " << threads);
+    }
+  }
+}
+
 // Turns by theta about an axis, against sines and cosines of more digits. Bound: the functions' 3e-16 and the three
 // roundings of the product and its normalisation. Turns beyond half a revolution take another way.
 BOOST_AUTO_TEST_CASE(turns_are_right_to_rounding_at_every_angle) {
