@@ -93,6 +93,8 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
   }
   if (takes("--quick"))
     command.add_flag("--quick", line.quick, "only gates whose cells take a moment; for each change, not each night");
+  if (takes("--resume"))
+    command.add_flag("--resume", line.resume, "go on from where a run to the same folder was stopped");
   if (takes("--deviations")) {
     command.add_option("--deviations", line.adapters_dir, "folder of ENGINE/known_deviations.toml")
         ->type_name("DIR")

@@ -3,10 +3,11 @@
 namespace rigor {
 
 const std::vector<CommandRow>& commands() {
-  static const std::vector<std::string> grid_options = {"--deviations", "--dt",  "--duration", "--engine",
-                                                        "--jobs",       "--out", "--suite",    "--timeout"};
-  static const std::vector<std::string> gate_options = {"--deviations", "--dt",    "--duration", "--engine", "--jobs",
-                                                        "--out",        "--quick", "--suite",    "--timeout"};
+  static const std::vector<std::string> grid_options = {"--deviations", "--dt",     "--duration", "--engine", "--jobs",
+                                                        "--out",        "--resume", "--suite",    "--timeout"};
+  static const std::vector<std::string> gate_options = {"--deviations", "--dt",     "--duration", "--engine",
+                                                        "--jobs",       "--out",    "--quick",    "--resume",
+                                                        "--suite",      "--timeout"};
   static const std::string grid_words = "cases by id, family, file or folder; default: the whole suite";
   static const std::vector<CommandRow> table = {
       {"list",

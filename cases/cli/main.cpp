@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
   } catch (const rigor::ReaderGone&) {
     return rigor::kGood;
   } catch (const rigor::Interrupted& interruption) {
-    fmt::print(stderr, "\nrigor: interrupted; no output was changed\n");
+    fmt::print(stderr,
+               "\nrigor: interrupted; no output was changed. What was computed is kept: --resume goes on from it\n");
     std::signal(interruption.signal, SIG_DFL);
     std::raise(interruption.signal);
   } catch (const std::exception& error) {

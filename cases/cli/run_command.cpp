@@ -17,6 +17,7 @@
 #include "cases/report/output_folder.h"
 #include "cases/report/reports.h"
 #include "cases/runner/grid.h"
+#include "cases/runner/process_pool.h"
 #include "cases/suite.h"
 #include "core/error.h"
 
@@ -55,18 +56,24 @@ Results simulated_and_written(const CommandLine& line) {
   Results grid = planned(line, deviations);
   std::vector<std::string> file_names;
   for (const ReportRow& report : reports()) file_names.push_back(report.file_name);
-  OutputFolder folder(line.out, file_names);
-  {
+  OutputFolder folder(line.out, file_names, line.resume);
+  try {
     Progress progress;
-    run_grid(grid, engines(), {line.jobs, line.limit, folder.trajectories(), !is_gate(line), !is_gate(line)},
+    run_grid(grid, engines(),
+             {line.jobs, line.limit, folder.trajectories(), !is_gate(line), !is_gate(line), folder.journals()},
              [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+  } catch (const Interrupted&) {
+    folder.keep();
+    throw;
   }
+  std::vector<std::string> trajectories;
   for (CaseResult& result : grid.cases) {
     check_gates(result, grid);
     apply_known_deviations(result, grid, deviations);
+    for (const Cell& cell : result.cells) trajectories.push_back(cell.trajectory);
   }
   for (const ReportRow& report : reports()) folder.write(report.file_name, report.write(grid));
-  folder.publish();
+  folder.publish(trajectories);
   return grid;
 }
 

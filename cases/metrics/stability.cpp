@@ -17,7 +17,7 @@
 namespace rigor {
 namespace {
 
-constexpr double kBlownUp = 10;                             // times the largest kinetic energy
+constexpr double kBlownUp = 10;                             // times the energy in play
 constexpr double kDrifting = 0.01;                          // of the largest kinetic energy
 constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
 constexpr double kSweep = 1.03, kStepPrecision = 1.01;      // 1 %
@@ -68,8 +68,8 @@ std::optional<Stability> energy_explosion(const Scene& scene, const Trajectory& 
     if (is_bounded(change, largest, may_lose)) continue;
     const int body = liveliest_body(scene, bodies);
     return Stability{Verdict::blown_up, sample.time, body,
-                     fmt::format("at {:.4g} s the energy is {:.3g} J from its start, more than {} times the largest "
-                                 "kinetic energy, {:.3g} J; '{}' has most of it",
+                     fmt::format("at {:.4g} s the energy is {:.3g} J from its start, more than {} times the energy "
+                                 "in play, {:.3g} J; '{}' has most of it",
                                  sample.time, change, kBlownUp, largest, scene.body_name(body))};
   }
   return {};
@@ -133,8 +133,9 @@ std::string word_of(Verdict verdict) {
 }
 
 Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy, double velocity_lag,
-                          const TruthSamples* truth) {
-  if (const auto explosion = energy_explosion(scene, run.trajectory, largest_kinetic_energy)) return *explosion;
+                          const TruthSamples* truth, double largest_energy_change) {
+  const double in_play = std::max(largest_kinetic_energy, largest_energy_change);
+  if (const auto explosion = energy_explosion(scene, run.trajectory, in_play)) return *explosion;
   if (run.not_finite) {
     return {Verdict::blown_up, run.not_finite->time, run.not_finite->body,
             fmt::format("at {:.4g} s the state of '{}' is no longer finite", run.not_finite->time,
@@ -155,9 +156,23 @@ double largest_kinetic_energy(const Scene& scene, const Truth* truth, double dur
   return largest > 0 ? largest : most_kinetic_energy_from(scene, duration);
 }
 
+double largest_energy_change(const Scene& scene, const Truth* truth, double duration) {
+  if (!truth) return 0;
+  constexpr int kSamples = 1024;  // losses and gains take their time; nothing is missed between two of them
+  BodyTable bodies(scene.bodies.size());
+  double start = 0, largest = 0;
+  for (int n = 0; n <= kSamples; ++n) {
+    truth->at(duration * n / kSamples, bodies.columns());
+    const double now = energy(scene, bodies.columns());
+    if (n == 0) start = now;
+    largest = std::max(largest, std::abs(now - start));
+  }
+  return largest;
+}
+
 StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
-                             double largest_kinetic_energy) {
-  const auto stable = [&](double dt) { return survives(engine, settings, scene, dt, horizon, largest_kinetic_energy); };
+                             double energy_in_play) {
+  const auto stable = [&](double dt) { return survives(engine, settings, scene, dt, horizon, energy_in_play); };
   // Down by halves, for an unstable run ends early, until a step and its double are stable.
   double good = kLargestStep;
   int stable_in_a_row = 0;

@@ -21,14 +21,19 @@ struct Stability {
   std::string why;    // a sentence
 };
 
-// Blown up: a number is not finite, or |E - E0| > 10 x the truth's largest kinetic energy. Drifting: see stability.cpp;
-// the truth says there what energy is left in a scene with dampers or timed forces.
+// Blown up: a number is not finite, or |E - E0| > 10 x the energy that the truth has in play: its largest kinetic
+// energy or, where that is more, the largest change of its energy. A weight that dampers let creep back to rest moves
+// little and loses much. Drifting: see stability.cpp; the truth says there what energy is left in a scene with dampers
+// or timed forces.
 Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy, double velocity_lag,
-                          const TruthSamples* truth = nullptr);
+                          const TruthSamples* truth = nullptr, double largest_energy_change = 0);
 
 // J, of the truth over [0, duration]; without a truth, or where it never moves, a bound on what the start, the springs'
 // stored energy, gravity and the timed forces can give by then.
 double largest_kinetic_energy(const Scene& scene, const Truth* truth, double duration);
+
+// J, the largest |E - E0| of the truth over [0, duration]; 0 without a truth.
+double largest_energy_change(const Scene& scene, const Truth* truth, double duration);
 
 // The largest step at which `engine` does not blow up over `horizon` seconds, to 1 % by bisection in log dt. The limit
 // is ragged: steps above the first bad one may hold again by luck. So it is the largest below which none tried is bad,
@@ -39,6 +44,6 @@ struct StableStep {
   bool is_floor = false;  // blows up at the smallest step tried: dt is that one
 };
 StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
-                             double largest_kinetic_energy);
+                             double energy_in_play);
 
 }  // namespace rigor

@@ -13,6 +13,7 @@
 #include "cases/report/html/playback.h"
 #include "cases/report/result_json.h"
 #include "cases/report/trajectory_csv.h"
+#include "cases/runner/journal.h"
 #include "cases/runner/simulate.h"
 #include "cases/runner/twin_run.h"
 #include "core/error.h"
@@ -49,6 +50,7 @@ void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
 TruthFacts facts_of(const Case& definition, const Truth* truth) {
   TruthFacts facts;
   facts.largest_kinetic_energy = largest_kinetic_energy(definition.scene, truth, definition.duration);
+  facts.largest_energy_change = largest_energy_change(definition.scene, truth, definition.duration);
   if (truth) {
     facts.error_at_end = truth->error(definition.duration);
     facts.horizon = horizon(*truth, kHorizonTolerance, definition.duration);
@@ -101,12 +103,16 @@ bool searches_steps(const CaseResult& planned, const GridOptions& options) {
 class CaseJobs {
  public:
   CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
-           const Truth* truth, double largest_energy)
-      : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), energy_(largest_energy) {
+           const Truth* truth, const TruthFacts& facts)
+      : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), facts_(facts) {
     const Case& definition = planned.definition;
-    stable_energy_ = searches_steps(planned, options)
-                         ? largest_kinetic_energy(definition.scene, truth, stability_horizon(definition))
-                         : largest_energy;
+    if (searches_steps(planned, options) && truth) {
+      const double horizon = stability_horizon(definition);
+      stable_energy_ = std::max(largest_kinetic_energy(definition.scene, truth, horizon),
+                                largest_energy_change(definition.scene, truth, horizon));
+    } else if (searches_steps(planned, options)) {
+      stable_energy_ = largest_kinetic_energy(definition.scene, nullptr, stability_horizon(definition));
+    }
     for (std::size_t i = 0; i < planned.stable_steps.size(); ++i) {
       if (planned.stable_steps[i].status != Status::unsupported) add_stable_step(i);
     }
@@ -115,17 +121,31 @@ class CaseJobs {
     }
   }
 
-  void run(const Channel& channel) {
-    std::vector<bool> answered(jobs_.size());
-    const auto on_message = [&](std::size_t job, const std::string& message) {
-      if (answered[job]) return keep_path(job, message);
-      answered[job] = true;
-      channel.send(message);
+  // Those in the journal have run already.
+  void run(const Channel& channel, Journal& journal) {
+    std::vector<std::size_t> left;
+    std::vector<Job> jobs;
+    for (std::size_t job = 0; job < jobs_.size(); ++job) {
+      const auto kept = journal.found().find(job);
+      if (kept == journal.found().end()) {
+        left.push_back(job), jobs.push_back(jobs_[job]);
+        continue;
+      }
+      channel.send(kept->second.message);
+      if (!kept->second.path.empty()) keep_path(job, kept->second.path);
+    }
+    std::vector<std::string> answers(jobs_.size());
+    const auto on_message = [&](std::size_t index, const std::string& message) {
+      const std::size_t job = left[index];
+      const bool is_path = !answers[job].empty();
+      if (is_path) keep_path(job, message);
+      if (!is_path) answers[job] = message, channel.send(message);
+      if (is_path || !cell_of_job_.contains(job)) journal.add(job, {answers[job], is_path ? message : ""});
     };
-    const auto on_end = [&](std::size_t job, const JobEnd& end) {
-      if (!answered[job]) channel.send(on_failure_[job](end));
+    const auto on_end = [&](std::size_t index, const JobEnd& end) {
+      if (answers[left[index]].empty()) channel.send(on_failure_[left[index]](end));
     };
-    run_jobs(jobs_, options_.jobs, on_message, on_end);
+    run_jobs(jobs, options_.jobs, on_message, on_end);
     channel.send(message_of_spreads(spreads()));
   }
 
@@ -173,7 +193,7 @@ class CaseJobs {
                        const std::size_t budget =
                            options_.folder.empty() ? 0 : playback_budget(grid_, planned_, &cell.dt);
                        const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
-                                                          energy_, options_, budget);
+                                                          facts_, options_, budget);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
                        channel.send(packed(judged.path));
                      },
@@ -192,18 +212,45 @@ class CaseJobs {
   const EngineTable& engines_;
   const GridOptions& options_;
   const Truth* truth_;
-  double energy_;         // J, the truth's largest kinetic one over the run
-  double stable_energy_;  // J, the same over the stability horizon
+  TruthFacts facts_;
+  double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<Job> jobs_;
   std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
   std::map<std::size_t, std::size_t> cell_of_job_;
   std::map<std::size_t, Path> paths_;  // by index of the cell
 };
 
+std::size_t jobs_in(const CaseResult& planned) {
+  const auto is_one = [](const auto& part) { return part.status != Status::unsupported; };
+  return std::count_if(planned.cells.begin(), planned.cells.end(), is_one) +
+         std::count_if(planned.stable_steps.begin(), planned.stable_steps.end(), is_one);
+}
+
+std::string journal_of(const CaseResult& planned, const Results& grid, const GridOptions& options) {
+  if (options.journals.empty()) return "";
+  return fmt::format("{}/{}.journal", options.journals, &planned - grid.cases.data());
+}
+
+// All that the case's results depend on: another program, too, makes other results.
+std::string plan_of(const Results& grid, const CaseResult& planned, const GridOptions& options) {
+  std::error_code no_matter;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", no_matter);
+  const auto written = std::filesystem::last_write_time(program, no_matter).time_since_epoch().count();
+  const Case& definition = planned.definition;
+  std::string plan =
+      fmt::format("{} {}\n{}\n{}\n{:.17g} {} {} {}\n", program.string(), written, definition.id, definition.text,
+                  definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
+  for (const RunName& run : grid.runs) plan += run.text + "\n";
+  for (const Cell& cell : planned.cells)
+    plan += fmt::format("{} {:.17g} {} {}\n", cell.run, cell.dt.seconds, word_of(cell.status), cell.trajectory);
+  for (const StableStepResult& stable : planned.stable_steps) plan += word_of(stable.status) + "\n";
+  return plan;
+}
+
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, double largest_kinetic_energy, const GridOptions& options,
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
                     std::size_t playback_budget) {
   const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
@@ -215,19 +262,20 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   cell.settings = run.settings;
   cell.cpu_seconds = is_timed ? timed_again(engine, run_name.settings, scene, run) : run.cpu_seconds;
   std::optional<TruthSamples> samples;
-  if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), largest_kinetic_energy);
+  if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), facts.largest_kinetic_energy);
   std::optional<RunName> twin_name;
   if (options.is_thorough || has_gate_on(definition, kOfTwins)) twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;
   if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
   JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
                    velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
-  cell.stability = judge_stability(scene, run, largest_kinetic_energy, velocity_lag, judged.truth);
+  cell.stability = judge_stability(scene, run, facts.largest_kinetic_energy, velocity_lag, judged.truth,
+                                   facts.largest_energy_change);
   judged.duration = definition.duration;
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   std::vector<NamedCourse> courses;
   cell.metrics = measured(judged, definition, options, courses);
-  if (playback_budget > 0) cell.playback = packed_run(judged, courses, largest_kinetic_energy, playback_budget);
+  if (playback_budget > 0) cell.playback = packed_run(judged, courses, facts.largest_kinetic_energy, playback_budget);
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   if (!options.folder.empty()) {
@@ -240,6 +288,13 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel) {
   const Case& definition = planned.definition;
+  Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, options));
+  const auto known_truth = journal.found().find(Journal::kTruth);
+  const bool is_done = known_truth != journal.found().end() && journal.found().size() == 1 + jobs_in(planned);
+  if (is_done) {
+    channel.send(known_truth->second.message);
+    return CaseJobs(grid, planned, engines, options, nullptr, {}).run(channel, journal);
+  }
   const double seconds = searches_steps(planned, options) ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
@@ -247,9 +302,11 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
     facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy,
                                   playback_budget(grid, planned, nullptr));
   }
-  CaseJobs jobs(grid, planned, engines, options, truth.get(), facts.largest_kinetic_energy);
-  channel.send(message_of_truth(facts));  // from here on each job has a limit of its own
-  jobs.run(channel);
+  CaseJobs jobs(grid, planned, engines, options, truth.get(), facts);
+  const std::string message = message_of_truth(facts);
+  channel.send(message);  // from here on each job has a limit of its own
+  if (known_truth == journal.found().end()) journal.add(Journal::kTruth, {message, ""});
+  jobs.run(channel, journal);
 }
 
 }  // namespace rigor

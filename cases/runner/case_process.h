@@ -18,7 +18,7 @@ struct JudgedCell {
   Path path;
 };
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, double largest_kinetic_energy, const GridOptions& options,
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
                     std::size_t playback_budget = 0);
 
 }  // namespace rigor

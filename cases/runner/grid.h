@@ -24,11 +24,12 @@ void override_run(Case& definition, const Overrides& overrides);
 std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines);
 
 struct GridOptions {
-  int jobs = 1;              // children at once
-  double limit = 60;         // s of wall time, for each cell, each stable step and each truth
-  std::string folder;        // where the trajectories go; empty: nowhere
-  bool stable_steps = true;  // find the largest stable dt as well
-  bool is_thorough = true;   // times each run and repeats it by its twin, also where no gate asks for it
+  int jobs = 1;               // children at once
+  double limit = 60;          // s of wall time, for each cell, each stable step and each truth
+  std::string folder;         // where the trajectories go; empty: nowhere
+  bool stable_steps = true;   // find the largest stable dt as well
+  bool is_thorough = true;    // times each run and repeats it by its twin, also where no gate asks for it
+  std::string journals = {};  // folder of what cases have come to so far (journal.h); empty: it is not kept
 };
 
 // Which of all cells are in the grid.

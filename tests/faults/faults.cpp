@@ -238,9 +238,9 @@ std::vector<Fault> of_loads() {
 
 std::vector<Fault> of_steps() {
   return {
-      {"gyroscopic term dropped", "tops/asymmetric-top", kTurn + kMomentum, {}, gyroscopic(-1)},
-      {"sign of the gyroscopic term", "tops/asymmetric-top", kTurn + kMomentum, {}, gyroscopic(-2)},
-      {"gyroscopic term doubled", "tops/asymmetric-top", kTurn + kMomentum, {}, gyroscopic(1)},
+      {"gyroscopic term dropped", "tops/dzhanibekov-box", kTurn + kMomentum, {}, gyroscopic(-1)},
+      {"sign of the gyroscopic term", "tops/dzhanibekov-box", kTurn + kMomentum, {}, gyroscopic(-2)},
+      {"gyroscopic term doubled", "tops/dzhanibekov-box", kTurn + kMomentum, {}, gyroscopic(1)},
       {"dt halved for every tenth step",
        "ballistic/projectile",
        kPlace + "|" + kTurn,

@@ -78,6 +78,25 @@ BOOST_AUTO_TEST_CASE(the_largest_kinetic_energy_is_the_truths_or_what_the_start_
   BOOST_TEST(largest_kinetic_energy(scene, nullptr, 2) == 529, boost::test_tools::tolerance(1e-12));
 }
 
+// k = 400 N/m, c = 200 N s/m, 1 kg let go at rest 2 m away: it creeps back at x' = -k x / c, never faster than 4 m/s, 8
+// J, while 800 J are lost. No run that does the same has blown up, and one that gains ten times those 800 J has.
+BOOST_AUTO_TEST_CASE(a_weight_that_dampers_let_creep_back_has_not_blown_up) {
+  Scene scene;
+  scene.bodies = {test::body("weight", 1, {1, 1, 1}, {2, 0, 0})};
+  scene.springs = {test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, 400, 0, 200)};
+  const auto truth = make_truth("oscillator", scene, 5);
+  const double kinetic = largest_kinetic_energy(scene, truth.get(), 5),
+               change = largest_energy_change(scene, truth.get(), 5);
+  BOOST_TEST(kinetic < 8);
+  BOOST_TEST(change == 800, boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(largest_energy_change(scene, nullptr, 5) == 0);
+  const Simulation run = simulate(core(), test::core_method("rk4"), scene, 1e-3, 5);
+  BOOST_TEST(word_of(judge_stability(scene, run, kinetic, 0, nullptr, change).verdict) == "stable");
+  BOOST_TEST(word_of(judge_stability(scene, run, kinetic, 0).verdict) == "blown up");  // by its motion alone
+  const Simulation wild = simulate(core(), test::core_method("explicit-euler"), scene, 0.02, 5);
+  BOOST_TEST(word_of(judge_stability(scene, wild, kinetic, 0, nullptr, change).verdict) == "blown up");
+}
+
 BOOST_AUTO_TEST_CASE(the_largest_stable_step_of_an_oscillator_is_the_known_one) {
   // Through the centre of mass, w² = k/m = 400: semi-implicit Euler holds while w dt < 2, so to 0.1 s. Just below it
   // the oscillation is stretched, in energy by 1 / (1 - (w dt / 2)²), which passes tenfold before the limit itself.

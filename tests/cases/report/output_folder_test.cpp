@@ -1,5 +1,7 @@
 #include "cases/report/output_folder.h"
 
+#include <unistd.h>
+
 #include <boost/test/unit_test.hpp>
 #include <iterator>
 
@@ -25,16 +27,36 @@ BOOST_AUTO_TEST_SUITE(cases_report_output_folder)
 BOOST_AUTO_TEST_CASE(old_outputs_stay_until_the_new_are_published) {
   const Folder place;
   place.write("out/results.json", "old");
+  place.write("out/trajectories/of--an--earlier-run.csv", "old");
+  place.write("out/trajectories/notes.txt", "the user's own");
   {
     OutputFolder folder((place.path / "out").string(), {"results.json"});
     folder.write("results.json", "new");
-    std::ofstream(fs::path(folder.trajectories()) / "a.csv") << "rows";
+    std::ofstream(fs::path(folder.trajectories()) / "a--b--c.csv") << "rows";
+    std::ofstream(fs::path(folder.trajectories()) / "d--e--f.csv") << "of a cell that crashed later";
     BOOST_TEST(content(place.path / "out/results.json") == "old");
-    folder.publish();
+    folder.publish({"a--b--c.csv"});
   }
   BOOST_TEST(content(place.path / "out/results.json") == "new");
-  BOOST_TEST(content(place.path / "out/trajectories/a.csv") == "rows");
+  BOOST_TEST(content(place.path / "out/trajectories/a--b--c.csv") == "rows");
   BOOST_TEST(entries(place.path / "out") == 2u);
+  BOOST_TEST(entries(place.path / "out/trajectories") == 2u);
+  BOOST_TEST(content(place.path / "out/trajectories/notes.txt") == "the user's own");
+}
+
+BOOST_AUTO_TEST_CASE(what_was_kept_is_taken_over_by_a_run_that_goes_on_and_by_no_other) {
+  const Folder place;
+  const std::string out = (place.path / "out").string();
+  place.write("out/.partial-999999999/journals/0.journal", "half a case");
+  {
+    OutputFolder folder(out, {}, true);
+    BOOST_TEST(content(fs::path(folder.journals()) / "0.journal") == "half a case");
+    folder.keep();
+  }
+  BOOST_TEST(entries(place.path / "out") == 2u);  // what was kept, and the folder of trajectories
+  fs::rename(place.path / ("out/.partial-" + std::to_string(getpid())), place.path / "out/.partial-999999999");
+  OutputFolder folder(out, {});
+  BOOST_TEST(!fs::exists(fs::path(folder.journals()) / "0.journal"));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_published_leaves_no_trace) {

@@ -1,0 +1,82 @@
+#include "cases/runner/journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace rigor {
+namespace {
+
+// FNV-1a, 64 bits.
+std::uint64_t hash_of(const std::string& bytes) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return hash;
+}
+
+// Before each record; then its message and its path.
+struct Head {
+  std::uint64_t job, message, path, hash;
+};
+
+std::string title_of(const std::string& plan) { return fmt::format("rigor journal {:016x}\n", hash_of(plan)); }
+
+// The record at `at`, which is moved behind it; false if there is no whole one.
+bool take_record(const std::string& bytes, std::size_t& at, std::size_t& job, Journal::Record& record) {
+  Head head;
+  if (bytes.size() - at < sizeof head) return false;
+  std::memcpy(&head, bytes.data() + at, sizeof head);
+  const std::size_t left = bytes.size() - at - sizeof head;
+  if (head.message > left || head.path > left - head.message) return false;
+  const std::size_t begin = at + sizeof head;
+  if (hash_of(bytes.substr(begin, head.message + head.path)) != head.hash) return false;
+  job = head.job;
+  record = {bytes.substr(begin, head.message), bytes.substr(begin + head.message, head.path)};
+  at = begin + head.message + head.path;
+  return true;
+}
+
+}  // namespace
+
+Journal::Journal(const std::string& file, const std::string& plan) {
+  if (file.empty()) return;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}}, title = title_of(plan);
+  std::size_t whole = 0;
+  if (bytes.starts_with(title)) {
+    whole = title.size();
+    std::size_t job = 0;
+    for (Record record; take_record(bytes, whole, job, record);) found_[job] = record;
+  }
+  descriptor_ = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  // What cannot be kept is not kept; the run is none the worse.
+  if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) return;
+  lseek(descriptor_, 0, SEEK_END);
+  if (whole == 0) append(title);
+}
+
+Journal::~Journal() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void Journal::append(const std::string& bytes) {
+  for (std::size_t at = 0; descriptor_ >= 0 && at < bytes.size();) {
+    const ssize_t count = write(descriptor_, bytes.data() + at, bytes.size() - at);
+    if (count > 0) at += static_cast<std::size_t>(count);
+    if (count < 0 && errno != EINTR) close(descriptor_), descriptor_ = -1;
+  }
+}
+
+void Journal::add(std::size_t job, const Record& record) {
+  const std::string text = record.message + record.path;
+  const Head head{job, record.message.size(), record.path.size(), hash_of(text)};
+  append(std::string(reinterpret_cast<const char*>(&head), sizeof head) + text);
+}
+
+}  // namespace rigor

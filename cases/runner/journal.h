@@ -1,0 +1,35 @@
+// What a case has come to so far, in a file of its own that only grows: a run that was stopped goes on from it. Nothing
+// in it is believed that is not whole, or that belongs to another plan.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+namespace rigor {
+
+class Journal {
+ public:
+  struct Record {
+    std::string message;  // to the grid's process
+    std::string path;     // see spread.h; empty for what leaves none
+  };
+  static constexpr std::size_t kTruth = static_cast<std::size_t>(-1);  // the job of the truth's own record
+
+  // Reads what is there if it was begun with the same plan, else begins anew. An empty file name: nothing is kept.
+  Journal(const std::string& file, const std::string& plan);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  const std::map<std::size_t, Record>& found() const { return found_; }  // by job
+  void add(std::size_t job, const Record& record);
+
+ private:
+  void append(const std::string& bytes);
+
+  std::map<std::size_t, Record> found_;
+  int descriptor_ = -1;
+};
+
+}  // namespace rigor

@@ -1,0 +1,74 @@
+#include "cases/runner/journal.h"
+
+#include <boost/test/unit_test.hpp>
+#include <filesystem>
+#include <iterator>
+
+#include "tests/folder.h"
+
+using namespace rigor;
+
+namespace {
+
+std::string content(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_runner_journal)
+
+BOOST_AUTO_TEST_CASE(what_was_added_is_found_again_by_the_same_plan_alone) {
+  const Folder folder;
+  const std::string file = (folder.path / "journal").string(), bytes("\0\n\xff", 3);
+  {
+    Journal journal(file, "plan");
+    BOOST_TEST(journal.found().empty());
+    journal.add(3, {"three", bytes});
+    journal.add(Journal::kTruth, {"true", ""});
+  }
+  {
+    Journal journal(file, "plan");
+    BOOST_TEST_REQUIRE(journal.found().size() == 2u);
+    BOOST_TEST(journal.found().at(3).message == "three");
+    BOOST_TEST(journal.found().at(3).path == bytes);
+    journal.add(4, {"four", ""});
+  }
+  BOOST_TEST(Journal(file, "plan").found().size() == 3u);
+  BOOST_TEST(Journal(file, "another plan").found().empty());
+  BOOST_TEST(Journal(file, "plan").found().empty());  // the other one has begun anew
+}
+
+BOOST_AUTO_TEST_CASE(a_journal_cut_anywhere_or_spoilt_keeps_its_whole_records) {
+  const Folder folder;
+  const std::string file = (folder.path / "journal").string();
+  {
+    Journal journal(file, "plan");
+    journal.add(0, {"zero", "path"});
+    journal.add(1, {"one", ""});
+  }
+  const std::string whole = content(file);
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    folder.write("journal", whole.substr(0, size));
+    const std::size_t count = Journal(file, "plan").found().size();
+    BOOST_TEST(count == (size == whole.size() ? 2u : size + 35 >= whole.size() ? 1u : count));
+    BOOST_TEST(count <= 2u);
+    Journal(file, "plan").add(7, {"seven", ""});  // goes on behind what is whole
+    BOOST_TEST(Journal(file, "plan").found().size() == count + 1);
+  }
+  std::string spoilt = whole;
+  spoilt.back() = '?';
+  folder.write("journal", spoilt);
+  BOOST_TEST(Journal(file, "plan").found().size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(without_a_place_nothing_is_kept_and_nothing_fails) {
+  Journal none("", "plan");
+  none.add(1, {"one", ""});
+  Journal nowhere("/no/such/folder/journal", "plan");
+  nowhere.add(1, {"one", ""});
+  BOOST_TEST(nowhere.found().empty());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
