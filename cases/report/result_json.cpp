@@ -163,7 +163,10 @@ std::string text_of(const Json& value, int indent) {
 }
 
 std::string message_of_truth(const TruthFacts& facts) {
-  return text_of({{"truth", {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy, facts.playback}}}, -1);
+  return text_of({{"truth",
+                   {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy, facts.largest_energy_change,
+                    facts.playback}}},
+                 -1);
 }
 
 std::string message_of_cell(std::size_t index, const Cell& cell, const Scene& scene) {
@@ -193,7 +196,8 @@ bool apply_message(CaseResult& result, const std::string& message) {
   const Json json = Json::parse(message);
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
-    result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2)), facts.at(3).get<std::string>()};
+    result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2)), number(facts.at(3)),
+                    facts.at(4).get<std::string>()};
     return false;
   }
   if (json.contains("spreads")) {
