@@ -83,11 +83,11 @@ BOOST_AUTO_TEST_CASE(a_choice_that_cannot_express_the_scene_is_refused_with_one_
   BOOST_TEST(why({}) == "");
   BOOST_TEST(why({{"contact", "true"}}) == "");
   BOOST_TEST(why({{"contact", "rough"}}) ==
-             "plain with contact=rough has no friction:coulomb, which bodies 'ball' and 'ground' may touch asks for; "
+             "plain with contact=rough has no friction:coulomb, which bodies 'ground' and 'ball' may touch asks for; "
              "contact=true would do");
   scene.contact_default.friction = 0;
   BOOST_TEST(why({{"contact", "true"}}) ==
-             "plain has no friction:none, which bodies 'ball' and 'ground' may touch asks for");
+             "plain has no friction:none, which bodies 'ground' and 'ball' may touch asks for");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
