@@ -76,7 +76,7 @@ Way way_out(const Segment& segment, const Vec3& half) {
 
 // The axis of the box along which n looks, or -1.
 int face_of(const Vec3& n) {
-  constexpr double kStraight = 1 - 1e-4;  // the cosine: within 0.8 degrees
+  constexpr double kStraight = 1 - 1e-12;  // the cosine: along the axis but for rounding
   int axis = 0;
   return n.cwiseAbs().maxCoeff(&axis) > kStraight ? axis : -1;
 }

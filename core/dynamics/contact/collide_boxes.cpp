@@ -129,12 +129,17 @@ void add_face_contact(const BoxInSpace& reference, const BoxInSpace& incident, c
     }
   }
   const double level = outward.dot(reference.pose.p) + reference.half[axis];
-  for (int i = 0; i < face.count; ++i) {
-    const double gap = outward.dot(face.corners[i].p) - level;
-    out.add(n, face.corners[i].p - 0.5 * gap * outward, gap, face.corners[i].id ^ tag);
+  const auto gap_of = [&](int i) { return outward.dot(face.corners[i].p) - level; };
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < face.count; ++i) least = std::min(least, gap_of(i));
+  if (face.count > 0 && (separation <= 0 || least <= separation + kOutside * reference.half.minCoeff())) {
+    for (int i = 0; i < face.count; ++i) {
+      const double gap = gap_of(i);
+      out.add(n, face.corners[i].p - 0.5 * gap * outward, gap, face.corners[i].id ^ tag);
+    }
+    return;
   }
-  if (face.count > 0) return;
-  // Apart, and past each other's faces: the corner that looks this way stands for the pair.
+  // Apart, and its deepest corner past the other's face: that corner stands for the pair.
   const Vec3 n_B = incident.pose.R.transpose() * outward;
   const Vec3 corner = incident.pose.p - incident.pose.R * n_B.cwiseSign().cwiseProduct(incident.half);
   out.add(n, corner - 0.5 * separation * outward, separation, tag);

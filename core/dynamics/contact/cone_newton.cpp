@@ -9,7 +9,7 @@ namespace rigor {
 namespace {
 
 constexpr int kMostSteps = 30;
-constexpr double kSteadying = 1e-9;  // of a point's own inverse mass
+constexpr double kLittle = 1e-9;  // of a point's own inverse mass
 
 }  // namespace
 
@@ -27,7 +27,7 @@ double ConeNewton::assemble(const Eigen::MatrixXd& coupling, const std::vector<C
     }
     residual_[at] = over;
     derivative_.row(at) = coupling.row(at);
-    derivative_(at, at) += kSteadying * give;
+    derivative_(at, at) += kLittle * give;
     assemble_friction(coupling, point, at);
   }
   return residual_.cwiseAbs().maxCoeff();
@@ -41,8 +41,8 @@ void ConeNewton::assemble_friction(const Eigen::MatrixXd& coupling, const ConePo
   if (size <= radius) {  // sticking
     residual_.segment<2>(at + 1) = u_t;
     derivative_.middleRows<2>(at + 1) = coupling.middleRows<2>(at + 1);
-    derivative_(at + 1, at + 1) += kSteadying * scale;
-    derivative_(at + 2, at + 2) += kSteadying * scale;
+    derivative_(at + 1, at + 1) += kLittle * scale;
+    derivative_(at + 2, at + 2) += kLittle * scale;
     return;
   }
   const Eigen::Vector2d d = z / size;

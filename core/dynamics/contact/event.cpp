@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTouching = 1e-10;  // m: gaps this small are closed; at 1 m/s it is 1e-10 s
-constexpr int kMostEvents = 2000;
+constexpr int kMostEvents = 300;
 constexpr int kMostPieces = 10000;
 
 class EventStepper : public ContactStepper {

@@ -13,6 +13,12 @@ constexpr int kMostOfPair = 4;
 
 double thinner(const Collider& a, const Collider& b) { return std::min(a.thickness, b.thickness); }
 
+// How far its turning within dt can take a body's surface; what is round shows none of it.
+double turn_way(const Collider& collider, BodyColumns state, double dt) {
+  if (collider.fixed || std::holds_alternative<Sphere>(collider.shape)) return 0;
+  return std::min(1.0, dt * state.angular_velocity(collider.body).norm()) * collider.reach;
+}
+
 // What a body fills in the next dt.
 Aabb swept_box(const Collider& collider, const Pose& pose, const Vec3& way, double margin) {
   Aabb box = aabb_of(collider.shape, pose, margin);
@@ -52,7 +58,8 @@ void Manifolds::update_pairs(BodyColumns state, double dt) {
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
     const Collider& collider = colliders_[i];
     poses_[i] = pose_of(state, collider.body);
-    boxes_[i] = swept_box(collider, poses_[i], dt * state.velocity(collider.body), kNear * thinner(collider, collider));
+    boxes_[i] = swept_box(collider, poses_[i], dt * state.velocity(collider.body),
+                          kNear * collider.thickness + turn_way(collider, state, dt));
     all_within = all_within && lies_within(boxes_[i], wide_boxes_[i]);
   }
   if (all_within) return;
@@ -74,8 +81,7 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
   collide(a.shape, poses_[&a - colliders_.data()], b.shape, poses_[&b - colliders_.data()], manifold_);
   const double near = kNear * thinner(a, b);
   const Vec3 v = state.velocity(a.body) - state.velocity(b.body);
-  const double turning = dt * ((a.fixed ? 0 : state.angular_velocity(a.body).norm() * a.reach) +
-                               (b.fixed ? 0 : state.angular_velocity(b.body).norm() * b.reach));
+  const double turning = turn_way(a, state, dt) + turn_way(b, state, dt);
   int kept = 0;
   for (const ContactPoint& point : manifold_) {
     if (point.gap < near + turning + dt * std::max(0.0, -point.normal.dot(v))) manifold_[kept++] = point;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -78,7 +79,7 @@ BOOST_AUTO_TEST_CASE(a_gap_is_the_distance_of_the_shapes) {
         ++apart;
         // Two boxes that look at each other corner to corner are further apart than along any axis.
         if (boxes)
-          BOOST_TEST((gap <= truth + 1e-6 && gap > 0));
+          BOOST_TEST((gap <= truth + 1e-6 && gap > 0), gap << " " << truth);
         else
           BOOST_TEST(std::abs(gap - truth) < 1e-4, shape_name(a)
                                                        << "-" << shape_name(b) << ": " << gap << " " << truth);
@@ -128,7 +129,9 @@ BOOST_AUTO_TEST_CASE(the_gap_along_the_normal_brings_the_shapes_to_touch) {
         collide(a, pose_a, b, pose_b, points);
         const bool boxes = std::holds_alternative<Box>(a) && std::holds_alternative<Box>(b);
         // Corner to corner two boxes may pass each other's faces, and another axis is then the best one.
-        if (!boxes || gap < 0) BOOST_TEST(std::abs(least_gap(points)) < 1e-9, shape_name(a) << "-" << shape_name(b));
+        if (!boxes || gap < 0)
+          BOOST_TEST(std::abs(least_gap(points)) < 1e-9,
+                     shape_name(a) << "-" << shape_name(b) << " " << gap << " left " << least_gap(points));
       }
     }
   }
@@ -174,7 +177,7 @@ BOOST_AUTO_TEST_CASE(the_pair_finder_finds_what_a_search_of_all_pairs_finds) {
       }
     }
     BOOST_TEST((finder.overlaps(boxes) == expected));
-    BOOST_TEST(expected.size() > 200);
+    BOOST_TEST(expected.size() > 160);
   }
 }
 
