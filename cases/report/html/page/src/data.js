@@ -27,7 +27,7 @@ function indexed(results, playback) {
   giveColours(results.engines);
   results.caseById = new Map();
   results.cases.forEach((one, i) => {
-    Object.assign(one, { index: i, cells: [], stable: new Map(), truthPlayback: playback.cases[i].truth, main: one.main_error });
+    Object.assign(one, { index: i, cells: [], stable: new Map(), truthPlayback: playback.cases[i].truth, main: one.main_error ?? "position_error" });
     one.family = one.id.includes("/") ? one.id.slice(0, one.id.lastIndexOf("/")) : "";
     one.coarsest = one.dt.reduce((a, b) => (b.seconds > a.seconds ? b : a));
     results.caseById.set(one.id, one);

@@ -74,9 +74,13 @@ export class Stage {
     const largest = Math.max(...this.shapes.map(extentOf), 1e-3);
     this.shapes.forEach((shape, i) => shape.type !== "plane" && include(this.one.scene.bodies[i].position, extentOf(shape)));
     for (const s of springsOf(this.one.scene)) if (s.a < 0) include(s.pointA, 0);
+    // Without a truth to say how far bodies are meant to come, one that runs away must not make the rest small.
+    const limit = this.data.truth?.motion ? null : reachOf(low, high);
     const tame = [...this.layers.values()].filter((l) => !l.engine || judgement(this.cell(l.engine)).kind !== "bad");
     for (const { motion } of this.data.truth?.motion ? [this.layers.get("truth")] : tame) {
-      if (motion?.low) include(motion.low, largest), include(motion.low.map((v, k) => v + motion.extent[k]), largest);
+      if (!motion?.low) continue;
+      const within = (v, k) => (limit ? Math.min(limit.high[k], Math.max(limit.low[k], v)) : v);
+      include(motion.low.map(within), largest), include(motion.low.map((v, k) => within(v + motion.extent[k], k)), largest);
     }
     if (!(low[0] <= high[0])) return { centre: [0, 0, 0], radius: 1, low: [-1, -1, -1] };
     return { centre: low.map((v, k) => (v + high[k]) / 2), radius: Math.max(Math.hypot(...low.map((v, k) => high[k] - v)) / 2, 1e-3), low, high };
@@ -163,6 +167,12 @@ export class Stage {
       if (child) child.style.left = `${x + 8}px`, child.style.top = `${y + 6}px`;
     });
   }
+}
+
+// Twice a box.
+function reachOf(low, high) {
+  const half = 0.5 * Math.hypot(...low.map((v, k) => high[k] - v));
+  return { low: low.map((v) => v - half), high: high.map((v) => v + half) };
 }
 
 function grid(panes, width, height) {

@@ -66,7 +66,7 @@ export class WebglView {
     const coils = new THREE.LineSegments(new THREE.BufferGeometry(), lines);
     coils.frustumCulled = false;
     coils.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * 2 * 80 * Math.max(1, springs.length)), 3));
-    const touching = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 7, sizeAttenuation: false, depthTest: false }));
+    const touching = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 4, sizeAttenuation: false, depthTest: false }));
     touching.frustumCulled = false;
     touching.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * 400), 3));
     const trails = ghost ? [] : this.trails(layer);
