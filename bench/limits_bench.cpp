@@ -42,9 +42,9 @@ void copy_state(benchmark::State& state, int count) {
   report(state, seconds, static_cast<double>(state.iterations()) * repeats * count);
 }
 
-// A method without its world, on as many bodies as one block has: no memory beyond the first-level cache is touched.
+// A method without its world, on so few bodies that hardly any memory beyond the first-level cache is touched.
 void step_in_cache(benchmark::State& state, const std::string& method) {
-  constexpr int kBodies = 64, kRepeats = 2000;
+  constexpr int kBodies = 256, kRepeats = 500;
   const SceneRow& row = scene_row("free-bodies");
   const System system(scene_of(row, kBodies));
   BodyTable table = state_of(scene_of(row, kBodies));
