@@ -58,6 +58,7 @@ class PileSolver {
   void push(const Row& row, double n, const Eigen::Vector2d& t);
   void push_normal(const Row& row, double n);
   double normal_velocity(const Row& row) const;
+  void solve_with_bias(Row& row);
   void solve_friction(Row& row);
   void rebound();
   void follow(MutableBodyColumns state) const;
@@ -71,6 +72,7 @@ class PileSolver {
   std::vector<PilePoint>* points_ = nullptr;
   std::vector<Motion> motions_;  // by body
   std::vector<Row> rows_;
+  std::vector<std::size_t> hits_;  // rows whose points may meet in this sub-step, faster than gravity brings them
   bool any_rebound_ = false;
 };
 

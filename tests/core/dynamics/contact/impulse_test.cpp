@@ -126,6 +126,16 @@ BOOST_AUTO_TEST_CASE(a_single_bounce_is_as_high_as_the_sub_steps_can_tell) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_box_that_comes_down_flat_stays_flat) {
+  for (const double e : {0.0, 0.3}) {
+    ContactRun run(on_floor({solid("box", Box{{1, 1, 1}}, {0, 0, 1})}, {e, 0.5}), "impulse");
+    run.run(1.0 / 30, 60);
+    // What the order of the four corners leaves of three bounces: 2.1 mm measured. Taken only once each: 0.22 m.
+    BOOST_TEST(angle_between(run.state().orientation(0), Quat::Identity()) < 1e-3, e);
+    BOOST_TEST((run.state().position(0) - Vec3(0, 0, 0.5)).norm() < 5e-3, e << " " << run.state().position(0).x());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_thin_wall_stops_what_is_fast) {
   Scene scene;
   scene.bodies = {solid("bullet", Box{{1, 1, 1}}, {-7, 0, 0}), solid("wall", Box{{0.1, 10, 10}}, {0, 0, 0})};
