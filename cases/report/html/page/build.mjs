@@ -10,16 +10,29 @@ const [modules, out] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));
 const esbuild = createRequire(join(modules, "index.js"))("esbuild");
 
-const common = { bundle: true, minify: true, write: false, nodePaths: [modules], logLevel: "warning", target: "es2020" };
+const common = {
+  bundle: true,
+  minify: true,
+  write: false,
+  nodePaths: [modules],
+  logLevel: "warning",
+  target: "es2020",
+};
 const script = await esbuild.build({
-  ...common, entryPoints: [join(here, "src/main.js")], format: "iife", charset: "ascii", legalComments: "none",
+  ...common,
+  entryPoints: [join(here, "src/main.js")],
+  format: "iife",
+  charset: "ascii",
+  legalComments: "none",
 });
 const style = await esbuild.build({ ...common, entryPoints: [join(here, "src/style.css")] });
 
-const licences = ["three", "uplot"].map((name) => {
-  const { version } = JSON.parse(readFileSync(join(modules, name, "package.json"), "utf8"));
-  return `${name} ${version}\n${readFileSync(join(modules, name, "LICENSE"), "utf8")}\n`;
-}).join("\n");
+const licences = ["three", "uplot"]
+  .map((name) => {
+    const { version } = JSON.parse(readFileSync(join(modules, name, "package.json"), "utf8"));
+    return `${name} ${version}\n${readFileSync(join(modules, name, "LICENSE"), "utf8")}\n`;
+  })
+  .join("\n");
 
 // A string literal of several lines; what cannot stand in one, or would end the element it goes into, is escaped.
 function literal(name, text) {
@@ -39,7 +52,9 @@ function literal(name, text) {
 
 const text = script.outputFiles[0].text;
 if (/<\/script/i.test(text)) throw new Error("the bundle would end its own <script> element");
-writeFileSync(out, `// Made by page/build.mjs; do not edit.
+writeFileSync(
+  out,
+  `// Made by page/build.mjs; do not edit.
 #include <string_view>
 
 namespace rigor {
@@ -47,4 +62,5 @@ ${literal("kPageScript", text)}
 ${literal("kPageStyle", style.outputFiles[0].text)}
 ${literal("kPageLicences", licences.replaceAll("--", "- -"))}
 }  // namespace rigor
-`);
+`,
+);

@@ -10,10 +10,12 @@ const [report, resultsFile, shots] = process.argv.slice(2);
 const results = JSON.parse(readFileSync(resultsFile, "utf8"));
 mkdirSync(shots, { recursive: true });
 const browser = await Browser.open();
-const expect = (condition, message) => { if (!condition) throw new Error(message); };
+const expect = (condition, message) => {
+  if (!condition) throw new Error(message);
+};
 
 try {
-  let took = Infinity;  // the quickest of a few: what else the machine does only ever adds
+  let took = Infinity; // the quickest of a few: what else the machine does only ever adds
   for (let i = 0; i < 4 && took >= 2000; ++i) {
     const began = Date.now();
     await browser.goTo("about:blank");
@@ -25,15 +27,21 @@ try {
   expect(took < 2000, `it took ${took} ms until the page was ready`);
   const ids = await browser.run("return [...document.querySelectorAll('.matrix th.case a')].map(a => a.textContent)");
   expect(ids.length === results.cases.length, `${ids.length} of ${results.cases.length} cases are in the matrix`);
-  const words = await browser.run("return [...document.querySelectorAll('.matrix td.cell .word')].map(w => w.textContent).join(' ')");
+  const words = await browser.run(
+    "return [...document.querySelectorAll('.matrix td.cell .word')].map(w => w.textContent).join(' ')",
+  );
   for (const cell of results.cells.filter((c) => c.dt === results.headline_dt)) {
-    const word = { diverged: "blown up", fail: "gate failed", pass: "stable" }[cell.status] ?? cell.status.replace("-", " ");
+    const word =
+      { diverged: "blown up", fail: "gate failed", pass: "stable" }[cell.status] ?? cell.status.replace("-", " ");
     expect(words.includes(word), `no cell says "${word}"`);
   }
   writeFileSync(join(shots, "first.png"), await browser.screenshot());
   for (const one of results.cases.slice(0, 14)) {
     await browser.run("location.hash = '#/' + encodeURIComponent(arguments[0])", one.id);
-    await browser.until(`document.querySelector('.view').dataset.loaded?.startsWith(${JSON.stringify(one.id)})`, `${one.id} to be shown`);
+    await browser.until(
+      `document.querySelector('.view').dataset.loaded?.startsWith(${JSON.stringify(one.id)})`,
+      `${one.id} to be shown`,
+    );
     const shown = await browser.run("return document.querySelector('h1').textContent");
     expect(shown === one.title, `${one.id} has the title ${shown}`);
     const played = await browser.run("return [...document.querySelectorAll('.stage canvas')].length");

@@ -3,51 +3,87 @@ import { spawn } from "node:child_process";
 import { createServer } from "node:net";
 import { setTimeout as sleep } from "node:timers/promises";
 
-const freePort = () => new Promise((resolve) => {
-  const server = createServer().listen(0, "127.0.0.1", () => {
-    const { port } = server.address();
-    server.close(() => resolve(port));
+const freePort = () =>
+  new Promise((resolve) => {
+    const server = createServer().listen(0, "127.0.0.1", () => {
+      const { port } = server.address();
+      server.close(() => resolve(port));
+    });
   });
-});
 
 export class Browser {
   // `webgl: false` takes WebGL away.
   static async open({ width = 1360, height = 900, dark = false, webgl = true, touch = false } = {}) {
-    const browser = new Browser(), port = await freePort();
+    const browser = new Browser(),
+      port = await freePort();
     browser.base = `http://127.0.0.1:${port}`;
     browser.driver = spawn("chromedriver", [`--port=${port}`, "--silent"], { stdio: "ignore" });
-    browser.driver.on("error", (error) => { browser.failure = error; });
+    browser.driver.on("error", (error) => {
+      browser.failure = error;
+    });
     for (let i = 0; i < 100; ++i) {
       if (browser.failure) throw new Error(`chromedriver cannot be started: ${browser.failure.message}`);
-      try { if ((await fetch(`${browser.base}/status`)).ok) break; } catch { await sleep(50); }
+      try {
+        if ((await fetch(`${browser.base}/status`)).ok) break;
+      } catch {
+        await sleep(50);
+      }
     }
-    const args = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", `--window-size=${width},${height}`, "--hide-scrollbars", "--force-device-scale-factor=1",
-      ...(webgl ? ["--enable-unsafe-swiftshader"] : ["--disable-gpu", "--disable-3d-apis", "--disable-software-rasterizer"])];
-    const { sessionId } = await browser.call("POST", "/session", { capabilities: { alwaysMatch: {
-      browserName: "chrome", "goog:loggingPrefs": { browser: "ALL" }, "goog:chromeOptions": { args },
-    } } });
+    const args = [
+      "--headless=new",
+      "--no-sandbox",
+      "--disable-dev-shm-usage",
+      `--window-size=${width},${height}`,
+      "--hide-scrollbars",
+      "--force-device-scale-factor=1",
+      ...(webgl
+        ? ["--enable-unsafe-swiftshader"]
+        : ["--disable-gpu", "--disable-3d-apis", "--disable-software-rasterizer"]),
+    ];
+    const { sessionId } = await browser.call("POST", "/session", {
+      capabilities: {
+        alwaysMatch: {
+          browserName: "chrome",
+          "goog:loggingPrefs": { browser: "ALL" },
+          "goog:chromeOptions": { args },
+        },
+      },
+    });
     browser.session = `/session/${sessionId}`;
     await browser.emulate(width, height, { dark, touch });
     return browser;
   }
 
   async call(method, path, body) {
-    const answer = await fetch(this.base + path, { method, body: body === undefined ? undefined : JSON.stringify(body) });
+    const answer = await fetch(this.base + path, {
+      method,
+      body: body === undefined ? undefined : JSON.stringify(body),
+    });
     const { value } = await answer.json();
     if (!answer.ok) throw new Error(`${path.split("/").pop()}: ${value.error}: ${value.message.split("\n")[0]}`);
     return value;
   }
-  post(path, body = {}) { return this.call("POST", this.session + path, body); }
-  devtools(cmd, params) { return this.post("/goog/cdp/execute", { cmd, params }); }
+  post(path, body = {}) {
+    return this.call("POST", this.session + path, body);
+  }
+  devtools(cmd, params) {
+    return this.post("/goog/cdp/execute", { cmd, params });
+  }
 
   async emulate(width, height, { dark = false, touch = false } = {}) {
     await this.devtools("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: touch });
     await this.devtools("Emulation.setTouchEmulationEnabled", { enabled: touch });
-    await this.devtools("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }] });
+    await this.devtools("Emulation.setEmulatedMedia", {
+      features: [{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }],
+    });
   }
 
-  goTo(url) { return this.post("/url", { url }); }
-  run(script, ...args) { return this.post("/execute/sync", { script, args }); }
+  goTo(url) {
+    return this.post("/url", { url });
+  }
+  run(script, ...args) {
+    return this.post("/execute/sync", { script, args });
+  }
   // `script` is an expression; waits until it is true, and returns it.
   async until(script, what = script, seconds = 20) {
     const end = Date.now() + 1000 * seconds;
@@ -60,31 +96,82 @@ export class Browser {
   }
 
   async keys(...values) {
-    const actions = values.flatMap((value) => [{ type: "keyDown", value }, { type: "keyUp", value }]);
+    const actions = values.flatMap((value) => [
+      { type: "keyDown", value },
+      { type: "keyUp", value },
+    ]);
     await this.post("/actions", { actions: [{ type: "key", id: "keyboard", actions }] });
   }
   // A way of the mouse or a finger over the page, in CSS pixels of the window, the button held from the first point on.
   async drag(points, { pointerType = "mouse" } = {}) {
-    const [start, ...rest] = points.map(([x, y]) => ({ type: "pointerMove", duration: 40, x: Math.round(x), y: Math.round(y) }));
-    await this.post("/actions", { actions: [{ type: "pointer", id: pointerType, parameters: { pointerType }, actions: [{ ...start, duration: 0 }, { type: "pointerDown", button: 0 }, ...rest, { type: "pointerUp", button: 0 }] }] });
+    const [start, ...rest] = points.map(([x, y]) => ({
+      type: "pointerMove",
+      duration: 40,
+      x: Math.round(x),
+      y: Math.round(y),
+    }));
+    await this.post("/actions", {
+      actions: [
+        {
+          type: "pointer",
+          id: pointerType,
+          parameters: { pointerType },
+          actions: [
+            { ...start, duration: 0 },
+            { type: "pointerDown", button: 0 },
+            ...rest,
+            { type: "pointerUp", button: 0 },
+          ],
+        },
+      ],
+    });
   }
   async hover(x, y) {
-    await this.post("/actions", { actions: [{ type: "pointer", id: "mouse", parameters: { pointerType: "mouse" }, actions: [{ type: "pointerMove", duration: 30, x: Math.round(x), y: Math.round(y) }] }] });
+    await this.post("/actions", {
+      actions: [
+        {
+          type: "pointer",
+          id: "mouse",
+          parameters: { pointerType: "mouse" },
+          actions: [{ type: "pointerMove", duration: 30, x: Math.round(x), y: Math.round(y) }],
+        },
+      ],
+    });
   }
 
   async screenshot({ whole = false } = {}) {
-    const { data } = await this.devtools("Page.captureScreenshot", { format: "png", captureBeyondViewport: whole,
-      ...(whole ? { clip: { x: 0, y: 0, scale: 1, ...(await this.run("return {width: document.documentElement.clientWidth, height: Math.min(9000, document.documentElement.scrollHeight)}")) } } : {}) });
+    const { data } = await this.devtools("Page.captureScreenshot", {
+      format: "png",
+      captureBeyondViewport: whole,
+      ...(whole
+        ? {
+            clip: {
+              x: 0,
+              y: 0,
+              scale: 1,
+              ...(await this.run(
+                "return {width: document.documentElement.clientWidth, height: Math.min(9000, document.documentElement.scrollHeight)}",
+              )),
+            },
+          }
+        : {}),
+    });
     return Buffer.from(data, "base64");
   }
   // What the page has complained of since the last call.
   async complaints() {
     const log = await this.post("/se/log", { type: "browser" });
-    return log.filter((entry) => entry.level === "SEVERE" || entry.level === "WARNING").map((entry) => `${entry.level}: ${entry.message}`);
+    return log
+      .filter((entry) => entry.level === "SEVERE" || entry.level === "WARNING")
+      .map((entry) => `${entry.level}: ${entry.message}`);
   }
 
   async close() {
-    try { await this.call("DELETE", this.session); } catch { /* gone already */ }
+    try {
+      await this.call("DELETE", this.session);
+    } catch {
+      /* gone already */
+    }
     this.driver.kill();
   }
 }

@@ -7,7 +7,8 @@ const [modules, schemaFile, resultsFile] = process.argv.slice(2);
 const Ajv = createRequire(join(modules, "index.js"))("ajv");
 const read = (file) => JSON.parse(readFileSync(file, "utf8"));
 const validator = new Ajv({ allErrors: true, strict: false });
-const validate = validator.compile(read(schemaFile)), results = read(resultsFile);
+const validate = validator.compile(read(schemaFile)),
+  results = read(resultsFile);
 
 if (!validate(results)) {
   for (const { instancePath, message } of validate.errors.slice(0, 20)) console.log(`${instancePath}: ${message}`);
@@ -15,9 +16,27 @@ if (!validate(results)) {
 }
 // A schema that refuses nothing would be none: each of these must be refused.
 const broken = [
-  (r) => { r.cells[0].status = "fine"; }, (r) => { delete r.cells[0].metrics; }, (r) => { r.cases[0].duration = 0; }, (r) => { r.schema = 2; },
-  (r) => { r.cells.find((c) => Object.values(c.metrics).some((m) => "value" in m)).metrics = { x: { value: "1" } }; },
-  (r) => { r.cases[0].scene.bodies[0].shape = { type: "ball" }; }, (r) => { delete r.stable_dt[0].dt; },
+  (r) => {
+    r.cells[0].status = "fine";
+  },
+  (r) => {
+    delete r.cells[0].metrics;
+  },
+  (r) => {
+    r.cases[0].duration = 0;
+  },
+  (r) => {
+    r.schema = 2;
+  },
+  (r) => {
+    r.cells.find((c) => Object.values(c.metrics).some((m) => "value" in m)).metrics = { x: { value: "1" } };
+  },
+  (r) => {
+    r.cases[0].scene.bodies[0].shape = { type: "ball" };
+  },
+  (r) => {
+    delete r.stable_dt[0].dt;
+  },
 ];
 broken.forEach((harm, i) => {
   const other = structuredClone(results);

@@ -2,18 +2,32 @@
 import { coil, pointOf, turn } from "./scene_model.js";
 import { colour, isDark } from "./theme.js";
 
-const edges = [[0, 1], [1, 3], [3, 2], [2, 0], [4, 5], [5, 7], [7, 6], [6, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
+const edges = [
+  [0, 1],
+  [1, 3],
+  [3, 2],
+  [2, 0],
+  [4, 5],
+  [5, 7],
+  [7, 6],
+  [6, 4],
+  [0, 4],
+  [1, 5],
+  [2, 6],
+  [3, 7],
+];
 
 export class CanvasView {
   constructor(canvas, context) {
-    this.kind = "canvas", this.canvas = canvas, this.context = context;
+    (this.kind = "canvas"), (this.canvas = canvas), (this.context = context);
     this.pen = canvas.getContext("2d");
   }
   close() {}
 
   draw(panes, { trails, width, height }) {
-    const ratio = Math.min(devicePixelRatio || 1, 2), { pen, canvas } = this;
-    canvas.width = width * ratio, canvas.height = height * ratio;
+    const ratio = Math.min(devicePixelRatio || 1, 2),
+      { pen, canvas } = this;
+    (canvas.width = width * ratio), (canvas.height = height * ratio);
     for (const pane of panes) {
       pen.setTransform(ratio, 0, 0, ratio, 0, 0);
       pen.save();
@@ -29,13 +43,14 @@ export class CanvasView {
 
   aim(pane) {
     const { camera } = this.context;
-    this.axes = camera.axes(), this.eye = camera.eye();
+    (this.axes = camera.axes()), (this.eye = camera.eye());
     this.middle = [pane.x + pane.width / 2, pane.y + pane.height / 2];
     this.scale = Math.min(pane.width, pane.height) / 2 / Math.tan((camera.fov * Math.PI) / 360);
   }
   // x, y in pixels and pixels a metre there; null behind the eye.
   project(p) {
-    const d = p.map((v, k) => v - this.eye[k]), along = (axis) => d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
+    const d = p.map((v, k) => v - this.eye[k]),
+      along = (axis) => d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
     const depth = -along(this.axes.back);
     if (depth < 1e-9) return null;
     const pixels = this.scale / depth;
@@ -53,11 +68,17 @@ export class CanvasView {
   }
 
   ground() {
-    const { shapes, size, camera } = this.context, planes = shapes.filter((s) => s.type === "plane");
-    this.pen.strokeStyle = colour("--line"), this.pen.lineWidth = 1;
+    const { shapes, size, camera } = this.context,
+      planes = shapes.filter((s) => s.type === "plane");
+    (this.pen.strokeStyle = colour("--line")), (this.pen.lineWidth = 1);
     for (const plane of planes) {
-      const n = plane.normal, u = Math.abs(n[0]) < 0.9 ? cross(n, [1, 0, 0]) : cross(n, [0, 1, 0]), length = Math.hypot(...u), a = u.map((v) => v / length), b = cross(n, a);
-      const height = size.centre.reduce((sum, v, k) => sum + v * n[k], 0) - plane.offset, foot = size.centre.map((v, k) => v - height * n[k]);
+      const n = plane.normal,
+        u = Math.abs(n[0]) < 0.9 ? cross(n, [1, 0, 0]) : cross(n, [0, 1, 0]),
+        length = Math.hypot(...u),
+        a = u.map((v) => v / length),
+        b = cross(n, a);
+      const height = size.centre.reduce((sum, v, k) => sum + v * n[k], 0) - plane.offset,
+        foot = size.centre.map((v, k) => v - height * n[k]);
       for (let i = -5; i <= 5; ++i) {
         const at = (s, t) => foot.map((v, k) => v + camera.radius * (0.4 * s * a[k] + 0.4 * t * b[k]));
         this.line([at(i, -5), at(i, 5)]), this.line([at(-5, i), at(5, i)]);
@@ -66,20 +87,23 @@ export class CanvasView {
   }
 
   layer(layer, trails) {
-    const { pen } = this, { shapes, springs, size } = this.context, { poses, engine } = layer;
+    const { pen } = this,
+      { shapes, springs, size } = this.context,
+      { poses, engine } = layer;
     pen.strokeStyle = engine ? engine.hex[isDark() ? 1 : 0] : colour("--truth-solid");
-    pen.globalAlpha = engine ? 1 : 0.5, pen.lineWidth = 1.5;
+    (pen.globalAlpha = engine ? 1 : 0.5), (pen.lineWidth = 1.5);
     for (const shape of shapes) this.shape(shape, poses);
     pen.lineWidth = 1;
     for (const spring of springs) {
-      const a = pointOf(poses, spring.a, spring.pointA), b = pointOf(poses, spring.b, spring.pointB);
+      const a = pointOf(poses, spring.a, spring.pointA),
+        b = pointOf(poses, spring.b, spring.pointB);
       this.line(spring.coil ? coil(a, b, 0.025 * size.radius) : [a, b]);
     }
     if (trails && engine && shapes.length <= 30) {
       pen.globalAlpha = 0.5;
       for (const { index, fixed, type } of shapes) if (!fixed && type !== "plane") this.trail(layer, index);
     }
-    pen.globalAlpha = 1, pen.fillStyle = colour("--bad-solid");
+    (pen.globalAlpha = 1), (pen.fillStyle = colour("--bad-solid"));
     for (const p of layer.contacts) {
       const at = this.project(p);
       if (at) pen.fillRect(at[0] - 2.5, at[1] - 2.5, 5, 5);
@@ -88,13 +112,16 @@ export class CanvasView {
 
   trail({ motion, key, poses }, body) {
     const points = [];
-    for (let k = 0; k <= key; ++k) points.push([...motion.values.subarray(7 * (k * motion.bodies + body), 7 * (k * motion.bodies + body) + 3)]);
+    for (let k = 0; k <= key; ++k)
+      points.push([...motion.values.subarray(7 * (k * motion.bodies + body), 7 * (k * motion.bodies + body) + 3)]);
     points.push([...poses.subarray(7 * body, 7 * body + 3)]);
     this.line(points);
   }
 
   shape(shape, poses) {
-    const o = 7 * shape.index, centre = [...poses.subarray(o, o + 3)], q = [...poses.subarray(o + 3, o + 7)];
+    const o = 7 * shape.index,
+      centre = [...poses.subarray(o, o + 3)],
+      q = [...poses.subarray(o + 3, o + 7)];
     const world = (p) => turn(q, p).map((v, k) => v + centre[k]);
     if (shape.type === "sphere") {
       const at = this.project(centre);
@@ -102,8 +129,10 @@ export class CanvasView {
       this.pen.beginPath(), this.pen.arc(at[0], at[1], shape.radius * at[2], 0, 7), this.pen.stroke();
       this.line([centre, world([shape.radius, 0, 0])]);
     } else if (shape.type === "box") {
-      const half = shape.size.map((s) => s / 2), corners = [];
-      for (const x of [-1, 1]) for (const y of [-1, 1]) for (const z of [-1, 1]) corners.push(world([x * half[0], y * half[1], z * half[2]]));
+      const half = shape.size.map((s) => s / 2),
+        corners = [];
+      for (const x of [-1, 1])
+        for (const y of [-1, 1]) for (const z of [-1, 1]) corners.push(world([x * half[0], y * half[1], z * half[2]]));
       for (const [a, b] of edges) this.line([corners[a], corners[b]]);
     } else if (shape.type === "capsule") {
       for (const end of [-0.5, 0.5]) {

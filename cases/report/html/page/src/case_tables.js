@@ -3,39 +3,108 @@ import { cellOf, hasNumbers, judgement, metricOf, signedMetric, stepFor } from "
 import { el } from "./dom.js";
 import { digits, isNumber, percent, quantity, words } from "./format.js";
 
-const usual = ["position_error", "orientation_error", "energy_drift", "energy_drift_synchronised", "angular_momentum_drift", "linear_momentum_drift"];
+const usual = [
+  "position_error",
+  "orientation_error",
+  "energy_drift",
+  "energy_drift_synchronised",
+  "angular_momentum_drift",
+  "linear_momentum_drift",
+];
 
 export function numbersTable({ results, one, dt }) {
   const rows = results.engines.map((engine) => [engine, cellOf(one, engine.name, dt.text)]).filter(([, cell]) => cell);
-  const present = results.metrics.map((m) => m.name).filter((name) => rows.some(([, cell]) => metricOf(cell, name) !== null));
+  const present = results.metrics
+    .map((m) => m.name)
+    .filter((name) => rows.some(([, cell]) => metricOf(cell, name) !== null));
   const names = [...usual.filter((name) => present.includes(name)), ...present.filter((name) => !usual.includes(name))];
   const shown = (cell, name) => {
-    const unit = results.units[name], metric = cell.metrics?.[name];
+    const unit = results.units[name],
+      metric = cell.metrics?.[name];
     if (!metric) return el("td", {}, "–");
     if (metric.not_applicable !== undefined) return el("td.none", { title: metric.not_applicable }, "–");
-    const text = unit === "1" && name.startsWith("energy") ? percent(signedMetric(cell.metrics, name)) : quantity(metric.value, unit);
+    const text =
+      unit === "1" && name.startsWith("energy")
+        ? percent(signedMetric(cell.metrics, name))
+        : quantity(metric.value, unit);
     const w = metric.worst;
-    return el("td", { title: w ? `worst at ${digits(w.time)} s: ${w.body}, ${w.component}: found ${digits(w.found, 6)}, expected ${digits(w.expected, 6)}` : "" }, text);
+    return el(
+      "td",
+      {
+        title: w
+          ? `worst at ${digits(w.time)} s: ${w.body}, ${w.component}: found ${digits(w.found, 6)}, expected ${digits(w.expected, 6)}`
+          : "",
+      },
+      text,
+    );
   };
   const stable = (engine) => {
     const found = one.stable.get(engine.name);
-    return found && isNumber(found.dt) ? `${found.is_cap ? "≥ " : found.is_floor ? "< " : ""}${quantity(found.dt, "s")}` : "–";
+    return found && isNumber(found.dt)
+      ? `${found.is_cap ? "≥ " : found.is_floor ? "< " : ""}${quantity(found.dt, "s")}`
+      : "–";
   };
   const millimetre = (engine) => {
     if (one.main === "energy_drift_synchronised") return "–";
     const step = stepFor(one, engine.name, one.main, 1e-3);
     return step ? `${step.mark} ${quantity(step.seconds, "s")}` : "–";
   };
-  return el("div.scroll", {}, el("table.plain.numbers", {},
-    el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "run"), el("th", { scope: "col" }, "verdict"), names.map((name) => el("th", { scope: "col", title: results.summaries[name] }, words(name))),
-      el("th", { scope: "col" }, "largest stable dt"), el("th", { scope: "col" }, `dt for 1 m${results.units[one.main] ?? "m"}`), el("th", { scope: "col" }, "CPU a step"))),
-    el("tbody", {}, rows.map(([engine, cell]) => {
-      const verdict = judgement(cell);
-      const numbers = hasNumbers(cell) ? names.map((name) => shown(cell, name)) : [el("td.text", { colspan: names.length }, cell.reason || verdict.word)];
-      return el("tr", {}, el("th", { scope: "row" }, el("span.swatch", { class: engine.stock ? "swatch is-stock" : "swatch", style: { "--engine": `var(--e${engine.index})` } }), engine.name),
-        el(`td.text.is-${verdict.kind}`, {}, el("span.word", {}, `${verdict.sign} ${verdict.word}`)), numbers, el("td", {}, stable(engine)), el("td", {}, millimetre(engine)),
-        el("td", {}, isNumber(cell.cpu_seconds) && cell.cpu_seconds > 0 ? quantity((cell.cpu_seconds * cell.dt_seconds) / one.duration, "s") : "–"));
-    }))));
+  return el(
+    "div.scroll",
+    {},
+    el(
+      "table.plain.numbers",
+      {},
+      el(
+        "thead",
+        {},
+        el(
+          "tr",
+          {},
+          el("th", { scope: "col" }, "run"),
+          el("th", { scope: "col" }, "verdict"),
+          names.map((name) => el("th", { scope: "col", title: results.summaries[name] }, words(name))),
+          el("th", { scope: "col" }, "largest stable dt"),
+          el("th", { scope: "col" }, `dt for 1 m${results.units[one.main] ?? "m"}`),
+          el("th", { scope: "col" }, "CPU a step"),
+        ),
+      ),
+      el(
+        "tbody",
+        {},
+        rows.map(([engine, cell]) => {
+          const verdict = judgement(cell);
+          const numbers = hasNumbers(cell)
+            ? names.map((name) => shown(cell, name))
+            : [el("td.text", { colspan: names.length }, cell.reason || verdict.word)];
+          return el(
+            "tr",
+            {},
+            el(
+              "th",
+              { scope: "row" },
+              el("span.swatch", {
+                class: engine.stock ? "swatch is-stock" : "swatch",
+                style: { "--engine": `var(--e${engine.index})` },
+              }),
+              engine.name,
+            ),
+            el(`td.text.is-${verdict.kind}`, {}, el("span.word", {}, `${verdict.sign} ${verdict.word}`)),
+            numbers,
+            el("td", {}, stable(engine)),
+            el("td", {}, millimetre(engine)),
+            el(
+              "td",
+              {},
+              isNumber(cell.cpu_seconds) && cell.cpu_seconds > 0
+                ? quantity((cell.cpu_seconds * cell.dt_seconds) / one.duration, "s")
+                : "–",
+            ),
+          );
+        }),
+      ),
+    ),
+  );
 }
 
 export function limitText(gate, unit) {
@@ -46,7 +115,11 @@ export function limitText(gate, unit) {
   if (isNumber(gate.equals)) parts.push(`equal to ${value(gate.equals)}`);
   if (isNumber(gate.at_least_order)) parts.push(`falls at least with order ${gate.at_least_order}`);
   for (const [key, v] of Object.entries(gate)) {
-    if (!["metric", "min", "max", "equals", "at_least_order", "because", "where", "answers"].includes(key) && (isNumber(v) || (typeof v === "string" && v))) parts.push(`${words(key)} ${v}`);
+    if (
+      !["metric", "min", "max", "equals", "at_least_order", "because", "where", "answers"].includes(key) &&
+      (isNumber(v) || (typeof v === "string" && v))
+    )
+      parts.push(`${words(key)} ${v}`);
   }
   return parts.join(", ");
 }
@@ -54,26 +127,94 @@ export function limitText(gate, unit) {
 export function gatesTable({ results, one }) {
   if (!one.gates.length) return el("p.fine", {}, "This case has no gates.");
   const marks = { held: ["good", "✓"], failed: ["bad", "✕"], "not checked": ["none", "–"] };
-  return el("div.gates", {}, one.gates.map((gate) => {
-    const count = (answer) => gate.answers.filter((a) => a.answer === answer).length;
-    const failed = count("failed"), unchecked = count("not checked");
-    const summary = [`${count("held")} held`, failed ? `${failed} failed` : "", unchecked ? `${unchecked} not checked` : ""].filter(Boolean).join(", ");
-    return el("details.gate", { open: failed > 0 },
-      el("summary", {}, el(`span.badge.is-${failed ? "bad" : unchecked ? "none" : "good"}`, {}, failed ? "✕" : unchecked ? "–" : "✓"), el("b", {}, words(gate.metric)), " ", limitText(gate, results.units[gate.metric] ?? ""), el("span.fine", {}, ` ${summary}`),
-        el("span.because", {}, gate.because)),
-      el("div.scroll", {}, el("table.plain", {}, el("thead", {}, el("tr", {}, ["run", "dt", "value", "", "in words"].map((t) => el("th", {}, t)))),
-        el("tbody", {}, gate.answers.map((a) => {
-          const [kind, sign] = marks[a.answer] ?? ["none", "?"], value = metricOf(cellOf(one, a.engine, a.dt), gate.metric);
-          return el("tr", {}, el("th", { scope: "row" }, a.engine || "–"), el("td", {}, a.dt || "all"), el("td", {}, value === null ? "" : quantity(value, results.units[gate.metric])), el(`td.is-${kind}`, {}, el("span.word", {}, `${sign} ${a.answer}`)), el("td.text", {}, a.text));
-        })))), el("p.fine", {}, gate.where));
-  }));
+  return el(
+    "div.gates",
+    {},
+    one.gates.map((gate) => {
+      const count = (answer) => gate.answers.filter((a) => a.answer === answer).length;
+      const failed = count("failed"),
+        unchecked = count("not checked");
+      const summary = [
+        `${count("held")} held`,
+        failed ? `${failed} failed` : "",
+        unchecked ? `${unchecked} not checked` : "",
+      ]
+        .filter(Boolean)
+        .join(", ");
+      return el(
+        "details.gate",
+        { open: failed > 0 },
+        el(
+          "summary",
+          {},
+          el(`span.badge.is-${failed ? "bad" : unchecked ? "none" : "good"}`, {}, failed ? "✕" : unchecked ? "–" : "✓"),
+          el("b", {}, words(gate.metric)),
+          " ",
+          limitText(gate, results.units[gate.metric] ?? ""),
+          el("span.fine", {}, ` ${summary}`),
+          el("span.because", {}, gate.because),
+        ),
+        el(
+          "div.scroll",
+          {},
+          el(
+            "table.plain",
+            {},
+            el(
+              "thead",
+              {},
+              el(
+                "tr",
+                {},
+                ["run", "dt", "value", "", "in words"].map((t) => el("th", {}, t)),
+              ),
+            ),
+            el(
+              "tbody",
+              {},
+              gate.answers.map((a) => {
+                const [kind, sign] = marks[a.answer] ?? ["none", "?"],
+                  value = metricOf(cellOf(one, a.engine, a.dt), gate.metric);
+                return el(
+                  "tr",
+                  {},
+                  el("th", { scope: "row" }, a.engine || "–"),
+                  el("td", {}, a.dt || "all"),
+                  el("td", {}, value === null ? "" : quantity(value, results.units[gate.metric])),
+                  el(`td.is-${kind}`, {}, el("span.word", {}, `${sign} ${a.answer}`)),
+                  el("td.text", {}, a.text),
+                );
+              }),
+            ),
+          ),
+        ),
+        el("p.fine", {}, gate.where),
+      );
+    }),
+  );
 }
 
 export function settingsTable({ one, dt, results }) {
-  const cells = results.engines.map((e) => cellOf(one, e.name, dt.text)).filter((cell) => cell && Object.keys(cell.settings ?? {}).length);
+  const cells = results.engines
+    .map((e) => cellOf(one, e.name, dt.text))
+    .filter((cell) => cell && Object.keys(cell.settings ?? {}).length);
   if (!cells.length) return el("p.fine", {}, "None were read back.");
-  return el("div.settings", {}, cells.map((cell) => el("details", {}, el("summary", {}, cell.engine),
-    el("dl", {}, Object.entries(cell.settings).map(([name, value]) => [el("dt", {}, name), el("dd", {}, value)])))));
+  return el(
+    "div.settings",
+    {},
+    cells.map((cell) =>
+      el(
+        "details",
+        {},
+        el("summary", {}, cell.engine),
+        el(
+          "dl",
+          {},
+          Object.entries(cell.settings).map(([name, value]) => [el("dt", {}, name), el("dd", {}, value)]),
+        ),
+      ),
+    ),
+  );
 }
 
 // TOML, its comments, tables and keys set apart.
@@ -81,9 +222,20 @@ export function sceneFile(one) {
   const lines = (one.file ?? "").split("\n").map((line) => {
     const [, before, comment] = /^((?:[^"#]|"(?:[^"\\]|\\.)*")*)(#.*)?$/.exec(line) ?? [null, line, ""];
     const key = /^(\s*)([\w-]+)(\s*=)(.*)$/.exec(before);
-    const content = /^\s*\[/.test(before) ? [el("span.table", {}, before)] : key ? [key[1], el("span.name", {}, key[2]), key[3], key[4]] : [before];
+    const content = /^\s*\[/.test(before)
+      ? [el("span.table", {}, before)]
+      : key
+        ? [key[1], el("span.name", {}, key[2]), key[3], key[4]]
+        : [before];
     return [content, comment ? el("span.comment", {}, comment) : null, "\n"];
   });
-  const copy = el("button.quiet", { type: "button", onclick: () => navigator.clipboard?.writeText(one.file).then(() => (copy.textContent = "copied")) }, "copy");
+  const copy = el(
+    "button.quiet",
+    {
+      type: "button",
+      onclick: () => navigator.clipboard?.writeText(one.file).then(() => (copy.textContent = "copied")),
+    },
+    "copy",
+  );
   return el("div.file", {}, copy, el("pre", { tabindex: 0 }, el("code", {}, lines)));
 }

@@ -2,10 +2,11 @@
 import { cellOf, dtOf, judgement, hasNumbers } from "./data.js";
 import { el, replace } from "./dom.js";
 import { digits, quantity } from "./format.js";
-import { convergence, schemeSplit, stabilityMap, workPrecision } from "./charts.js";
+import { convergence, stabilityMap, workPrecision } from "./charts.js";
 import { gatesTable, numbersTable, sceneFile, settingsTable } from "./case_tables.js";
 import { loadCase } from "./playback_data.js";
 import { Player } from "./player.js";
+import { schemeSplit } from "./scheme_tables.js";
 import { Stage } from "./stage.js";
 import { TimePlots } from "./time_plots.js";
 import { address, onChange, set, state } from "./state.js";
@@ -14,7 +15,7 @@ const shownAtFirst = 6;
 
 export class CaseView {
   constructor(results, one, root) {
-    this.results = results, this.one = one, this.root = root;
+    (this.results = results), (this.one = one), (this.root = root);
     this.dt = dtOf(one, state.dt);
     this.player = new Player(one.duration);
     this.chips = el("div.chips", { role: "group", "aria-label": "Engines shown" });
@@ -33,35 +34,78 @@ export class CaseView {
     this.stop(), this.player.close(), this.stage?.close(), this.plots?.close();
   }
 
-  get engines() { return this.results.engines.filter((e) => cellOf(this.one, e.name, this.dt.text)); }
-  get runnable() { return this.engines.filter((e) => cellOf(this.one, e.name, this.dt.text).status !== "unsupported"); }
+  get engines() {
+    return this.results.engines.filter((e) => cellOf(this.one, e.name, this.dt.text));
+  }
+  get runnable() {
+    return this.engines.filter((e) => cellOf(this.one, e.name, this.dt.text).status !== "unsupported");
+  }
   get shown() {
     if (state.engines) return this.runnable.filter((e) => state.engines.has(e.name));
     // The engines that are not ours, then those of ours that err least, for the eye to compare with.
-    const foreign = this.runnable.filter((e) => !e.core), error = (e) => cellOf(this.one, e.name, this.dt.text).metrics?.[this.one.main]?.value ?? Infinity;
+    const foreign = this.runnable.filter((e) => !e.core),
+      error = (e) => cellOf(this.one, e.name, this.dt.text).metrics?.[this.one.main]?.value ?? Infinity;
     const own = this.runnable.filter((e) => e.core).sort((a, b) => error(a) - error(b));
     const chosen = new Set([...foreign, ...own].slice(0, Math.max(shownAtFirst, foreign.length)).map((e) => e.name));
     return this.runnable.filter((e) => chosen.has(e.name));
   }
 
   heading() {
-    const { one } = this, { truth } = one;
-    const list = this.results.cases, at = list.indexOf(one);
-    const step = (to, sign, label) => (list[to] ? el("a.quiet", { href: address({ case: list[to].id, time: 0, zoom: null, engines: null }), title: list[to].id, "aria-label": label,
-      onclick: (event) => (event.preventDefault(), this.goTo(to)) }, sign) : el("span.quiet.is-off", {}, sign));
+    const { one } = this,
+      { truth } = one;
+    const list = this.results.cases,
+      at = list.indexOf(one);
+    const step = (to, sign, label) =>
+      list[to]
+        ? el(
+            "a.quiet",
+            {
+              href: address({ case: list[to].id, time: 0, zoom: null, engines: null }),
+              title: list[to].id,
+              "aria-label": label,
+              onclick: (event) => (event.preventDefault(), this.goTo(to)),
+            },
+            sign,
+          )
+        : el("span.quiet.is-off", {}, sign);
     let truthText = "No truth: only stability and what is conserved are judged.";
     if (truth.kind !== "none") {
-      truthText = truth.horizon === undefined ? `Truth: ${truth.kind}, not found.`
-        : truth.horizon >= one.duration ? `Truth: ${truth.kind}; its own error is at most ${digits(truth.error_at_end, 2)} m or rad over the whole ${digits(one.duration)} s.`
-        : `Truth: ${truth.kind}; known to ${quantity(truth.horizon_tolerance, "m")} up to its horizon at ${truth.horizon.toFixed(1)} s of ${digits(one.duration)} s, and compared only so far: beyond it the motion is too sensitive.`;
+      truthText =
+        truth.horizon === undefined
+          ? `Truth: ${truth.kind}, not found.`
+          : truth.horizon >= one.duration
+            ? `Truth: ${truth.kind}; its own error is at most ${digits(truth.error_at_end, 2)} m or rad over the whole ${digits(one.duration)} s.`
+            : `Truth: ${truth.kind}; known to ${quantity(truth.horizon_tolerance, "m")} up to its horizon at ${truth.horizon.toFixed(1)} s of ${digits(one.duration)} s, and compared only so far: beyond it the motion is too sensitive.`;
     }
-    return el("section.heading", {},
-      el("p.path", {}, el("a", { href: address({ case: "" }), onclick: (event) => (event.preventDefault(), set({ case: "", time: 0, zoom: null }, { push: true })) }, "All cases"),
-        " / ", one.id, el("span.steps", {}, step(at - 1, "‹", "The case before"), step(at + 1, "›", "The next case"))),
+    return el(
+      "section.heading",
+      {},
+      el(
+        "p.path",
+        {},
+        el(
+          "a",
+          {
+            href: address({ case: "" }),
+            onclick: (event) => (event.preventDefault(), set({ case: "", time: 0, zoom: null }, { push: true })),
+          },
+          "All cases",
+        ),
+        " / ",
+        one.id,
+        el("span.steps", {}, step(at - 1, "‹", "The case before"), step(at + 1, "›", "The next case")),
+      ),
       el("h1", {}, one.title || one.id),
       el("p.truth", {}, truthText, one.source ? el("span.source", {}, ` Source: ${one.source}.`) : null),
       one.error ? el("p.error", {}, one.error) : null,
-      one.explanations.length ? el("ul.findings", {}, one.explanations.map((text) => el("li", {}, text))) : null);
+      one.explanations.length
+        ? el(
+            "ul.findings",
+            {},
+            one.explanations.map((text) => el("li", {}, text)),
+          )
+        : null,
+    );
   }
 
   // It stays in sight; the picture below it has to know how high it is.
@@ -73,25 +117,58 @@ export class CaseView {
   }
 
   drawBar() {
-    replace(this.steps, this.one.dt.map((dt) => el("button", { type: "button", "aria-pressed": String(dt.text === this.dt.text), onclick: () => set({ dt: dt.text }) }, `dt ${dt.text} s`)));
+    replace(
+      this.steps,
+      this.one.dt.map((dt) =>
+        el(
+          "button",
+          { type: "button", "aria-pressed": String(dt.text === this.dt.text), onclick: () => set({ dt: dt.text }) },
+          `dt ${dt.text} s`,
+        ),
+      ),
+    );
     const shown = new Set(this.shown.map((e) => e.name));
     const chip = (engine, i) => {
-      const cell = cellOf(this.one, engine.name, this.dt.text), verdict = judgement(cell);
-      const value = hasNumbers(cell) ? quantity(cell.metrics[this.one.main]?.value, this.results.units[this.one.main]) : "";
-      return el(`button.chip${engine.stock ? ".is-stock" : ""}`, {
-        type: "button", "aria-pressed": String(shown.has(engine.name)), disabled: cell.status === "unsupported",
-        title: `${engine.name}: ${verdict.word}${cell.reason ? ` – ${cell.reason}` : ""}`,
-        style: { "--engine": `var(--e${engine.index})` }, onclick: (event) => this.toggle(engine, event.shiftKey),
-        onmouseenter: () => this.plots?.focus(engine.name), onmouseleave: () => this.plots?.focus(null),
-      }, el("span.swatch"), el("span.name", {}, engine.name.replace("core:", "")),
-      el(`span.word.is-${verdict.kind}`, {}, verdict.kind === "good" ? value : `${verdict.sign} ${verdict.kind === "drift" ? value : verdict.word}`),
-      i < 10 ? el("kbd", {}, (i + 1) % 10) : null);
+      const cell = cellOf(this.one, engine.name, this.dt.text),
+        verdict = judgement(cell);
+      const value = hasNumbers(cell)
+        ? quantity(cell.metrics[this.one.main]?.value, this.results.units[this.one.main])
+        : "";
+      return el(
+        `button.chip${engine.stock ? ".is-stock" : ""}`,
+        {
+          type: "button",
+          "aria-pressed": String(shown.has(engine.name)),
+          disabled: cell.status === "unsupported",
+          title: `${engine.name}: ${verdict.word}${cell.reason ? ` – ${cell.reason}` : ""}`,
+          style: { "--engine": `var(--e${engine.index})` },
+          onclick: (event) => this.toggle(engine, event.shiftKey),
+          onmouseenter: () => this.plots?.focus(engine.name),
+          onmouseleave: () => this.plots?.focus(null),
+        },
+        el("span.swatch"),
+        el("span.name", {}, engine.name.replace("core:", "")),
+        el(
+          `span.word.is-${verdict.kind}`,
+          {},
+          verdict.kind === "good" ? value : `${verdict.sign} ${verdict.kind === "drift" ? value : verdict.word}`,
+        ),
+        i < 10 ? el("kbd", {}, (i + 1) % 10) : null,
+      );
     };
-    replace(this.chips, this.engines.map((engine) => chip(engine, this.runnable.indexOf(engine) < 0 ? 99 : this.runnable.indexOf(engine))),
-      el("button.quiet", { type: "button", onclick: () => this.show(this.runnable) }, "all"), el("button.quiet", { type: "button", onclick: () => this.show([]) }, "none"));
+    replace(
+      this.chips,
+      this.engines.map((engine) =>
+        chip(engine, this.runnable.indexOf(engine) < 0 ? 99 : this.runnable.indexOf(engine)),
+      ),
+      el("button.quiet", { type: "button", onclick: () => this.show(this.runnable) }, "all"),
+      el("button.quiet", { type: "button", onclick: () => this.show([]) }, "none"),
+    );
   }
 
-  show(engines) { set({ engines: new Set(engines.map((e) => e.name)) }); }
+  show(engines) {
+    set({ engines: new Set(engines.map((e) => e.name)) });
+  }
   toggle(engine, alone) {
     const names = new Set(this.shown.map((e) => e.name));
     if (alone) return this.show([engine]);
@@ -116,17 +193,48 @@ export class CaseView {
 
   drawAcross() {
     const context = { results: this.results, one: this.one, dt: this.dt, shown: this.shown };
-    const part = (id, title, text, ...content) => el("section.part", { id }, el("h2", {}, title), text ? el("p.fine", {}, text) : null, content);
-    const split = schemeSplit(context), converged = convergence(context), worked = workPrecision(context);
-    replace(this.across,
+    const part = (id, title, text, ...content) =>
+      el("section.part", { id }, el("h2", {}, title), text ? el("p.fine", {}, text) : null, content);
+    const split = schemeSplit(context),
+      converged = convergence(context),
+      worked = workPrecision(context);
+    replace(
+      this.across,
       part("numbers", `At dt = ${this.dt.text} s`, null, numbersTable(context)),
-      split ? part("scheme", "Scheme or engine?", "The core repeats an engine's published scheme at the same step. What that twin is off from the truth is the scheme's; only what the engine is off from its twin is unexplained.", split) : null,
-      converged ? part("convergence", "Convergence", "Error against step size; the figure behind a name is the order fitted.", converged) : null,
-      worked ? part("work", "Work and precision", "Error against CPU time per simulated second: lower and further left is better.", worked) : null,
-      part("stability", "Stability", "Each bar reaches to the largest dt that does not blow up within 30 s; dots are the runs.", stabilityMap(context)),
+      split
+        ? part(
+            "scheme",
+            "Scheme or engine?",
+            "The core repeats an engine's published scheme at the same step. What that twin is off from the truth is the scheme's; only what the engine is off from its twin is unexplained.",
+            split,
+          )
+        : null,
+      converged
+        ? part(
+            "convergence",
+            "Convergence",
+            "Error against step size; the figure behind a name is the order fitted.",
+            converged,
+          )
+        : null,
+      worked
+        ? part(
+            "work",
+            "Work and precision",
+            "Error against CPU time per simulated second: lower and further left is better.",
+            worked,
+          )
+        : null,
+      part(
+        "stability",
+        "Stability",
+        "Each bar reaches to the largest dt that does not blow up within 30 s; dots are the runs.",
+        stabilityMap(context),
+      ),
       part("gates", "Gates", null, gatesTable(context)),
       part("settings", "Settings in force", "As read back from each engine in this case.", settingsTable(context)),
-      part("file", "The case file", null, sceneFile(this.one)));
+      part("file", "The case file", null, sceneFile(this.one)),
+    );
   }
 
   follow(changed) {
@@ -149,17 +257,35 @@ export class CaseView {
   }
 
   key(event) {
-    const at = this.results.cases.indexOf(this.one), { player } = this;
+    const at = this.results.cases.indexOf(this.one),
+      { player } = this;
     const digit = "1234567890".indexOf(event.code.startsWith("Digit") ? event.code.slice(5) : event.key);
     if (digit >= 0 && this.runnable[digit]) return this.toggle(this.runnable[digit], event.shiftKey), true;
     const onButton = event.target.closest?.("button, a, summary");
     const actions = {
-      " ": () => player.toggle(), ArrowLeft: () => player.step(event.shiftKey ? -10 : -1), ArrowRight: () => player.step(event.shiftKey ? 10 : 1),
-      Home: () => player.seek(0), End: () => player.seek(this.one.duration), a: () => this.show(this.runnable), n: () => this.show([]),
-      o: () => set({ layout: "overlay" }), s: () => set({ layout: "side" }), g: () => this.stage?.flip("truth"), t: () => this.stage?.flip("trails"),
-      c: () => this.stage?.flip("contacts"), "+": () => player.faster(2), "-": () => player.faster(0.5), f: () => this.stage?.frameAll(),
-      l: () => set({ log: !state.log }), z: () => set({ zoom: null }), j: () => this.goTo(at + 1), k: () => this.goTo(at - 1),
-      d: () => set({ dt: this.one.dt[(this.one.dt.findIndex((dt) => dt.text === this.dt.text) + 1) % this.one.dt.length].text }),
+      " ": () => player.toggle(),
+      ArrowLeft: () => player.step(event.shiftKey ? -10 : -1),
+      ArrowRight: () => player.step(event.shiftKey ? 10 : 1),
+      Home: () => player.seek(0),
+      End: () => player.seek(this.one.duration),
+      a: () => this.show(this.runnable),
+      n: () => this.show([]),
+      o: () => set({ layout: "overlay" }),
+      s: () => set({ layout: "side" }),
+      g: () => this.stage?.flip("truth"),
+      t: () => this.stage?.flip("trails"),
+      c: () => this.stage?.flip("contacts"),
+      "+": () => player.faster(2),
+      "-": () => player.faster(0.5),
+      f: () => this.stage?.frameAll(),
+      l: () => set({ log: !state.log }),
+      z: () => set({ zoom: null }),
+      j: () => this.goTo(at + 1),
+      k: () => this.goTo(at - 1),
+      d: () =>
+        set({
+          dt: this.one.dt[(this.one.dt.findIndex((dt) => dt.text === this.dt.text) + 1) % this.one.dt.length].text,
+        }),
       Escape: () => set({ case: "", time: 0, zoom: null }, { push: true }),
     };
     if (!actions[event.key] || (event.key === " " && onButton)) return false;

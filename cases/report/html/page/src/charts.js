@@ -1,14 +1,15 @@
 // Figures over the cells of a case, as SVG: they print, scale and carry their text.
-import { cellOf, errorPoints, hasNumbers, judgement, order, signedMetric } from "./data.js";
+import { cellOf, errorPoints, judgement, order } from "./data.js";
 import { add, el, svg } from "./dom.js";
-import { digits, isNumber, percent, power, quantity, words } from "./format.js";
+import { digits, isNumber, power, quantity, words } from "./format.js";
 import { set } from "./state.js";
 
-const ink = (engine) => `var(--e${engine.index})`;
+export const ink = (engine) => `var(--e${engine.index})`;
 
 // Places on a logarithmic axis; what is zero goes to `from`.
-function decades(from, to, start, end) {
-  const low = Math.log10(from), high = Math.log10(to);
+export function decades(from, to, start, end) {
+  const low = Math.log10(from),
+    high = Math.log10(to);
   const at = (value) => start + ((Math.log10(Math.max(value, from)) - low) / (high - low || 1)) * (end - start);
   const ticks = [];
   const step = Math.max(1, Math.ceil((high - low) / 6));
@@ -16,136 +17,248 @@ function decades(from, to, start, end) {
   return { at, ticks };
 }
 
-const bounds = (values) => {
+export const bounds = (values) => {
   const positive = values.filter((v) => v > 0 && isNumber(v));
   if (!positive.length) return [1e-3, 1];
-  return [10 ** Math.floor(Math.log10(Math.min(...positive)) - 0.01), 10 ** Math.ceil(Math.log10(Math.max(...positive)) + 0.01)];
+  return [
+    10 ** Math.floor(Math.log10(Math.min(...positive)) - 0.01),
+    10 ** Math.ceil(Math.log10(Math.max(...positive)) + 0.01),
+  ];
 };
 
 // Lines through points (x, y) on two logarithmic axes.
 function logLog(lines, { xLabel, yLabel, xTicks, label }) {
-  const width = 560, height = 340, left = 62, right = 12, top = 12, bottom = 44;
-  const xs = bounds(lines.flatMap((l) => l.points.map((p) => p.x))), ys = bounds(lines.flatMap((l) => l.points.map((p) => p.y)));
-  if (xTicks) xs[0] = Math.min(...xTicks.map((t) => t[0])) / 1.4, xs[1] = Math.max(...xTicks.map((t) => t[0])) * 1.4;
+  const width = 560,
+    height = 340,
+    left = 62,
+    right = 12,
+    top = 12,
+    bottom = 44;
+  const xs = bounds(lines.flatMap((l) => l.points.map((p) => p.x))),
+    ys = bounds(lines.flatMap((l) => l.points.map((p) => p.y)));
+  if (xTicks)
+    (xs[0] = Math.min(...xTicks.map((t) => t[0])) / 1.4), (xs[1] = Math.max(...xTicks.map((t) => t[0])) * 1.4);
   const floor = lines.some((l) => l.points.some((p) => !(p.y > 0))) ? ys[0] / 10 : ys[0];
-  const x = decades(xs[0], xs[1], left, width - right), y = decades(floor, ys[1], height - bottom, top);
+  const x = decades(xs[0], xs[1], left, width - right),
+    y = decades(floor, ys[1], height - bottom, top);
   const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "chart", role: "img", "aria-label": label });
   for (const [value, text] of xTicks ?? x.ticks) {
-    add(root, [svg("line", { class: "grid", x1: x.at(value), x2: x.at(value), y1: top, y2: height - bottom }), svg("text", { x: x.at(value), y: height - bottom + 16, "text-anchor": "middle" }, text)]);
+    add(root, [
+      svg("line", { class: "grid", x1: x.at(value), x2: x.at(value), y1: top, y2: height - bottom }),
+      svg("text", { x: x.at(value), y: height - bottom + 16, "text-anchor": "middle" }, text),
+    ]);
   }
   for (const [value, text] of y.ticks) {
-    add(root, [svg("line", { class: "grid", x1: left, x2: width - right, y1: y.at(value), y2: y.at(value) }),
-      svg("text", { x: left - 6, y: y.at(value) + 4, "text-anchor": "end" }, floor < ys[0] && value <= floor * 1.01 ? "0" : text)]);
+    add(root, [
+      svg("line", { class: "grid", x1: left, x2: width - right, y1: y.at(value), y2: y.at(value) }),
+      svg(
+        "text",
+        { x: left - 6, y: y.at(value) + 4, "text-anchor": "end" },
+        floor < ys[0] && value <= floor * 1.01 ? "0" : text,
+      ),
+    ]);
   }
-  add(root, [svg("text", { class: "axis", x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle" }, xLabel), svg("text", { class: "axis", x: 14, y: height / 2, transform: `rotate(-90 14 ${height / 2})`, "text-anchor": "middle" }, yLabel)]);
+  add(root, [
+    svg("text", { class: "axis", x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle" }, xLabel),
+    svg(
+      "text",
+      { class: "axis", x: 14, y: height / 2, transform: `rotate(-90 14 ${height / 2})`, "text-anchor": "middle" },
+      yLabel,
+    ),
+  ]);
   for (const { engine, points } of lines) {
     const places = points.map((p) => `${x.at(p.x).toFixed(1)},${y.at(p.y).toFixed(1)}`).join(" ");
-    add(root, [svg("polyline", { points: places, fill: "none", stroke: ink(engine), "stroke-width": 1.6, "stroke-dasharray": engine.dash?.join(" ") }),
-      points.map((p) => svg("circle", { cx: x.at(p.x), cy: y.at(p.y), r: 4, fill: ink(engine), class: "pick", onclick: () => set({ dt: p.dt }) }, svg("title", {}, `${engine.name}, dt = ${p.dt} s: ${p.text}`)))]);
+    add(root, [
+      svg("polyline", {
+        points: places,
+        fill: "none",
+        stroke: ink(engine),
+        "stroke-width": 1.6,
+        "stroke-dasharray": engine.dash?.join(" "),
+      }),
+      points.map((p) =>
+        svg(
+          "circle",
+          { cx: x.at(p.x), cy: y.at(p.y), r: 4, fill: ink(engine), class: "pick", onclick: () => set({ dt: p.dt }) },
+          svg("title", {}, `${engine.name}, dt = ${p.dt} s: ${p.text}`),
+        ),
+      ),
+    ]);
   }
   return root;
 }
 
-const legend = (rows) => el("ul.chart-legend", {}, rows.map(([engine, text]) => el("li", {}, el("span.swatch", { class: engine.stock ? "swatch is-stock" : "swatch", style: { "--engine": ink(engine) } }), el("span", {}, engine.name), el("b", {}, text))));
+const legend = (rows) =>
+  el(
+    "ul.chart-legend",
+    {},
+    rows.map(([engine, text]) =>
+      el(
+        "li",
+        {},
+        el("span.swatch", { class: engine.stock ? "swatch is-stock" : "swatch", style: { "--engine": ink(engine) } }),
+        el("span", {}, engine.name),
+        el("b", {}, text),
+      ),
+    ),
+  );
 
 const errorsOf = (one) => [...new Set(one.observed_order.map((o) => o.metric))];
 
 export function convergence({ results, one, shown }) {
-  const figures = errorsOf(one).map((metric) => {
-    const unit = results.units[metric];
-    const lines = shown.map((engine) => ({ engine, points: errorPoints(one, engine.name, metric).map((p) => ({ x: p.seconds, y: p.error, dt: p.dt, text: quantity(p.error, unit) })) })).filter((l) => l.points.length);
-    if (!lines.length || one.dt.length < 2) return null;
-    const fitted = (engine) => {
-      const found = order(one, engine.name, metric);
-      return isNumber(found?.value) ? `order ${digits(Math.round(100 * found.value) / 100)}` : "no order";
-    };
-    return el("figure.wide", {}, el("figcaption", {}, words(metric)), logLog(lines, { xLabel: "dt [s]", yLabel: `${words(metric)} [${unit}]`, xTicks: one.dt.map((dt) => [dt.seconds, dt.text]), label: `${words(metric)} against step size` }),
-      legend(lines.map(({ engine }) => [engine, fitted(engine)])));
-  }).filter(Boolean);
+  const figures = errorsOf(one)
+    .map((metric) => {
+      const unit = results.units[metric];
+      const lines = shown
+        .map((engine) => ({
+          engine,
+          points: errorPoints(one, engine.name, metric).map((p) => ({
+            x: p.seconds,
+            y: p.error,
+            dt: p.dt,
+            text: quantity(p.error, unit),
+          })),
+        }))
+        .filter((l) => l.points.length);
+      if (!lines.length || one.dt.length < 2) return null;
+      const fitted = (engine) => {
+        const found = order(one, engine.name, metric);
+        return isNumber(found?.value) ? `order ${digits(Math.round(100 * found.value) / 100)}` : "no order";
+      };
+      return el(
+        "figure.wide",
+        {},
+        el("figcaption", {}, words(metric)),
+        logLog(lines, {
+          xLabel: "dt [s]",
+          yLabel: `${words(metric)} [${unit}]`,
+          xTicks: one.dt.map((dt) => [dt.seconds, dt.text]),
+          label: `${words(metric)} against step size`,
+        }),
+        legend(lines.map(({ engine }) => [engine, fitted(engine)])),
+      );
+    })
+    .filter(Boolean);
   return figures.length ? el("div.figures", {}, figures) : null;
 }
 
 export function workPrecision({ results, one, shown }) {
-  const figures = errorsOf(one).map((metric) => {
-    const unit = results.units[metric];
-    const lines = shown.map((engine) => ({ engine, points: errorPoints(one, engine.name, metric).filter((p) => p.cost > 0).map((p) => ({ x: p.cost, y: p.error, dt: p.dt, text: `${quantity(p.error, unit)} for ${quantity(p.cost, "s")} of CPU a second` })) })).filter((l) => l.points.length);
-    if (!lines.length) return null;
-    const best = (one.work_precision.find((w) => w.metric === metric)?.best_of_core ?? []).filter((b) => b.times_less);
-    return el("figure.wide", {}, el("figcaption", {}, words(metric)), logLog(lines, { xLabel: "CPU time per simulated second [s/s]", yLabel: `${words(metric)} [${unit}]`, label: `${words(metric)} against CPU time` }),
-      best.map((b) => el("p.fine", {}, `At the cost of ${b.baseline}, ${b.engine} errs ${digits(b.times_less, 2)} times less (${b.cells_compared} of ${b.cells} step sizes compared).`)));
-  }).filter(Boolean);
+  const figures = errorsOf(one)
+    .map((metric) => {
+      const unit = results.units[metric];
+      const lines = shown
+        .map((engine) => ({
+          engine,
+          points: errorPoints(one, engine.name, metric)
+            .filter((p) => p.cost > 0)
+            .map((p) => ({
+              x: p.cost,
+              y: p.error,
+              dt: p.dt,
+              text: `${quantity(p.error, unit)} for ${quantity(p.cost, "s")} of CPU a second`,
+            })),
+        }))
+        .filter((l) => l.points.length);
+      if (!lines.length) return null;
+      const best = (one.work_precision.find((w) => w.metric === metric)?.best_of_core ?? []).filter(
+        (b) => b.times_less,
+      );
+      return el(
+        "figure.wide",
+        {},
+        el("figcaption", {}, words(metric)),
+        logLog(lines, {
+          xLabel: "CPU time per simulated second [s/s]",
+          yLabel: `${words(metric)} [${unit}]`,
+          label: `${words(metric)} against CPU time`,
+        }),
+        best.map((b) =>
+          el(
+            "p.fine",
+            {},
+            `At the cost of ${b.baseline}, ${b.engine} errs ${digits(b.times_less, 2)} times less (${b.cells_compared} of ${b.cells} step sizes compared).`,
+          ),
+        ),
+      );
+    })
+    .filter(Boolean);
   return figures.length ? el("div.figures", {}, figures) : null;
 }
 
 // A bar an engine, up to its largest stable dt; on it the runs there were.
 export function stabilityMap({ one, shown, results }) {
-  const engines = results.engines.filter((e) => one.stable.get(e.name) && (shown.includes(e) || cellOf(one, e.name, one.coarsest.text)));
+  const engines = results.engines.filter(
+    (e) => one.stable.get(e.name) && (shown.includes(e) || cellOf(one, e.name, one.coarsest.text)),
+  );
   const known = engines.map((e) => one.stable.get(e.name).dt).filter(isNumber);
   const all = [...known, ...one.dt.map((dt) => dt.seconds), 1 / 30].filter((v) => v > 0);
-  const width = 860, left = 210, right = 96, row = 22, top = 26, height = top + row * engines.length + 12;
+  const width = 860,
+    left = 210,
+    right = 96,
+    row = 22,
+    top = 26,
+    height = top + row * engines.length + 12;
   const x = decades(Math.min(...all) / 2, Math.max(...all) * 1.6, left, width - right);
-  const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "chart stability", role: "img", "aria-label": "Largest stable step of each engine" });
+  const root = svg("svg", {
+    viewBox: `0 0 ${width} ${height}`,
+    class: "chart stability",
+    role: "img",
+    "aria-label": "Largest stable step of each engine",
+  });
   for (const dt of [...one.dt.map((d) => [d.seconds, d.text])]) {
-    add(root, [svg("line", { class: "grid", x1: x.at(dt[0]), x2: x.at(dt[0]), y1: top - 6, y2: height - 8 }), svg("text", { x: x.at(dt[0]), y: 14, "text-anchor": "middle" }, dt[1])]);
+    add(root, [
+      svg("line", { class: "grid", x1: x.at(dt[0]), x2: x.at(dt[0]), y1: top - 6, y2: height - 8 }),
+      svg("text", { x: x.at(dt[0]), y: 14, "text-anchor": "middle" }, dt[1]),
+    ]);
   }
   engines.forEach((engine, i) => {
-    const y = top + i * row, stable = one.stable.get(engine.name), middle = y + row / 2;
-    const known = isNumber(stable.dt), end = known ? x.at(stable.dt) : left;
-    const text = known ? `${stable.is_cap ? "≥ " : stable.is_floor ? "< " : ""}${quantity(stable.dt, "s")}` : stable.status;
-    add(root, [svg("text", { x: left - 10, y: middle + 4, "text-anchor": "end", class: shown.includes(engine) ? "strong" : "" }, engine.name),
-      known && !stable.is_floor ? svg("rect", { x: left, y: y + 4, width: Math.max(0, end - left), height: row - 8, rx: 3, fill: ink(engine), opacity: 0.3 }) : null,
-      known && !stable.is_floor && !stable.is_cap ? svg("line", { x1: end, x2: end, y1: y + 2, y2: y + row - 2, stroke: ink(engine), "stroke-width": 2.5 }) : null,
-      svg("text", { x: Math.max(end, left) + 8, y: middle + 4, class: "strong" }, text, svg("title", {}, stable.reason || "")),
-      one.cells.filter((c) => c.engine === engine.name).map((cell) => {
-        const verdict = judgement(cell);
-        return svg("g", { class: `dot is-${verdict.kind}`, transform: `translate(${x.at(cell.dt_seconds)} ${middle})` }, svg("circle", { r: 6.5 }), svg("text", { y: 3.5, "text-anchor": "middle" }, verdict.sign), svg("title", {}, `${engine.name}, dt = ${cell.dt} s: ${verdict.word}`));
-      })]);
+    const y = top + i * row,
+      stable = one.stable.get(engine.name),
+      middle = y + row / 2;
+    const known = isNumber(stable.dt),
+      end = known ? x.at(stable.dt) : left;
+    const text = known
+      ? `${stable.is_cap ? "≥ " : stable.is_floor ? "< " : ""}${quantity(stable.dt, "s")}`
+      : stable.status;
+    add(root, [
+      svg(
+        "text",
+        { x: left - 10, y: middle + 4, "text-anchor": "end", class: shown.includes(engine) ? "strong" : "" },
+        engine.name,
+      ),
+      known && !stable.is_floor
+        ? svg("rect", {
+            x: left,
+            y: y + 4,
+            width: Math.max(0, end - left),
+            height: row - 8,
+            rx: 3,
+            fill: ink(engine),
+            opacity: 0.3,
+          })
+        : null,
+      known && !stable.is_floor && !stable.is_cap
+        ? svg("line", { x1: end, x2: end, y1: y + 2, y2: y + row - 2, stroke: ink(engine), "stroke-width": 2.5 })
+        : null,
+      svg(
+        "text",
+        { x: Math.max(end, left) + 8, y: middle + 4, class: "strong" },
+        text,
+        svg("title", {}, stable.reason || ""),
+      ),
+      one.cells
+        .filter((c) => c.engine === engine.name)
+        .map((cell) => {
+          const verdict = judgement(cell);
+          return svg(
+            "g",
+            { class: `dot is-${verdict.kind}`, transform: `translate(${x.at(cell.dt_seconds)} ${middle})` },
+            svg("circle", { r: 6.5 }),
+            svg("text", { y: 3.5, "text-anchor": "middle" }, verdict.sign),
+            svg("title", {}, `${engine.name}, dt = ${cell.dt} s: ${verdict.word}`),
+          );
+        }),
+    ]);
   });
   return el("div.scroll", {}, root);
-}
-
-// For each run with a twin: the whole error, the scheme's part and what is left, on one logarithmic line.
-export function schemeSplit({ results, one, dt }) {
-  const rows = [["position_error", "unexplained_error"], ["orientation_error", "unexplained_rotation"]];
-  const cells = results.engines.map((engine) => [engine, cellOf(one, engine.name, dt.text)]).filter(([, cell]) => cell?.by_scheme && hasNumbers(cell));
-  if (!cells.length) return null;
-  const size = (metrics, name) => (isNumber(metrics?.[name]?.value) ? metrics[name].value : null);
-  const tables = rows.map(([total, rest]) => {
-    const unit = results.units[total];
-    const values = cells.map(([engine, cell]) => ({ engine, total: size(cell.metrics, total), scheme: size(cell.by_scheme.metrics, total), rest: size(cell.metrics, rest), until: cell.metrics[rest]?.compared_until }))
-      .filter((v) => v.total !== null && v.scheme !== null);
-    if (!values.length || !values.some((v) => v.total > 1e-12)) return null;
-    const range = bounds(values.flatMap((v) => [v.total, v.scheme, v.rest ?? 0]).map((v) => Math.max(v, 1e-17)));
-    return el("table.plain.split", {}, el("caption", {}, words(total)),
-      el("thead", {}, el("tr", {}, ["run", "total", "by its scheme", "unexplained", ""].map((t) => el("th", { scope: "col" }, t)))),
-      el("tbody", {}, values.map((v) => el("tr", {}, el("th", { scope: "row" }, v.engine.name), el("td", {}, quantity(v.total, unit)), el("td", {}, quantity(v.scheme, unit)),
-        el("td", { title: isNumber(v.until) ? `compared until ${v.until.toFixed(2)} s` : "" }, v.rest === null ? "–" : quantity(v.rest, unit)), el("td.strip", {}, strip(v, range))))));
-  });
-  return el("div.figures", {}, [...tables, energySplit(cells)].filter(Boolean).map((table) => el("div.scroll", {}, table)));
-}
-
-function strip({ engine, total, scheme, rest }, range) {
-  const width = 240, x = decades(range[0], range[1], 8, width - 8);
-  const mark = (value, shape) => (value === null ? null : svg("g", { transform: `translate(${x.at(Math.max(value, range[0]))} 10)` }, shape));
-  return svg("svg", { viewBox: `0 0 ${width} 20`, class: "chart", role: "img", "aria-label": "total, scheme and unexplained on a logarithmic line" },
-    svg("line", { class: "grid", x1: 8, x2: width - 8, y1: 10, y2: 10 }),
-    mark(total, svg("circle", { r: 6, fill: "none", stroke: ink(engine), "stroke-width": 2 }, svg("title", {}, "total"))),
-    mark(scheme, svg("circle", { r: 3, fill: ink(engine) }, svg("title", {}, "by its scheme"))),
-    mark(rest, svg("path", { d: "M-5,-5L5,5M-5,5L5,-5", stroke: "var(--bad)", "stroke-width": 2 }, svg("title", {}, "unexplained"))));
-}
-
-// Where the energy goes: the engine's, its scheme's, and that of the scheme without its gyroscopic term.
-function energySplit(cells) {
-  const name = "energy_drift";
-  const rows = cells.map(([engine, cell]) => [engine, signedMetric(cell.metrics, name), signedMetric(cell.by_scheme.metrics, name), signedMetric(cell.by_scheme.without_gyroscopic_term, name)]).filter(([, total]) => total !== null);
-  if (!rows.some(([, total]) => Math.abs(total) > 1e-9)) return null;
-  const sentence = (total, scheme, without) => {
-    if (scheme === null || Math.abs(total) < 1e-9) return "";
-    if (Math.abs(total - scheme) > 0.01 * Math.abs(total)) return `its scheme explains ${percent(scheme / total)} of it`;
-    if (without !== null && Math.abs(without) < 0.1 * Math.abs(total)) return "all of it is the gyroscopic term of its scheme";
-    return "all of it is its scheme";
-  };
-  return el("table.plain.split", {}, el("caption", {}, "energy, largest drift"),
-    el("thead", {}, el("tr", {}, ["run", "total", "by its scheme", "scheme without gyroscopic term", "where it goes"].map((t) => el("th", { scope: "col" }, t)))),
-    el("tbody", {}, rows.map(([engine, total, scheme, without]) => el("tr", {}, el("th", { scope: "row" }, engine.name), [total, scheme, without].map((v) => el("td", {}, v === null ? "–" : percent(v))), el("td.text", {}, sentence(total, scheme, without))))));
 }

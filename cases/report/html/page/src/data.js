@@ -27,7 +27,13 @@ function indexed(results, playback) {
   giveColours(results.engines);
   results.caseById = new Map();
   results.cases.forEach((one, i) => {
-    Object.assign(one, { index: i, cells: [], stable: new Map(), truthPlayback: playback.cases[i].truth, main: one.main_error ?? "position_error" });
+    Object.assign(one, {
+      index: i,
+      cells: [],
+      stable: new Map(),
+      truthPlayback: playback.cases[i].truth,
+      main: one.main_error ?? "position_error",
+    });
     one.family = one.id.includes("/") ? one.id.slice(0, one.id.lastIndexOf("/")) : "";
     one.coarsest = one.dt.reduce((a, b) => (b.seconds > a.seconds ? b : a));
     results.caseById.set(one.id, one);
@@ -44,21 +50,29 @@ function indexed(results, playback) {
 
 // Engines that are not ours have the warm and the strong colours; the stock track of one is its dashed twin.
 function giveColours(engines) {
-  const strong = [[28, 0.17], [252, 0.16], [328, 0.19], [85, 0.15], [190, 0.12]];
+  const strong = [
+    [28, 0.17],
+    [252, 0.16],
+    [328, 0.19],
+    [85, 0.15],
+    [190, 0.12],
+  ];
   const calm = [145, 290, 215, 60, 350, 110, 265, 170, 20, 310, 235, 130];
   const foreign = new Map();
   let own = 0;
   for (const engine of engines) {
     let hue, chroma;
     if (engine.core) {
-      hue = calm[own % calm.length], chroma = 0.1 + 0.03 * (own % 2), engine.step = own++ % 3;
+      (hue = calm[own % calm.length]), (chroma = 0.1 + 0.03 * (own % 2)), (engine.step = own++ % 3);
     } else {
       const family = engine.engine ?? engine.name;
       if (!foreign.has(family)) foreign.set(family, strong[foreign.size % strong.length]);
-      [hue, chroma] = foreign.get(family), engine.step = 0;
+      ([hue, chroma] = foreign.get(family)), (engine.step = 0);
     }
     engine.colours = [
-      `oklch(${0.55 + 0.07 * engine.step} ${chroma} ${hue})`, `oklch(${0.72 + 0.06 * engine.step} ${chroma} ${hue})`];
+      `oklch(${0.55 + 0.07 * engine.step} ${chroma} ${hue})`,
+      `oklch(${0.72 + 0.06 * engine.step} ${chroma} ${hue})`,
+    ];
     engine.hex = [toHex(0.55 + 0.07 * engine.step, chroma, hue), toHex(0.72 + 0.06 * engine.step, chroma, hue)];
     engine.dash = engine.stock ? [5, 4] : null;
   }
@@ -66,13 +80,16 @@ function giveColours(engines) {
 
 // Oklch to sRGB, for canvases and WebGL (B. Ottosson, "A perceptual color space for image processing", 2020).
 function toHex(lightness, chroma, hue) {
-  const a = chroma * Math.cos((hue * Math.PI) / 180), b = chroma * Math.sin((hue * Math.PI) / 180);
+  const a = chroma * Math.cos((hue * Math.PI) / 180),
+    b = chroma * Math.sin((hue * Math.PI) / 180);
   const l = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3;
   const m = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3;
   const s = (lightness - 0.0894841775 * a - 1.291485548 * b) ** 3;
   const linear = [
-    4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s, -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-    -0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s];
+    4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+    -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+    -0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s,
+  ];
   const byte = (v) => {
     const c = Math.min(1, Math.max(0, v));
     return Math.round(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055));
@@ -110,15 +127,28 @@ export function judgement(cell) {
   if (!cell) return { kind: "none", sign: "", word: "not run" };
   const failed = (cell.gates ?? []).filter((gate) => gate.answer === "failed").length;
   switch (cell.status) {
-    case "unsupported": return { kind: "none", sign: "–", word: "unsupported" };
-    case "diverged": return { kind: "bad", sign: "✕", word: cell.verdict ? `blown up ${cell.verdict.time?.toFixed(2) ?? ""} s` : "blown up" };
-    case "known-deviation": return { kind: "known", sign: "◆", word: "known deviation" };
-    case "unexpected-pass": return { kind: "drift", sign: "◇", word: "unexpected pass" };
-    case "fail": return { kind: "bad", sign: "✕", word: failed > 1 ? `${failed} gates failed` : "gate failed" };
-    case "pass": break;
-    default: return { kind: "bad", sign: "!", word: cell.status.replace("-", " ") };
+    case "unsupported":
+      return { kind: "none", sign: "–", word: "unsupported" };
+    case "diverged":
+      return {
+        kind: "bad",
+        sign: "✕",
+        word: cell.verdict ? `blown up ${cell.verdict.time?.toFixed(2) ?? ""} s` : "blown up",
+      };
+    case "known-deviation":
+      return { kind: "known", sign: "◆", word: "known deviation" };
+    case "unexpected-pass":
+      return { kind: "drift", sign: "◇", word: "unexpected pass" };
+    case "fail":
+      return { kind: "bad", sign: "✕", word: failed > 1 ? `${failed} gates failed` : "gate failed" };
+    case "pass":
+      break;
+    default:
+      return { kind: "bad", sign: "!", word: cell.status.replace("-", " ") };
   }
-  return cell.verdict?.word === "drifting" ? { kind: "drift", sign: "≈", word: "drifting" } : { kind: "good", sign: "✓", word: "stable" };
+  return cell.verdict?.word === "drifting"
+    ? { kind: "drift", sign: "≈", word: "drifting" }
+    : { kind: "good", sign: "✓", word: "stable" };
 }
 
 export const hasNumbers = (cell) => cell && cell.status !== "diverged" && Object.keys(cell.metrics ?? {}).length > 0;
@@ -127,7 +157,13 @@ export const hasNumbers = (cell) => cell && cell.status !== "diverged" && Object
 export function errorPoints(one, engine, metric) {
   return one.cells
     .filter((c) => c.engine === engine && hasNumbers(c) && metricOf(c, metric) !== null)
-    .map((c) => ({ dt: c.dt, seconds: c.dt_seconds, error: metricOf(c, metric), cost: c.cpu_seconds / one.duration, cell: c }))
+    .map((c) => ({
+      dt: c.dt,
+      seconds: c.dt_seconds,
+      error: metricOf(c, metric),
+      cost: c.cpu_seconds / one.duration,
+      cell: c,
+    }))
     .sort((a, b) => b.seconds - a.seconds);
 }
 
@@ -139,7 +175,8 @@ export function stepFor(one, engine, metric, tolerance) {
   const at = points.findIndex((p) => p.error <= tolerance);
   if (at < 0) return { mark: "<", seconds: points.at(-1).seconds };
   if (at === 0) return { mark: points[0].seconds === one.coarsest.seconds ? "≥" : "", seconds: points[0].seconds };
-  const a = points[at - 1], b = points[at];
+  const a = points[at - 1],
+    b = points[at];
   if (!(b.error > 0)) return { mark: "", seconds: b.seconds };
   const slope = Math.log(a.error / b.error) / Math.log(a.seconds / b.seconds);
   return { mark: "", seconds: b.seconds * (tolerance / b.error) ** (1 / slope) };
@@ -151,4 +188,5 @@ export function median(values) {
   return sorted[Math.floor(sorted.length / 2)];
 }
 
-export const order = (one, engine, metric) => one.observed_order.find((o) => o.engine === engine && o.metric === metric);
+export const order = (one, engine, metric) =>
+  one.observed_order.find((o) => o.engine === engine && o.metric === metric);

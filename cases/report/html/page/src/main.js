@@ -12,12 +12,26 @@ const page = document.getElementById("page");
 function header(results) {
   const { cases, engines } = results;
   const count = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
-  return el("header.top", {},
-    el("a.brand", { href: "#/", onclick: (event) => (event.preventDefault(), set({ case: "", time: 0, zoom: null }, { push: true })) }, "Rigor"),
-    el("span.tagline", {}, `${count(cases.length, "case")} · ${count(engines.length, "engine")} · how right each one was`),
+  return el(
+    "header.top",
+    {},
+    el(
+      "a.brand",
+      {
+        href: "#/",
+        onclick: (event) => (event.preventDefault(), set({ case: "", time: 0, zoom: null }, { push: true })),
+      },
+      "Rigor",
+    ),
+    el(
+      "span.tagline",
+      {},
+      `${count(cases.length, "case")} · ${count(engines.length, "engine")} · how right each one was`,
+    ),
     el("span.spacer"),
     el("button.quiet", { type: "button", title: "Keys (?)", onclick: openHelp, "aria-label": "Keys and help" }, "?"),
-    themeButton());
+    themeButton(),
+  );
 }
 
 // Each engine's colour, in light and dark, under a name that style sheets can use.
@@ -27,14 +41,25 @@ function engineColours(engines) {
 }
 
 function unknownCase(results) {
-  return el("section", {}, el("h1", {}, "No such case"),
-    el("p", {}, `This report has no case “${state.case}”. `, el("a", { href: "#/" }, "All cases")));
+  return el(
+    "section",
+    {},
+    el("h1", {}, "No such case"),
+    el("p", {}, `This report has no case “${state.case}”. `, el("a", { href: "#/" }, "All cases")),
+  );
 }
 
 async function start() {
   applyTheme();
   if (typeof DecompressionStream === "undefined") {
-    replace(page, el("p", {}, "This browser is too old for the report: it has no DecompressionStream (Chrome 80, Firefox 113, Safari 16.4). report.md says the same in words."));
+    replace(
+      page,
+      el(
+        "p",
+        {},
+        "This browser is too old for the report: it has no DecompressionStream (Chrome 80, Firefox 113, Safari 16.4). report.md says the same in words.",
+      ),
+    );
     return;
   }
   const results = await loadResults();
@@ -52,7 +77,9 @@ async function start() {
     else replace(body, unknownCase(results));
     window.scrollTo(0, 0);
   };
-  onChange((changed) => { if (changed.has("case")) show(); });
+  onChange((changed) => {
+    if (changed.has("case")) show();
+  });
   window.addEventListener("keydown", (event) => {
     const isTyping = event.target.closest?.("input, select, textarea, dialog");
     if (isTyping || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -67,5 +94,8 @@ async function start() {
 
 start().catch((error) => {
   console.error(error);
-  replace(page, el("p", {}, `The report could not be shown: ${error.message}. report.md and results.json say the same.`));
+  replace(
+    page,
+    el("p", {}, `The report could not be shown: ${error.message}. report.md and results.json say the same.`),
+  );
 });

@@ -4,11 +4,16 @@ import { el, replace } from "./dom.js";
 import { digits, engineParts, isNumber, percent, quantity, words } from "./format.js";
 import { address, onChange, set, state } from "./state.js";
 
-const shownAside = { main: "the error that matters", stable: "largest stable dt", step: "dt needed for a tolerance", cost: "CPU time" };
+const shownAside = {
+  main: "the error that matters",
+  stable: "largest stable dt",
+  step: "dt needed for a tolerance",
+  cost: "CPU time",
+};
 
 export class Overview {
   constructor(results, root) {
-    this.results = results, this.root = root, this.filter = "";
+    (this.results = results), (this.root = root), (this.filter = "");
     this.table = el("div.matrix-scroll", { tabindex: -1 });
     replace(root, this.intro(), this.controls(), this.table, this.legend(), this.details());
     this.draw();
@@ -16,137 +21,346 @@ export class Overview {
       if (["dt", "show", "tolerance"].some((key) => changed.has(key))) this.draw();
     });
   }
-  close() { this.stop(); }
+  close() {
+    this.stop();
+  }
 
-  get dt() { return this.results.dts.find((dt) => dt.text === state.dt) ?? this.results.dts.find((dt) => dt.text === this.results.headline_dt) ?? this.results.dts[0]; }
+  get dt() {
+    return (
+      this.results.dts.find((dt) => dt.text === state.dt) ??
+      this.results.dts.find((dt) => dt.text === this.results.headline_dt) ??
+      this.results.dts[0]
+    );
+  }
 
   intro() {
     const { findings, cells } = this.results;
     const counts = new Map();
     for (const cell of cells) counts.set(cell.status, (counts.get(cell.status) ?? 0) + 1);
     const status = [...counts].map(([word, n]) => `${n} ${word}`).join(", ");
-    return el("section.intro", {},
+    return el(
+      "section.intro",
+      {},
       el("h1", {}, "How right each engine was"),
-      findings.length ? el("ul.findings", {}, findings.map((text) => el("li", {}, text))) : null,
-      el("p.fine", {}, `${cells.length} cells: ${status}.`));
+      findings.length
+        ? el(
+            "ul.findings",
+            {},
+            findings.map((text) => el("li", {}, text)),
+          )
+        : null,
+      el("p.fine", {}, `${cells.length} cells: ${status}.`),
+    );
   }
 
   controls() {
     const select = (label, value, options, onchange) =>
-      el("label.control", {}, el("span", {}, label),
-        el("select", { onchange: (event) => onchange(event.target.value) },
-          options.map(([key, text]) => el("option", { value: key, selected: key === value }, text))));
-    const measured = this.results.metrics.map((m) => m.name).filter((name) => this.results.cells.some((c) => metricOf(c, name) !== null));
+      el(
+        "label.control",
+        {},
+        el("span", {}, label),
+        el(
+          "select",
+          { onchange: (event) => onchange(event.target.value) },
+          options.map(([key, text]) => el("option", { value: key, selected: key === value }, text)),
+        ),
+      );
+    const measured = this.results.metrics
+      .map((m) => m.name)
+      .filter((name) => this.results.cells.some((c) => metricOf(c, name) !== null));
     const tolerances = [1e-4, 1e-3, 1e-2, 1e-1];
-    return el("div.controls", {},
-      select("Step", this.dt.text, this.results.dts.map((dt) => [dt.text, `dt = ${dt.text} s`]), (dt) => set({ dt })),
-      select("Show", state.show, [...Object.entries(shownAside), ...measured.map((name) => [name, words(name)])], (show) => set({ show })),
-      select("Tolerance", String(state.tolerance), tolerances.map((t) => [String(t), `${quantity(t, "m")} or ${quantity(t, "rad")}`]), (t) => set({ tolerance: Number(t) })),
-      el("label.control", {}, el("span", {}, "Cases"),
-        el("input", { type: "search", placeholder: "filter by name", oninput: (event) => { this.filter = event.target.value.toLowerCase(); this.draw(); } })));
+    return el(
+      "div.controls",
+      {},
+      select(
+        "Step",
+        this.dt.text,
+        this.results.dts.map((dt) => [dt.text, `dt = ${dt.text} s`]),
+        (dt) => set({ dt }),
+      ),
+      select(
+        "Show",
+        state.show,
+        [...Object.entries(shownAside), ...measured.map((name) => [name, words(name)])],
+        (show) => set({ show }),
+      ),
+      select(
+        "Tolerance",
+        String(state.tolerance),
+        tolerances.map((t) => [String(t), `${quantity(t, "m")} or ${quantity(t, "rad")}`]),
+        (t) => set({ tolerance: Number(t) }),
+      ),
+      el(
+        "label.control",
+        {},
+        el("span", {}, "Cases"),
+        el("input", {
+          type: "search",
+          placeholder: "filter by name",
+          oninput: (event) => {
+            this.filter = event.target.value.toLowerCase();
+            this.draw();
+          },
+        }),
+      ),
+    );
   }
 
   legend() {
     const item = (kind, sign, text) => el("span.key", {}, el(`span.swatch.is-${kind}`, {}, sign), text);
-    return el("p.legend", {}, item("good", "✓", "stable"), item("drift", "≈", "drifting: its mean energy moved by more than 1 %, or an unexpected pass"),
-      item("bad", "✕", "blown up, crashed, or a gate failed"), item("known", "◆", "known deviation"), item("none", "–", "cannot be run on this engine"));
+    return el(
+      "p.legend",
+      {},
+      item("good", "✓", "stable"),
+      item("drift", "≈", "drifting: its mean energy moved by more than 1 %, or an unexpected pass"),
+      item("bad", "✕", "blown up, crashed, or a gate failed"),
+      item("known", "◆", "known deviation"),
+      item("none", "–", "cannot be run on this engine"),
+    );
   }
 
   details() {
     const { machine, program, engines, wall_seconds: wall } = this.results;
-    return el("details.about", {}, el("summary", {}, "Machine, versions and methods"),
-      el("p", {}, `rigor ${program.version} on ${machine.cpu} (${machine.cores} cores), ${machine.compiler}, ${machine.build_type} build; ${digits(wall)} s.`),
-      el("div.scroll", {}, el("table.plain", {},
-        el("thead", {}, el("tr", {}, ["run", "engine", "version", "precision", "method", "order", "symplectic"].map((t) => el("th", {}, t)))),
-        el("tbody", {}, engines.map((e) => el("tr", {}, el("th", { scope: "row" }, e.name), el("td", {}, e.engine), el("td", {}, e.version), el("td", {}, e.precision),
-          el("td", {}, e.method), el("td", {}, e.order), el("td", {}, e.symplectic ? "yes" : "no")))))),
-      el("p.fine", {}, "The settings in force, as read back from each engine, stand in every case. The full precision of each run is in trajectories/*.csv, everything shown here in results.json."));
+    return el(
+      "details.about",
+      {},
+      el("summary", {}, "Machine, versions and methods"),
+      el(
+        "p",
+        {},
+        `rigor ${program.version} on ${machine.cpu} (${machine.cores} cores), ${machine.compiler}, ${machine.build_type} build; ${digits(wall)} s.`,
+      ),
+      el(
+        "div.scroll",
+        {},
+        el(
+          "table.plain",
+          {},
+          el(
+            "thead",
+            {},
+            el(
+              "tr",
+              {},
+              ["run", "engine", "version", "precision", "method", "order", "symplectic"].map((t) => el("th", {}, t)),
+            ),
+          ),
+          el(
+            "tbody",
+            {},
+            engines.map((e) =>
+              el(
+                "tr",
+                {},
+                el("th", { scope: "row" }, e.name),
+                el("td", {}, e.engine),
+                el("td", {}, e.version),
+                el("td", {}, e.precision),
+                el("td", {}, e.method),
+                el("td", {}, e.order),
+                el("td", {}, e.symplectic ? "yes" : "no"),
+              ),
+            ),
+          ),
+        ),
+      ),
+      el(
+        "p.fine",
+        {},
+        "The settings in force, as read back from each engine, stand in every case. The full precision of each run is in trajectories/*.csv, everything shown here in results.json.",
+      ),
+    );
   }
 
   draw() {
-    const cases = this.results.cases.filter((c) => !this.filter || `${c.id} ${c.title}`.toLowerCase().includes(this.filter));
+    const cases = this.results.cases.filter(
+      (c) => !this.filter || `${c.id} ${c.title}`.toLowerCase().includes(this.filter),
+    );
     const engines = this.results.engines.filter((e) => this.results.cells.some((c) => c.engine === e.name));
     const families = new Map();
     for (const one of cases) families.set(one.family, [...(families.get(one.family) ?? []), one]);
-    const table = el("table.matrix", { "aria-label": `Cases by engines at dt = ${this.dt.text} s` },
-      el("caption", {}, this.caption()), this.head(engines), this.summary(cases, engines));
+    const table = el(
+      "table.matrix",
+      { "aria-label": `Cases by engines at dt = ${this.dt.text} s` },
+      el("caption", {}, this.caption()),
+      this.head(engines),
+      this.summary(cases, engines),
+    );
     for (const [family, members] of [...families].sort((a, b) => (a[0] < b[0] ? -1 : 1))) {
-      table.append(el("tbody", {}, el("tr.family", {}, el("th", { scope: "rowgroup", colspan: engines.length + 1 }, el("span", {}, family || "cases"))),
-        members.map((one) => this.row(one, engines))));
+      table.append(
+        el(
+          "tbody",
+          {},
+          el(
+            "tr.family",
+            {},
+            el("th", { scope: "rowgroup", colspan: engines.length + 1 }, el("span", {}, family || "cases")),
+          ),
+          members.map((one) => this.row(one, engines)),
+        ),
+      );
     }
     replace(this.table, cases.length ? table : el("p", {}, "No case has that in its name."));
   }
 
   caption() {
     const what = shownAside[state.show] ?? words(state.show);
-    const tolerance = state.show === "step" ? ` of ${quantity(state.tolerance, "m")} or ${quantity(state.tolerance, "rad")}` : "";
-    const main = "the position's; the orientation's where nothing moves away; the energy's drift where there is no truth";
-    return [el("b", {}, `dt = ${this.dt.text} s: ${what}${tolerance}`), " ", el("span.fine", {}, state.show === "main" ? main : this.results.summaries[state.show] ?? "")];
+    const tolerance =
+      state.show === "step" ? ` of ${quantity(state.tolerance, "m")} or ${quantity(state.tolerance, "rad")}` : "";
+    const main =
+      "the position's; the orientation's where nothing moves away; the energy's drift where there is no truth";
+    return [
+      el("b", {}, `dt = ${this.dt.text} s: ${what}${tolerance}`),
+      " ",
+      el("span.fine", {}, state.show === "main" ? main : (this.results.summaries[state.show] ?? "")),
+    ];
   }
 
   head(engines) {
-    return el("thead", {}, el("tr", {}, el("th.corner", { scope: "col" }, "case"),
-      engines.map((engine) => {
-        const [who, method] = engineParts(engine.name);
-        return el("th.engine", { scope: "col", title: `${engine.name}: ${engine.engine ?? ""} ${engine.version ?? ""}` },
-          el("span.stripe", { style: { "--engine": `var(--e${engine.index})` } }), el("span.who", {}, who.replace("@", " @\u200b")),
-          method ? el("span.method", {}, method.replaceAll("-", "-\u200b")) : null);
-      })));
+    return el(
+      "thead",
+      {},
+      el(
+        "tr",
+        {},
+        el("th.corner", { scope: "col" }, "case"),
+        engines.map((engine) => {
+          const [who, method] = engineParts(engine.name);
+          return el(
+            "th.engine",
+            { scope: "col", title: `${engine.name}: ${engine.engine ?? ""} ${engine.version ?? ""}` },
+            el("span.stripe", { style: { "--engine": `var(--e${engine.index})` } }),
+            el("span.who", {}, who.replace("@", " @\u200b")),
+            method ? el("span.method", {}, method.replaceAll("-", "-\u200b")) : null,
+          );
+        }),
+      ),
+    );
   }
 
   // What an engine's column comes to over all cases shown.
   summary(cases, engines) {
-    const line = (label, title, of) => el("tr.summary", {}, el("th", { scope: "row", title }, label), engines.map((engine) => el("td", {}, of(engine))));
-    const cells = (engine) => cases.map((one) => cellOf(one, engine.name, dtOf(one, this.dt.text).text)).filter((c) => c && c.status !== "unsupported");
-    const typical = cases.map((one) => median(engines.map((e) => metricOf(cellOf(one, e.name, dtOf(one, this.dt.text).text), one.main)).filter((v) => v > 0)));
+    const line = (label, title, of) =>
+      el(
+        "tr.summary",
+        {},
+        el("th", { scope: "row", title }, label),
+        engines.map((engine) => el("td", {}, of(engine))),
+      );
+    const cells = (engine) =>
+      cases
+        .map((one) => cellOf(one, engine.name, dtOf(one, this.dt.text).text))
+        .filter((c) => c && c.status !== "unsupported");
+    const typical = cases.map((one) =>
+      median(
+        engines.map((e) => metricOf(cellOf(one, e.name, dtOf(one, this.dt.text).text), one.main)).filter((v) => v > 0),
+      ),
+    );
     const ratio = (engine) => {
-      const logs = cases.map((one, i) => {
-        const cell = cellOf(one, engine.name, dtOf(one, this.dt.text).text), value = hasNumbers(cell) ? metricOf(cell, one.main) : null;
-        return value > 0 && typical[i] > 0 ? Math.log(Math.max(value / typical[i], 1e-6)) : null;
-      }).filter((v) => v !== null);
+      const logs = cases
+        .map((one, i) => {
+          const cell = cellOf(one, engine.name, dtOf(one, this.dt.text).text),
+            value = hasNumbers(cell) ? metricOf(cell, one.main) : null;
+          return value > 0 && typical[i] > 0 ? Math.log(Math.max(value / typical[i], 1e-6)) : null;
+        })
+        .filter((v) => v !== null);
       return logs.length ? `× ${digits(Math.exp(logs.reduce((a, b) => a + b) / logs.length), 2)}` : "–";
     };
     const middleStep = (engine) => {
-      const steps = cases.filter((one) => one.main !== "energy_drift_synchronised").map((one) => stepFor(one, engine.name, one.main, state.tolerance)).filter(Boolean);
+      const steps = cases
+        .filter((one) => one.main !== "energy_drift_synchronised")
+        .map((one) => stepFor(one, engine.name, one.main, state.tolerance))
+        .filter(Boolean);
       if (!steps.length) return "–";
       const middle = median(steps.map((s) => (s.mark === "<" ? 0 : s.seconds)));
-      return middle > 0 ? quantity(middle, "s") : el("span.fine", { title: "smaller than the steps that were tried" }, "smaller");
+      return middle > 0
+        ? quantity(middle, "s")
+        : el("span.fine", { title: "smaller than the steps that were tried" }, "smaller");
     };
     const blown = (engine) => {
-      const ran = cells(engine), bad = ran.filter((c) => judgement(c).kind === "bad").length;
+      const ran = cells(engine),
+        bad = ran.filter((c) => judgement(c).kind === "bad").length;
       return ran.length ? el("span", { class: bad ? "some-bad" : "" }, `${bad} of ${ran.length}`) : "–";
     };
-    return el("tbody.summaries", {},
+    return el(
+      "tbody.summaries",
+      {},
       line("blown up or failed", "cells at this step that blew up, crashed or failed a gate, of those that ran", blown),
-      line("error ÷ the middle engine's", "geometric mean, over the cases, of the error that matters divided by that of the engine in the middle; below 1 is better than most", ratio),
-      line(`dt for ${quantity(state.tolerance, "m")}`, "the middle one of the cases: the largest step that keeps the error that matters within the tolerance", middleStep));
+      line(
+        "error ÷ the middle engine's",
+        "geometric mean, over the cases, of the error that matters divided by that of the engine in the middle; below 1 is better than most",
+        ratio,
+      ),
+      line(
+        `dt for ${quantity(state.tolerance, "m")}`,
+        "the middle one of the cases: the largest step that keeps the error that matters within the tolerance",
+        middleStep,
+      ),
+    );
   }
 
   row(one, engines) {
-    const dt = dtOf(one, this.dt.text), isOther = dt.text !== this.dt.text;
-    return el("tr", {},
-      el("th.case", { scope: "row", title: one.title },
-        el("a", { href: address({ case: one.id, time: 0, zoom: null }), onclick: (event) => this.go(event, one, {}) }, one.id.slice(one.family ? one.family.length + 1 : 0)),
-        el("span.note", {}, one.error ? "could not be judged" : [state.show === "main" ? words(one.main).replace(" synchronised", "") : one.title, isOther ? ` · dt ${dt.text}` : ""])),
-      engines.map((engine) => this.cell(one, engine, dt)));
+    const dt = dtOf(one, this.dt.text),
+      isOther = dt.text !== this.dt.text;
+    return el(
+      "tr",
+      {},
+      el(
+        "th.case",
+        { scope: "row", title: one.title },
+        el(
+          "a",
+          { href: address({ case: one.id, time: 0, zoom: null }), onclick: (event) => this.go(event, one, {}) },
+          one.id.slice(one.family ? one.family.length + 1 : 0),
+        ),
+        el(
+          "span.note",
+          {},
+          one.error
+            ? "could not be judged"
+            : [
+                state.show === "main" ? words(one.main).replace(" synchronised", "") : one.title,
+                isOther ? ` · dt ${dt.text}` : "",
+              ],
+        ),
+      ),
+      engines.map((engine) => this.cell(one, engine, dt)),
+    );
   }
 
   cell(one, engine, dt) {
-    const cell = cellOf(one, engine.name, dt.text), verdict = judgement(cell);
+    const cell = cellOf(one, engine.name, dt.text),
+      verdict = judgement(cell);
     const [value, note] = this.value(one, engine, cell, verdict);
-    const shown = new Set([engine.name, ...one.cells.filter((c) => c.playback && c.dt === dt.text).map((c) => c.engine).filter((n) => !n.startsWith("core")).slice(0, 3)]);
+    const shown = new Set([
+      engine.name,
+      ...one.cells
+        .filter((c) => c.playback && c.dt === dt.text)
+        .map((c) => c.engine)
+        .filter((n) => !n.startsWith("core"))
+        .slice(0, 3),
+    ]);
     const changes = { case: one.id, dt: dt.text, engines: shown, time: 0, zoom: null };
     if (!cell) return el("td.cell.is-absent", {}, "");
     const title = `${one.id}, ${engine.name}, dt = ${dt.text} s: ${verdict.word}${cell.reason ? ` – ${cell.reason}` : ""}`;
-    return el(`td.cell.is-${verdict.kind}`, {}, el("a", { href: address(changes), title, onclick: (event) => this.go(event, one, changes) },
-      el("span.value", {}, value), el("span.word", {}, note ?? `${verdict.sign} ${verdict.word}`)));
+    return el(
+      `td.cell.is-${verdict.kind}`,
+      {},
+      el(
+        "a",
+        { href: address(changes), title, onclick: (event) => this.go(event, one, changes) },
+        el("span.value", {}, value),
+        el("span.word", {}, note ?? `${verdict.sign} ${verdict.word}`),
+      ),
+    );
   }
 
   // The number of a cell, and a word that stands in place of the verdict where it says more.
   value(one, engine, cell, verdict) {
     if (state.show === "stable") {
       const stable = one.stable.get(engine.name);
-      if (!stable || !isNumber(stable.dt)) return ["–", stable && stable.status !== "unsupported" ? stable.status : undefined];
+      if (!stable || !isNumber(stable.dt))
+        return ["–", stable && stable.status !== "unsupported" ? stable.status : undefined];
       return [`${stable.is_cap ? "≥ " : stable.is_floor ? "< " : ""}${quantity(stable.dt, "s")}`];
     }
     if (state.show === "step") {
@@ -155,7 +369,11 @@ export class Overview {
       return step ? [`${step.mark} ${quantity(step.seconds, "s")}`.trim()] : ["–"];
     }
     if (!hasNumbers(cell)) return [""];
-    if (state.show === "cost") return [isNumber(cell.cpu_seconds) ? `${digits((1e6 * cell.cpu_seconds * cell.dt_seconds) / one.duration)} µs` : "–", "a step"];
+    if (state.show === "cost")
+      return [
+        isNumber(cell.cpu_seconds) ? `${digits((1e6 * cell.cpu_seconds * cell.dt_seconds) / one.duration)} µs` : "–",
+        "a step",
+      ];
     const name = state.show === "main" ? one.main : state.show;
     const unit = this.results.units[name];
     if (unit === "1" && name.startsWith("energy")) {
@@ -178,7 +396,8 @@ export class Overview {
     const here = document.activeElement?.closest?.("td.cell, th.case");
     if (!step || !here || !this.table.contains(here)) return false;
     const rows = [...this.table.querySelectorAll("tbody tr")].filter((row) => row.querySelector("th.case"));
-    const row = rows.indexOf(here.parentElement), column = [...here.parentElement.children].indexOf(here);
+    const row = rows.indexOf(here.parentElement),
+      column = [...here.parentElement.children].indexOf(here);
     const target = rows[row + step[0]]?.children[column + step[1]]?.querySelector("a");
     target?.focus();
     return Boolean(target);

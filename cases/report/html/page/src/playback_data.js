@@ -7,10 +7,18 @@ class Reader {
     this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     this.at = 0;
   }
-  u8() { return this.view.getUint8(this.at++); }
-  u32() { return this.view.getUint32((this.at += 4) - 4, true); }
-  f32() { return this.view.getFloat32((this.at += 4) - 4, true); }
-  f64() { return this.view.getFloat64((this.at += 8) - 8, true); }
+  u8() {
+    return this.view.getUint8(this.at++);
+  }
+  u32() {
+    return this.view.getUint32((this.at += 4) - 4, true);
+  }
+  f32() {
+    return this.view.getFloat32((this.at += 4) - 4, true);
+  }
+  f64() {
+    return this.view.getFloat64((this.at += 8) - 8, true);
+  }
   // Low bytes of all differences, then high ones.
   differences(count) {
     const values = new Uint16Array(count);
@@ -23,12 +31,15 @@ class Reader {
     return values;
   }
   samples() {
-    const count = this.u32(), low = this.differences(count), high = this.differences(count);
+    const count = this.u32(),
+      low = this.differences(count),
+      high = this.differences(count);
     return Float64Array.from(low, (value, i) => value + 65536 * high[i]);
   }
 }
 
-const halves = new Uint32Array(1), whole = new Float32Array(halves.buffer);
+const halves = new Uint32Array(1),
+  whole = new Float32Array(halves.buffer);
 function fromHalf(bits) {
   halves[0] = bits << 16;
   return whole[0];
@@ -37,14 +48,16 @@ function fromHalf(bits) {
 // The bodies' poses at some instants; straight lines between them.
 class Motion {
   constructor(reader, bodies, timeOf) {
-    const samples = reader.samples(), count = samples.length;
+    const samples = reader.samples(),
+      count = samples.length;
     this.times = Float64Array.from(samples, timeOf);
     this.bodies = bodies;
     if (!count) return;
-    const low = [reader.f32(), reader.f32(), reader.f32()], extent = [reader.f32(), reader.f32(), reader.f32()];
+    const low = [reader.f32(), reader.f32(), reader.f32()],
+      extent = [reader.f32(), reader.f32(), reader.f32()];
     const packed = reader.differences(6 * bodies * count);
-    this.low = low, this.extent = extent;
-    this.values = new Float32Array(7 * bodies * count);  // key, body, then x y z w x y z
+    (this.low = low), (this.extent = extent);
+    this.values = new Float32Array(7 * bodies * count); // key, body, then x y z w x y z
     for (let channel = 0; channel < 6; ++channel) {
       for (let body = 0; body < bodies; ++body) {
         for (let key = 0; key < count; ++key) {
@@ -61,12 +74,17 @@ class Motion {
     }
   }
 
-  get start() { return this.times[0]; }
-  get end() { return this.times.at(-1); }
+  get start() {
+    return this.times[0];
+  }
+  get end() {
+    return this.times.at(-1);
+  }
 
   // The last key at or before t.
   keyAt(t) {
-    let from = 0, to = this.times.length - 1;
+    let from = 0,
+      to = this.times.length - 1;
     while (from < to) {
       const middle = (from + to + 1) >> 1;
       if (this.times[middle] <= t) from = middle;
@@ -77,14 +95,19 @@ class Motion {
 
   // Fills `out` with seven numbers a body.
   posesAt(t, out) {
-    const n = this.bodies, key = this.keyAt(t), next = Math.min(key + 1, this.times.length - 1);
+    const n = this.bodies,
+      key = this.keyAt(t),
+      next = Math.min(key + 1, this.times.length - 1);
     const span = this.times[next] - this.times[key];
     const share = span > 0 ? Math.min(1, Math.max(0, (t - this.times[key]) / span)) : 0;
     const v = this.values;
     for (let body = 0; body < n; ++body) {
-      const a = 7 * (key * n + body), b = 7 * (next * n + body), o = 7 * body;
+      const a = 7 * (key * n + body),
+        b = 7 * (next * n + body),
+        o = 7 * body;
       for (let k = 0; k < 3; ++k) out[o + k] = v[a + k] + share * (v[b + k] - v[a + k]);
-      let dot = 0, norm = 0;
+      let dot = 0,
+        norm = 0;
       for (let k = 3; k < 7; ++k) dot += v[a + k] * v[b + k];
       const sign = dot < 0 ? -1 : 1;
       for (let k = 3; k < 7; ++k) {
@@ -101,10 +124,14 @@ class Motion {
 export async function loadPlayback(text, courseNames) {
   if (!text) return null;
   const reader = new Reader(await unpacked(text));
-  const isLikeTruth = reader.u8() === 1, interval = reader.f64(), last = reader.f64(), bodies = reader.u32();
+  const isLikeTruth = reader.u8() === 1,
+    interval = reader.f64(),
+    last = reader.f64(),
+    bodies = reader.u32();
   const timeOf = (sample) => Math.min(sample * interval, last);
   const motion = new Motion(reader, bodies, timeOf);
-  const points = Float64Array.from(reader.samples(), timeOf), count = points.length;
+  const points = Float64Array.from(reader.samples(), timeOf),
+    count = points.length;
   const names = Array.from({ length: reader.u8() }, () => courseNames[reader.u8()]);
   const packed = reader.differences(names.length * count);
   const courses = {};
@@ -133,12 +160,14 @@ export async function loadCase(results, one, dtText) {
 export function valueAt(course, t) {
   const { times, values } = course;
   if (!times.length || t < times[0] || t > times[times.length - 1] + 1e-9) return null;
-  let from = 0, to = times.length - 1;
+  let from = 0,
+    to = times.length - 1;
   while (to - from > 1) {
     const middle = (from + to) >> 1;
     if (times[middle] <= t) from = middle;
     else to = middle;
   }
-  const span = times[to] - times[from], share = span > 0 ? (t - times[from]) / span : 0;
+  const span = times[to] - times[from],
+    share = span > 0 ? (t - times[from]) / span : 0;
   return values[from] + Math.min(1, Math.max(0, share)) * (values[to] - values[from]);
 }

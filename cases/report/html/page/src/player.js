@@ -3,14 +3,16 @@ import { set } from "./state.js";
 
 export class Player {
   constructor(duration) {
-    this.duration = duration, this.time = 0, this.speed = duration > 20 ? 2 : 1, this.dt = 1 / 30;
-    this.playing = false, this.listeners = new Set();
+    (this.duration = duration), (this.time = 0), (this.speed = duration > 20 ? 2 : 1), (this.dt = 1 / 30);
+    (this.playing = false), (this.listeners = new Set());
   }
   onTick(listener) {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   }
-  close() { this.playing = false, this.listeners.clear(); }
+  close() {
+    (this.playing = false), this.listeners.clear();
+  }
 
   seek(time, { keepPlaying = false } = {}) {
     if (!keepPlaying) this.playing = false;
@@ -18,7 +20,9 @@ export class Player {
     set({ time: this.time });
     this.tell();
   }
-  step(count) { this.seek((Math.round(this.time / this.dt) + count) * this.dt); }
+  step(count) {
+    this.seek((Math.round(this.time / this.dt) + count) * this.dt);
+  }
   faster(factor) {
     this.speed = Math.min(16, Math.max(1 / 64, this.speed * factor));
     this.tell();
@@ -40,7 +44,7 @@ export class Player {
     const passed = this.before === null ? 0 : Math.min(0.25, (now - this.before) / 1000);
     this.before = now;
     this.time += passed * this.speed;
-    if (this.time >= this.duration) this.time = this.duration, this.playing = false;
+    if (this.time >= this.duration) (this.time = this.duration), (this.playing = false);
     set({ time: this.time });
     this.tell();
     requestAnimationFrame((later) => this.frame(later));

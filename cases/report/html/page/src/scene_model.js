@@ -10,7 +10,8 @@ function shapeOf(body, reach) {
   const [xx, yy, zz] = body.inertia;
   const size = [yy + zz - xx, xx + zz - yy, xx + yy - zz].map((v) => Math.sqrt(Math.max(0, (6 * v) / body.mass)));
   const largest = Math.max(...size);
-  if (body.fixed || !(largest > 0) || !Number.isFinite(largest)) return { type: "box", size: [0.05, 0.05, 0.05].map((s) => s * reach), bare: true };
+  if (body.fixed || !(largest > 0) || !Number.isFinite(largest))
+    return { type: "box", size: [0.05, 0.05, 0.05].map((s) => s * reach), bare: true };
   const limit = Math.min(1, (1.5 * reach) / largest);
   return { type: "box", size: size.map((s) => Math.max(s, 0.03 * largest) * limit), bare: true };
 }
@@ -27,38 +28,64 @@ export const up = (scene) => {
   return size > 0 ? scene.gravity.map((g) => -g / size) : [0, 1, 0];
 };
 
-export function turn(q, v) {  // q = [w, x, y, z]
+export function turn(q, v) {
+  // q = [w, x, y, z]
   const [w, x, y, z] = q;
-  const tx = 2 * (y * v[2] - z * v[1]), ty = 2 * (z * v[0] - x * v[2]), tz = 2 * (x * v[1] - y * v[0]);
+  const tx = 2 * (y * v[2] - z * v[1]),
+    ty = 2 * (z * v[0] - x * v[2]),
+    tz = 2 * (x * v[1] - y * v[0]);
   return [v[0] + w * tx + y * tz - z * ty, v[1] + w * ty + z * tx - x * tz, v[2] + w * tz + x * ty - y * tx];
 }
 
 export function pointOf(poses, body, point) {
   if (body < 0) return point;
-  const o = 7 * body, turned = turn(poses.slice(o + 3, o + 7), point);
+  const o = 7 * body,
+    turned = turn(poses.slice(o + 3, o + 7), point);
   return [poses[o] + turned[0], poses[o + 1] + turned[1], poses[o + 2] + turned[2]];
 }
 
 export function springsOf(scene) {
   const index = new Map(scene.bodies.map((b, i) => [b.name, i]));
-  const ends = scene.springs.map((s) => ({ a: index.get(s.a) ?? -1, pointA: s.point_a, b: index.get(s.b) ?? -1, pointB: s.point_b, rest: s.rest_length, coil: true }));
-  const rods = scene.joints.filter((j) => j.type === "distance").map((j) => ({ a: index.get(j.a) ?? -1, pointA: j.point_a, b: index.get(j.b) ?? -1, pointB: j.point_b, coil: false }));
+  const ends = scene.springs.map((s) => ({
+    a: index.get(s.a) ?? -1,
+    pointA: s.point_a,
+    b: index.get(s.b) ?? -1,
+    pointB: s.point_b,
+    rest: s.rest_length,
+    coil: true,
+  }));
+  const rods = scene.joints
+    .filter((j) => j.type === "distance")
+    .map((j) => ({
+      a: index.get(j.a) ?? -1,
+      pointA: j.point_a,
+      b: index.get(j.b) ?? -1,
+      pointB: j.point_b,
+      coil: false,
+    }));
   return [...ends, ...rods];
 }
 
 // A coil from a to b as points; `width` its radius.
 export function coil(a, b, width, turns = 9, steps = 8) {
-  const along = [b[0] - a[0], b[1] - a[1], b[2] - a[2]], length = Math.hypot(...along);
+  const along = [b[0] - a[0], b[1] - a[1], b[2] - a[2]],
+    length = Math.hypot(...along);
   if (!(length > 0)) return [a, b];
-  const d = along.map((v) => v / length), side = Math.abs(d[1]) < 0.9 ? [0, 1, 0] : [1, 0, 0];
+  const d = along.map((v) => v / length),
+    side = Math.abs(d[1]) < 0.9 ? [0, 1, 0] : [1, 0, 0];
   let u = [d[1] * side[2] - d[2] * side[1], d[2] * side[0] - d[0] * side[2], d[0] * side[1] - d[1] * side[0]];
   const norm = Math.hypot(...u);
   u = u.map((v) => v / norm);
   const v = [d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]];
-  const points = [a], count = turns * steps;
+  const points = [a],
+    count = turns * steps;
   for (let i = 0; i <= count; ++i) {
-    const share = 0.08 + (0.84 * i) / count, angle = (2 * Math.PI * i) / steps, radius = i === 0 || i === count ? 0 : width;
-    points.push([0, 1, 2].map((k) => a[k] + share * along[k] + radius * (Math.cos(angle) * u[k] + Math.sin(angle) * v[k])));
+    const share = 0.08 + (0.84 * i) / count,
+      angle = (2 * Math.PI * i) / steps,
+      radius = i === 0 || i === count ? 0 : width;
+    points.push(
+      [0, 1, 2].map((k) => a[k] + share * along[k] + radius * (Math.cos(angle) * u[k] + Math.sin(angle) * v[k])),
+    );
   }
   points.push(b);
   return points;
@@ -67,7 +94,8 @@ export function coil(a, b, width, turns = 9, steps = 8) {
 // Points at which shapes touch or overlap in these poses: spheres, capsules and the corners of boxes, against planes and
 // against spheres and boxes. `near`: how close counts.
 export function contacts(shapes, poses, near, most = 400) {
-  const found = [], probes = [];
+  const found = [],
+    probes = [];
   const planes = shapes.filter((s) => s.type === "plane");
   for (const shape of shapes) {
     if (shape.type === "plane" || shape.collides === false) continue;
@@ -84,20 +112,25 @@ export function contacts(shapes, poses, near, most = 400) {
   for (let i = 0; i < round.length; ++i) {
     const [p, r, one] = round[i];
     for (let j = i + 1; j < round.length && round[j][0][0] - round[j][1] < p[0] + r + near; ++j) {
-      const [q, s, other] = round[j], gap = Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) - r - s;
-      if (one !== other && gap < near) found.push([0, 1, 2].map((k) => p[k] + ((q[k] - p[k]) * (r + gap / 2)) / (r + s + gap || 1)));
+      const [q, s, other] = round[j],
+        gap = Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) - r - s;
+      if (one !== other && gap < near)
+        found.push([0, 1, 2].map((k) => p[k] + ((q[k] - p[k]) * (r + gap / 2)) / (r + s + gap || 1)));
       if (found.length >= most) return found;
     }
   }
   const boxes = shapes.filter((s) => s.type === "box" && s.collides !== false);
   if (boxes.length * probes.length > 40000) return found;
   for (const box of boxes) {
-    const o = 7 * box.index, [w, x, y, z] = poses.slice(o + 3, o + 7), half = box.size.map((s) => s / 2);
+    const o = 7 * box.index,
+      [w, x, y, z] = poses.slice(o + 3, o + 7),
+      half = box.size.map((s) => s / 2);
     for (const [p, radius, shape] of probes) {
       if (shape === box || found.length >= most) continue;
       const local = turn([w, -x, -y, -z], [p[0] - poses[o], p[1] - poses[o + 1], p[2] - poses[o + 2]]);
       const closest = local.map((v, k) => Math.min(half[k], Math.max(-half[k], v)));
-      if (Math.hypot(...local.map((v, k) => v - closest[k])) < radius + near) found.push(pointOf(poses, box.index, closest));
+      if (Math.hypot(...local.map((v, k) => v - closest[k])) < radius + near)
+        found.push(pointOf(poses, box.index, closest));
     }
   }
   return found;
@@ -109,6 +142,9 @@ function probesOf(shape) {
   if (shape.type === "capsule") return [-1, 0, 1].map((end) => [[0, 0, (end * shape.length) / 2], shape.radius]);
   if (shape.type !== "box") return [];
   const corners = [];
-  for (const x of [-1, 1]) for (const y of [-1, 1]) for (const z of [-1, 1]) corners.push([[(x * shape.size[0]) / 2, (y * shape.size[1]) / 2, (z * shape.size[2]) / 2], 0]);
+  for (const x of [-1, 1])
+    for (const y of [-1, 1])
+      for (const z of [-1, 1])
+        corners.push([[(x * shape.size[0]) / 2, (y * shape.size[1]) / 2, (z * shape.size[2]) / 2], 0]);
   return corners;
 }

@@ -40,7 +40,13 @@ export class Stage {
   }
 
   build() {
-    const context = { shapes: this.shapes, springs: springsOf(this.one.scene), layers: [...this.layers.values()], camera: this.camera, size: this.bounds() };
+    const context = {
+      shapes: this.shapes,
+      springs: springsOf(this.one.scene),
+      layers: [...this.layers.values()],
+      camera: this.camera,
+      size: this.bounds(),
+    };
     this.surface = el("canvas", { tabindex: 0, "aria-label": "The bodies in motion; drag to turn" });
     try {
       this.view = new WebglView(this.surface, context);
@@ -53,26 +59,71 @@ export class Stage {
     this.surface.dataset.kind = this.view.kind;
     moveByHand(this.camera, this.surface, () => this.invalidate());
     this.panes = el("div.panes");
-    this.clock = el("output.clock"), this.slider = el("input", { type: "range", min: 0, max: this.one.duration, step: "any", value: 0, "aria-label": "Time", oninput: (event) => this.player.seek(Number(event.target.value)) });
+    (this.clock = el("output.clock")),
+      (this.slider = el("input", {
+        type: "range",
+        min: 0,
+        max: this.one.duration,
+        step: "any",
+        value: 0,
+        "aria-label": "Time",
+        oninput: (event) => this.player.seek(Number(event.target.value)),
+      }));
     this.play = el("button.play", { type: "button", onclick: () => this.player.toggle(), title: "space" });
-    this.speed = el("button.quiet", { type: "button", title: "faster; with shift slower (+ −)", onclick: (event) => this.player.faster(event.shiftKey ? 0.5 : this.player.speed >= 16 ? 1 / 64 : 2) });
-    const flag = (name, label) => el("button.quiet", { type: "button", "data-flag": name, "aria-pressed": "true", onclick: () => this.flip(name) }, label);
+    this.speed = el("button.quiet", {
+      type: "button",
+      title: "faster; with shift slower (+ −)",
+      onclick: (event) => this.player.faster(event.shiftKey ? 0.5 : this.player.speed >= 16 ? 1 / 64 : 2),
+    });
+    const flag = (name, label) =>
+      el(
+        "button.quiet",
+        { type: "button", "data-flag": name, "aria-pressed": "true", onclick: () => this.flip(name) },
+        label,
+      );
     this.flagButtons = [flag("truth", "truth"), flag("trails", "trails"), flag("contacts", "contacts")];
-    this.sideButton = el("button.quiet", { type: "button", title: "o, s", onclick: () => set({ layout: state.layout === "side" ? "overlay" : "side" }) });
-    const step = (by, sign, title) => el("button.quiet", { type: "button", title, "aria-label": title, onclick: () => this.player.step(by) }, sign);
+    this.sideButton = el("button.quiet", {
+      type: "button",
+      title: "o, s",
+      onclick: () => set({ layout: state.layout === "side" ? "overlay" : "side" }),
+    });
+    const step = (by, sign, title) =>
+      el("button.quiet", { type: "button", title, "aria-label": title, onclick: () => this.player.step(by) }, sign);
     this.notes = el("p.fine.stage-note");
-    replace(this.root,
+    replace(
+      this.root,
       el("div.surface", {}, this.surface, this.panes),
-      el("div.transport", {}, step(-1, "‹", "one step back"), this.play, step(1, "›", "one step on"), this.slider, this.clock, this.speed),
-      el("div.flags", {}, this.sideButton, this.flagButtons, el("button.quiet", { type: "button", title: "f", onclick: () => this.frameAll() }, "whole scene")), this.notes);
+      el(
+        "div.transport",
+        {},
+        step(-1, "‹", "one step back"),
+        this.play,
+        step(1, "›", "one step on"),
+        this.slider,
+        this.clock,
+        this.speed,
+      ),
+      el(
+        "div.flags",
+        {},
+        this.sideButton,
+        this.flagButtons,
+        el("button.quiet", { type: "button", title: "f", onclick: () => this.frameAll() }, "whole scene"),
+      ),
+      this.notes,
+    );
   }
 
   // The box around all that is expected to move, from the truth if there is one.
   bounds() {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    const include = (p, r) => p.forEach((v, k) => (low[k] = Math.min(low[k], v - r), high[k] = Math.max(high[k], v + r)));
+    const low = [Infinity, Infinity, Infinity],
+      high = [-Infinity, -Infinity, -Infinity];
+    const include = (p, r) =>
+      p.forEach((v, k) => ((low[k] = Math.min(low[k], v - r)), (high[k] = Math.max(high[k], v + r))));
     const largest = Math.max(...this.shapes.map(extentOf), 1e-3);
-    this.shapes.forEach((shape, i) => shape.type !== "plane" && include(this.one.scene.bodies[i].position, extentOf(shape)));
+    this.shapes.forEach(
+      (shape, i) => shape.type !== "plane" && include(this.one.scene.bodies[i].position, extentOf(shape)),
+    );
     for (const s of springsOf(this.one.scene)) if (s.a < 0) include(s.pointA, 0);
     // Without a truth to say how far bodies are meant to come, one that runs away must not make the rest small.
     const limit = this.data.truth?.motion ? null : reachOf(low, high);
@@ -80,14 +131,30 @@ export class Stage {
     for (const { motion } of this.data.truth?.motion ? [this.layers.get("truth")] : tame) {
       if (!motion?.low) continue;
       const within = (v, k) => (limit ? Math.min(limit.high[k], Math.max(limit.low[k], v)) : v);
-      include(motion.low.map(within), largest), include(motion.low.map((v, k) => within(v + motion.extent[k], k)), largest);
+      include(motion.low.map(within), largest),
+        include(
+          motion.low.map((v, k) => within(v + motion.extent[k], k)),
+          largest,
+        );
     }
     if (!(low[0] <= high[0])) return { centre: [0, 0, 0], radius: 1, low: [-1, -1, -1] };
-    return { centre: low.map((v, k) => (v + high[k]) / 2), radius: Math.max(Math.hypot(...low.map((v, k) => high[k] - v)) / 2, 1e-3), low, high };
+    return {
+      centre: low.map((v, k) => (v + high[k]) / 2),
+      radius: Math.max(Math.hypot(...low.map((v, k) => high[k] - v)) / 2, 1e-3),
+      low,
+      high,
+    };
   }
 
-  cell(engine) { return this.one.cells.find((c) => c.engine === engine.name && c.dt === this.dtText()) ?? cellOf(this.one, engine.name, this.one.coarsest.text); }
-  dtText() { return (this.one.dt.find((dt) => dt.text === state.dt) ?? this.one.coarsest).text; }
+  cell(engine) {
+    return (
+      this.one.cells.find((c) => c.engine === engine.name && c.dt === this.dtText()) ??
+      cellOf(this.one, engine.name, this.one.coarsest.text)
+    );
+  }
+  dtText() {
+    return (this.one.dt.find((dt) => dt.text === state.dt) ?? this.one.coarsest).text;
+  }
 
   frameAll() {
     const { centre, radius } = this.bounds();
@@ -113,7 +180,8 @@ export class Stage {
   arrangement() {
     const layers = this.engines.map((e) => this.layers.get(e.name)).filter(Boolean);
     const ghost = this.flags.truth ? this.layers.get("truth") : null;
-    if (state.layout !== "side" || layers.length < 2) return [{ layers: [ghost, ...layers].filter(Boolean), engine: null }];
+    if (state.layout !== "side" || layers.length < 2)
+      return [{ layers: [ghost, ...layers].filter(Boolean), engine: null }];
     return layers.map((layer) => ({ layers: [ghost, layer].filter(Boolean), engine: layer.engine }));
   }
 
@@ -136,22 +204,35 @@ export class Stage {
   }
 
   draw() {
-    const { time } = this.player, near = 0.004 * this.bounds().radius, gone = [];
+    const { time } = this.player,
+      near = 0.004 * this.bounds().radius,
+      gone = [];
     const panes = this.arrangement();
     for (const layer of new Set(panes.flatMap((p) => p.layers))) {
       layer.motion.posesAt(time, layer.poses);
-      layer.isGone = time > layer.motion.end + 1.5 * this.player.dt && layer.motion.end < this.one.duration - 1.5 * this.player.dt;
-      layer.contacts = this.flags.contacts && !layer.isGone && layer.name !== "truth" ? contacts(this.shapes, layer.poses, near) : [];
+      layer.isGone =
+        time > layer.motion.end + 1.5 * this.player.dt && layer.motion.end < this.one.duration - 1.5 * this.player.dt;
+      layer.contacts =
+        this.flags.contacts && !layer.isGone && layer.name !== "truth" ? contacts(this.shapes, layer.poses, near) : [];
       layer.key = layer.motion.keyAt(time);
       if (layer.isGone) gone.push(`${layer.name} at ${layer.motion.end.toFixed(2)} s`);
     }
-    const width = this.surface.clientWidth, height = this.surface.clientHeight;
-    if (width > 0 && height > 0) this.view.draw(grid(panes, width, height), { trails: this.flags.trails, width, height });
+    const width = this.surface.clientWidth,
+      height = this.surface.clientHeight;
+    if (width > 0 && height > 0)
+      this.view.draw(grid(panes, width, height), { trails: this.flags.trails, width, height });
     this.label(panes, width, height);
     const kept = this.engines.filter((e) => !this.layers.has(e.name));
-    const horizon = this.one.truth.horizon, past = this.flags.truth && this.layers.has("truth") && horizon !== undefined && time > horizon + 1e-9;
-    const text = [this.note, gone.length ? `Out of the picture: ${gone.join(", ")}.` : "", kept.length ? `No motion kept of ${kept.map((e) => e.name).join(", ")}.` : "",
-      past ? `The truth is past its horizon of ${horizon.toFixed(1)} s.` : ""].filter(Boolean).join(" ");
+    const horizon = this.one.truth.horizon,
+      past = this.flags.truth && this.layers.has("truth") && horizon !== undefined && time > horizon + 1e-9;
+    const text = [
+      this.note,
+      gone.length ? `Out of the picture: ${gone.join(", ")}.` : "",
+      kept.length ? `No motion kept of ${kept.map((e) => e.name).join(", ")}.` : "",
+      past ? `The truth is past its horizon of ${horizon.toFixed(1)} s.` : "",
+    ]
+      .filter(Boolean)
+      .join(" ");
     if (this.notes.textContent !== text) this.notes.textContent = text;
     this.surface.dataset.frames = Number(this.surface.dataset.frames ?? 0) + 1;
   }
@@ -160,11 +241,18 @@ export class Stage {
     const wanted = panes.length > 1 ? panes.map((p) => p.engine.name).join("|") : "";
     if (this.labelled !== wanted) {
       this.labelled = wanted;
-      replace(this.panes, panes.length > 1 ? panes.map((p) => el("span", { style: { "--engine": `var(--e${p.engine.index})` } }, p.engine.name.replace("core:", ""))) : []);
+      replace(
+        this.panes,
+        panes.length > 1
+          ? panes.map((p) =>
+              el("span", { style: { "--engine": `var(--e${p.engine.index})` } }, p.engine.name.replace("core:", "")),
+            )
+          : [],
+      );
     }
     grid(panes, width, height).forEach(({ x, y }, i) => {
       const child = this.panes.children[i];
-      if (child) child.style.left = `${x + 8}px`, child.style.top = `${y + 6}px`;
+      if (child) (child.style.left = `${x + 8}px`), (child.style.top = `${y + 6}px`);
     });
   }
 }
@@ -176,7 +264,10 @@ function reachOf(low, high) {
 }
 
 function grid(panes, width, height) {
-  const columns = Math.ceil(Math.sqrt((panes.length * width) / Math.max(height, 1) / 1.3)) || 1, rows = Math.ceil(panes.length / Math.min(columns, panes.length));
-  const across = Math.ceil(panes.length / rows), w = width / across, h = height / rows;
+  const columns = Math.ceil(Math.sqrt((panes.length * width) / Math.max(height, 1) / 1.3)) || 1,
+    rows = Math.ceil(panes.length / Math.min(columns, panes.length));
+  const across = Math.ceil(panes.length / rows),
+    w = width / across,
+    h = height / rows;
   return panes.map((pane, i) => ({ ...pane, x: (i % across) * w, y: Math.floor(i / across) * h, width: w, height: h }));
 }

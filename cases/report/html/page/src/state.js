@@ -1,15 +1,15 @@
 // What is looked at, as one object, and the same in the address behind the "#", so that a view can be sent on.
 const listeners = new Set();
 export const state = {
-  case: "",          // id; "" is the first page
-  dt: "",            // as written
-  engines: null,     // names that are shown; null: the choice the page makes
-  time: 0,           // s, of the playback and the plots' cursor
-  show: "main",      // what the matrix shows
-  tolerance: 1e-3,   // m, for "dt for"
+  case: "", // id; "" is the first page
+  dt: "", // as written
+  engines: null, // names that are shown; null: the choice the page makes
+  time: 0, // s, of the playback and the plots' cursor
+  show: "main", // what the matrix shows
+  tolerance: 1e-3, // m, for "dt for"
   layout: "overlay",
   log: true,
-  zoom: null,        // [from, to] in s
+  zoom: null, // [from, to] in s
 };
 const defaults = { ...state };
 
@@ -47,7 +47,7 @@ export function address(changes = {}) {
 let pending = 0;
 function writeAddress(push) {
   if (push) {
-    clearTimeout(pending), pending = 0;
+    clearTimeout(pending), (pending = 0);
     history.pushState(null, "", address());
   } else if (!pending) {
     // Browsers bear only so many changes of the address in a second, and playback makes sixty.
@@ -61,15 +61,24 @@ function writeAddress(push) {
 function fromAddress() {
   const [path, query = ""] = location.hash.replace(/^#\/?/, "").split("?");
   const given = new URLSearchParams(query);
-  const number = (text, otherwise) => (text !== null && text !== "" && Number.isFinite(Number(text)) ? Number(text) : otherwise);
+  const number = (text, otherwise) =>
+    text !== null && text !== "" && Number.isFinite(Number(text)) ? Number(text) : otherwise;
   const zoom = given.get("zoom")?.split("~").map(Number) ?? [];
   let id = path;
-  try { id = decodeURIComponent(path); } catch { /* taken as it stands */ }
+  try {
+    id = decodeURIComponent(path);
+  } catch {
+    /* taken as it stands */
+  }
   return {
-    case: id, dt: given.get("dt") ?? "", engines: given.has("engines") ? new Set(given.get("engines").split("~").filter(Boolean)) : null,
-    time: Math.max(0, number(given.get("t"), 0)), show: given.get("show") ?? "main",
+    case: id,
+    dt: given.get("dt") ?? "",
+    engines: given.has("engines") ? new Set(given.get("engines").split("~").filter(Boolean)) : null,
+    time: Math.max(0, number(given.get("t"), 0)),
+    show: given.get("show") ?? "main",
     tolerance: Math.abs(number(given.get("tolerance"), 1e-3)) || 1e-3,
-    layout: given.get("layout") === "side" ? "side" : "overlay", log: given.get("log") !== "0",
+    layout: given.get("layout") === "side" ? "side" : "overlay",
+    log: given.get("log") !== "0",
     zoom: zoom.length === 2 && zoom[1] > zoom[0] ? zoom : null,
   };
 }
@@ -77,7 +86,7 @@ function fromAddress() {
 export function followAddress() {
   Object.assign(state, fromAddress());
   window.addEventListener("popstate", () => {
-    clearTimeout(pending), pending = 0;
+    clearTimeout(pending), (pending = 0);
     const now = fromAddress();
     const changed = new Set(Object.keys(now).filter((key) => String(now[key]) !== String(state[key])));
     Object.assign(state, now);

@@ -6,7 +6,11 @@ const system = matchMedia("(prefers-color-scheme: dark)");
 let chosen = read();
 
 function read() {
-  try { return localStorage.getItem("rigor-theme"); } catch { return null; }
+  try {
+    return localStorage.getItem("rigor-theme");
+  } catch {
+    return null;
+  }
 }
 
 let forced = null;
@@ -26,10 +30,18 @@ export function onTheme(listener) {
 }
 
 export function themeButton() {
-  const button = el("button.quiet", { type: "button", title: "Light or dark", "aria-label": "Switch between light and dark" }, "◐");
+  const button = el(
+    "button.quiet",
+    { type: "button", title: "Light or dark", "aria-label": "Switch between light and dark" },
+    "◐",
+  );
   button.addEventListener("click", () => {
     chosen = isDark() ? "light" : "dark";
-    try { localStorage.setItem("rigor-theme", chosen); } catch { /* only for this visit then */ }
+    try {
+      localStorage.setItem("rigor-theme", chosen);
+    } catch {
+      /* only for this visit then */
+    }
     applyTheme();
   });
   return button;

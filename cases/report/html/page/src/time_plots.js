@@ -6,13 +6,26 @@ import { valueAt } from "./playback_data.js";
 import { colour, isDark, onTheme } from "./theme.js";
 import { set, state } from "./state.js";
 
-const first = ["position_error", "orientation_error", "energy_change", "energy_drift_synchronised", "angular_momentum_drift", "linear_momentum_drift"];
+const first = [
+  "position_error",
+  "orientation_error",
+  "energy_change",
+  "energy_drift_synchronised",
+  "angular_momentum_drift",
+  "linear_momentum_drift",
+];
 const height = 150;
 
 export class TimePlots {
   constructor(results, one, data, player, root) {
     Object.assign(this, { results, one, data, player, root, plots: [], engines: [], more: false, dt: data.dt });
-    const present = new Set([...data.runs.values()].flatMap((run) => Object.entries(run.courses).filter(([, c]) => c.times.length > 1 && c.values.some((v) => Math.abs(v) > 1e-17)).map(([name]) => name)));
+    const present = new Set(
+      [...data.runs.values()].flatMap((run) =>
+        Object.entries(run.courses)
+          .filter(([, c]) => c.times.length > 1 && c.values.some((v) => Math.abs(v) > 1e-17))
+          .map(([name]) => name),
+      ),
+    );
     this.names = first.filter((name) => present.has(name));
     this.others = [...present].filter((name) => !first.includes(name));
     [this.body, this.component] = liveliest(one.scene.bodies, data);
@@ -35,25 +48,49 @@ export class TimePlots {
   draw() {
     this.plots.forEach((plot) => plot.chart.destroy());
     this.plots = [];
-    const holders = [this.coordinate(), ...[...this.names, ...(this.more ? this.others : [])].map((name) => this.course(name))].filter(Boolean);
-    const scale = el("button.quiet", { type: "button", onclick: () => set({ log: !state.log }), title: "l" }, state.log ? "logarithmic" : "linear");
-    const whole = state.zoom ? el("button.quiet", { type: "button", onclick: () => set({ zoom: null }), title: "z" }, "whole time") : null;
-    const more = this.others.length ? el("button.quiet", { type: "button", onclick: () => (this.more = !this.more, this.draw()) }, this.more ? "fewer" : `${this.others.length} more`) : null;
+    const holders = [
+      this.coordinate(),
+      ...[...this.names, ...(this.more ? this.others : [])].map((name) => this.course(name)),
+    ].filter(Boolean);
+    const scale = el(
+      "button.quiet",
+      { type: "button", onclick: () => set({ log: !state.log }), title: "l" },
+      state.log ? "logarithmic" : "linear",
+    );
+    const whole = state.zoom
+      ? el("button.quiet", { type: "button", onclick: () => set({ zoom: null }), title: "z" }, "whole time")
+      : null;
+    const more = this.others.length
+      ? el(
+          "button.quiet",
+          { type: "button", onclick: () => ((this.more = !this.more), this.draw()) },
+          this.more ? "fewer" : `${this.others.length} more`,
+        )
+      : null;
     replace(this.root, el("div.plot-bar", {}, el("span.fine", {}, "over time"), scale, whole, more), holders);
-    if (!this.data.runs.size) replace(this.root, el("p.fine", {}, "Of no run at this step size is there anything to plot."));
+    if (!this.data.runs.size)
+      replace(this.root, el("p.fine", {}, "Of no run at this step size is there anything to plot."));
     this.fit();
     this.movePlayheads();
   }
 
   // A body's coordinate itself, with the truth.
   coordinate() {
-    const bodies = this.one.scene.bodies, moving = bodies.map((b, i) => i).filter((i) => !bodies[i].fixed);
+    const bodies = this.one.scene.bodies,
+      moving = bodies.map((b, i) => i).filter((i) => !bodies[i].fixed);
     if (!moving.length || ![...this.data.runs.values()].some((run) => run.motion)) return null;
     if (!moving.includes(this.body)) this.body = moving[0];
-    const slots = [["x", 0], ["y", 1], ["z", 2], ["turned from the start", 3]];
+    const slots = [
+      ["x", 0],
+      ["y", 1],
+      ["z", 2],
+      ["turned from the start", 3],
+    ];
     const read = (motion) => {
       if (!motion) return null;
-      const stride = 7 * motion.bodies, offset = 7 * this.body, v = motion.values;
+      const stride = 7 * motion.bodies,
+        offset = 7 * this.body,
+        v = motion.values;
       const at = (key) => {
         if (this.component < 3) return v[key * stride + offset + this.component];
         let dot = 0;
@@ -64,19 +101,46 @@ export class TimePlots {
     };
     const courses = this.engines.map((e) => [e, read(this.data.runs.get(e.name).motion)]).filter(([, c]) => c);
     const truth = read(this.data.truth?.motion);
-    const choose = (options, value, pick) => el("select", { onchange: (event) => (pick(Number(event.target.value)), this.draw()), "aria-label": "what is plotted" },
-      options.map(([text, key]) => el("option", { value: key, selected: key === value }, text)));
-    const title = el("span", {}, "position of ", choose(moving.slice(0, 500).map((i) => [bodies[i].name, i]), this.body, (v) => (this.body = v)),
-      choose(slots, this.component, (v) => (this.component = v)));
+    const choose = (options, value, pick) =>
+      el(
+        "select",
+        { onchange: (event) => (pick(Number(event.target.value)), this.draw()), "aria-label": "what is plotted" },
+        options.map(([text, key]) => el("option", { value: key, selected: key === value }, text)),
+      );
+    const title = el(
+      "span",
+      {},
+      "position of ",
+      choose(
+        moving.slice(0, 500).map((i) => [bodies[i].name, i]),
+        this.body,
+        (v) => (this.body = v),
+      ),
+      choose(slots, this.component, (v) => (this.component = v)),
+    );
     return this.plot("coordinate", title, this.component < 3 ? "m" : "rad", courses, { log: false, truth });
   }
 
   course(name) {
-    const courses = this.engines.map((e) => [e, this.data.runs.get(e.name).courses[name]]).filter(([, c]) => c && c.times.length);
+    const courses = this.engines
+      .map((e) => [e, this.data.runs.get(e.name).courses[name]])
+      .filter(([, c]) => c && c.times.length);
     if (!courses.length) return null;
-    const isChange = name === "energy_change", unit = isChange ? "1" : this.results.units[name] ?? "";
-    const title = el("span", { title: this.results.summaries[name] ?? "energy since the start, as read, as a part of the truth's largest kinetic energy" }, isChange ? "energy since the start" : words(name));
-    return this.plot(name, title, unit, courses, { log: state.log && !isChange, truth: isChange ? this.data.truth?.courses[name] : null });
+    const isChange = name === "energy_change",
+      unit = isChange ? "1" : (this.results.units[name] ?? "");
+    const title = el(
+      "span",
+      {
+        title:
+          this.results.summaries[name] ??
+          "energy since the start, as read, as a part of the truth's largest kinetic energy",
+      },
+      isChange ? "energy since the start" : words(name),
+    );
+    return this.plot(name, title, unit, courses, {
+      log: state.log && !isChange,
+      truth: isChange ? this.data.truth?.courses[name] : null,
+    });
   }
 
   plot(name, title, unit, courses, { log, truth }) {
@@ -84,19 +148,57 @@ export class TimePlots {
     if (truth?.times.length) lines.unshift([null, truth]);
     const scale = log ? logarithmic(courses.map(([, c]) => c.values)) : linear(unit, this.tameRange(courses, truth));
     const tables = lines.map(([, c]) => [Array.from(c.times), Array.from(c.values, scale.put)]);
-    const joined = uPlot.join(tables, tables.map((t) => t.slice(1).map(() => 1)));
-    const ink = colour("--ink-2"), grid = colour("--line");
-    const readouts = el("div.readouts"), holder = el("div.plot-holder");
-    const figure = el("figure.plot", { "data-plot": name }, el("figcaption", {}, title, el("span.fine", {}, unit === "1" ? "%" : unit), readouts), holder);
-    const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
+    const joined = uPlot.join(
+      tables,
+      tables.map((t) => t.slice(1).map(() => 1)),
+    );
+    const ink = colour("--ink-2"),
+      grid = colour("--line");
+    const readouts = el("div.readouts"),
+      holder = el("div.plot-holder");
+    const figure = el(
+      "figure.plot",
+      { "data-plot": name },
+      el("figcaption", {}, title, el("span.fine", {}, unit === "1" ? "%" : unit), readouts),
+      holder,
+    );
+    const axis = {
+      stroke: ink,
+      grid: { stroke: grid, width: 1 },
+      ticks: { show: false },
+      font: "11px system-ui, sans-serif",
+    };
     const options = {
-      width: 400, height, legend: { show: false }, focus: { alpha: 0.2 },
-      cursor: { x: false, y: false, points: { show: false }, drag: { x: true, y: false, setScale: false }, bind: { dblclick: () => () => set({ zoom: null }) } },
+      width: 400,
+      height,
+      legend: { show: false },
+      focus: { alpha: 0.2 },
+      cursor: {
+        x: false,
+        y: false,
+        points: { show: false },
+        drag: { x: true, y: false, setScale: false },
+        bind: { dblclick: () => () => set({ zoom: null }) },
+      },
       scales: { x: { time: false, range: () => state.zoom ?? [0, this.one.duration] }, y: { range: scale.range } },
-      axes: [{ ...axis, size: 22, values: (u, ticks) => ticks.map((t) => `${Number(t.toPrecision(6))} s`) }, { ...axis, size: 54, splits: scale.splits, values: (u, ticks) => ticks.map(scale.tick) }],
-      series: [{}, ...lines.map(([engine]) => (engine
-        ? { stroke: engine.hex[isDark() ? 1 : 0], width: 1.5, dash: engine.dash ?? undefined, spanGaps: true, points: { show: false } }
-        : { stroke: colour("--truth"), width: 3.5, spanGaps: true, points: { show: false } }))],
+      axes: [
+        { ...axis, size: 22, values: (u, ticks) => ticks.map((t) => `${Number(t.toPrecision(6))} s`) },
+        { ...axis, size: 54, splits: scale.splits, values: (u, ticks) => ticks.map(scale.tick) },
+      ],
+      series: [
+        {},
+        ...lines.map(([engine]) =>
+          engine
+            ? {
+                stroke: engine.hex[isDark() ? 1 : 0],
+                width: 1.5,
+                dash: engine.dash ?? undefined,
+                spanGaps: true,
+                points: { show: false },
+              }
+            : { stroke: colour("--truth"), width: 3.5, spanGaps: true, points: { show: false } },
+        ),
+      ],
       hooks: {
         setCursor: [(u) => this.hover(u)],
         setSelect: [(u) => this.zoomed(u)],
@@ -113,12 +215,21 @@ export class TimePlots {
 
   // What the runs that did not blow up and the truth span: those that did would leave nothing of the others to be seen.
   tameRange(courses, truth) {
-    let low = Infinity, high = -Infinity;
-    const include = ({ values }) => values.forEach((v) => { if (v < low) low = v; if (v > high) high = v; });
-    const tame = courses.filter(([engine]) => this.one.cells.find((c) => c.engine === engine.name && c.dt === this.dt)?.status !== "diverged");
+    let low = Infinity,
+      high = -Infinity;
+    const include = ({ values }) =>
+      values.forEach((v) => {
+        if (v < low) low = v;
+        if (v > high) high = v;
+      });
+    const tame = courses.filter(
+      ([engine]) => this.one.cells.find((c) => c.engine === engine.name && c.dt === this.dt)?.status !== "diverged",
+    );
     for (const [, course] of tame) include(course);
     if (truth) include(truth);
-    return tame.length === courses.length || !(low < high) ? null : [low - 0.6 * (high - low), high + 0.6 * (high - low)];
+    return tame.length === courses.length || !(low < high)
+      ? null
+      : [low - 0.6 * (high - low), high + 0.6 * (high - low)];
   }
 
   fit() {
@@ -149,12 +260,14 @@ export class TimePlots {
   movePlayheads() {
     const { time } = this.player;
     for (const { chart, playhead, readouts, lines, unit } of this.plots) {
-      const left = chart.valToPos(time, "x"), { min, max } = chart.scales.x;
+      const left = chart.valToPos(time, "x"),
+        { min, max } = chart.scales.x;
       playhead.style.display = time >= min - 1e-9 && time <= max + 1e-9 ? "" : "none";
       playhead.style.transform = `translateX(${left}px)`;
       while (readouts.children.length < lines.length) readouts.append(el("span", {}, el("i"), el("b")));
       lines.forEach(([engine, course], i) => {
-        const value = valueAt(course, time), [mark, text] = readouts.children[i].children;
+        const value = valueAt(course, time),
+          [mark, text] = readouts.children[i].children;
         mark.style.background = engine ? `var(--e${engine.index})` : "var(--truth)";
         readouts.children[i].title = engine?.name ?? "truth";
         text.textContent = value === null ? "–" : unit === "1" ? percent(value) : quantity(value, unit);
@@ -173,11 +286,16 @@ export class TimePlots {
 // The body and the coordinate that move most; where nothing but turns, the angle.
 function liveliest(bodies, data) {
   const motion = data.truth?.motion ?? [...data.runs.values()].find((run) => run.motion)?.motion;
-  const moving = Math.max(0, bodies.findIndex((b) => !b.fixed));
+  const moving = Math.max(
+    0,
+    bodies.findIndex((b) => !b.fixed),
+  );
   if (!motion) return [moving, 1];
   const range = [0, 1, 2].map((k) => {
-    let low = Infinity, high = -Infinity;
-    for (let slot = 7 * moving + k; slot < motion.values.length; slot += 7 * motion.bodies) low = Math.min(low, motion.values[slot]), high = Math.max(high, motion.values[slot]);
+    let low = Infinity,
+      high = -Infinity;
+    for (let slot = 7 * moving + k; slot < motion.values.length; slot += 7 * motion.bodies)
+      (low = Math.min(low, motion.values[slot])), (high = Math.max(high, motion.values[slot]));
     return high - low;
   });
   const best = range.indexOf(Math.max(...range));
@@ -186,7 +304,9 @@ function liveliest(bodies, data) {
 
 // Decades; what is zero lies on a floor of its own below the smallest value, marked 0.
 function logarithmic(series) {
-  let smallest = Infinity, largest = 0, hasZero = false;
+  let smallest = Infinity,
+    largest = 0,
+    hasZero = false;
   for (const values of series) {
     for (const value of values) {
       const size = Math.abs(value);
@@ -196,15 +316,18 @@ function logarithmic(series) {
     }
   }
   if (!(largest > 0) || smallest === Infinity) smallest = largest = 1;
-  const top = Math.ceil(Math.log10(largest) + 0.05), bottom = Math.max(Math.floor(Math.log10(smallest)), top - 18);
+  const top = Math.ceil(Math.log10(largest) + 0.05),
+    bottom = Math.max(Math.floor(Math.log10(smallest)), top - 18);
   const floor = hasZero || Math.log10(smallest) < bottom ? bottom - 1 : bottom;
   const step = Math.max(1, Math.ceil((top - bottom) / 5));
   const splits = [];
   for (let e = top; e > floor; e -= step) splits.unshift(e);
   if (floor < bottom) splits.unshift(floor);
   return {
-    put: (value) => (Number.isNaN(value) ? null : Math.max(floor, Math.abs(value) > 1e-17 ? Math.log10(Math.abs(value)) : floor)),
-    range: () => [floor - 0.1, top], splits: () => splits,
+    put: (value) =>
+      Number.isNaN(value) ? null : Math.max(floor, Math.abs(value) > 1e-17 ? Math.log10(Math.abs(value)) : floor),
+    range: () => [floor - 0.1, top],
+    splits: () => splits,
     tick: (value) => (value === floor && floor < bottom ? "0" : `10${power(value)}`),
   };
 }

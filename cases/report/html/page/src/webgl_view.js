@@ -5,15 +5,24 @@ import { colour, isDark } from "./theme.js";
 
 export class WebglView {
   constructor(canvas, context) {
-    this.kind = "webgl", this.context = context, this.ratio = Math.min(devicePixelRatio || 1, 2);
+    (this.kind = "webgl"), (this.context = context), (this.ratio = Math.min(devicePixelRatio || 1, 2));
     const quiet = console.error;
-    console.error = () => {};  // three.js would also log what it throws
-    try { this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" }); }
-    finally { console.error = quiet; }
+    console.error = () => {}; // three.js would also log what it throws
+    try {
+      this.renderer = new THREE.WebGLRenderer({
+        canvas,
+        antialias: true,
+        alpha: true,
+        powerPreference: "high-performance",
+      });
+    } finally {
+      console.error = quiet;
+    }
     this.renderer.setScissorTest(true);
     this.scene = new THREE.Scene();
     this.eye = new THREE.PerspectiveCamera(context.camera.fov, 1, 0.01, 1000);
-    this.sky = new THREE.HemisphereLight(0xffffff, 0x999999, 2.2), this.sun = new THREE.DirectionalLight(0xffffff, 1.6);
+    (this.sky = new THREE.HemisphereLight(0xffffff, 0x999999, 2.2)),
+      (this.sun = new THREE.DirectionalLight(0xffffff, 1.6));
     this.scene.add(this.sky, this.sun);
     this.ground();
     this.groups = new Map(context.layers.map((layer) => [layer.name, this.group(layer)]));
@@ -28,15 +37,20 @@ export class WebglView {
   ground() {
     const { shapes, size } = this.context;
     this.planes = [];
-    for (const plane of shapes.filter((s) => s.type === "plane")) this.planes.push(this.grid(plane.normal, plane.offset, plane.normal));
+    for (const plane of shapes.filter((s) => s.type === "plane"))
+      this.planes.push(this.grid(plane.normal, plane.offset, plane.normal));
     if (!this.planes.length) {
       const { up: direction } = this.context.camera;
-      const lowest = Math.min(...[0, 1].map((i) => (i ? size.high ?? size.low : size.low).reduce((sum, v, k) => sum + v * direction[k], 0)));
+      const lowest = Math.min(
+        ...[0, 1].map((i) => (i ? (size.high ?? size.low) : size.low).reduce((sum, v, k) => sum + v * direction[k], 0)),
+      );
       this.planes.push(this.grid(direction, lowest - 0.05 * size.radius, direction));
     }
   }
   grid(normal, offset) {
-    const { size } = this.context, cell = 10 ** Math.floor(Math.log10(size.radius)), half = Math.ceil((4 * size.radius) / cell);
+    const { size } = this.context,
+      cell = 10 ** Math.floor(Math.log10(size.radius)),
+      half = Math.ceil((4 * size.radius) / cell);
     const grid = new THREE.GridHelper(2 * half * cell, Math.min(2 * half, 80));
     grid.material.transparent = true;
     const n = new THREE.Vector3(...normal);
@@ -48,8 +62,15 @@ export class WebglView {
   }
 
   group(layer) {
-    const group = new THREE.Group(), ghost = layer.name === "truth", { shapes, springs } = this.context;
-    const material = new THREE.MeshLambertMaterial({ vertexColors: true, transparent: ghost, opacity: ghost ? 0.3 : 1, depthWrite: !ghost });
+    const group = new THREE.Group(),
+      ghost = layer.name === "truth",
+      { shapes, springs } = this.context;
+    const material = new THREE.MeshLambertMaterial({
+      vertexColors: true,
+      transparent: ghost,
+      opacity: ghost ? 0.3 : 1,
+      depthWrite: !ghost,
+    });
     const kinds = new Map();
     for (const shape of shapes) {
       if (shape.type === "plane") continue;
@@ -65,8 +86,14 @@ export class WebglView {
     const lines = new THREE.LineBasicMaterial({ transparent: ghost, opacity: ghost ? 0.4 : 0.9 });
     const coils = new THREE.LineSegments(new THREE.BufferGeometry(), lines);
     coils.frustumCulled = false;
-    coils.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * 2 * 80 * Math.max(1, springs.length)), 3));
-    const touching = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 4, sizeAttenuation: false, depthTest: false }));
+    coils.geometry.setAttribute(
+      "position",
+      new THREE.BufferAttribute(new Float32Array(3 * 2 * 80 * Math.max(1, springs.length)), 3),
+    );
+    const touching = new THREE.Points(
+      new THREE.BufferGeometry(),
+      new THREE.PointsMaterial({ size: 4, sizeAttenuation: false, depthTest: false }),
+    );
     touching.frustumCulled = false;
     touching.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * 400), 3));
     const trails = ghost ? [] : this.trails(layer);
@@ -77,12 +104,21 @@ export class WebglView {
 
   // Each body's whole way, shown as far as it has come; of many bodies none, for they would only hide one another.
   trails(layer) {
-    const { motion } = layer, moving = this.context.shapes.filter((s) => !s.fixed && s.type !== "plane");
+    const { motion } = layer,
+      moving = this.context.shapes.filter((s) => !s.fixed && s.type !== "plane");
     if (moving.length > 30) return [];
     return moving.map((shape) => {
       const points = new Float32Array(3 * (motion.times.length + 1));
-      motion.times.forEach((_, key) => points.set(motion.values.subarray(7 * (key * motion.bodies + shape.index), 7 * (key * motion.bodies + shape.index) + 3), 3 * key));
-      const line = new THREE.Line(new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(points, 3)), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.55 }));
+      motion.times.forEach((_, key) =>
+        points.set(
+          motion.values.subarray(7 * (key * motion.bodies + shape.index), 7 * (key * motion.bodies + shape.index) + 3),
+          3 * key,
+        ),
+      );
+      const line = new THREE.Line(
+        new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(points, 3)),
+        new THREE.LineBasicMaterial({ transparent: true, opacity: 0.55 }),
+      );
       line.frustumCulled = false;
       line.userData.body = shape.index;
       return line;
@@ -95,11 +131,14 @@ export class WebglView {
       material.color.copy(tint), lines.color.copy(tint), touching.material.color.set(colour("--bad-solid"));
       trails.forEach((line) => line.material.color.copy(tint));
     }
-    for (const grid of this.planes) grid.material.opacity = isDark() ? 0.28 : 0.32, grid.material.color.set(isDark() ? 0x8899aa : 0xffffff);
+    for (const grid of this.planes)
+      (grid.material.opacity = isDark() ? 0.28 : 0.32), grid.material.color.set(isDark() ? 0x8899aa : 0xffffff);
   }
 
   draw(panes, { trails, width, height }) {
-    const began = performance.now(), { renderer, eye } = this, { camera } = this.context;
+    const began = performance.now(),
+      { renderer, eye } = this,
+      { camera } = this.context;
     renderer.setPixelRatio(this.ratio);
     renderer.setSize(width, height, false);
     const layers = new Set(panes.flatMap((p) => p.layers));
@@ -107,15 +146,19 @@ export class WebglView {
     eye.position.set(...camera.eye());
     eye.up.set(...camera.axes().up);
     eye.lookAt(...camera.target);
-    eye.near = camera.distance / 200, eye.far = camera.distance * 50 + 20 * camera.radius;
+    (eye.near = camera.distance / 200), (eye.far = camera.distance * 50 + 20 * camera.radius);
     this.sun.position.copy(eye.position).addScaledVector(new THREE.Vector3(...camera.up), camera.distance);
     this.seeThrough(panes);
     for (const pane of panes) {
       for (const [, { group, layer }] of this.groups) group.visible = pane.layers.includes(layer) && !layer.isGone;
       const bottom = height - pane.y - pane.height;
-      renderer.setViewport(pane.x, bottom, pane.width, pane.height), renderer.setScissor(pane.x, bottom, pane.width, pane.height);
+      renderer.setViewport(pane.x, bottom, pane.width, pane.height),
+        renderer.setScissor(pane.x, bottom, pane.width, pane.height);
       eye.aspect = pane.width / pane.height;
-      eye.fov = eye.aspect < 1 ? (2 * 180 / Math.PI) * Math.atan(Math.tan((camera.fov * Math.PI) / 360) / eye.aspect) : camera.fov;
+      eye.fov =
+        eye.aspect < 1
+          ? ((2 * 180) / Math.PI) * Math.atan(Math.tan((camera.fov * Math.PI) / 360) / eye.aspect)
+          : camera.fov;
       eye.updateProjectionMatrix();
       renderer.render(this.scene, eye);
     }
@@ -127,7 +170,7 @@ export class WebglView {
     const isCrowded = panes.some((p) => p.layers.filter((l) => l.engine).length > 1);
     for (const { layer, material } of this.groups.values()) {
       if (!layer.engine || material.transparent === isCrowded) continue;
-      material.transparent = isCrowded, material.opacity = isCrowded ? 0.55 : 1, material.depthWrite = !isCrowded;
+      (material.transparent = isCrowded), (material.opacity = isCrowded ? 0.55 : 1), (material.depthWrite = !isCrowded);
       material.needsUpdate = true;
     }
   }
@@ -135,7 +178,7 @@ export class WebglView {
   // Without a GPU a frame can take long: then with fewer pixels, so that the page answers.
   keepPace(took) {
     this.pace = 0.8 * (this.pace ?? took) + 0.2 * took;
-    if (this.pace > 40 && this.ratio > 0.5) this.ratio *= 0.8, this.pace = 20;
+    if (this.pace > 40 && this.ratio > 0.5) (this.ratio *= 0.8), (this.pace = 20);
   }
 
   place({ layer, meshes, coils, touching, trails }, showTrails) {
@@ -151,23 +194,31 @@ export class WebglView {
     touching.geometry.setDrawRange(0, Math.min(400, layer.contacts.length));
     for (const line of trails) {
       line.visible = showTrails;
-      const points = line.geometry.attributes.position, o = 7 * line.userData.body, motion = layer.motion, from = 7 * motion.bodies;
-      for (let k = Math.max(0, layer.key - 1); k <= Math.min(layer.key + 1, motion.times.length - 1); ++k) points.setXYZ(k, ...motion.values.subarray(k * from + o, k * from + o + 3));
-      points.setXYZ(layer.key + 1, poses[o], poses[o + 1], poses[o + 2]);  // to where it is now
+      const points = line.geometry.attributes.position,
+        o = 7 * line.userData.body,
+        motion = layer.motion,
+        from = 7 * motion.bodies;
+      for (let k = Math.max(0, layer.key - 1); k <= Math.min(layer.key + 1, motion.times.length - 1); ++k)
+        points.setXYZ(k, ...motion.values.subarray(k * from + o, k * from + o + 3));
+      points.setXYZ(layer.key + 1, poses[o], poses[o + 1], poses[o + 2]); // to where it is now
       points.needsUpdate = true;
       line.geometry.setDrawRange(0, layer.key + 2);
-      if (layer.key < line.userData.shown - 1 || layer.key > line.userData.shown + 1) restore(points, motion, line.userData.body, layer.key + 1);
+      if (layer.key < line.userData.shown - 1 || layer.key > line.userData.shown + 1)
+        restore(points, motion, line.userData.body, layer.key + 1);
       line.userData.shown = layer.key;
     }
   }
 
   placeCoils(coils, poses) {
-    const spots = coils.geometry.attributes.position, { springs, size } = this.context;
+    const spots = coils.geometry.attributes.position,
+      { springs, size } = this.context;
     let at = 0;
     for (const spring of springs) {
-      const a = pointOf(poses, spring.a, spring.pointA), b = pointOf(poses, spring.b, spring.pointB);
+      const a = pointOf(poses, spring.a, spring.pointA),
+        b = pointOf(poses, spring.b, spring.pointB);
       const points = spring.coil ? coil(a, b, 0.025 * size.radius) : [a, b];
-      for (let i = 0; i + 1 < points.length; ++i) spots.setXYZ(at++, ...points[i]), spots.setXYZ(at++, ...points[i + 1]);
+      for (let i = 0; i + 1 < points.length; ++i)
+        spots.setXYZ(at++, ...points[i]), spots.setXYZ(at++, ...points[i + 1]);
     }
     spots.needsUpdate = true;
     coils.geometry.setDrawRange(0, at);
@@ -176,11 +227,18 @@ export class WebglView {
 
 function restore(points, motion, body, now) {
   for (let key = 0; key < motion.times.length; ++key) {
-    if (key !== now) points.setXYZ(key, ...motion.values.subarray(7 * (key * motion.bodies + body), 7 * (key * motion.bodies + body) + 3));
+    if (key !== now)
+      points.setXYZ(
+        key,
+        ...motion.values.subarray(7 * (key * motion.bodies + body), 7 * (key * motion.bodies + body) + 3),
+      );
   }
 }
 
-const matrix = new THREE.Matrix4(), place = new THREE.Vector3(), rotation = new THREE.Quaternion(), size = new THREE.Vector3();
+const matrix = new THREE.Matrix4(),
+  place = new THREE.Vector3(),
+  rotation = new THREE.Quaternion(),
+  size = new THREE.Vector3();
 function matrixOf(poses, shape) {
   const o = 7 * shape.index;
   place.set(poses[o], poses[o + 1], poses[o + 2]);
@@ -196,9 +254,11 @@ function geometryOf(shape, count) {
   const fine = count > 200 ? 12 : 24;
   let geometry;
   if (shape.type === "sphere") geometry = new THREE.SphereGeometry(1, fine, fine / 2);
-  else if (shape.type === "capsule") geometry = new THREE.CapsuleGeometry(shape.radius, shape.length, 6, fine).rotateX(Math.PI / 2);
+  else if (shape.type === "capsule")
+    geometry = new THREE.CapsuleGeometry(shape.radius, shape.length, 6, fine).rotateX(Math.PI / 2);
   else geometry = new THREE.BoxGeometry(1, 1, 1);
-  const { position } = geometry.attributes, colours = new Float32Array(3 * position.count);
+  const { position } = geometry.attributes,
+    colours = new Float32Array(3 * position.count);
   if (geometry.index && shape.type !== "box") {
     geometry = geometry.toNonIndexed();
     return patched(geometry);
@@ -209,10 +269,14 @@ function geometryOf(shape, count) {
 }
 
 function patched(geometry) {
-  const { position } = geometry.attributes, colours = new Float32Array(3 * position.count);
+  const { position } = geometry.attributes,
+    colours = new Float32Array(3 * position.count);
   for (let i = 0; i < position.count; i += 3) {
     const middle = (get) => get(i) + get(i + 1) + get(i + 2);
-    const sign = Math.sign(middle((k) => position.getX(k))) * Math.sign(middle((k) => position.getY(k))) * Math.sign(middle((k) => position.getZ(k)) + 1e-9);
+    const sign =
+      Math.sign(middle((k) => position.getX(k))) *
+      Math.sign(middle((k) => position.getY(k))) *
+      Math.sign(middle((k) => position.getZ(k)) + 1e-9);
     colours.fill(sign < 0 ? 0.62 : 1, 3 * i, 3 * i + 9);
   }
   geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
