@@ -53,8 +53,10 @@ std::string restitution_that_does_not_converge(const std::string& name, const Co
   constexpr double kWorthSaying = 0.05;
   if (course.values.size() < 2) return "";
   double later = 0;
-  for (std::size_t i = 1; i < course.values.size(); ++i) later = std::max(later, course.values[i]->value);
-  if (later < kWorthSaying || later < course.values.front()->value) return "";
+  for (std::size_t i = 1; i < course.values.size(); ++i) {
+    if (course.values[i]->worst.expected > 0) later = std::max(later, course.values[i]->value);
+  }
+  if (later < kWorthSaying || later <= course.values.front()->value) return "";
   return fmt::format("Why: the restitution of {} is off by {} s: it does not converge as dt falls.{}", name,
                      course.text(), in_its_words(*course.cells.front(), "restitution"));
 }
