@@ -56,7 +56,7 @@ struct Watch {
   std::optional<Flight> approaching;  // the last sample at which they were apart and approached each other
   double since = 0;                   // s, of that sample
   bool hit = false;                   // they stopped approaching after it
-  bool is_alone = true;               // no third body was near either of them then
+  bool is_alone = true;               // no third body has been near either of them since
 };
 
 class Watcher {
@@ -117,6 +117,7 @@ class Watcher {
     const Flight flight(scene_, static_cast<const BodyTable&>(bodies_).columns(), pair);
     const double rate = flight.rate(0);
     Watch& watch = watched_[pair];
+    watch.is_alone = watch.is_alone && is_alone;  // at each sample until it is over
     if (rate < -slowest_ && gap > 0) {
       if (watch.hit) conclude(pair, watch, {}, time);
       watch = {flight, time, false, is_alone};

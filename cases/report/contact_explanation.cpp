@@ -53,8 +53,10 @@ std::string restitution_that_does_not_converge(const std::string& name, const Co
   constexpr double kWorthSaying = 0.05;
   if (course.values.size() < 2) return "";
   double later = 0;
-  for (std::size_t i = 1; i < course.values.size(); ++i) later = std::max(later, course.values[i]->value);
-  if (later < kWorthSaying || later < course.values.front()->value) return "";
+  for (std::size_t i = 1; i < course.values.size(); ++i) {
+    if (course.values[i]->worst.expected > 0) later = std::max(later, course.values[i]->value);
+  }
+  if (later < kWorthSaying || later <= course.values.front()->value) return "";
   return fmt::format("Why: the restitution of {} is off by {} s: it does not converge as dt falls.{}", name,
                      course.text(), in_its_words(*course.cells.front(), "restitution"));
 }
@@ -92,11 +94,15 @@ std::vector<std::string> contact_explanations(const Results& results, const Case
   const auto add = [&](const std::string& sentence) {
     if (!sentence.empty()) sentences.push_back(sentence);
   };
+  // In a pile some balls graze each other, and what a step's overlap makes of the normal there is no matter of
+  // restitution.
+  constexpr std::size_t kMostTellable = 60;  // bodies
+  const bool is_pile = result.definition.scene.bodies.size() > kMostTellable;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
     const std::string& name = results.runs[run].text;
     const Course restitution = course_of(result, run, "restitution_error");
     const std::string popped = pop(name, restitution);
-    add(popped.empty() ? restitution_that_does_not_converge(name, restitution) : popped);
+    add(popped.empty() && !is_pile ? restitution_that_does_not_converge(name, restitution) : popped);
     add(friction_with_directions(name, course_of(result, run, "friction_anisotropy")));
   }
   return sentences;
