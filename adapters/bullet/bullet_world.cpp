@@ -33,6 +33,21 @@ bool something_bounces(const Scene& scene) {
   return std::any_of(needs.begin(), needs.end(), [](const Need& need) { return need.feature == "restitution"; });
 }
 
+double inner_radius(const Shape& shape) {  // m, of the largest ball inside
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return 0.5 * box->size.minCoeff();
+  return 0;
+}
+
+// A body that moves by more than its inner ball's radius in a step is stopped where that ball first touches another,
+// and loses the rest of the step, and with it its bounce: only for scenes where nothing bounces. As shipped it passes
+// through what it steps over.
+void stop_at_first_touch(btRigidBody& body, double radius) {
+  body.setCcdMotionThreshold(radius);
+  body.setCcdSweptSphereRadius(radius);
+}
+
 std::string on_off(bool on) { return on ? "on" : "off"; }
 
 }  // namespace
@@ -93,6 +108,7 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
     // m: no impulse across a gap, which would brake a body before its bounce. Where nothing bounces that impulse is
     // right.
     if (bounces_) row.body->setContactProcessingThreshold(0);
+    if (row.moves && body.collides && !bounces_) stop_at_first_touch(*row.body, inner_radius(*body.shape));
   }
   world_.addRigidBody(row.body.get(), btBroadphaseProxy::DefaultFilter,
                       body.collides ? kCollideWithAll : kCollideWithNone);
@@ -147,6 +163,14 @@ const btRigidBody* BulletWorld::first_moving() const {
   return nullptr;
 }
 
+std::string BulletWorld::restitution_in_words() const {
+  if (!bounces_) return "none in this scene";
+  if (matched_)
+    return "contacts act from the touch on, so that no impulse across a gap brakes a body before its bounce";
+  return "as shipped a contact acts across the last gap before the touch and takes the speed that would close it: what "
+         "is left to bounce depends on where in a step the touch falls, and does not converge as dt falls";
+}
+
 SettingsInForce BulletWorld::settings_in_force() const {
   // Bullet has no const getter for what its solver works with.
   const btContactSolverInfo& solver = const_cast<btDiscreteDynamicsWorld&>(world_).getSolverInfo();
@@ -160,8 +184,15 @@ SettingsInForce BulletWorld::settings_in_force() const {
       {"erp", fmt::format("{:g}, contacts {:g}", solver.m_erp, solver.m_erp2)},
       {"cfm", fmt::format("{:g}", solver.m_globalCfm)},
       {"split impulse", on_off(solver.m_splitImpulse)},
-      {"split impulse threshold", fmt::format("{:g} m", solver.m_splitImpulsePenetrationThreshold)},
+      {"split impulse threshold",
+       matched_
+           ? fmt::format("{:g} m: every overlap is moved out without adding speed, at the price of stacks that lean "
+                         "sooner",
+                         solver.m_splitImpulsePenetrationThreshold)
+           : fmt::format("{:g} m: only overlaps beyond 4 cm are moved out, smaller ones are pushed out as speed",
+                         solver.m_splitImpulsePenetrationThreshold)},
       {"restitution threshold", fmt::format("{:g} m/s", solver.m_restitutionVelocityThreshold)},
+      {"restitution", restitution_in_words()},
       {"warm starting", on_off(solver.m_solverMode & SOLVER_USE_WARMSTARTING)},
       {"friction directions", solver.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS
                                   ? "two, the first along the sliding velocity"
@@ -180,6 +211,9 @@ SettingsInForce BulletWorld::settings_in_force() const {
                               ? "off"
                               : fmt::format("on, after {:g} s below {:g} m/s and {:g} rad/s", gDeactivationTime,
                                             body->getLinearSleepingThreshold(), body->getAngularSleepingThreshold()));
+    in_force.emplace_back("continuous collision", body->getCcdMotionThreshold() > 0
+                                                      ? "on, for a body that moves by more than its inner radius a step"
+                                                      : "off");
     in_force.emplace_back("contact processing threshold", fmt::format("{:g} m", body->getContactProcessingThreshold()));
   }
   return in_force;

@@ -4,13 +4,14 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "adapters/bullet/bullet_convert.h"
-#include "core/scene/contact_laws.h"
 #include "adapters/external_loads.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 
@@ -38,6 +39,7 @@ class BulletWorld : public World {
   void add_body(const Body& body, const Settings& settings);
   void add_loads(double dt);
   const btRigidBody* first_moving() const;
+  std::string restitution_in_words() const;
 
   ContactLaws laws_;
   ExternalLoads loads_;

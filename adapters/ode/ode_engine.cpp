@@ -20,6 +20,14 @@ std::vector<OptionInfo> options_of_both() {
           {"cfm", "constraint force mixing: softness of constraints", {}, 0, 1}};
 }
 
+MethodInfo by_size() {
+  return {
+      .name = "auto",
+      .summary = fmt::format("worldstep, but quickstep where more than {} moving bodies can touch", kMostForWorldStep),
+      .velocity_lag = 0.5,
+      .options = options_of_both()};
+}
+
 MethodInfo worldstep() {
   return {.name = "worldstep",
           .summary = "semi-implicit Euler, contacts by a direct (Dantzig) solver",
@@ -47,7 +55,7 @@ EngineInfo OdeEngine::info() const {
                        "friction:infinite", "contact:box-box", "contact:box-capsule", "contact:box-plane",
                        "contact:box-sphere", "contact:capsule-capsule", "contact:capsule-plane",
                        "contact:capsule-sphere", "contact:plane-sphere", "contact:sphere-sphere"},
-          .methods = {worldstep(), quickstep()}};
+          .methods = {by_size(), worldstep(), quickstep()}};
 }
 
 std::unique_ptr<World> OdeEngine::load(const Scene& scene, const Settings& settings) const {

@@ -6,12 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/contact_laws.h"
 #include "adapters/external_loads.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
+
+// The direct solver's time grows as the cube of the contacts: a pile of 216 balls takes it over a second a step. The
+// method `auto` leaves scenes of more than so many moving bodies that can touch to the sweeps.
+inline constexpr int kMostForWorldStep = 50;
 
 class OdeWorld : public World {
  public:
@@ -32,6 +36,9 @@ class OdeWorld : public World {
   void advance(double dt);
   bool runs_away() const;
   int quick_step(double dt);  // 0 if it could not
+  std::string erp_in_words() const;
+  std::string cfm_in_words() const;
+  std::string solver_in_words() const;
   void add_loads(double dt);
   void find_contacts();
   static void touch(void* self, dGeomID a, dGeomID b);  // ODE calls it for each pair whose bounding boxes overlap
@@ -41,7 +48,10 @@ class OdeWorld : public World {
   std::vector<BodyState> standing_;  // where a fixed body stands, by body index
   ContactLaws laws_;
   ExternalLoads loads_;
-  bool can_touch_, matched_, quick_;
+  bool can_touch_;
+  double heaviest_;      // kg, of the moving bodies
+  double softness_ = 0;  // 1/kg: cfm/dt where it is set by the masses; 0 where cfm is as shipped or as asked for
+  bool matched_, by_size_, quick_;
   bool lost_ = false;  // blown up: from then on its state is "not a number"
   Clock clock_;
   std::string complaint_;

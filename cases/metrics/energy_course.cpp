@@ -11,24 +11,15 @@
 namespace rigor {
 namespace {
 
-enum class Exchange { none, contact, damping, driving };
-
-// An impact below restitution 1 takes energy, and so does friction, even an infinite one when a body slips as it lands.
-// The default law counts even where each pair has its own: that can only make the judgement milder.
-bool contact_may_lose(const Scene& scene) {
-  const auto loses = [](const ContactLaw& law) { return law.restitution < 1 || law.friction > 0; };
-  const auto& pairs = scene.contact_pairs;
-  return loses(scene.contact_default) ||
-         std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return loses(pair.law); });
-}
-
 bool has_contact(const Scene& scene) {
   const auto needs = needs_of(scene);
   return std::any_of(needs.begin(), needs.end(), [](const Need& n) { return n.feature.starts_with("contact:"); });
 }
 
+enum class Exchange { none, contact, damping, driving };
+
 Exchange exchange_of(const Scene& scene) {
-  if (has_contact(scene) && contact_may_lose(scene)) return Exchange::contact;
+  if (contact_may_lose(scene)) return Exchange::contact;
   if (!scene.forces.empty()) return Exchange::driving;
   const bool damped =
       std::any_of(scene.springs.begin(), scene.springs.end(), [](const Spring& s) { return s.damping != 0; });
@@ -53,19 +44,6 @@ std::vector<double> truths_energies(const JudgedRun& run, std::size_t count) {
   return energies;
 }
 
-double scale_of(const JudgedRun& run) {
-  if (run.truth && run.truth->largest_kinetic_energy > 0) return run.truth->largest_kinetic_energy;
-  const auto& samples = run.trajectory.samples;
-  const double kinetic = kinetic_energy(run.scene, samples.front().bodies.columns());
-  if (kinetic > 0) return kinetic;
-  const double start = potential_energy(run.scene, samples.front().bodies.columns());
-  double lowest = start;
-  for (const Sample& sample : samples) {
-    lowest = std::min(lowest, potential_energy(run.scene, sample.bodies.columns()));
-  }
-  return lowest < start ? start - lowest : 1;
-}
-
 bool stays(const std::vector<double>& energies, double scale) {
   constexpr double kRounding = 1e-9;  // of the energy scale: far above roundings, far below any real loss
   return !energies.empty() && std::all_of(energies.begin(), energies.end(), [&](double e) {
@@ -81,13 +59,35 @@ std::vector<double> lowest_so_far(const std::vector<double>& found) {
 
 }  // namespace
 
+// The default law counts even where each pair has its own: that can only make the judgement milder.
+bool contact_may_lose(const Scene& scene) {
+  if (!has_contact(scene)) return false;
+  const auto loses = [](const ContactLaw& law) { return law.restitution < 1 || law.friction > 0; };
+  const auto& pairs = scene.contact_pairs;
+  return loses(scene.contact_default) ||
+         std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return loses(pair.law); });
+}
+
+double energy_scale(const JudgedRun& run) {
+  if (run.truth && run.truth->largest_kinetic_energy > 0) return run.truth->largest_kinetic_energy;
+  const auto& samples = run.trajectory.samples;
+  const double kinetic = kinetic_energy(run.scene, samples.front().bodies.columns());
+  if (kinetic > 0) return kinetic;
+  const double start = potential_energy(run.scene, samples.front().bodies.columns());
+  double lowest = start;
+  for (const Sample& sample : samples) {
+    lowest = std::min(lowest, potential_energy(run.scene, sample.bodies.columns()));
+  }
+  return lowest < start ? start - lowest : 1;
+}
+
 EnergyCourse energy_course(const JudgedRun& run, double lag) {
   EnergyCourse course;
   if (run.trajectory.samples.empty()) {
     course.not_applicable = "the run has no finite sample";
     return course;
   }
-  course.scale = scale_of(run);
+  course.scale = energy_scale(run);
   course.found = energies(run, lag);
   const Exchange exchange = exchange_of(run.scene);
   const auto truth = truths_energies(run, samples_within(run, kTruthNeededPosition));

@@ -21,12 +21,17 @@ struct EnergyCourse {
 //   nothing takes or gives energy                        what it was at the start
 //   a truth whose energy stays what it was               likewise (an elastic bounce, say)
 //   contact that may lose energy                         not above the lowest so far: only gains count
-//   dampers or timed forces, and a truth                 its own start plus the truth's change, up to the truth's
-//   horizon dampers                                              not above the lowest so far timed forces without a
-//   truth                         nothing
-//
-// The scale: the truth's largest kinetic energy; else the run's at the start; else the depth to which its potential
-// energy falls, which is what its motion can have come from; else 1 J, for nothing moves.
+//   dampers or timed forces, and a truth                 its own start plus the truth's change, up to its horizon
+//   dampers                                              not above the lowest so far
+//   timed forces without a truth                         nothing
 EnergyCourse energy_course(const JudgedRun& run, double lag);
+
+// Whether contact may take energy: an impact below restitution 1 does, and so does friction, even an infinite one when
+// a body slips as it lands.
+bool contact_may_lose(const Scene& scene);
+
+// J: what a change of energy is relative to. The truth's largest kinetic energy; else the run's at the start; else the
+// depth to which its potential energy falls, which is what its motion can have come from; else 1 J, for nothing moves.
+double energy_scale(const JudgedRun& run);
 
 }  // namespace rigor

@@ -5,14 +5,22 @@ namespace rigor {
 // One declaration and one row a metric, alphabetical; each is defined in the file of its name.
 MetricRow angular_momentum_drift();
 MetricRow angular_velocity_error();
+MetricRow collapse_time();
 MetricRow cost();
+MetricRow creep();
 MetricRow energy_drift();
 MetricRow energy_drift_synchronised();
+MetricRow energy_gain();
+MetricRow friction_anisotropy();
+MetricRow impact_time_error();
 MetricRow linear_momentum_drift();
 MetricRow orientation_error();
 MetricRow orthonormality_error();
+MetricRow penetration();
 MetricRow phase_error();
 MetricRow position_error();
+MetricRow restitution_error();
+MetricRow stop_distance_error();
 MetricRow survival();
 MetricRow tube();
 MetricRow unexplained_error();
@@ -25,14 +33,22 @@ const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
       angular_momentum_drift(),
       angular_velocity_error(),
+      collapse_time(),
       cost(),
+      creep(),
       energy_drift(),
       energy_drift_synchronised(),
+      energy_gain(),
+      friction_anisotropy(),
+      impact_time_error(),
       linear_momentum_drift(),
       orientation_error(),
       orthonormality_error(),
+      penetration(),
       phase_error(),
       position_error(),
+      restitution_error(),
+      stop_distance_error(),
       survival(),
       tube(),
       unexplained_error(),

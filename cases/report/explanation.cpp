@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
+
+#include "cases/report/contact_explanation.h"
 
 namespace rigor {
 namespace {
@@ -192,7 +195,9 @@ class Explainer {
 }  // namespace
 
 std::vector<std::string> explanations(const Results& results, const CaseResult& result) {
-  return Explainer(results, result).sentences();
+  std::vector<std::string> sentences = Explainer(results, result).sentences();
+  for (std::string& sentence : contact_explanations(results, result)) sentences.push_back(std::move(sentence));
+  return sentences;
 }
 
 double stiffest_frequency(const Scene& scene) {

@@ -92,6 +92,13 @@ std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& de
 // How long a step has to hold to be called stable [s]: even where the run is short.
 double stability_horizon(const Case& definition) { return std::max(30.0, definition.duration); }
 
+// A truth need not hold that long where no stable step is searched for.
+bool searches_steps(const CaseResult& planned, const GridOptions& options) {
+  const auto& steps = planned.stable_steps;
+  return options.stable_steps && std::any_of(steps.begin(), steps.end(),
+                                             [](const auto& stable) { return stable.status != Status::unsupported; });
+}
+
 // The jobs of one case: first the stable steps, which take longest, then the cells.
 class CaseJobs {
  public:
@@ -99,11 +106,11 @@ class CaseJobs {
            const Truth* truth, const TruthFacts& facts)
       : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), facts_(facts) {
     const Case& definition = planned.definition;
-    if (options.stable_steps && truth) {
+    if (searches_steps(planned, options) && truth) {
       const double horizon = stability_horizon(definition);
       stable_energy_ = std::max(largest_kinetic_energy(definition.scene, truth, horizon),
                                 largest_energy_change(definition.scene, truth, horizon));
-    } else if (options.stable_steps) {
+    } else if (searches_steps(planned, options)) {
       stable_energy_ = largest_kinetic_energy(definition.scene, nullptr, stability_horizon(definition));
     }
     for (std::size_t i = 0; i < planned.stable_steps.size(); ++i) {
@@ -288,7 +295,7 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
     channel.send(known_truth->second.message);
     return CaseJobs(grid, planned, engines, options, nullptr, {}).run(channel, journal);
   }
-  const double seconds = options.stable_steps ? stability_horizon(definition) : definition.duration;
+  const double seconds = searches_steps(planned, options) ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
   if (truth && !options.folder.empty()) {

@@ -2,22 +2,22 @@
 // the k-th flight begins with speed u e^k and lasts 2 u e^k / g, so it begins S e (1 - e^(k-1)) / (1 - e) after t1,
 // where S = 2 u / g; at rest from S e / (1 - e) on (Zeno's limit of the geometric series).
 //
-// Between impacts a sphere may drift and spin freely. Without friction nothing changes either; with infinite friction
-// the first impact stops the slip of the contact point, (v + w x r)_t = 0, and the sphere rolls on from then
-// (Goldsmith, Impact, 1960, section 2.1).
+// Between impacts a sphere may drift and spin freely. At an impact with the normal impulse J = m (1 + e) u friction
+// changes the slip of the contact point, (v + w x r)_t, by at most mu J (1/m + r²/I) against its direction, and not
+// below zero: from then on the sphere rolls. Infinite friction ends the slip at the first impact, none never changes
+// it. A slip that outlasts the bounces goes on under mu m g (Goldsmith, Impact, 1960, chapter 2; Brach, Mechanical
+// Impact Dynamics, 1991, chapter 2).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "cases/truth/truth.h"
+#include "cases/truth/phased_motion.h"
 #include "core/error.h"
 
 namespace rigor {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 [[noreturn]] void refuse(const std::string& why) {
   throw InputError("the truth 'bounce' is for spheres above one plane across gravity: " + why);
@@ -39,8 +39,6 @@ class VerticalBounce {
         start.speed >= 0 ? (start.speed + impact_speed_) / g_ : 2 * start.above / (impact_speed_ - start.speed);
   }
 
-  double first_impact() const { return first_impact_; }  // s
-
   Height at(double t) const {
     if (t < first_impact_) return flown(start_, t);
     const double since = t - first_impact_, period = 2 * impact_speed_ / g_;
@@ -57,6 +55,20 @@ class VerticalBounce {
 
   double top_speed() const { return impact_speed_; }  // m/s
 
+  // Of the impact that follows `before` others.
+  double impact_speed(int before) const { return impact_speed_ * std::pow(e_, before); }  // m/s
+  double impact_time(int before) const {                                                  // s
+    if (before == 0) return first_impact_;
+    const double period = 2 * impact_speed_ / g_;
+    return first_impact_ + (e_ == 1 ? period * before : period * e_ * (1 - std::pow(e_, before)) / (1 - e_));
+  }
+  // s, from which on it lies still; infinite for a ball that never does.
+  double rest_time() const {
+    if (impact_speed_ == 0) return 0;
+    if (e_ == 1) return std::numeric_limits<double>::infinity();
+    return first_impact_ + 2 * impact_speed_ / g_ * e_ / (1 - e_);
+  }
+
  private:
   Height flown(Height from, double t) const {
     return {std::max(0.0, from.above + t * (from.speed - 0.5 * g_ * t)), from.speed - g_ * t};
@@ -66,22 +78,98 @@ class VerticalBounce {
   double g_ = 1, e_ = 0, impact_speed_ = 0, first_impact_ = 0;
 };
 
-struct Sideways {
-  Vec3 velocity;          // m/s, along the plane, in W
-  Vec3 angular_velocity;  // rad/s, in W
+// What one sphere does along the plane, and how it turns: a phase from each impact that still changes its slip.
+class SidewaysMotion {
+ public:
+  SidewaysMotion(const Body& body, double radius, const ExtendedVec3& up, double gravity, ContactLaw law)
+      : body_(body),
+        arm_(-Extended(radius) * up),
+        k_(body.inertia(0, 0) / (body.mass * Extended(radius) * radius)),
+        gravity_(gravity),
+        law_(law),
+        now_{0,
+             {along(extended(body.position)), extended(body.orientation), along(extended(body.velocity)),
+              extended(body.angular_velocity)}} {}
+
+  std::vector<Phase> phases(const VerticalBounce& bounce, double duration) {
+    if (law_.friction == 0 || slip().norm() == 0) return {now_};
+    const double rest = bounce.rest_time();
+    constexpr int kMost = 100000;       // impacts that change the slip
+    constexpr double kTooSlow = 1e-17;  // of the first impact: its impulse is lost in the rounding of the sum
+    for (int n = 0; n < kMost; ++n) {
+      const double speed = bounce.impact_speed(n), time = bounce.impact_time(n);
+      if (time > duration || (rest > duration && speed == 0)) return finished();
+      if (speed <= kTooSlow * bounce.top_speed()) return slide_from(rest);
+      if (hit(time, (1 + law_.restitution) * Extended(speed))) return finished();
+    }
+    refuse(fmt::format("body '{}' slips through more than {} impacts", body_.name, kMost));
+  }
+
+ private:
+  ExtendedVec3 along(const ExtendedVec3& v) const { return v - arm_.dot(v) / arm_.squaredNorm() * arm_; }
+  ExtendedVec3 slip() const { return along(now_.start.velocity + now_.start.angular_velocity.cross(arm_)); }
+
+  std::vector<Phase> finished() {
+    done_.push_back(now_);
+    return std::move(done_);
+  }
+  void go_on_from(Extended time) {
+    done_.push_back(now_);
+    now_ = {time, now_.at(time)};
+  }
+  void push(const ExtendedVec3& impulse) {  // m/s, per mass
+    now_.start.velocity += impulse;
+    now_.start.angular_velocity += arm_.cross(impulse) / (k_ * arm_.squaredNorm());
+  }
+
+  // The impulses are per mass. True if the slip has ended.
+  bool hit(Extended time, Extended normal_impulse) {
+    go_on_from(time);
+    const ExtendedVec3 u = slip();
+    const Extended to_stop = u.norm() / (1 + 1 / k_);
+    const bool stops = law_.friction == kInfiniteFriction || law_.friction * normal_impulse >= to_stop;
+    push(-(stops ? to_stop : law_.friction * normal_impulse) * u.normalized());
+    return stops;
+  }
+
+  // It lies on the plane and slips on, until it rolls.
+  std::vector<Phase> slide_from(double time) {
+    if (law_.friction == kInfiniteFriction) {
+      hit(time, 0);
+      return finished();
+    }
+    go_on_from(time);
+    const ExtendedVec3 u = slip(), friction = -law_.friction * gravity_ * u.normalized();
+    now_.acceleration = friction;
+    now_.angular_acceleration = arm_.cross(friction) / (k_ * arm_.squaredNorm());
+    const ExtendedVec3 w = now_.start.angular_velocity;
+    if (w.cross(now_.angular_acceleration).norm() > 1e-12L * w.norm() * now_.angular_acceleration.norm()) {
+      refuse(fmt::format("body '{}' spins about another axis than that about which friction turns it", body_.name));
+    }
+    go_on_from(time + u.norm() / (friction.norm() * (1 + 1 / k_)));
+    return finished();
+  }
+
+  const Body& body_;
+  ExtendedVec3 arm_;  // m, from the centre to the contact point
+  Extended k_;        // 1, I/(m r²)
+  Extended gravity_;  // m/s²
+  ContactLaw law_;
+  Phase now_;
+  std::vector<Phase> done_;
 };
 
 struct Ball {
   int body;
   VerticalBounce bounce;
-  double ground;           // m, height of the centre when it touches
-  Vec3 foot;               // m, the position without its height
-  Sideways before, after;  // the first impact
+  double ground;          // m, height of the centre when it touches
+  PhasedMotion sideways;  // without its height
+  bool drifts;            // along the plane
 };
 
 class Bounce final : public Truth {
  public:
-  explicit Bounce(const Scene& scene) : scene_(scene) {
+  Bounce(const Scene& scene, double duration) : scene_(scene), duration_(duration) {
     check_that_only_contact_acts();
     const double g = scene.gravity.norm();
     if (g == 0) refuse("there is no gravity");
@@ -107,7 +195,8 @@ class Bounce final : public Truth {
     for (const Ball& ball : balls_) {
       const Body& body = scene_.bodies[ball.body];
       const double speed = body.velocity.norm() + ball.bounce.top_speed();
-      largest = std::max({largest, body.position.norm() + speed * t, 1 + body.angular_velocity.norm() * t});
+      largest = std::max({largest, body.position.norm() + speed * t, 1 + body.angular_velocity.norm() * t,
+                          ball.sideways.error(t) / kEpsilon});
     }
     return 16 * kEpsilon * largest;
   }
@@ -147,33 +236,26 @@ class Bounce final : public Truth {
     }
     const double radius = std::get<Sphere>(*body.shape).radius;
     const ContactLaw law = scene_.contact_law(index, plane);
-    Ball ball;
-    ball.body = index;
-    ball.ground = std::get<Plane>(*scene_.bodies[plane].shape).offset + radius;
-    double above = up_.dot(body.position) - ball.ground;
-    const double rounding = 8 * kEpsilon * (std::abs(ball.ground) + radius);
+    const double ground = std::get<Plane>(*scene_.bodies[plane].shape).offset + radius;
+    double above = up_.dot(body.position) - ground;
+    const double rounding = 8 * kEpsilon * (std::abs(ground) + radius);
     if (above < -rounding) refuse(fmt::format("body '{}' starts {:.3g} m inside the plane", body.name, -above));
-    ball.bounce = VerticalBounce({std::max(0.0, above), up_.dot(body.velocity)}, g, law.restitution);
-    ball.foot = along_plane(body.position);
-    ball.before = {along_plane(body.velocity), body.angular_velocity};
-    ball.after = after_impact(body, radius, law.friction, ball.before);
-    return ball;
+    check_inertia(body);
+    const VerticalBounce bounce({std::max(0.0, above), up_.dot(body.velocity)}, g, law.restitution);
+    SidewaysMotion sideways(body, radius, extended(up_).normalized(), g, law);
+    std::vector<Phase> phases = sideways.phases(bounce, duration_);
+    const bool drifts =
+        std::any_of(phases.begin(), phases.end(), [](const Phase& p) { return p.start.velocity.norm() > 0; });
+    return {index, bounce, ground, PhasedMotion(std::move(phases), 0), drifts};
   }
 
-  Vec3 along_plane(const Vec3& v) const { return v - up_.dot(v) * up_; }
-
-  Sideways after_impact(const Body& body, double radius, double friction, const Sideways& before) const {
+  static void check_inertia(const Body& body) {
     const double I = body.inertia(0, 0);
-    if (before.angular_velocity.norm() > 0 && (body.inertia - I * Mat3::Identity()).norm() > 4 * kEpsilon * I) {
-      refuse(fmt::format("body '{}' spins, and its inertia is not the same about every axis", body.name));
+    const bool turns = !body.angular_velocity.isZero(0) || !body.velocity.isZero(0);
+    if (turns && (body.inertia - I * Mat3::Identity()).norm() > 4 * kEpsilon * I) {
+      refuse(
+          fmt::format("body '{}' spins, or may come to, and its inertia is not the same about every axis", body.name));
     }
-    const Vec3 arm = -radius * up_, slip = along_plane(before.velocity + before.angular_velocity.cross(arm));
-    if (friction == 0 || slip.norm() == 0) return before;
-    if (friction != kInfiniteFriction) {
-      refuse(fmt::format("body '{}' slips over the plane with a finite friction of {}", body.name, friction));
-    }
-    const Vec3 impulse = -slip / (1 / body.mass + radius * radius / I);
-    return {before.velocity + impulse / body.mass, before.angular_velocity + arm.cross(impulse) / I};
   }
 
   // Nothing but the plane may be hit. Balls that move sideways could meet, so then there may be only one.
@@ -182,9 +264,8 @@ class Bounce final : public Truth {
       for (std::size_t j = 0; j < i; ++j) {
         const Body &a = scene_.bodies[balls_[i].body], &b = scene_.bodies[balls_[j].body];
         const double reach = std::get<Sphere>(*a.shape).radius + std::get<Sphere>(*b.shape).radius;
-        const bool stand = balls_[i].before.velocity.isZero(0) && balls_[i].after.velocity.isZero(0) &&
-                           balls_[j].before.velocity.isZero(0) && balls_[j].after.velocity.isZero(0);
-        if (stand && (balls_[i].foot - balls_[j].foot).norm() >= reach) continue;
+        const Vec3 apart = a.position - b.position, level = apart - up_.dot(apart) * up_;
+        if (!balls_[i].drifts && !balls_[j].drifts && level.norm() >= reach) continue;
         refuse(fmt::format("bodies '{}' and '{}' could touch", a.name, b.name));
       }
     }
@@ -192,16 +273,13 @@ class Bounce final : public Truth {
 
   BodyState ball_at(const Ball& ball, double t) const {
     const Height height = ball.bounce.at(t);
-    const double impact = ball.bounce.first_impact(), before = std::min(t, impact), after = t - before;
-    const Sideways& now = t < impact ? ball.before : ball.after;
-    return {
-        ball.foot + (ball.ground + height.above) * up_ + before * ball.before.velocity + after * ball.after.velocity,
-        rotation_by(after * ball.after.angular_velocity) * rotation_by(before * ball.before.angular_velocity) *
-            scene_.bodies[ball.body].orientation,
-        height.speed * up_ + now.velocity, now.angular_velocity};
+    const ExtendedState level = ball.sideways.at(t);
+    return {Vec3(level.position.cast<double>()) + (ball.ground + height.above) * up_, level.orientation.cast<double>(),
+            Vec3(level.velocity.cast<double>()) + height.speed * up_, level.angular_velocity.cast<double>()};
   }
 
   Scene scene_;
+  double duration_;  // s
   Vec3 up_ = Vec3::UnitY();
   std::vector<Ball> balls_;
 };
@@ -210,7 +288,7 @@ class Bounce final : public Truth {
 
 TruthRow bounce_truth() {
   return {"bounce", "spheres falling on a plane, bounce by bounce to rest, in closed form",
-          [](const Scene& scene, double) { return std::make_unique<Bounce>(scene); }};
+          [](const Scene& scene, double duration) { return std::make_unique<Bounce>(scene, duration); }};
 }
 
 }  // namespace rigor

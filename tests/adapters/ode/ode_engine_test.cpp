@@ -147,6 +147,23 @@ BOOST_AUTO_TEST_CASE(a_perfect_bounce_keeps_its_height) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(many_bodies_go_to_the_sweeps_unless_a_solver_is_named) {
+  Scene scene;
+  for (int i = 0; i < 51; ++i) {
+    Body ball;
+    ball.name = std::to_string(i), ball.shape = Sphere{0.1}, ball.position = {1.0 * i, 0, 0}, ball.collides = true;
+    scene.bodies.push_back(ball);
+  }
+  const auto solver = [&](const std::string& run) {
+    const SettingsInForce settings = load_run(run, scene)->settings_in_force();
+    return std::map<std::string, std::string>(settings.begin(), settings.end())["solver"];
+  };
+  BOOST_TEST(solver("ode") == "quickstep (SOR), for more than 50 bodies can touch");
+  BOOST_TEST(solver("ode:worldstep") == "worldstep (Dantzig)");
+  scene.bodies.pop_back();
+  BOOST_TEST(solver("ode") == "worldstep (Dantzig)");
+}
+
 BOOST_AUTO_TEST_CASE(options_reach_the_engine_and_are_read_back) {
   const Scene scene = asymmetric_top();
   const auto in_force = [&](const std::string& run) {

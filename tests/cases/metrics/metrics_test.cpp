@@ -23,6 +23,14 @@ BOOST_AUTO_TEST_CASE(the_metrics_across_cells_are_alphabetical_and_have_names_of
   }
 }
 
+// What a scene must have for some metrics; without it they say so.
+bool is_of_contact(const std::string& metric) {
+  const std::vector<std::string> names = {
+      "collapse_time",     "creep",       "energy_gain",       "friction_anisotropy",
+      "impact_time_error", "penetration", "restitution_error", "stop_distance_error"};
+  return std::find(names.begin(), names.end(), metric) != names.end();
+}
+
 BOOST_AUTO_TEST_CASE(the_truth_itself_has_no_error) {
   struct Row {
     const char* truth;
@@ -44,13 +52,16 @@ BOOST_AUTO_TEST_CASE(the_truth_itself_has_no_error) {
     for (const MetricRow& metric : metrics()) {
       BOOST_TEST_CONTEXT(row.truth << " of " << row.scene.bodies[0].name << ": " << metric.name) {
         const MetricResult result = metric.measure(run);
+        BOOST_TEST(result.measurement.has_value() == result.not_applicable.empty());
+        if (is_of_contact(metric.name) && !result.measurement) continue;
         BOOST_REQUIRE(result.measurement.has_value());
         BOOST_TEST(result.not_applicable == "");
         const double perfect = metric.name == "survival" ? 2 : metric.higher_is_better ? 1 : 0;
         // Roundings, of momenta up to 1e3 kg m/s.
         BOOST_TEST(std::abs(result.measurement->value - perfect) < 1e-12 * 1e3);
-        const bool is_one_number = metric.name == "cost" || metric.name == "phase_error" || metric.name == "survival" ||
-                                   metric.name == "tube";
+        const std::vector<std::string> one_number = {
+            "cost", "impact_time_error", "phase_error", "restitution_error", "survival", "stop_distance_error", "tube"};
+        const bool is_one_number = std::find(one_number.begin(), one_number.end(), metric.name) != one_number.end();
         BOOST_TEST(result.measurement->series.size() == (is_one_number ? 0 : 101));
         BOOST_TEST(result.measurement->compared_until == 2);
       }

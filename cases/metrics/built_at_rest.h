@@ -1,0 +1,14 @@
+// Scenes that are built to stand: every body at rest at the start and touching another, only gravity acting. Ground of
+// creep and collapse_time.
+#pragma once
+
+#include <string>
+
+#include "cases/metrics/metric.h"
+
+namespace rigor {
+
+// Why the run's scene is not one of them, or its truth moves; empty if it is and does not.
+std::string why_not_built_at_rest(const JudgedRun& run);
+
+}  // namespace rigor

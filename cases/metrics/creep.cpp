@@ -1,0 +1,32 @@
+// How far a body that should stay where it is has moved from its start, in a scene built to stand (built_at_rest.h). It
+// counts the settling of the first steps too.
+#include "cases/metrics/built_at_rest.h"
+#include "cases/metrics/measuring.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run) {
+  const std::string why_not = why_not_built_at_rest(run);
+  if (!why_not.empty()) return {{}, why_not};
+  const BodyColumns start = run.trajectory.samples.front().bodies.columns();
+  Course course;
+  for (const Sample& sample : run.trajectory.samples) {
+    double farthest = 0;
+    Instant worst{sample.time, kWorld, "displacement", 0, 0};
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      const double moved = (sample.bodies.columns().position(i) - start.position(i)).norm();
+      if (moved <= farthest) continue;
+      farthest = moved;
+      worst = {sample.time, static_cast<int>(i), "displacement", moved, 0};
+    }
+    course.add(farthest, worst);
+  }
+  return {std::move(course).finish(), ""};
+}
+
+}  // namespace
+
+MetricRow creep() { return {"creep", "m", "how far a body built to stand still has moved from its start", measure}; }
+
+}  // namespace rigor

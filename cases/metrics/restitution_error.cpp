@@ -1,0 +1,35 @@
+// |speed of separation / speed of approach - e| of an impact, the largest over the run's impacts (impacts.h): what the
+// engine made of the pair's restitution. Needs no truth.
+#include <cmath>
+
+#include "cases/metrics/impacts.h"
+#include "cases/metrics/measuring.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run) {
+  Measurement out;
+  bool has_any = false;
+  for (const auto& [pair, impacts] : impacts_of(run.scene, run.trajectory, run.velocity_lag)) {
+    const double expected = run.scene.contact_law(pair.first, pair.second).restitution;
+    const int mover = run.scene.bodies[pair.first].fixed ? pair.second : pair.first;
+    for (const Impact& impact : impacts) {
+      const double found = impact.after / impact.before, error = std::abs(found - expected);
+      if (has_any && error <= out.value) continue;
+      has_any = true, out.value = error;
+      out.worst = {impact.time, mover, "restitution", found, expected};
+    }
+  }
+  if (!has_any) return {{}, kNoImpact};
+  out.compared_until = run.trajectory.samples.back().time;
+  return {out, ""};
+}
+
+}  // namespace
+
+MetricRow restitution_error() {
+  return {"restitution_error", "1", "largest error of an impact's separation speed over its approach speed", measure};
+}
+
+}  // namespace rigor

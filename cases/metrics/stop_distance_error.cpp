@@ -1,0 +1,30 @@
+// How far a body that the truth brings to a stop has gone, relative to how far it should have: (found - expected) /
+// expected, the largest of its magnitudes over the bodies, at the end of the run. What creeps on after its stop counts.
+#include <cmath>
+
+#include "cases/metrics/measuring.h"
+#include "cases/metrics/stop_distances.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run) {
+  std::string why_none;
+  Measurement out;
+  for (const Stop& stop : stops_of(run, why_none)) {
+    const double value = std::abs(stop.found - stop.expected) / stop.expected;
+    if (value >= out.value)
+      out.value = value, out.worst = {stop.time, stop.body, "distance", stop.found, stop.expected};
+    out.compared_until = stop.time;
+  }
+  if (!why_none.empty()) return {{}, why_none};
+  return {out, ""};
+}
+
+}  // namespace
+
+MetricRow stop_distance_error() {
+  return {"stop_distance_error", "1", "error of the distance to a stop, relative to the true one", measure};
+}
+
+}  // namespace rigor
