@@ -336,7 +336,7 @@ std::vector<Fault> of_contacts() {
            if (auto* c = std::get_if<Capsule>(&*b.shape)) c->length *= 1e-3;
          }
        })},
-      {"every mass the same in contact", "contact/mass-ratio-1000", "creep|penetration", equal_masses},
+      {"every mass the same in contact", "contact/capsules-end-on", bounce, equal_masses},
       {"inertia of a rolling body off by half", "contact/slide-to-roll", slide,
        each_body([](Body& b) { b.inertia *= 1.5; })},
   };
