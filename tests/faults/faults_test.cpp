@@ -143,6 +143,10 @@ BOOST_AUTO_TEST_CASE(every_fault_is_found_by_a_gate_that_points_at_it) {
   for (const Fault& fault : faults()) {
     if (only && fault.name.find(only) == std::string::npos) continue;
     for (const std::string engine : kEngines) {
+      if (case_called(fault.shown_by, engine).gates.empty()) {
+        BOOST_TEST_MESSAGE(fault.name << " in " << engine << ": not asked, for no gate of the case is on it");
+        continue;
+      }
       const std::string text = finding(fault, engine);
       ++all, found += !text.empty();
       BOOST_TEST(!text.empty(), fault.name << " in " << engine << " is not found by " << fault.shown_by);

@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(a_row_that_no_gate_can_meet_is_refused) {
   const auto rows = read(kRow);
   BOOST_CHECK_EXCEPTION(check_known_deviations(rows, {definition}, infos()), InputError, says("no gate of drift"));
   Gate gate;
-  gate.metric = "position_error", gate.engines = {"ode:worldstep"};
+  gate.metric = "position_error", gate.engines = {"ode"};
   definition.gates = {gate};
   check_known_deviations(rows, {definition}, infos());
   definition.gates.front().engines = {"bullet"};
