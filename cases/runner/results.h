@@ -81,8 +81,8 @@ struct TruthFacts {
   double error_at_end = 0;            // of the truth itself: m and rad
   double horizon = 0;                 // s, to which that error stays below kHorizonTolerance
   double largest_kinetic_energy = 0;  // J
-  std::string playback = "";          // its thinned motion, as a cell's
   double largest_energy_change = 0;   // J, from its start
+  std::string playback = "";          // its thinned motion, as a cell's
 };
 inline constexpr double kHorizonTolerance = 1e-6;  // m and rad
 
