@@ -11,5 +11,9 @@ inline void refuse_unsupported(const EngineInfo& engine, const Scene& scene) {
   const std::string reason = why_unsupported(engine, scene, 0);
   if (!reason.empty()) throw InputError(reason);
 }
+inline void refuse_unsupported(const EngineInfo& engine, const Settings& settings, const Scene& scene) {
+  const std::string reason = why_unsupported(engine, settings, scene, 0);
+  if (!reason.empty()) throw InputError(reason);
+}
 
 }  // namespace rigor

@@ -78,7 +78,7 @@ const Facts& facts_of(const Subject& subject, const std::string& name) {
 void time_steps(benchmark::State& state, const Subject& subject, const std::string& name) {
   const SceneRow& row = *subject.row;
   const Scene& scene = scene_of(row, subject.count);
-  const std::string obstacle = why_unsupported(subject.engine->info(), scene, row.dt);
+  const std::string obstacle = why_unsupported(subject.engine->info(), subject.run.settings, scene, row.dt);
   if (!obstacle.empty()) {
     state.SkipWithError(obstacle.c_str());
     return;

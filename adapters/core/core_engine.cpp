@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "adapters/option_values.h"
-#include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/contact/contact_method.h"
 #include "core/engine/clock.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -19,15 +21,23 @@ class CoreWorld : public World {
       : system_(scene),
         integrator_(integrator(settings.method)),
         tolerance_(number_option(settings, "tolerance", kDefaultTolerance)),
-        contact_method_(contact_method(word_option(settings, "contact", contact_methods().front().name))) {
+        contact_method_(settings.options.contains("contact") ? contact_method(settings.options.at("contact"))
+                                                             : contact_method_for(scene)) {
     if (!integrator_.default_orientation.empty()) {
       orientation_ = &orientation_update(word_option(settings, "orientation", integrator_.default_orientation));
     }
     system_.constants.use_threads(static_cast<int>(number_option(settings, "threads", 1)));
-    contact_ = contact_method_.make(scene, system_);
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
-    stepper_ = integrator_.make({system_, contact_.get(), orientation_, settings});
+    if (anything_can_touch(scene)) {
+      auto stepper = contact_method_.make(scene, {system_, integrator_, orientation_, settings});
+      contact_settings_ = stepper->settings_in_force();
+      contact_settings_.insert(contact_settings_.begin(), {"contact", contact_method_.name});
+      stepper_ = std::move(stepper);
+    } else {
+      contact_settings_ = {{"contact", "none in this scene"}};
+      stepper_ = integrator_.make({system_, nullptr, orientation_, settings});
+    }
   }
 
   void step(double dt) override {
@@ -44,7 +54,7 @@ class CoreWorld : public World {
     SettingsInForce settings = {{"integrator", integrator_.name}, {"gyroscopic term", "on"}};
     if (orientation_) settings.emplace_back("orientation", orientation_->name);
     if (integrator_.adaptive) settings.emplace_back("tolerance", fmt::format("{}", tolerance_));
-    settings.emplace_back("contact", contact_ ? contact_method_.name : "none in this scene");
+    settings.insert(settings.end(), contact_settings_.begin(), contact_settings_.end());
     return settings;
   }
 
@@ -56,7 +66,7 @@ class CoreWorld : public World {
   double tolerance_;  // of an adaptive method
   const ContactMethod& contact_method_;
   const OrientationUpdate* orientation_ = nullptr;
-  std::unique_ptr<Contact> contact_;
+  SettingsInForce contact_settings_;
   BodyTable state_;
   std::unique_ptr<Stepper> stepper_;
   Clock clock_;
@@ -69,17 +79,23 @@ std::vector<std::string> names_of(const Rows& rows) {
   return names;
 }
 
+OptionInfo contact_option() {
+  OptionInfo option{.name = "contact",
+                    .meaning = "how touching bodies are treated; default the first that has what the scene needs",
+                    .choices = names_of(contact_methods())};
+  for (const ContactMethod& method : contact_methods()) option.features_of_choice[method.name] = method.features;
+  return option;
+}
+
 MethodInfo method_info(const Integrator& integrator) {
-  MethodInfo info{
-      .name = integrator.name,
-      .summary = integrator.summary,
-      .order = integrator.order,
-      .symplectic = integrator.symplectic,
-      .symmetric = integrator.symmetric,
-      .velocity_lag = integrator.velocity_lag,
-      .adaptive = integrator.adaptive,
-      .options = {
-          {.name = "contact", .meaning = "how touching bodies are treated", .choices = names_of(contact_methods())}}};
+  MethodInfo info{.name = integrator.name,
+                  .summary = integrator.summary,
+                  .order = integrator.order,
+                  .symplectic = integrator.symplectic,
+                  .symmetric = integrator.symmetric,
+                  .velocity_lag = integrator.velocity_lag,
+                  .adaptive = integrator.adaptive,
+                  .options = {contact_option()}};
   info.options.push_back(
       {.name = "threads",
        .meaning = "threads that share the bodies of a large scene; default 1, and the result is the same",
@@ -91,6 +107,9 @@ MethodInfo method_info(const Integrator& integrator) {
         {.name = "orientation",
          .meaning = "how a rotation is carried over a step; default " + integrator.default_orientation,
          .choices = names_of(orientation_updates())});
+  }
+  for (const ContactMethod& method : contact_methods()) {
+    info.options.insert(info.options.end(), method.options.begin(), method.options.end());
   }
   info.options.insert(info.options.end(), integrator.options.begin(), integrator.options.end());
   info.twin_of = integrator.twin_of;
@@ -112,7 +131,7 @@ EngineInfo CoreEngine::info() const {
 }
 
 std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& settings) const {
-  refuse_unsupported(info(), scene);
+  refuse_unsupported(info(), settings, scene);
   return std::make_unique<CoreWorld>(scene, settings);
 }
 

@@ -97,7 +97,7 @@ int trace_command(const CommandLine& line) {
   const RunName run = parse_run_name(line.engines.front(), infos_of(engines()));
   const Engine& engine = find_engine(engines(), run.engine);
   const double dt = line.dt.front().seconds;
-  const std::string why = why_unsupported(engine.info(), definition.scene, dt);
+  const std::string why = why_unsupported(engine.info(), run.settings, definition.scene, dt);
   if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
   return print_from_child(run.text, line.limit, [&](const Channel& channel) {
     send_trajectory(simulate(engine, run.settings, definition.scene, dt, definition.duration), definition.scene,

@@ -80,13 +80,13 @@ CaseResult plan_case(const Case& definition, const Results& grid, std::size_t as
       if (only_judged && !is_judged(definition, grid.runs[run], dt, grid.engines)) continue;
       Cell cell;
       cell.run = run, cell.dt = dt;
-      const std::string why = why_unsupported(info, definition.scene, dt.seconds);
+      const std::string why = why_unsupported(info, grid.runs[run].settings, definition.scene, dt.seconds);
       if (!why.empty()) cell.status = Status::unsupported, cell.reason = why;
       result.cells.push_back(cell);
       shortest = std::min(shortest, dt.seconds);
     }
     StableStepResult stable;
-    const std::string why = why_unsupported(info, definition.scene, shortest);
+    const std::string why = why_unsupported(info, grid.runs[run].settings, definition.scene, shortest);
     if (!why.empty() || !scope.stable_steps) {
       stable.status = Status::unsupported, stable.reason = why.empty() ? "not asked for" : why;
     }

@@ -1,10 +1,6 @@
 #include "core/dynamics/contact.h"
 
-#include <algorithm>
-#include <cassert>
-
 namespace rigor {
-
 namespace {
 
 void kick(const System& system, const Wrenches& wrenches, double dt, MutableBodyColumns state) {
@@ -24,18 +20,6 @@ void resolve_ahead(Contact& contact, const System& system, const Wrenches& wrenc
   kick(system, wrenches, dt, state);
   contact.resolve(state);
   kick(system, wrenches, -dt, state);
-}
-
-const std::vector<ContactMethod>& contact_methods() {
-  static const std::vector<ContactMethod> table = {kCourseContact};
-  return table;
-}
-
-const ContactMethod& contact_method(const std::string& name) {
-  const auto& table = contact_methods();
-  const auto row = std::find_if(table.begin(), table.end(), [&](const auto& r) { return r.name == name; });
-  assert(row != table.end() && "option values are checked when the run is named");
-  return *row;
 }
 
 }  // namespace rigor

@@ -53,6 +53,10 @@ class Loads {
 
   const std::vector<Spring>& springs() const { return springs_; }
   const std::vector<TimedForce>& forces() const { return forces_; }
+  // Gives one of the timed forces other values, from the next step on.
+  void set_force(std::size_t index, const Vec3& force, const Vec3& torque) {
+    forces_[index].force = force, forces_[index].torque = torque;
+  }
   bool empty() const { return springs_.empty() && forces_.empty(); }
   bool damped() const { return damped_; }
 

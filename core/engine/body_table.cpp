@@ -4,6 +4,11 @@
 
 namespace rigor {
 
+void copy_columns(BodyColumns from, MutableBodyColumns to) {
+  const int count = to.has_rotation() ? 22 : 13;
+  for (int c = 0; c < count; ++c) std::copy_n(from.column(c), to.size(), to.column(c));
+}
+
 void BodyTable::resize(std::size_t size, bool has_rotation) {
   size_ = size;
   has_rotation_ = has_rotation;
@@ -15,8 +20,7 @@ BodyTable& BodyTable::operator=(BodyColumns source) {
   if (size_ != source.size() || has_rotation_ != source.has_rotation() || data_.empty()) {
     resize(source.size(), source.has_rotation());
   }
-  const int count = has_rotation_ ? 22 : 13;
-  for (int c = 0; c < count; ++c) std::copy_n(source.column(c), size_, columns().column(c));
+  copy_columns(source, columns());
   return *this;
 }
 

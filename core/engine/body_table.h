@@ -80,6 +80,9 @@ class BodyColumnsOf {
 using BodyColumns = BodyColumnsOf<const double>;
 using MutableBodyColumns = BodyColumnsOf<double>;
 
+// Both of the same size, and both with or without rotation matrices.
+void copy_columns(BodyColumns from, MutableBodyColumns to);
+
 // Owns its columns.
 class BodyTable {
  public:

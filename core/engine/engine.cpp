@@ -1,8 +1,46 @@
 #include "core/engine/engine.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/engine/run_name.h"
 
 namespace rigor {
+namespace {
+
+// The first need that the choice does not meet, of those that some choice of the option is there to meet.
+const Need* unmet(const OptionInfo& option, const std::string& choice, const std::vector<Need>& needs) {
+  const Features& features = option.features_of_choice.at(choice);
+  const auto is_of_option = [&](const Need& need) {
+    return std::any_of(option.features_of_choice.begin(), option.features_of_choice.end(),
+                       [&](const auto& row) { return row.second.contains(need.feature); });
+  };
+  const auto need = std::find_if(needs.begin(), needs.end(),
+                                 [&](const Need& n) { return is_of_option(n) && !features.contains(n.feature); });
+  return need == needs.end() ? nullptr : &*need;
+}
+
+// "" if the choice in force, or any where none is, expresses what the scene needs.
+std::string why_choice_fails(const std::string& engine, const OptionInfo& option, const Settings& settings,
+                             const std::vector<Need>& needs) {
+  std::vector<std::string> would_do;
+  for (const std::string& choice : option.choices) {
+    if (!unmet(option, choice, needs)) would_do.push_back(option.name + "=" + choice);
+  }
+  const auto named = settings.options.find(option.name);
+  if (named == settings.options.end() && !would_do.empty()) return "";
+  const std::string choice = named == settings.options.end() ? option.choices.back() : named->second;
+  const Need* need = unmet(option, choice, needs);
+  if (!need) return "";
+  return fmt::format("{} with {}={} has no {}, which {} asks for; {}", engine, option.name, choice, need->feature,
+                     need->because,
+                     would_do.empty() ? "no other choice has all that the scene needs"
+                                      : fmt::format("{} would do", fmt::join(would_do, " or ")));
+}
+
+}  // namespace
 
 std::string why_unsupported(const EngineInfo& engine, const Scene& scene, double dt) {
   for (const Need& need : needs_of(scene)) {
@@ -16,6 +54,18 @@ std::string why_unsupported(const EngineInfo& engine, const Scene& scene, double
       return fmt::format("{} turns a body by at most {:.3g} rad in one step; '{}' turns by {:.3g} rad", engine.name,
                          engine.max_rotation_per_step, body.name, angle);
     }
+  }
+  return "";
+}
+
+std::string why_unsupported(const EngineInfo& engine, const Settings& settings, const Scene& scene, double dt) {
+  const std::string why = why_unsupported(engine, scene, dt);
+  if (!why.empty()) return why;
+  const std::vector<Need> needs = needs_of(scene);
+  for (const OptionInfo& option : method_of(engine, settings).options) {
+    if (option.features_of_choice.empty()) continue;
+    const std::string choice_fails = why_choice_fails(engine.name, option, settings, needs);
+    if (!choice_fails.empty()) return choice_fails;
   }
   return "";
 }

@@ -24,6 +24,9 @@ struct OptionInfo {
   std::vector<std::string> choices = {};  // the words allowed; empty: a number
   double min = 0, max = 0;                // the numbers allowed, where there are no choices
   bool whole = false;                     // only whole numbers
+  // Of a choice that decides what can be expressed: its share of EngineInfo::features, for each of the choices. A run
+  // that does not name the option takes the first choice that expresses the scene.
+  std::map<std::string, Features> features_of_choice = {};
 };
 
 struct MethodInfo {
@@ -110,5 +113,8 @@ class Engine {
 // Why this engine cannot run this scene at this dt; empty if it can. The sentence names the feature and what in the
 // scene asks for it.
 std::string why_unsupported(const EngineInfo& engine, const Scene& scene, double dt);
+// The same for the settings of a run: where an option's choices differ in what they express, the one in force counts,
+// and the sentence says which would do.
+std::string why_unsupported(const EngineInfo& engine, const Settings& settings, const Scene& scene, double dt);
 
 }  // namespace rigor

@@ -23,7 +23,7 @@ struct Run {
   }
   const MethodInfo& method() const { return method_of(info, settings); }
   std::unique_ptr<World> load(const Scene& scene) const { return engine->load(scene, settings); }
-  bool supports(const Scene& scene, double dt) const { return why_unsupported(info, scene, dt).empty(); }
+  bool supports(const Scene& scene, double dt) const { return why_unsupported(info, settings, scene, dt).empty(); }
 };
 
 inline std::vector<Run> all_runs() {

@@ -66,4 +66,28 @@ BOOST_AUTO_TEST_CASE(what_an_engine_lacks_is_said_with_what_asks_for_it) {
              "plain turns a body by at most 1 rad in one step; 'cube' turns by 3 rad");
 }
 
+BOOST_AUTO_TEST_CASE(a_choice_that_cannot_express_the_scene_is_refused_with_one_that_can) {
+  EngineInfo engine{.name = "plain", .version = "1", .precision = "double"};
+  engine.features = {"contact:plane-sphere", "friction:infinite", "friction:coulomb", "restitution"};
+  OptionInfo contact{.name = "contact", .meaning = "how", .choices = {"rough", "true"}};
+  contact.features_of_choice["rough"] = {"contact:plane-sphere", "friction:infinite", "restitution"};
+  contact.features_of_choice["true"] = engine.features;
+  engine.methods = {{.name = "euler", .summary = "first order", .options = {contact}}};
+  Scene scene = test::dropped_sphere(0.5);
+  const auto why = [&](const std::map<std::string, std::string>& options) {
+    return why_unsupported(engine, {"euler", options}, scene, 0.1);
+  };
+  BOOST_TEST(why({}) == "");
+  BOOST_TEST(why({{"contact", "rough"}}) == "");
+  scene.contact_default.friction = 0.5;
+  BOOST_TEST(why({}) == "");
+  BOOST_TEST(why({{"contact", "true"}}) == "");
+  BOOST_TEST(why({{"contact", "rough"}}) ==
+             "plain with contact=rough has no friction:coulomb, which bodies 'ground' and 'ball' may touch asks for; "
+             "contact=true would do");
+  scene.contact_default.friction = 0;
+  BOOST_TEST(why({{"contact", "true"}}) ==
+             "plain has no friction:none, which bodies 'ground' and 'ball' may touch asks for");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "core/dynamics/broad_phase.h"
-#include "core/dynamics/contact.h"
+#include "core/dynamics/contact/contact_method.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -107,16 +107,28 @@ class CourseContact : public Contact {
   BroadPhase broad_phase_;
 };
 
+class CourseStepper : public ContactStepper {
+ public:
+  CourseStepper(const Scene& scene, const ContactParts& parts)
+      : contact_(scene, parts.system),
+        stepper_(parts.integrator.make({parts.system, &contact_, parts.orientation, parts.settings})) {}
+
+  void step(MutableBodyColumns state, double t, double dt) override { stepper_->step(state, t, dt); }
+  std::string complaint() const override { return stepper_->complaint(); }
+
+ private:
+  CourseContact contact_;
+  std::unique_ptr<Stepper> stepper_;
+};
+
 }  // namespace
 
+extern const ContactMethod kCourseContact;
 const ContactMethod kCourseContact = {
     .name = "course",
     .summary = "the course's impulse: spheres on planes and on each other, restitution, infinite friction",
     .features = {"contact:plane-sphere", "contact:sphere-sphere", "friction:infinite", "restitution"},
-    .make = [](const Scene& scene, const System& system) -> std::unique_ptr<Contact> {
-      if (!anything_can_touch(scene)) return nullptr;
-      return std::make_unique<CourseContact>(scene, system);
-    },
+    .make = make_contact_stepper<CourseStepper>,
 };
 
 }  // namespace rigor

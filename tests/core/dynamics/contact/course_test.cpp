@@ -1,32 +1,25 @@
-#include "core/dynamics/contact.h"
-
-#include <boost/test/unit_test.hpp>
-
 #include <random>
 #include <utility>
 
 #include "core/dynamics/broad_phase.h"
 #include "core/dynamics/energy.h"
-#include "core/dynamics/integrators/integrator.h"
+#include "tests/core/dynamics/contact/contact_runs.h"
 #include "tests/scenes.h"
 
 using namespace rigor;
 
 namespace {
 
+// One resolution of the contacts, between no kick and no drift: explicit Euler with no time to pass.
 struct Loaded {
-  explicit Loaded(const Scene& scene)
-      : system(scene), contact(contact_method("course").make(scene, system)), state(scene.bodies.size()) {
-    set_initial_state(scene, state.columns());
-  }
-  System system;
-  std::unique_ptr<Contact> contact;
-  BodyTable state;
+  explicit Loaded(const Scene& scene) : run(scene, "course", "explicit-euler") {}
+  void resolve() { run.step(0); }
+  test::ContactRun run;
 };
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact)
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_course)
 
 BOOST_AUTO_TEST_CASE(the_lowest_point_leaves_straight_up_with_the_restitution) {
   Scene scene = test::dropped_sphere(0.5);
@@ -34,8 +27,8 @@ BOOST_AUTO_TEST_CASE(the_lowest_point_leaves_straight_up_with_the_restitution) {
   scene.bodies[0].velocity = {2, -3, 1};
   scene.bodies[0].angular_velocity = {5, 7, -4};
   Loaded loaded(scene);
-  loaded.contact->resolve(loaded.state.columns());
-  const Vec3 v = loaded.state.columns().velocity(0), w = loaded.state.columns().angular_velocity(0);
+  loaded.resolve();
+  const Vec3 v = loaded.run.state().velocity(0), w = loaded.run.state().angular_velocity(0);
   const Vec3 arm(0, -0.1, 0);
   BOOST_TEST((v + w.cross(arm) - Vec3(0, 1.5, 0)).norm() < 1e-13);
   // An impulse at the lowest point keeps the angular momentum about it.
@@ -50,8 +43,8 @@ BOOST_AUTO_TEST_CASE(a_sphere_that_leaves_or_does_not_touch_is_left_alone) {
     scene.bodies[0].position.y() = height;
     scene.bodies[0].velocity = {0, speed, 0};
     Loaded loaded(scene);
-    loaded.contact->resolve(loaded.state.columns());
-    BOOST_TEST(loaded.state.columns().velocity(0).y() == speed);
+    loaded.resolve();
+    BOOST_TEST(loaded.run.state().velocity(0).y() == speed);
   }
 }
 
@@ -59,17 +52,14 @@ BOOST_AUTO_TEST_CASE(a_sphere_that_leaves_or_does_not_touch_is_left_alone) {
 // at dt = 1/30 s the apexes of an elastic ball grow to these shares of the first height.
 BOOST_AUTO_TEST_CASE(an_elastic_ball_gains_height_at_coarse_steps) {
   const Scene scene = test::dropped_sphere(1);
-  Loaded loaded(scene);
-  const Integrator& euler = integrator("semi-implicit-euler");
-  const auto stepper =
-      euler.make({loaded.system, loaded.contact.get(), &orientation_update(euler.default_orientation)});
+  test::ContactRun run(scene, "course", "semi-implicit-euler");
   std::vector<double> apexes;
   double speed = 0, height = 1.37;
   for (int n = 0; n < 400 && apexes.size() < 5; ++n) {
-    stepper->step(loaded.state.columns(), n / 30.0, 1 / 30.0);
-    const double new_speed = loaded.state.columns().velocity(0).y();
+    run.step(1 / 30.0);
+    const double new_speed = run.state().velocity(0).y();
     if (speed > 0 && new_speed <= 0) apexes.push_back(height / 1.37);
-    speed = new_speed, height = loaded.state.columns().position(0).y() - 0.1;
+    speed = new_speed, height = run.state().position(0).y() - 0.1;
   }
   BOOST_REQUIRE(apexes.size() == 5);
   const double expected[] = {1.135, 1.278, 1.429, 1.588, 1.755};  // from a recursion of two numbers, by hand
@@ -85,10 +75,10 @@ BOOST_AUTO_TEST_CASE(two_spheres_keep_their_momentum_and_part_with_the_restituti
   scene.bodies[0].velocity = {1, 0.5, 0};
   scene.bodies[1].angular_velocity = {3, 0, 8};
   Loaded loaded(scene);
-  const Vec3 momentum = linear_momentum(scene, loaded.state.columns());
-  const Vec3 spin = angular_momentum(scene, loaded.state.columns(), Vec3::Zero());
-  loaded.contact->resolve(loaded.state.columns());
-  const BodyColumns after = std::as_const(loaded.state).columns();
+  const Vec3 momentum = linear_momentum(scene, loaded.run.state());
+  const Vec3 spin = angular_momentum(scene, loaded.run.state(), Vec3::Zero());
+  loaded.resolve();
+  const BodyColumns after = std::as_const(loaded.run).state();
   BOOST_TEST((linear_momentum(scene, after) - momentum).norm() < 1e-12);
   BOOST_TEST((angular_momentum(scene, after, Vec3::Zero()) - spin).norm() < 1e-12);
   // They overlap by 1 cm; the point lies in the middle of that.
@@ -115,13 +105,6 @@ BOOST_AUTO_TEST_CASE(the_broad_phase_finds_what_a_search_of_all_pairs_finds) {
     BOOST_TEST((broad_phase.overlaps(balls) == expected));
     BOOST_TEST(!expected.empty());
   }
-}
-
-BOOST_AUTO_TEST_CASE(there_is_nothing_to_resolve_where_nothing_can_touch) {
-  Scene scene = test::dropped_sphere(1);
-  scene.bodies[1].collides = false;
-  const System system(scene);
-  BOOST_TEST(!contact_method("course").make(scene, system));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,48 @@
+// What every contact method of the core offers: the contacts it expresses, and a stepper that carries a scene with
+// contacts over a step by means of an integrator's. One method, one file; contact_methods.cpp is the table.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/integrators/integrator.h"
+#include "core/scene/features.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+class ContactStepper : public Stepper {
+ public:
+  // What is in force beside the method's name.
+  virtual SettingsInForce settings_in_force() const { return {}; }
+};
+
+// What a contact stepper is made from. Outlives it.
+struct ContactParts {
+  const System& system;
+  const Integrator& integrator;
+  const OrientationUpdate* orientation;  // see StepperParts
+  Settings settings;
+};
+
+struct ContactMethod {
+  std::string name;
+  std::string summary;
+  Features features;                     // the contacts it expresses; see features.h
+  std::vector<OptionInfo> options = {};  // of this method alone
+  std::unique_ptr<ContactStepper> (*make)(const Scene& scene, const ContactParts& parts);
+};
+
+const std::vector<ContactMethod>& contact_methods();           // in the order in which they are tried
+const ContactMethod& contact_method(const std::string& name);  // the name must be there
+// The first of the table that expresses the scene; the first of all where none does.
+const ContactMethod& contact_method_for(const Scene& scene);
+
+// A row's `make` for a stepper that is built from the scene and its parts.
+template <typename S>
+std::unique_ptr<ContactStepper> make_contact_stepper(const Scene& scene, const ContactParts& parts) {
+  return std::make_unique<S>(scene, parts);
+}
+
+}  // namespace rigor

@@ -1,0 +1,37 @@
+#include <algorithm>
+#include <cassert>
+
+#include "core/dynamics/contact/contact_method.h"
+
+namespace rigor {
+
+extern const ContactMethod kCourseContact, kEventContact, kImpulseContact;
+
+// Not alphabetical: a run that names no method gets the first that expresses its scene.
+const std::vector<ContactMethod>& contact_methods() {
+  static const std::vector<ContactMethod> table = {kCourseContact, kImpulseContact, kEventContact};
+  return table;
+}
+
+const ContactMethod& contact_method(const std::string& name) {
+  const auto& table = contact_methods();
+  const auto row = std::find_if(table.begin(), table.end(), [&](const auto& r) { return r.name == name; });
+  assert(row != table.end() && "option values are checked when the run is named");
+  return *row;
+}
+
+const ContactMethod& contact_method_for(const Scene& scene) {
+  Features of_all;
+  for (const ContactMethod& method : contact_methods()) of_all.insert(method.features.begin(), method.features.end());
+  const std::vector<Need> needs = needs_of(scene);
+  for (const ContactMethod& method : contact_methods()) {
+    // What no method has is not contact's to express.
+    const bool expresses = std::all_of(needs.begin(), needs.end(), [&](const Need& need) {
+      return method.features.contains(need.feature) || !of_all.contains(need.feature);
+    });
+    if (expresses) return method;
+  }
+  return contact_methods().front();
+}
+
+}  // namespace rigor

@@ -1,0 +1,57 @@
+// Motion with points held in contact, for the method `event`: the forces at those points, constant over a sub-step,
+// that leave velocities which obey the contact laws at its end. They enter the integrator's step as any other load, so
+// that its scheme carries the motion; they act at the mean of the points' places and directions at both ends, which
+// makes a sub-step second order where the contact turns, and exact where the forces are constant.
+#pragma once
+
+#include "core/dynamics/contact/impacts.h"
+#include "core/dynamics/integrators/integrator.h"
+
+namespace rigor {
+
+struct HeldPoint {
+  Touch at_start, at_end;
+  double slip_at_start = 0, slip_at_end = 0;  // m/s
+  Vec3 force = Vec3::Zero();                  // N, in the frames
+};
+
+class HeldMotion {
+ public:
+  HeldMotion(const Scene& scene, const Integrator& integrator, const OrientationUpdate* orientation,
+             const Settings& settings, Touches& touches);
+
+  const System& system() const { return system_; }
+  std::vector<HeldPoint>& points() { return points_; }
+  // Holds the touching points that do not part; forces of points held before are where the next search starts.
+  void hold(BodyColumns state, const std::vector<Touch>& touches);
+  // Holds those that part more slowly than `speed`, too. Returns whether there were any.
+  bool hold_slower_than(double speed, BodyColumns state, const std::vector<Touch>& touches);
+  // From `start` at t to `end` at t + dt.
+  void advance(BodyColumns start, MutableBodyColumns end, double t, double dt);
+  // How far the first of the sliding points is from sticking [m/s]: its speed while it slides; once it sticks, minus
+  // the speed that the rest of its friction could stop. Infinite where nothing slides.
+  double distance_from_sticking() const;
+  // Moves bodies so that what carries a force has no gap and nothing overlaps; velocities stay.
+  void close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs);
+  // What did not settle in the last advance; empty if all did.
+  std::string complaint() const { return complaint_.empty() ? stepper_->complaint() : complaint_; }
+
+ private:
+  double apply_forces(double dt);
+  void correct(MutableBodyColumns end, double dt);
+  void move_apart(MutableBodyColumns state, const Touch& touch) const;
+  bool carries(const Touch& touch) const;
+
+  System system_;  // the scene's, with one more force on each colliding body
+  std::vector<std::size_t> force_of_body_;
+  std::unique_ptr<Stepper> stepper_;
+  ConeSolver solver_;
+  Touches& touches_;
+  std::vector<HeldPoint> points_, old_points_;
+  std::vector<ConePoint> cones_;
+  std::vector<Touch> open_;
+  Wrenches wrenches_, old_wrenches_;
+  std::string complaint_;
+};
+
+}  // namespace rigor

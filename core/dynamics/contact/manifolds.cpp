@@ -1,0 +1,141 @@
+#include "core/dynamics/contact/manifolds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+constexpr double kWider = 0.2;  // of a body's thickness: by so much its search box is wider than itself
+constexpr double kNear = 0.02;  // of the thinner body's thickness: closer points are kept even if they do not approach
+constexpr double kSame = 0.1;   // of the thinner body's thickness: a point this near is the one of a step ago
+constexpr int kMostOfPair = 4;
+
+double thinner(const Collider& a, const Collider& b) { return std::min(a.thickness, b.thickness); }
+
+// How far its turning within dt can take a body's surface; what is round shows none of it.
+double turn_way(const Collider& collider, BodyColumns state, double dt) {
+  if (collider.fixed || std::holds_alternative<Sphere>(collider.shape)) return 0;
+  return std::min(1.0, dt * state.angular_velocity(collider.body).norm()) * collider.reach;
+}
+
+// What a body fills in the next dt.
+Aabb swept_box(const Collider& collider, const Pose& pose, const Vec3& way, double margin) {
+  Aabb box = aabb_of(collider.shape, pose, margin);
+  box.low += way.cwiseMin(Vec3::Zero());
+  box.high += way.cwiseMax(Vec3::Zero());
+  return box;
+}
+
+bool lies_within(const Aabb& inner, const Aabb& outer) {
+  return (inner.low.array() >= outer.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
+}
+
+// Four points hold a face as well as eight: the deepest, the one furthest from it, and the two furthest to either side
+// of the line between these.
+void keep_four(Manifold& points) {
+  if (points.size() <= kMostOfPair) return;
+  const auto take = [&](int at, const auto& score) {
+    const auto best = std::max_element(points.begin() + at, points.end(),
+                                       [&](const auto& p, const auto& q) { return score(p) < score(q); });
+    std::swap(points[at], *best);
+  };
+  take(0, [](const ContactPoint& p) { return -p.gap; });
+  const ContactPoint first = points[0];
+  take(1, [&](const ContactPoint& p) { return (p.point - first.point).squaredNorm(); });
+  const Vec3 side = first.normal.cross(points[1].point - first.point);
+  take(2, [&](const ContactPoint& p) { return side.dot(p.point - first.point); });
+  take(3, [&](const ContactPoint& p) { return -side.dot(p.point - first.point); });
+  points.keep(kMostOfPair);
+}
+
+}  // namespace
+
+void Manifolds::update_pairs(BodyColumns state, double dt) {
+  poses_.resize(colliders_.size());
+  boxes_.resize(colliders_.size());
+  bool all_within = wide_boxes_.size() == colliders_.size();
+  for (std::size_t i = 0; i < colliders_.size(); ++i) {
+    const Collider& collider = colliders_[i];
+    poses_[i] = pose_of(state, collider.body);
+    boxes_[i] = swept_box(collider, poses_[i], dt * state.velocity(collider.body),
+                          kNear * collider.thickness + turn_way(collider, state, dt));
+    all_within = all_within && lies_within(boxes_[i], wide_boxes_[i]);
+  }
+  if (all_within) return;
+  wide_boxes_.resize(colliders_.size());
+  for (std::size_t i = 0; i < colliders_.size(); ++i) {
+    const double margin = std::isfinite(colliders_[i].thickness) ? kWider * colliders_[i].thickness : 0;
+    const Vec3 way = dt * state.velocity(colliders_[i].body);
+    wide_boxes_[i] = boxes_[i];
+    wide_boxes_[i].low += way.cwiseMin(Vec3::Zero()) - Vec3::Constant(margin);
+    wide_boxes_[i].high += way.cwiseMax(Vec3::Zero()) + Vec3::Constant(margin);
+  }
+  pairs_.clear();
+  for (const auto& [a, b] : finder_.overlaps(wide_boxes_)) {
+    if (!(colliders_[a].fixed && colliders_[b].fixed)) pairs_.emplace_back(a, b);
+  }
+}
+
+void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b) {
+  collide(a.shape, poses_[&a - colliders_.data()], b.shape, poses_[&b - colliders_.data()], manifold_);
+  const double near = kNear * thinner(a, b);
+  const Vec3 v = state.velocity(a.body) - state.velocity(b.body);
+  const double turning = turn_way(a, state, dt) + turn_way(b, state, dt);
+  int kept = 0;
+  for (const ContactPoint& point : manifold_) {
+    if (point.gap < near + turning + dt * std::max(0.0, -point.normal.dot(v))) manifold_[kept++] = point;
+  }
+  manifold_.keep(kept);
+  keep_four(manifold_);
+  if (manifold_.size() == 0) return;
+  const ContactLaw& law = laws_.of(a.body, b.body);
+  for (const ContactPoint& point : manifold_) {
+    points_.push_back({a.body, b.body, point.feature, point.normal, point.point, point.gap, law.friction,
+                       law.restitution, 0, Vec3::Zero()});
+  }
+}
+
+// Gives the points from `first` on, all of one pair, the impulses of the old points of that pair, which start at `old`
+// or later.
+void Manifolds::remember(std::size_t first, std::size_t& old) {
+  const auto pair_of = [](const PilePoint& point) { return std::pair(point.a, point.b); };
+  const auto pair = pair_of(points_[first]);
+  while (old < old_points_.size() && pair_of(old_points_[old]) < pair) ++old;
+  std::size_t end = old;
+  while (end < old_points_.size() && pair_of(old_points_[end]) == pair) ++end;
+  if (end == old) return;
+  unsigned taken = 0;
+  for (std::size_t i = first; i < points_.size(); ++i) {
+    std::size_t best = end;
+    double least = same_within_;
+    for (std::size_t k = old; k < end; ++k) {
+      if (taken >> (k - old) & 1) continue;
+      const double distance =
+          old_points_[k].feature == points_[i].feature ? -1 : (old_points_[k].point - points_[i].point).norm();
+      if (distance < least) least = distance, best = k;
+    }
+    if (best == end) continue;
+    taken |= 1u << (best - old);
+    points_[i].normal_impulse = old_points_[best].normal_impulse;
+    points_[i].friction_impulse = old_points_[best].friction_impulse;
+  }
+}
+
+std::vector<PilePoint>& Manifolds::find(BodyColumns state, double dt) {
+  update_pairs(state, dt);
+  old_points_.swap(points_);
+  points_.clear();
+  std::size_t old = 0;
+  for (const auto& [a, b] : pairs_) {
+    const Aabb &box_a = boxes_[a], &box_b = boxes_[b];
+    if ((box_a.low.array() > box_b.high.array()).any() || (box_b.low.array() > box_a.high.array()).any()) continue;
+    const std::size_t first = points_.size();
+    add_pair(state, dt, colliders_[a], colliders_[b]);
+    same_within_ = kSame * thinner(colliders_[a], colliders_[b]);
+    if (points_.size() > first) remember(first, old);
+  }
+  return points_;
+}
+
+}  // namespace rigor

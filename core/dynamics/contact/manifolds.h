@@ -1,0 +1,50 @@
+// The contacts of many bodies from step to step, for the method `impulse`: pairs that may meet within a step, the
+// points of each, and which of them were there a step ago. Pairs are searched for anew only when a body has left the
+// box, wider than itself, in which it was searched for last; a pile at rest needs no search.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/dynamics/contact/pair_finder.h"
+#include "core/scene/contact_laws.h"
+
+namespace rigor {
+
+// A point of two bodies that touch or may meet within the step. Impulses are those of one sub-step.
+struct PilePoint {
+  int a, b;  // bodies
+  std::uint32_t feature;
+  Vec3 normal;  // unit, in W, from b to a
+  Vec3 point;   // m, in W
+  double gap;   // m
+  double friction, restitution;
+  double normal_impulse = 0;             // N s
+  Vec3 friction_impulse = Vec3::Zero();  // N s, in W
+};
+
+class Manifolds {
+ public:
+  explicit Manifolds(const Scene& scene) : colliders_(colliders_of(scene)), laws_(scene) {}
+
+  // The points at the start of a step of dt, sorted by pair, with the impulses of the points a step ago.
+  std::vector<PilePoint>& find(BodyColumns state, double dt);
+  const std::vector<Collider>& colliders() const { return colliders_; }
+
+ private:
+  void update_pairs(BodyColumns state, double dt);
+  void add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b);
+  void remember(std::size_t first, std::size_t& old);
+
+  std::vector<Collider> colliders_;
+  ContactLaws laws_;
+  PairFinder finder_;
+  std::vector<Pose> poses_;
+  std::vector<Aabb> boxes_, wide_boxes_;
+  std::vector<std::pair<int, int>> pairs_;
+  Manifold manifold_;
+  double same_within_ = 0;  // m
+  std::vector<PilePoint> points_, old_points_;
+};
+
+}  // namespace rigor

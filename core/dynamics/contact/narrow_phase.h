@@ -1,0 +1,54 @@
+// Where two shapes touch, or would: points, normals and signed gaps of sphere, box, capsule and plane, each against
+// each. A gap is exact while the shapes are apart or just touch; for two boxes it is the separation along the best of
+// the fifteen axes (two face normals' triples and the products of the edges), which is the distance for every kind of
+// touch and never more than it. Flat and long contacts have several points, each with its own gap.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+struct Pose {
+  Vec3 p = Vec3::Zero();      // m, p_WB
+  Mat3 R = Mat3::Identity();  // B to W
+};
+
+struct ContactPoint {
+  Vec3 normal;            // unit, in W, from b to a
+  Vec3 point;             // m, in W, midway between the two surfaces
+  double gap;             // m, negative where they overlap
+  std::uint32_t feature;  // the same from one instant to the next for the same corner, end or crossing of edges
+};
+
+class Manifold {
+ public:
+  static constexpr int kMost = 8;
+  void clear() { count_ = 0; }
+  void add(const Vec3& normal, const Vec3& point, double gap, std::uint32_t feature) {
+    if (count_ < kMost) points_[count_++] = {normal, point, gap, feature};
+  }
+  void keep(int first) { count_ = first; }
+  int size() const { return count_; }
+  ContactPoint& operator[](int i) { return points_[i]; }
+  const ContactPoint& operator[](int i) const { return points_[i]; }
+  ContactPoint* begin() { return points_.data(); }
+  ContactPoint* end() { return points_.data() + count_; }
+  const ContactPoint* begin() const { return points_.data(); }
+  const ContactPoint* end() const { return points_.data() + count_; }
+
+ private:
+  std::array<ContactPoint, kMost> points_;
+  int count_ = 0;
+};
+
+// Every point at which the shapes touch or come closest, however far apart they are. Two planes have none.
+void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out);
+
+// The two harder pairs, in files of their own; normals from the second to the first.
+void collide_boxes(const Box& a, const Pose& pose_a, const Box& b, const Pose& pose_b, Manifold& out);
+void collide_box_capsule(const Box& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b, Manifold& out);
+
+}  // namespace rigor

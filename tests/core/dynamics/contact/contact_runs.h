@@ -1,0 +1,78 @@
+// Scenes with contact, and what carries them: an integrator of the core with one of its contact methods.
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/dynamics/contact/contact_method.h"
+
+namespace rigor::test {
+
+class ContactRun {
+ public:
+  ContactRun(const Scene& scene, const std::string& method, const std::string& integrator_name = "velocity-verlet",
+             std::map<std::string, std::string> options = {})
+      : system_(scene), integrator_(integrator(integrator_name)), state_(scene.bodies.size()) {
+    if (!integrator_.default_orientation.empty()) orientation_ = &orientation_update(integrator_.default_orientation);
+    set_initial_state(scene, state_.columns());
+    stepper_ = contact_method(method).make(
+        scene, {system_, integrator_, orientation_, {integrator_name, std::move(options), Track::matched}});
+  }
+
+  void step(double dt) {
+    stepper_->step(state_.columns(), time_, dt);
+    time_ = ++steps_ * dt;
+    if (complaint_.empty()) complaint_ = stepper_->complaint();
+  }
+  void run(double dt, int steps) {
+    for (int i = 0; i < steps; ++i) step(dt);
+  }
+
+  BodyColumns state() const { return state_.columns(); }
+  MutableBodyColumns state() { return state_.columns(); }
+  double time() const { return time_; }
+  const std::string& complaint() const { return complaint_; }  // the first
+
+ private:
+  System system_;
+  const Integrator& integrator_;
+  const OrientationUpdate* orientation_ = nullptr;
+  BodyTable state_;
+  std::unique_ptr<ContactStepper> stepper_;
+  double time_ = 0;
+  int steps_ = 0;
+  std::string complaint_;
+};
+
+inline Body solid(const std::string& name, const Shape& shape, const Vec3& position, double mass = 1) {
+  Body body;
+  body.name = name;
+  body.mass = mass;
+  body.shape = shape;
+  body.inertia = inertia_of(shape, mass);
+  body.position = position;
+  body.collides = true;
+  return body;
+}
+
+inline Body floor_at(const Vec3& normal = Vec3::UnitZ(), double offset = 0) {
+  Body body;
+  body.name = "floor";
+  body.shape = Plane{normal, offset};
+  body.fixed = body.collides = true;
+  return body;
+}
+
+// On the floor z = 0.
+inline Scene on_floor(std::vector<Body> bodies, const ContactLaw& law, const Vec3& gravity = {0, 0, -9.81}) {
+  Scene scene;
+  scene.gravity = gravity;
+  scene.bodies = std::move(bodies);
+  scene.bodies.push_back(floor_at());
+  scene.contact_default = law;
+  return scene;
+}
+
+}  // namespace rigor::test
