@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(the_markdown_rows_have_the_columns_of_their_headers) {
     if (bars > 0 && columns == 0) columns = bars, ++tables;
     BOOST_TEST(bars == columns, line);
   }
-  BOOST_TEST(tables == 6u);  // one a step size, and three that compare
+  BOOST_TEST(tables == 7u);  // the matrix, one a step size, and three that compare
 }
 
 BOOST_AUTO_TEST_CASE(a_program_finds_them_in_the_results) {
