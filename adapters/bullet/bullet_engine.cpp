@@ -34,10 +34,8 @@ EngineInfo BulletEngine::info() const {
   return {.name = "bullet",
           .version = version(),
           .precision = sizeof(btScalar) == sizeof(double) ? "double" : "single",
-          .features = {"spring", "timed-force", "fixed-body", "restitution", "friction:none", "friction:coulomb",
-                       "friction:infinite", "contact:box-box", "contact:box-capsule", "contact:box-plane",
-                       "contact:box-sphere", "contact:capsule-capsule", "contact:capsule-plane",
-                       "contact:capsule-sphere", "contact:plane-sphere", "contact:sphere-sphere"},
+          .features = joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
+                                                        "friction:none", "friction:coulomb", "friction:infinite"}),
           .methods = {sequential_impulse()},
           .max_rotation_per_step = kMaxRotationPerStep};
 }

@@ -51,10 +51,8 @@ EngineInfo OdeEngine::info() const {
   return {.name = "ode",
           .version = dODE_VERSION,
           .precision = dCheckConfiguration("ODE_double_precision") ? "double" : "single",
-          .features = {"spring", "timed-force", "fixed-body", "restitution", "friction:none", "friction:coulomb",
-                       "friction:infinite", "contact:box-box", "contact:box-capsule", "contact:box-plane",
-                       "contact:box-sphere", "contact:capsule-capsule", "contact:capsule-plane",
-                       "contact:capsule-sphere", "contact:plane-sphere", "contact:sphere-sphere"},
+          .features = joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
+                                                        "friction:none", "friction:coulomb", "friction:infinite"}),
           .methods = {by_size(), worldstep(), quickstep()}};
 }
 

@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "cases/gates/selection.h"
 #include "core/error.h"
 
 namespace rigor {
 namespace {
-
-bool is_same_step(double a, double b) { return std::abs(a - b) <= 1e-9 * b; }
 
 bool names_run(const KnownDeviation& row, const RunName& run) {
   return std::any_of(row.runs.begin(), row.runs.end(), [&](const RunName& own) { return is_same_run(own, run); });

@@ -10,6 +10,8 @@ bool is_same_run(const RunName& a, const RunName& b) {
          a.settings.track == b.settings.track;
 }
 
+bool is_same_step(double dt, double other) { return std::abs(dt - other) <= 1e-9 * dt; }
+
 GateSelection::GateSelection(const Gate& gate, const std::vector<EngineInfo>& engines) : dt_(gate.dt) {
   for (const std::string& name : gate.engines) runs_.push_back(parse_run_name(name, engines));
   if (!gate.better_than.empty()) better_than_ = parse_run_name(gate.better_than, engines);
@@ -25,8 +27,7 @@ bool GateSelection::needs(const RunName& run) const {
 }
 
 bool GateSelection::takes(const StepSize& dt) const {
-  // "1/30" and "0.0333333333333333" are the same step.
-  const auto is_it = [&](const StepSize& own) { return std::abs(own.seconds - dt.seconds) <= 1e-9 * own.seconds; };
+  const auto is_it = [&](const StepSize& own) { return is_same_step(own.seconds, dt.seconds); };
   return dt_.empty() || std::any_of(dt_.begin(), dt_.end(), is_it);
 }
 

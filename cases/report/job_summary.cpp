@@ -5,25 +5,10 @@
 #include <map>
 
 #include "cases/report/console_table.h"
+#include "cases/report/markdown_text.h"
 
 namespace rigor {
 namespace {
-
-// Nothing in a name may end a table's cell, open a tag or become a link.
-std::string plain(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '\n' || c == '\r') {
-      out += ' ';
-    } else if (c == '<') {
-      out += "&lt;";
-    } else {
-      if (std::string("|`*_[]~\\").find(c) != std::string::npos) out += '\\';
-      out += c;
-    }
-  }
-  return out;
-}
 
 // A workflow command ends with its line; in a property colon and comma end it too.
 std::string percent_encoded(const std::string& text, bool is_property) {

@@ -9,27 +9,12 @@
 #include "cases/report/explanation.h"
 #include "cases/report/findings.h"
 #include "cases/report/machine.h"
+#include "cases/report/markdown_text.h"
 #include "cases/report/reports.h"
 #include "cases/report/verdict_matrix.h"
 
 namespace rigor {
 namespace {
-
-// Names come from files of other people: nothing in them may end a table's cell or open a tag.
-std::string plain(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '\n' || c == '\r') {
-      out += ' ';
-    } else if (c == '<') {
-      out += "&lt;";
-    } else {
-      if (std::string("|`*_[]~\\").find(c) != std::string::npos) out += '\\';
-      out += c;
-    }
-  }
-  return out;
-}
 
 std::string explained_markdown(const std::vector<ExplainedRow>& rows) {
   if (rows.empty()) return "";

@@ -79,6 +79,21 @@ std::string contact_feature(const std::string& shape_a, const std::string& shape
   return fmt::format("contact:{}-{}", first, second);
 }
 
+Features contacts_of_all_shapes() {
+  const std::vector<std::string> solids = {"box", "capsule", "sphere"};
+  Features contacts;
+  for (const std::string& solid : solids) {
+    contacts.insert(contact_feature(solid, "plane"));
+    for (const std::string& other : solids) contacts.insert(contact_feature(solid, other));
+  }
+  return contacts;
+}
+
+Features joined(Features a, const Features& b) {
+  a.insert(b.begin(), b.end());
+  return a;
+}
+
 std::vector<Need> needs_of(const Scene& scene) {
   NeedList needs;
   for (const Body& body : scene.bodies) {

@@ -26,4 +26,10 @@ std::vector<Need> needs_of(const Scene& scene);
 // "contact:sphere-plane" and the like, for two shapes in either order.
 std::string contact_feature(const std::string& shape_a, const std::string& shape_b);
 
+// The contacts of every two shapes that can meet: spheres, boxes and capsules with each other, and each with a plane.
+Features contacts_of_all_shapes();
+
+// `a` and `b` together.
+Features joined(Features a, const Features& b);
+
 }  // namespace rigor

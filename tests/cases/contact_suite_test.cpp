@@ -5,19 +5,16 @@
 #include <algorithm>
 
 #include "adapters/engines.h"
-#include "cases/suite.h"
-#include "cases/truth/truth.h"
 #include "core/engine/run_name.h"
 #include "core/scene/contact_laws.h"
+#include "tests/cases/suite_checks.h"
 
 using namespace rigor;
 
 namespace {
 
 std::vector<Case> contact_cases() {
-  std::vector<Case> cases = select_cases({}, default_suite_dir());
-  std::erase_if(cases, [](const Case& c) { return !anything_can_touch(c.scene); });
-  return cases;
+  return test::suite_cases([](const Case& c) { return anything_can_touch(c.scene); });
 }
 
 // Steps, of the first `seconds` of a case, of which the engine says that they failed.
@@ -35,38 +32,11 @@ int complaints_of(const std::string& run_name, const std::string& id, double dt,
 BOOST_AUTO_TEST_SUITE(cases_contact_suite)
 
 BOOST_AUTO_TEST_CASE(there_are_at_least_twenty_five_contact_cases_each_with_a_source_and_gates) {
-  const std::vector<Case> cases = contact_cases();
-  BOOST_TEST(cases.size() >= 25);
-  for (const Case& c : cases) {
-    BOOST_TEST_CONTEXT(c.id) {
-      BOOST_TEST(!c.source.empty());
-      BOOST_TEST(!c.gates.empty());
-    }
-  }
+  test::check_sources_and_gates(contact_cases(), 25);
 }
 
 BOOST_AUTO_TEST_CASE(every_closed_form_that_a_case_cites_holds_for_its_scene) {
-  int cited = 0;
-  for (const Case& c : contact_cases()) {
-    if (c.truth == "none" || c.truth == "reference") continue;
-    BOOST_TEST_CONTEXT(c.id) {
-      BOOST_REQUIRE_NO_THROW(make_truth(c.truth, c.scene, c.duration));
-      const auto truth = make_truth(c.truth, c.scene, c.duration);
-      BodyTable start(c.scene.bodies.size());
-      truth->at(0, start.columns());
-      for (std::size_t i = 0; i < c.scene.bodies.size(); ++i) {
-        const BodyState found = start.columns().body(i);
-        const Body& body = c.scene.bodies[i];
-        BOOST_TEST((found.position - body.position).norm() <= truth->error(0));
-        BOOST_TEST((found.velocity - body.velocity).norm() <= 1e-12 * (1 + body.velocity.norm()));
-        BOOST_TEST((found.angular_velocity - body.angular_velocity).norm() <=
-                   1e-12 * (1 + body.angular_velocity.norm()));
-      }
-      BOOST_TEST(truth->error(c.duration) < 1e-9);  // a thousandth of what metrics need of it
-    }
-    ++cited;
-  }
-  BOOST_TEST(cited >= 15);
+  test::check_closed_forms(contact_cases(), 1e-9, 15);  // a thousandth of what metrics need of it
 }
 
 BOOST_AUTO_TEST_CASE(a_little_softness_lets_the_direct_solver_of_ode_carry_a_card_house) {

@@ -219,9 +219,8 @@ extern const ContactMethod kEventContact;
 const ContactMethod kEventContact = {
     .name = "event",
     .summary = "impacts at their own instants, what touches held by exact forces; for few bodies",
-    .features = {"contact:box-box", "contact:box-capsule", "contact:box-plane", "contact:box-sphere",
-                 "contact:capsule-capsule", "contact:capsule-plane", "contact:capsule-sphere", "contact:plane-sphere",
-                 "contact:sphere-sphere", "friction:coulomb", "friction:infinite", "friction:none", "restitution"},
+    .features =
+        joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none", "restitution"}),
     .make = make_contact_stepper<EventStepper>,
 };
 

@@ -1,4 +1,4 @@
-// Contact by impulses, for piles of thousands: the step is divided into small sub-steps of the integrator, and within
+// Contact by impulses, for piles: the step is divided into small sub-steps of the integrator, and within
 // each the bodies move freely by its scheme and are then corrected (pile_solver.h). Contacts are found once a step
 // (manifolds.h). What is fast and far enough to meet something within the step is seen before it
 // does, so that it cannot pass through.
@@ -71,10 +71,9 @@ class ImpulseStepper : public ContactStepper {
 extern const ContactMethod kImpulseContact;
 const ContactMethod kImpulseContact = {
     .name = "impulse",
-    .summary = "velocities corrected in small sub-steps, with warm starting; for piles of thousands",
-    .features = {"contact:box-box", "contact:box-capsule", "contact:box-plane", "contact:box-sphere",
-                 "contact:capsule-capsule", "contact:capsule-plane", "contact:capsule-sphere", "contact:plane-sphere",
-                 "contact:sphere-sphere", "friction:coulomb", "friction:infinite", "friction:none", "restitution"},
+    .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
+    .features =
+        joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none", "restitution"}),
     .options = {{.name = "substeps",
                  .meaning = "of contact=impulse in a step; default: at least 4, none longer than 1/480 s, or 1/960 s "
                             "in steps over 1/50 s",
