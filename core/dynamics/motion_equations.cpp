@@ -23,14 +23,14 @@ void MotionEquations::begin(BodyColumns state, BodyTable& y) {
 void MotionEquations::rates(const BodyTable& y, double t, double dt, BodyTable& out) {
   double* const stage = stage_.columns().column(0);
   system_.constants.for_each_block(
-      [&](const Bodies& block) { kernels().motion_of(block, y.columns().column(0), stage); });
+      [&](const Bodies& block) { kernels().motion_of(block, y.columns().column(0), y.columns().stride(), stage); });
   const double* const wrench = loads_.over_step(stage_.columns(), t, dt);
   system_.constants.for_each_block(
       [&](const Bodies& block) { kernels().rates_at(block, stage, wrench, out.columns().column(0)); });
 }
 
 void MotionEquations::write(const BodyTable& y, MutableBodyColumns state) const {
-  kernels().motion_of(system_.constants.all(), y.columns().column(0), state.column(0));
+  kernels().motion_of(system_.constants.all(), y.columns().column(0), y.columns().stride(), state.column(0));
 }
 
 void MotionEquations::combine(const BodyTable* y, double h, std::span<const double> weights, BodyTable& out) const {

@@ -13,7 +13,8 @@
 
 namespace rigor {
 
-// Steps one system. May keep scratch space, but nothing that later steps depend on: the state is all there is.
+// Steps one system. The state is all there is: what a stepper remembers of earlier steps may serve it only as long as
+// the state and the instant are those that it left.
 class Stepper {
  public:
   virtual ~Stepper() = default;

@@ -5,12 +5,13 @@
 
 namespace rigor {
 
-extern const Integrator kBulletTwin, kDormandPrince, kExplicitEuler, kImplicitMidpoint, kLinearlyImplicitEuler,
+extern const Integrator kAdams, kBulletTwin, kDormandPrince, kExplicitEuler, kImplicitMidpoint, kLinearlyImplicitEuler,
     kMoserVeselov, kOdeTwin, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8, kVelocityVerlet;
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {
-      kBulletTwin,     kDormandPrince, kExplicitEuler, kImplicitMidpoint,  kLinearlyImplicitEuler, kMoserVeselov,
+      kAdams,        kBulletTwin, kDormandPrince, kExplicitEuler,     kImplicitMidpoint, kLinearlyImplicitEuler,
+      kMoserVeselov,
       kOdeTwin,        kRk4,           kRkmk4,         kSemiImplicitEuler, kSymplectic4,           kSymplectic8,
       kVelocityVerlet,
   };

@@ -20,6 +20,8 @@ inline constexpr std::size_t kFewRows = 1;
 #include "core/dynamics/kernels/moser_veselov_kernel-inl.h"
 #include "core/dynamics/kernels/spring_kernel-inl.h"
 #include "core/dynamics/kernels/stage_kernels-inl.h"
+// and on that:
+#include "core/dynamics/kernels/multistep_kernels-inl.h"
 
 }  // namespace
 
@@ -40,6 +42,8 @@ const Kernels kTable = {
     .rates_at = rates_at,
     .combine = combine,
     .relative_size = relative_size,
+    .sums_of_older = sums_of_older,
+    .adams_advance = adams_advance,
     .springs = springs,
 };
 

@@ -54,6 +54,25 @@ struct StageTables {
   double* carried;  // L at the start of the step, the stage's rotation vector
 };
 
+// What an Adams method keeps: x, orientation, v, L, laid out as a body's motion, or rates of them.
+inline constexpr std::size_t kAdamsRates = 7;
+struct AdamsTables {
+  double* y;                                  // at the last instant
+  double *older_predictor, *older_corrector;  // the weighted sums of the rates but the newest
+  double* known;                              // y + h times the corrector's sum without the rates at the end
+  std::size_t stride;                         // of the four and of rates; `stage` has that of the bodies
+  double* stage;                              // the motion at which the rates at the end are taken
+  double h;                                   // s
+};
+struct AdamsRates {
+  const double* rates[kAdamsRates];      // the newest first
+  const double *predictor, *corrector;  // their weights
+};
+struct AdamsWeights {
+  double predictor, corrector;  // of the newest rates
+  double at_end;                // the corrector's, of those at the end
+};
+
 // A block of springs, for the force on b's point and the torques on both bodies (see loads.cpp for the law).
 struct Springs {
   std::size_t begin = 0, end = 0, stride = 0;
@@ -101,11 +120,18 @@ struct Kernels {
   // it means; the rates of y at a motion; out = y + h times the weighted sum of rates, or that sum alone if y is null;
   // how large a change of y is: the sum of |dx|/(1 m + |x|), |dv|/(1 m/s + |v|), |dw|/(1 rad/s + |w|) and the angle
   // [rad], with dw what the change of L makes of w; the largest over the bodies.
-  void (*motion_of)(const Bodies&, const double* y, double* state);
+  void (*motion_of)(const Bodies&, const double* y, std::size_t stride_of_y, double* state);
   void (*rates_at)(const Bodies&, const double* state, const double* wrench, double* rates);
   void (*combine)(const Bodies&, const double* y, double h, const double* weights, const double* const* rates,
                   std::size_t count, double* out);
   double (*relative_size)(const Bodies&, const double* change, const double* y);
+  // The two halves of a step of an Adams method. Before the loads: for doubles `first` to `last` of the tables, the
+  // sums that the step after this will need of the rates there are. After them: corrects y by the rates at the stage,
+  // which it writes down, and predicts the stage of the next step, with v and w only if it `needs_w`; the prediction
+  // alone where it does not `correct`. Positions are taken with the velocities of the same instant.
+  void (*sums_of_older)(std::size_t first, std::size_t last, const AdamsRates&, const AdamsTables&);
+  void (*adams_advance)(const Bodies&, const AdamsTables&, const AdamsWeights&, const double* wrench, double* rates,
+                        bool corrects, bool needs_w);
   void (*springs)(const Springs&, const double* state, std::size_t stride, double* pulls);
 };
 

@@ -117,10 +117,12 @@ void rotation_vector_stage(const Bodies& b, const StageTables& t, const double* 
 
 // For methods that keep the rates of several stages: y is a table of x, quaternion, v, L.
 
-void motion_of(const Bodies& b, const double* y, double* state) {
+void motion_of(const Bodies& b, const double* y, std::size_t stride_of_y, double* state) {
+  Bodies rows_of_y = b;
+  rows_of_y.stride = stride_of_y;
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
-    put_motion<QuaternionChart>(state, b, StageTables{}, i, get_carried(T(), y, b, i));
+    put_motion<QuaternionChart>(state, b, StageTables{}, i, get_carried(T(), y, rows_of_y, i));
   });
 }
 

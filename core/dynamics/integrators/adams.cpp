@@ -1,0 +1,177 @@
+// The Adams–Bashforth–Moulton method of order 7 on (x, q, v, L), with one evaluation of the loads a step: predicted by
+// the explicit formula, evaluated there, corrected by the implicit one (Hairer, Nørsett, Wanner, Solving Ordinary
+// Differential Equations I, III.1). Positions are taken by the implicit formula with the velocities of the same instant,
+// in the prediction too, which doubles the step that an oscillation bears: w dt up to 0.35 for a step of the formula,
+// and so 1.4 for one of the method, which is four of them.
+//
+// It remembers the rates of the last seven steps. Where there are none that count (at the start, where a timed force
+// begins or ends, after an impact, after another dt) steps of order 8 by Dormand and Prince make them.
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/integrators/dormand_prince_tableau.h"
+#include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/motion_equations.h"
+
+namespace rigor {
+namespace {
+
+constexpr int kParts = 4;  // steps of the formula in a step of the method
+
+// From the newest rates back in time; the corrector's come after kAtEnd, the weight of those at the end of the step.
+using Weights = std::array<double, kAdamsRates>;
+constexpr double kOf = 60480;
+constexpr Weights kPredictor = {198721 / kOf, -447288 / kOf, 705549 / kOf, -688256 / kOf,
+                                407139 / kOf, -134472 / kOf, 19087 / kOf};
+constexpr double kAtEnd = 19087 / kOf;
+constexpr Weights kCorrector = {65112 / kOf, -46461 / kOf, 37504 / kOf, -20211 / kOf, 6312 / kOf, -863 / kOf, 0};
+
+class Adams : public Stepper {
+ public:
+  explicit Adams(const StepperParts& parts)
+      : parts_(parts),
+        stride_(parts.system.size() < kRowsPerLine ? parts.system.size() : column_stride(parts.system.size())),
+        loads_(parts.system),
+        stage_(parts.system.size()),
+        left_(parts.system.size()),
+        starter_(parts.system),
+        start_(parts.system.size()),
+        next_(parts.system.size()) {
+    starter_.keep_stages(dormand_prince::kStages);
+    for (AlignedDoubles* table : {&y_, &older_predictor_, &older_corrector_, &known_values_}) table->resize(table_size());
+    for (AlignedDoubles& rates : rates_) rates.resize(table_size());
+  }
+
+  void step(MutableBodyColumns state, double t, double dt) override {
+    if (parts_.contact) {
+      parts_.system.wrenches(state, t, dt, wrenches_);
+      resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
+    }
+    if (!goes_on(state, t, dt)) begin(state, dt);
+    parts_.system.loads.for_each_smooth_part(t, dt, [&](double from, double length) {
+      if (length == dt) {
+        for (int k = 0; k < kParts; ++k) step_of_formula(from, dt);
+      } else {
+        known_ = 0;
+        const int count = static_cast<int>(std::ceil(kParts * length / dt));
+        for (int k = 0; k < count; ++k) starting_step(from, length, length / count);
+        known_ = 0;
+      }
+    });
+    parts_.system.constants.for_each_block(
+        [&](const Bodies& block) { kernels().motion_of(block, y_.data(), stride_, state.column(0)); });
+    left_ = state;
+    end_ = t + dt;
+  }
+
+ private:
+  // Tables of few bodies are packed, so that a vector register takes several columns of a row at once.
+  bool packed() const { return stride_ < kRowsPerLine; }
+  std::size_t table_size() const { return (kRotation * stride_ / kRowsPerLine + 1) * kRowsPerLine; }
+
+  // Whether `state` is where the last step ended, with the same dt and the same timed forces as in all that is known.
+  bool goes_on(BodyColumns state, double t, double dt) const {
+    constexpr double kRounding = 1e-9;  // of a clock that does not add up its steps, in dt
+    if (dt != dt_ || std::abs(t - end_) > kRounding * dt) return false;
+    const double oldest = t - known_ * dt / kParts;
+    if (parts_.system.loads.next_switch(oldest, t + 0.5 * dt) < t + 0.5 * dt) return false;
+    for (int c = 0; c < kRotation; ++c) {
+      if (!std::equal(state.column(c), state.column(c) + state.size(), left_.columns().column(c))) return false;
+    }
+    return true;
+  }
+
+  void begin(BodyColumns state, double dt) {
+    starter_.begin(state, start_);
+    copy(start_, y_);
+    known_ = 0, dt_ = dt;
+  }
+
+  void step_of_formula(double t, double dt) {
+    if (known_ < kAdamsRates) {
+      starting_step(t, dt, dt / kParts);
+      if (known_ == kAdamsRates) advance(nullptr, false);
+      return;
+    }
+    const double* const wrench = loads_.over_step(stage_.columns(), t, dt);
+    newest_ = (newest_ + kAdamsRates - 1) % kAdamsRates;
+    advance(wrench, true);
+  }
+
+  // Writes the newest rates, or takes those that are there, and predicts the step after.
+  void advance(const double* wrench, bool corrects) {
+    const double h = dt_ / kParts;
+    const AdamsTables tables = {y_.data(), older_predictor_.data(), older_corrector_.data(), known_values_.data(),
+                                stride_,   stage_.columns().column(0), h};
+    AdamsRates rates = {{}, kPredictor.data(), kCorrector.data()};
+    for (std::size_t s = 0; s < kAdamsRates; ++s) rates.rates[s] = rates_[(newest_ + 1 + s) % kAdamsRates].data();
+    const AdamsWeights weights = {kPredictor[0], kCorrector[0], kAtEnd};
+    const bool damped = parts_.system.loads.damped();
+    parts_.system.constants.for_each_block([&](const Bodies& block) {
+      add_up(block, rates, tables);
+      kernels().adams_advance(block, tables, weights, wrench, rates_[newest_].data(), corrects, damped);
+    });
+  }
+
+  void add_up(const Bodies& block, const AdamsRates& rates, const AdamsTables& tables) const {
+    if (packed()) return kernels().sums_of_older(0, kRotation * stride_, rates, tables);
+    for (std::size_t c = 0; c < kRotation; ++c)
+      kernels().sums_of_older(c * stride_ + block.begin, c * stride_ + block.end, rates, tables);
+  }
+
+  // A step of order 8 by h; keeps the rates at its end.
+  void starting_step(double t, double dt, double h) {
+    copy(y_, start_);
+    if (known_ == 0) keep_rates(start_, t, dt);
+    for (std::size_t s = 0; s < dormand_prince::kStages; ++s) {
+      if (s > 0) starter_.combine(&start_, h, std::span(dormand_prince::kStage[s]).first(s), next_);
+      starter_.rates(s == 0 ? start_ : next_, t, dt, starter_.rates_of_stage(s));
+    }
+    starter_.combine(&start_, h, dormand_prince::kWeight, next_);
+    copy(next_, y_);
+    keep_rates(next_, t, dt);
+  }
+
+  void keep_rates(const BodyTable& y, double t, double dt) {
+    starter_.rates(y, t, dt, starter_.rates_of_stage(0));
+    newest_ = (newest_ + kAdamsRates - 1) % kAdamsRates;
+    copy(starter_.rates_of_stage(0), rates_[newest_]);
+    ++known_;
+  }
+
+  void copy(const BodyTable& from, AlignedDoubles& to) const {
+    for (std::size_t c = 0; c < kRotation; ++c)
+      std::copy_n(from.columns().column(static_cast<int>(c)), from.size(), to.data() + c * stride_);
+  }
+  void copy(const AlignedDoubles& from, BodyTable& to) const {
+    for (std::size_t c = 0; c < kRotation; ++c)
+      std::copy_n(from.data() + c * stride_, to.size(), to.columns().column(static_cast<int>(c)));
+  }
+
+  StepperParts parts_;
+  std::size_t stride_;  // of the tables below, see packed()
+  AlignedDoubles y_, older_predictor_, older_corrector_, known_values_;  // see AdamsTables
+  std::array<AlignedDoubles, kAdamsRates> rates_;  // a ring
+  std::size_t newest_ = 0, known_ = 0;             // index of the newest rates; how many count
+  WrenchColumns loads_;
+  BodyTable stage_, left_;  // left_: the state at end_
+  double end_ = 0, dt_ = 0;
+  MotionEquations starter_;
+  BodyTable start_, next_;
+  Wrenches wrenches_;
+};
+
+}  // namespace
+
+extern const Integrator kAdams;
+const Integrator kAdams = {
+    .name = "adams",
+    .summary = "Adams-Bashforth-Moulton; four steps of the formula a step, each with one evaluation of the loads",
+    .order = kAdamsRates,
+    .symplectic = false,
+    .velocity_lag = 0,
+    .default_orientation = "",
+    .make = make_stepper<Adams>,
+};
+
+}  // namespace rigor
