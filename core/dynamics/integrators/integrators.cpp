@@ -5,14 +5,25 @@
 
 namespace rigor {
 
-extern const Integrator kAdams, kBulletTwin, kDormandPrince, kExplicitEuler, kImplicitMidpoint, kLinearlyImplicitEuler,
+extern const Integrator kAdams, kBulletTwin, kDormandPrince, kExplicitEuler, kExponentialAdams, kImplicitMidpoint, kLinearlyImplicitEuler,
     kMoserVeselov, kOdeTwin, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8, kVelocityVerlet;
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {
-      kAdams,        kBulletTwin, kDormandPrince, kExplicitEuler,     kImplicitMidpoint, kLinearlyImplicitEuler,
+      kAdams,
+      kBulletTwin,
+      kDormandPrince,
+      kExplicitEuler,
+      kExponentialAdams,
+      kImplicitMidpoint,
+      kLinearlyImplicitEuler,
       kMoserVeselov,
-      kOdeTwin,        kRk4,           kRkmk4,         kSemiImplicitEuler, kSymplectic4,           kSymplectic8,
+      kOdeTwin,
+      kRk4,
+      kRkmk4,
+      kSemiImplicitEuler,
+      kSymplectic4,
+      kSymplectic8,
       kVelocityVerlet,
   };
   return table;

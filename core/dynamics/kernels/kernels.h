@@ -73,6 +73,10 @@ struct AdamsWeights {
   double at_end;                // the corrector's, of those at the end
 };
 
+// Which rates adams_advance() goes on with: those in the table, those at the stage, by which it corrects y first, or
+// those at y itself with the forces that act there.
+enum class AdamsRatesFrom { table, stage, y };
+
 // A block of springs, for the force on b's point and the torques on both bodies (see loads.cpp for the law).
 struct Springs {
   std::size_t begin = 0, end = 0, stride = 0;
@@ -127,11 +131,11 @@ struct Kernels {
   double (*relative_size)(const Bodies&, const double* change, const double* y);
   // The two halves of a step of an Adams method. Before the loads: for doubles `first` to `last` of the tables, the
   // sums that the step after this will need of the rates there are. After them: corrects y by the rates at the stage,
-  // which it writes down, and predicts the stage of the next step, with v and w only if it `needs_w`; the prediction
-  // alone where it does not `correct`. Positions are taken with the velocities of the same instant.
+  // writes them to `rates`, and predicts the stage of the next step, with v and w only if it `needs_w`. Positions are
+  // taken with the velocities of the same instant.
   void (*sums_of_older)(std::size_t first, std::size_t last, const AdamsRates&, const AdamsTables&);
   void (*adams_advance)(const Bodies&, const AdamsTables&, const AdamsWeights&, const double* wrench, double* rates,
-                        bool corrects, bool needs_w);
+                        AdamsRatesFrom from, bool needs_w);
   void (*springs)(const Springs&, const double* state, std::size_t stride, double* pulls);
 };
 

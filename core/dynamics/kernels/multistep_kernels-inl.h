@@ -16,18 +16,20 @@ void sums_of_older(std::size_t first, std::size_t last, const AdamsRates& r, con
 }
 
 void adams_advance(const Bodies& b, const AdamsTables& t, const AdamsWeights& weights, const double* wrench,
-                   double* rates, bool corrects, bool needs_w) {
+                   double* rates, AdamsRatesFrom from, bool needs_w) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
     Bodies packed = b;
     packed.stride = t.stride;
     const T h = broadcast(T(), t.h), at_end = broadcast(T(), t.h * weights.at_end);
-    Carried<T> now, rate;
-    if (corrects) {
-      now = get_carried(T(), t.known, packed, i);
+    const bool corrects = from == AdamsRatesFrom::stage;
+    Carried<T> now = get_carried(T(), corrects ? t.known : t.y, packed, i), rate = get_carried(T(), rates, packed, i);
+    if (from != AdamsRatesFrom::table) {
       rate.L = V3<T>{T{}, T{}, T{}};
       if (wrench) rate.L = get(T(), b.constants, b, kMoves, i) * get3(T(), wrench, b, kTorque, i);
       rate.v = acceleration(T(), b, i, wrench);
+    }
+    if (corrects) {
       now.v = now.v + at_end * rate.v;
       now.L = now.L + at_end * rate.L;
       const Q4<T> q = get4(T(), t.stage, b, kOrientation, i);
@@ -36,11 +38,9 @@ void adams_advance(const Bodies& b, const AdamsTables& t, const AdamsWeights& we
       now.x = now.x + at_end * now.v;
       now.q = nearly_unit_normalised(now.q + at_end * rate.q);
       put_carried(t.y, packed, i, now);
-      put_carried(rates, packed, i, rate);
-    } else {
-      now = get_carried(T(), t.y, packed, i);
-      rate = get_carried(T(), rates, packed, i);
     }
+    if (from != AdamsRatesFrom::table) put_carried(rates, packed, i, rate);
+
     const Carried<T> predicted = plus(now, h, plus(get_carried(T(), t.older_predictor, packed, i),
                                                    broadcast(T(), weights.predictor), rate));
     const Carried<T> known = plus(now, h, plus(get_carried(T(), t.older_corrector, packed, i),
