@@ -8,8 +8,8 @@ namespace rigor {
 namespace RIGOR_LANES_OF {
 namespace {
 
-// Up to so many bodies or springs are taken one at a time.
-inline constexpr std::size_t kFewRows = 1;
+// Up to so many bodies, and springs, are taken one at a time.
+inline constexpr std::size_t kFewBodies = 1, kFewSprings = 2;
 
 #include "core/dynamics/kernels/lanes-inl.h"
 // which this is built on:

@@ -58,8 +58,8 @@ RIGOR_INLINE double gather(double, const double* p, const std::int32_t* i) { ret
 // Calls f(T(), row) for the rows begin, begin + 1, … or, kWidth at once, begin, begin + kWidth, …: a few rows take one
 // at a time, for the sake of the other code that reads and writes single rows right before and after.
 template <class F>
-RIGOR_INLINE void for_rows(std::size_t begin, std::size_t end, F f) {
-  if (end - begin <= kFewRows) {
+RIGOR_INLINE void for_rows(std::size_t begin, std::size_t end, F f, std::size_t few = kFewBodies) {
+  if (end - begin <= few) {
     for (std::size_t i = begin; i < end; ++i) f(double(), i);
     return;
   }

@@ -57,5 +57,5 @@ void springs(const Springs& s, const double* state, std::size_t stride, double* 
     put(kPull, force);
     put(kTorqueA, cross(force, a.arm));
     put(kTorqueB, cross(b.arm, force));
-  });
+  }, kFewSprings);
 }
