@@ -11,7 +11,7 @@ class Continuation {
   explicit Continuation(std::size_t bodies) : end_(bodies) {}
 
   // `state` and t are where the last step, of the same dt, ended, and no timed force has begun or ended since `oldest`,
-  // nor will before t + dt/2.
+  // nor will in the step to t + dt.
   bool goes_on(BodyColumns state, double t, double dt, const Loads& loads, double oldest) const;
   // Nothing is remembered before the first call.
   void ended(BodyColumns state, double t, double dt) { end_ = state, t_ = t, dt_ = dt; }
