@@ -1,12 +1,12 @@
 // The Adams–Bashforth–Moulton method of order 7 on (x, q, v, L): predicted by the explicit formula, the loads evaluated
 // there, corrected by the implicit one (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, III.1). A
-// step of the method is four of the formula. Positions are taken by the implicit formula with the velocities of the same
-// instant, in the prediction too, which doubles the step that an oscillation bears: w dt up to 1.4. One evaluation of the
-// loads for each of the four; where there are dampers a second one, after the correction, without which a damped motion
-// would soon be unstable: c dt/m up to some 2 with it.
+// step of the method is four of the formula. Positions are taken by the implicit formula with the velocities of the
+// same instant, in the prediction too, which doubles the step that an oscillation bears: w dt up to 1.4. One evaluation
+// of the loads for each of the four; where there are dampers a second one, after the correction, without which a damped
+// motion would soon be unstable: c dt/m up to some 2 with it.
 //
-// It remembers the rates of the last seven instants. Where they do not count (at the start, where a timed force begins or
-// ends, after an impact, after another dt) steps of order 8 by Dormand and Prince make them.
+// It remembers the rates of the last seven instants. Where they do not count (at the start, where a timed force begins
+// or ends, after an impact, after another dt) steps of order 8 by Dormand and Prince make them.
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +40,8 @@ class Adams : public Stepper {
         start_(parts.system.size()),
         next_(parts.system.size()) {
     starter_.keep_stages(dormand_prince::kStages);
-    for (AlignedDoubles* table : {&y_, &older_predictor_, &older_corrector_, &known_values_}) table->resize(table_size());
+    for (AlignedDoubles* table : {&y_, &older_predictor_, &older_corrector_, &known_values_})
+      table->resize(table_size());
     for (AlignedDoubles& rates : rates_) rates.resize(table_size());
   }
 
@@ -99,8 +100,13 @@ class Adams : public Stepper {
 
   // Goes on to the newest rates and predicts the step after.
   void advance(const double* wrench, AdamsRatesFrom from) {
-    const AdamsTables tables = {y_.data(), older_predictor_.data(), older_corrector_.data(), known_values_.data(),
-                                stride_,   stage_.columns().column(0), dt_ / kParts};
+    const AdamsTables tables = {y_.data(),
+                                older_predictor_.data(),
+                                older_corrector_.data(),
+                                known_values_.data(),
+                                stride_,
+                                stage_.columns().column(0),
+                                dt_ / kParts};
     AdamsRates rates = {{}, kPredictor.data(), kCorrector.data()};
     for (std::size_t s = 0; s < kAdamsRates; ++s) rates.rates[s] = rates_[(newest_ + 1 + s) % kAdamsRates].data();
     const AdamsWeights weights = {kPredictor[0], kCorrector[0], kAtEnd};
@@ -147,10 +153,10 @@ class Adams : public Stepper {
   }
 
   StepperParts parts_;
-  std::size_t stride_;  // of the tables below, see packed()
+  std::size_t stride_;                                                   // of the tables below, see packed()
   AlignedDoubles y_, older_predictor_, older_corrector_, known_values_;  // see AdamsTables
-  std::array<AlignedDoubles, kAdamsRates> rates_;  // a ring
-  std::size_t newest_ = 0, known_ = 0;             // index of the newest rates; how many count
+  std::array<AlignedDoubles, kAdamsRates> rates_;                        // a ring
+  std::size_t newest_ = 0, known_ = 0;                                   // index of the newest rates; how many count
   WrenchColumns loads_;
   BodyTable stage_;
   Continuation last_;

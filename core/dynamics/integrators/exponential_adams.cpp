@@ -8,9 +8,9 @@
 // So a body on linear springs and dampers along fixed lines moves exactly, at any step. What bodies do to each other is
 // left to g: a stiff spring between two moving bodies still bounds the step.
 //
-// One evaluation of the loads a step. A new pose is chosen when a body has turned by 1 rad from the last. The first four
-// instants (at the start, after an impact, after another dt) are found together, by iteration; a step in which a timed
-// force begins or ends is left to the adaptive method of Dormand and Prince.
+// One evaluation of the loads a step. A new pose is chosen when a body has turned by 1 rad from the last. The first
+// four instants (at the start, after an impact, after another dt) are found together, by iteration; a step in which a
+// timed force begins or ends is left to the adaptive method of Dormand and Prince.
 #include <algorithm>
 
 #include "core/dynamics/integrators/continuation.h"
@@ -174,8 +174,8 @@ class ExponentialAdams : public Stepper {
     const Inertia& body = parts_.system.bodies[i];
     if (body.fixed) return Vec12::Zero();
     Vec12 rate;
-    rate << at.u.segment<3>(6), rate_of_rotation_vector(at.u.segment<3>(3), w),
-        body.inverse_mass * at.wrench.force, frames_[i].inverse_inertia_W * at.wrench.torque;
+    rate << at.u.segment<3>(6), rate_of_rotation_vector(at.u.segment<3>(3), w), body.inverse_mass * at.wrench.force,
+        frames_[i].inverse_inertia_W * at.wrench.torque;
     return rate - frames_[i].linear * at.u;
   }
 

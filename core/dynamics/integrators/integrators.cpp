@@ -5,8 +5,9 @@
 
 namespace rigor {
 
-extern const Integrator kAdams, kBulletTwin, kDormandPrince, kExplicitEuler, kExponentialAdams, kImplicitMidpoint, kLinearlyImplicitEuler,
-    kMoserVeselov, kOdeTwin, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8, kVelocityVerlet;
+extern const Integrator kAdams, kBulletTwin, kDormandPrince, kExplicitEuler, kExponentialAdams, kImplicitMidpoint,
+    kLinearlyImplicitEuler, kMoserVeselov, kOdeTwin, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8,
+    kVelocityVerlet;
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {

@@ -65,7 +65,7 @@ struct AdamsTables {
   double h;                                   // s
 };
 struct AdamsRates {
-  const double* rates[kAdamsRates];      // the newest first
+  const double* rates[kAdamsRates];     // the newest first
   const double *predictor, *corrector;  // their weights
 };
 struct AdamsWeights {

@@ -41,10 +41,10 @@ void adams_advance(const Bodies& b, const AdamsTables& t, const AdamsWeights& we
     }
     if (from != AdamsRatesFrom::table) put_carried(rates, packed, i, rate);
 
-    const Carried<T> predicted = plus(now, h, plus(get_carried(T(), t.older_predictor, packed, i),
-                                                   broadcast(T(), weights.predictor), rate));
-    const Carried<T> known = plus(now, h, plus(get_carried(T(), t.older_corrector, packed, i),
-                                               broadcast(T(), weights.corrector), rate));
+    const Carried<T> predicted =
+        plus(now, h, plus(get_carried(T(), t.older_predictor, packed, i), broadcast(T(), weights.predictor), rate));
+    const Carried<T> known =
+        plus(now, h, plus(get_carried(T(), t.older_corrector, packed, i), broadcast(T(), weights.corrector), rate));
     const Q4<T> q = nearly_unit_normalised(predicted.q);
     const V3<T> w = times_inertia_in_world(b, kInverseInertia, i, q, predicted.L);
     const Q4<T> there = nearly_unit_normalised(known.q + at_end * QuaternionChart::rate(b, nullptr, i, q, w));

@@ -35,27 +35,30 @@ RIGOR_INLINE SpringEnd<T> spring_end(const Springs& s, const double* state, std:
 }
 
 void springs(const Springs& s, const double* state, std::size_t stride, double* pulls) {
-  for_rows(s.begin, s.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
-    using T = decltype(lane);
-    const auto constant = [&](int c) RIGOR_LAMBDA {
-      return load(T(), s.constants + static_cast<std::size_t>(c) * s.stride + i);
-    };
-    const auto point = [&](int c) RIGOR_LAMBDA { return V3<T>{constant(c), constant(c + 1), constant(c + 2)}; };
-    const SpringEnd<T> a = spring_end(s, state, stride, s.a + i, point(kPointA), constant(kAMoves));
-    const SpringEnd<T> b = spring_end(s, state, stride, s.b + i, point(kPointB), constant(kBMoves));
-    const V3<T> line = b.position - a.position;
-    const T length = square_root(dot(line, line));
-    // Where the points meet the line has no direction, and the spring no force.
-    const V3<T> n = if_at_most(length, T{}, T{}, broadcast(T(), 1) / length) * line;
-    T tension = constant(kStiffness) * (length - constant(kRestLength));
-    if (s.damped) tension = tension + constant(kDamping) * dot(n, b.velocity - a.velocity);
-    const V3<T> force = (T{} - tension) * n;
-    const auto put = [&](int c, V3<T> x) RIGOR_LAMBDA {
-      double* p = pulls + static_cast<std::size_t>(c) * s.stride + i;
-      store(p, x.x), store(p + s.stride, x.y), store(p + 2 * s.stride, x.z);
-    };
-    put(kPull, force);
-    put(kTorqueA, cross(force, a.arm));
-    put(kTorqueB, cross(b.arm, force));
-  }, kFewSprings);
+  for_rows(
+      s.begin, s.end,
+      [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+        using T = decltype(lane);
+        const auto constant = [&](int c) RIGOR_LAMBDA {
+          return load(T(), s.constants + static_cast<std::size_t>(c) * s.stride + i);
+        };
+        const auto point = [&](int c) RIGOR_LAMBDA { return V3<T>{constant(c), constant(c + 1), constant(c + 2)}; };
+        const SpringEnd<T> a = spring_end(s, state, stride, s.a + i, point(kPointA), constant(kAMoves));
+        const SpringEnd<T> b = spring_end(s, state, stride, s.b + i, point(kPointB), constant(kBMoves));
+        const V3<T> line = b.position - a.position;
+        const T length = square_root(dot(line, line));
+        // Where the points meet the line has no direction, and the spring no force.
+        const V3<T> n = if_at_most(length, T{}, T{}, broadcast(T(), 1) / length) * line;
+        T tension = constant(kStiffness) * (length - constant(kRestLength));
+        if (s.damped) tension = tension + constant(kDamping) * dot(n, b.velocity - a.velocity);
+        const V3<T> force = (T{} - tension) * n;
+        const auto put = [&](int c, V3<T> x) RIGOR_LAMBDA {
+          double* p = pulls + static_cast<std::size_t>(c) * s.stride + i;
+          store(p, x.x), store(p + s.stride, x.y), store(p + 2 * s.stride, x.z);
+        };
+        put(kPull, force);
+        put(kTorqueA, cross(force, a.arm));
+        put(kTorqueB, cross(b.arm, force));
+      },
+      kFewSprings);
 }

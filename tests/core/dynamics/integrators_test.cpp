@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <complex>
 #include <utility>
 
 #include "core/dynamics/energy.h"
@@ -77,8 +78,8 @@ BodyTable accurate(const Scene& scene, double duration) {
   return BodyTable(adaptive.bodies());
 }
 
-// log2 of the ratio of the errors at dt and dt/4, halved: the next term of the series may be as large at a single halving
-// as to make one of them too good, and the other too bad.
+// log2 of the ratio of the errors at dt and dt/4, halved: the next term of the series may be as large at a single
+// halving as to make one of them too good, and the other too bad.
 double observed_order(const Scene& scene, const BodyTable& truth, const Method& method, double duration, int steps) {
   double error[2];
   for (int k = 0; k < 2; ++k) {
@@ -254,6 +255,42 @@ BOOST_AUTO_TEST_CASE(linearly_implicit_euler_is_stable_on_a_spring_and_a_damper_
     BOOST_TEST(implicit.complaint() == "");
     explicit_run.steps(1.0 / 30, 300);
     BOOST_TEST(!(energy(scene, explicit_run.bodies()) < 1e6 * start));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_exponential_method_moves_a_body_on_a_straight_spring_exactly_at_any_step) {
+  // x'' = -(k/m) (x - l) - (c/m) x' about l = 1 m, from 0.1 m beyond; the two cases are under- and overdamped.
+  for (const auto& [k, c] : {std::pair{8100.0, 0.0}, std::pair{8100.0, 40.0}, std::pair{100.0, 500.0}}) {
+    Scene scene;
+    scene.bodies = {test::body("weight", 1, {1, 1, 1}, {1.1, 0, 0})};
+    scene.springs = {test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, k, 1, c)};
+    Run run(scene, {&integrator("exponential-adams"), nullptr});
+    run.steps(1.0 / 30, 60);
+    const std::complex<double> root = std::sqrt(std::complex<double>(c * c / 4 - k)), fast = -c / 2 - root,
+                               slow = -c / 2 + root;
+    const double expected = (0.1 * (slow * std::exp(fast * 2.0) - fast * std::exp(slow * 2.0)) / (slow - fast)).real();
+    // 60 steps of roundings of 1 m.
+    BOOST_TEST(std::abs(run.bodies().position(0).x() - 1 - expected) < 1e-13);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_multistep_method_forgets_when_it_is_moved) {
+  // A run that is set elsewhere in the middle ends as one that began there.
+  const Scene scene = test::coupled_bodies(1);
+  const System system(scene);
+  for (const char* name : {"adams", "exponential-adams"}) {
+    BodyTable moved(scene.bodies.size()), fresh(scene.bodies.size());
+    const auto one = integrator(name).make({system, nullptr, nullptr}),
+               other = integrator(name).make({system, nullptr, nullptr});
+    set_initial_state(scene, moved.columns());
+    for (int n = 0; n < 20; ++n) one->step(moved.columns(), n * 0.01, 0.01);
+    moved.columns().set_velocity(0, {1, 2, 3});
+    fresh = moved;
+    for (int n = 20; n < 40; ++n) {
+      one->step(moved.columns(), n * 0.01, 0.01);
+      other->step(fresh.columns(), n * 0.01, 0.01);
+    }
+    BOOST_TEST(distance(moved.columns(), fresh.columns()) == 0, name);
   }
 }
 
