@@ -82,7 +82,7 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
         ->type_name("T,T...");
   }
   if (takes("--timeout")) {
-    command.add_option("--timeout", typed.limit, "seconds that a cell, or a truth, may take")
+    command.add_option("--timeout", typed.limit, "seconds of CPU time that a cell, or a truth, may take")
         ->type_name("S")
         ->capture_default_str();
   }

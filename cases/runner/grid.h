@@ -25,7 +25,7 @@ std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines);
 
 struct GridOptions {
   int jobs = 1;               // children at once
-  double limit = 60;          // s of wall time, for each cell, each stable step and each truth
+  double limit = 60;          // s of CPU time, for each cell, each stable step and each truth
   std::string folder;         // where the trajectories go; empty: nowhere
   bool stable_steps = true;   // find the largest stable dt as well
   bool is_thorough = true;    // times each run and repeats it by its twin, also where no gate asks for it

@@ -22,7 +22,7 @@ class Channel {
 
 struct Job {
   std::function<void(const Channel&)> work;  // runs in the child
-  double limit;                              // s, wall time until its first message; none after that
+  double limit;                              // s, CPU time until its first message; none after that
 };
 
 // finished: `work` returned. refused: it threw InputError. threw: another exception. killed: by a signal.

@@ -1,17 +1,15 @@
 #include "tests/faults/faults.h"
 
+#include <cmath>
+#include <limits>
+
 #include "core/dynamics/loads.h"
 #include "core/dynamics/system.h"
+#include "tests/faults/contact_faults.h"
+#include "tests/faults/scene_faults.h"
 
 namespace rigor::test {
 namespace {
-
-template <typename F>
-std::function<void(Scene&)> each_body(F change) {
-  return [change](Scene& scene) {
-    for (Body& body : scene.bodies) change(body);
-  };
-}
 
 template <typename F>
 std::function<void(Scene&)> each_spring(F change) {
@@ -125,17 +123,20 @@ void forces_a_step_late(Moment& moment) {
   for (TimedForce& force : moment.scene.forces) force.from += moment.dt, force.until += moment.dt;
 }
 
+// What was applied in a step is still there in the next, to which its own is added.
+void forces_add_up(Moment& moment) {
+  for (std::size_t i = 0; i < moment.scene.forces.size(); ++i) {
+    TimedForce& force = moment.scene.forces[i];
+    const double since = moment.time - moment.original.forces[i].from;
+    if (since < 0 || force.until <= 0) continue;
+    const double applied = 1 + std::floor(since / moment.dt + 0.5);
+    force.force *= applied, force.torque *= applied;
+  }
+}
+
 void fall_asleep(Body& body, double) {
   if (body.velocity.norm() > 0.05 || body.angular_velocity.norm() > 0.05) return;
   body.velocity.setZero(), body.angular_velocity.setZero();
-}
-
-void equal_masses(Scene& scene) {
-  double sum = 0, count = 0;
-  for (const Body& body : scene.bodies) {
-    if (!body.fixed) sum += body.mass, ++count;
-  }
-  for (Body& body : scene.bodies) body.mass = sum / count;
 }
 
 void reversed_order(MutableBodyColumns bodies, const Scene&) {
@@ -225,8 +226,9 @@ std::vector<Fault> of_loads() {
       {"damping along the wrong direction", "springs/hung-part", kPlace + "|" + kTurn, {}, damp_all_ways},
       {"force off by 0.1 %", "forces/switches-inside-steps", kPlace,
        each_force([](TimedForce& f) { f.force *= 1.001; })},
-      {"force never cleared", "forces/switches-inside-steps", kPlace,
+      {"force that does not end", "forces/switches-inside-steps", kPlace,
        each_force([](TimedForce& f) { f.until = std::numeric_limits<double>::infinity(); })},
+      {"force not cleared after a step", "forces/switches-inside-steps", kPlace, {}, forces_add_up},
       {"force applied one step late", "forces/switches-inside-steps", kPlace, {}, forces_a_step_late},
       {"force taken in the body frame", "forces/switches-inside-steps", kPlace, {}, forces_in_body_frame},
       {"force's arm dropped", "forces/compass-needle", kTurn, each_force([](TimedForce& f) { f.point.setZero(); })},
@@ -292,56 +294,6 @@ std::vector<Fault> of_steps() {
   };
 }
 
-template <typename F>
-std::function<void(Scene&)> each_law(F change) {
-  return [change](Scene& scene) {
-    change(scene.contact_default);
-    for (ContactPair& pair : scene.contact_pairs) change(pair.law);
-  };
-}
-
-void grow(Body& body, double by) {
-  if (!body.shape) return;
-  if (auto* sphere = std::get_if<Sphere>(&*body.shape)) sphere->radius += by;
-  if (auto* box = std::get_if<Box>(&*body.shape)) box->size += Vec3::Constant(2 * by);
-  if (auto* capsule = std::get_if<Capsule>(&*body.shape)) capsule->radius += by;
-}
-
-template <typename F>
-std::function<void(Scene&)> each_plane(F change) {
-  return each_body([change](Body& body) {
-    if (!body.shape) return;
-    if (auto* plane = std::get_if<Plane>(&*body.shape)) change(*plane);
-  });
-}
-
-std::vector<Fault> of_contacts() {
-  const std::string bounce = "restitution_error|position_error|energy_gain|impact_time_error",
-                    slide = "stop_distance_error|position_error|creep";
-  return {
-      {"restitution squared", "contact/pair-impact-0.5", bounce,
-       each_law([](ContactLaw& l) { l.restitution *= l.restitution; })},
-      {"restitution left out", "contact/pair-impact-0.75", bounce, each_law([](ContactLaw& l) { l.restitution = 0; })},
-      {"every contact elastic", "contact/bounce-half", bounce, each_law([](ContactLaw& l) { l.restitution = 1; })},
-      {"friction halved", "contact/sliding-stop", slide, each_law([](ContactLaw& l) { l.friction *= 0.5; })},
-      {"friction left out", "contact/slide-to-roll", slide, each_law([](ContactLaw& l) { l.friction = 0; })},
-      {"friction doubled", "contact/slope-slides", slide, each_law([](ContactLaw& l) { l.friction *= 2; })},
-      {"a pair's own law ignored", "contact/sliding-stop", slide, [](Scene& s) { s.contact_pairs.clear(); }},
-      {"contact left out", "contact/collision", bounce, each_body([](Body& b) { b.collides = false; })},
-      {"contact offset by 1 cm", "contact/collision", bounce, each_body([](Body& b) { grow(b, 0.01); })},
-      {"ground 1 cm too high", "contact/collision", bounce, each_plane([](Plane& p) { p.offset += 0.01; })},
-      {"contact normal flipped", "contact/collision", bounce, each_plane([](Plane& p) { p.normal *= -1; })},
-      {"capsule without its cylinder", "contact/capsules-end-on", bounce, each_body([](Body& b) {
-         if (b.shape) {
-           if (auto* c = std::get_if<Capsule>(&*b.shape)) c->length *= 1e-3;
-         }
-       })},
-      {"every mass the same in contact", "contact/capsules-end-on", bounce, equal_masses},
-      {"inertia of a rolling body off by half", "contact/slide-to-roll", slide,
-       each_body([](Body& b) { b.inertia *= 1.5; })},
-  };
-}
-
 std::vector<Fault> of_reading() {
   const auto on_read = [](const char* name, const char* by, const std::string& metrics, auto change) {
     Fault fault{name, by, metrics};
@@ -380,7 +332,7 @@ std::vector<Fault> of_reading() {
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> table = [] {
     std::vector<Fault> all;
-    for (const auto& part : {of_bodies(), of_loads(), of_steps(), of_contacts(), of_reading()})
+    for (const auto& part : {of_bodies(), of_loads(), of_steps(), contact_faults(), of_reading()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
