@@ -1,6 +1,6 @@
 // The tables of a case: numbers at one step, gates, settings, the file itself.
-import { cellOf, hasNumbers, judgement, metricOf, signedMetric, stepFor } from "./data.js";
-import { el } from "./dom.js";
+import { cellOf, hasNumbers, judgement, metricOf, signedMetric, stableText, stepFor } from "./data.js";
+import { el, tableHead } from "./dom.js";
 import { digits, isNumber, percent, quantity, words } from "./format.js";
 
 const usual = [
@@ -40,9 +40,7 @@ export function numbersTable({ results, one, dt }) {
   };
   const stable = (engine) => {
     const found = one.stable.get(engine.name);
-    return found && isNumber(found.dt)
-      ? `${found.is_cap ? "≥ " : found.is_floor ? "< " : ""}${quantity(found.dt, "s")}`
-      : "–";
+    return found && isNumber(found.dt) ? stableText(found) : "–";
   };
   const millimetre = (engine) => {
     if (one.main === "energy_drift_synchronised") return "–";
@@ -55,19 +53,13 @@ export function numbersTable({ results, one, dt }) {
     el(
       "table.plain.numbers",
       {},
-      el(
-        "thead",
-        {},
-        el(
-          "tr",
-          {},
-          el("th", { scope: "col" }, "run"),
-          el("th", { scope: "col" }, "verdict"),
-          names.map((name) => el("th", { scope: "col", title: results.summaries[name] }, words(name))),
-          el("th", { scope: "col" }, "largest stable dt"),
-          el("th", { scope: "col" }, `dt for 1 m${results.units[one.main] ?? "m"}`),
-          el("th", { scope: "col" }, "CPU a step"),
-        ),
+      tableHead(
+        "run",
+        "verdict",
+        names.map((name) => el("th", { scope: "col", title: results.summaries[name] }, words(name))),
+        "largest stable dt",
+        `dt for 1 m${results.units[one.main] ?? "m"}`,
+        "CPU a step",
       ),
       el(
         "tbody",
@@ -160,15 +152,7 @@ export function gatesTable({ results, one }) {
           el(
             "table.plain",
             {},
-            el(
-              "thead",
-              {},
-              el(
-                "tr",
-                {},
-                ["run", "dt", "value", "", "in words"].map((t) => el("th", {}, t)),
-              ),
-            ),
+            tableHead("run", "dt", "value", "", "in words"),
             el(
               "tbody",
               {},

@@ -1,6 +1,6 @@
 // The results as the page uses them: cases with their cells, engines with their colours, and what follows from several
 // cells. All of it is read from the report itself.
-import { isNumber } from "./format.js";
+import { isNumber, quantity } from "./format.js";
 
 export async function unpacked(base64) {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
@@ -181,6 +181,10 @@ export function stepFor(one, engine, metric, tolerance) {
   const slope = Math.log(a.error / b.error) / Math.log(a.seconds / b.seconds);
   return { mark: "", seconds: b.seconds * (tolerance / b.error) ** (1 / slope) };
 }
+
+// The largest stable step in words: at the largest or the smallest that was tried it is a bound.
+export const stableText = (stable) =>
+  `${stable.is_cap ? "≥ " : stable.is_floor ? "< " : ""}${quantity(stable.dt, "s")}`;
 
 export function median(values) {
   if (!values.length) return null;
