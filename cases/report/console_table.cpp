@@ -204,7 +204,7 @@ std::string console_table(const Results& results) {
   std::string text;
   for (const CaseResult& result : results.cases) text += block(results, result) + "\n";
   if (results.cases.size() > 1) {
-    for (const std::string& sentence : findings(results)) text += wrapped(sentence, 2) + "\n";
+    for (const Finding& found : findings(results)) text += wrapped(found.topic + ": " + found.text, 2) + "\n";
   }
   return text + count_line(results);
 }

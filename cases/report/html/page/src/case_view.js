@@ -9,7 +9,7 @@ import { Player } from "./player.js";
 import { schemeSplit } from "./scheme_tables.js";
 import { Stage } from "./stage.js";
 import { TimePlots } from "./time_plots.js";
-import { address, onChange, set, state } from "./state.js";
+import { address, onChange, openCase, set, state } from "./state.js";
 
 const shownAtFirst = 6;
 
@@ -253,7 +253,7 @@ export class CaseView {
 
   goTo(index) {
     const next = this.results.cases[index];
-    if (next) set({ case: next.id, time: 0, zoom: null, engines: null }, { push: true });
+    if (next) openCase(next.id);
   }
 
   key(event) {

@@ -168,18 +168,24 @@ export function errorPoints(one, engine, metric) {
 }
 
 // The largest step at which an engine's error is at most `tolerance`, read off the straight line, in logarithms, through
-// its cells. `mark`: "≥" it holds at the largest step tried already; "<" not even at the smallest.
+// its cells. `mark`: "≥" it holds at the largest step tried already; "~" extrapolated below the finest of them, off the
+// line through the last two, if the error falls there at all and no further than a factor of 30; "<" not even there.
 export function stepFor(one, engine, metric, tolerance) {
+  const furthest = 30,
+    falls = 0.5; // order
   const points = errorPoints(one, engine, metric);
   if (!points.length) return null;
-  const at = points.findIndex((p) => p.error <= tolerance);
-  if (at < 0) return { mark: "<", seconds: points.at(-1).seconds };
-  if (at === 0) return { mark: points[0].seconds === one.coarsest.seconds ? "≥" : "", seconds: points[0].seconds };
-  const a = points[at - 1],
-    b = points[at];
+  const within = points.findIndex((p) => p.error <= tolerance);
+  if (within === 0) return { mark: points[0].seconds === one.coarsest.seconds ? "≥" : "", seconds: points[0].seconds };
+  const isBeyond = within < 0,
+    finest = { mark: "<", seconds: points.at(-1).seconds };
+  if (isBeyond && points.length < 2) return finest;
+  const [a, b] = isBeyond ? points.slice(-2) : points.slice(within - 1);
   if (!(b.error > 0)) return { mark: "", seconds: b.seconds };
   const slope = Math.log(a.error / b.error) / Math.log(a.seconds / b.seconds);
-  return { mark: "", seconds: b.seconds * (tolerance / b.error) ** (1 / slope) };
+  const seconds = b.seconds * (tolerance / b.error) ** (1 / slope);
+  if (isBeyond && !(slope >= falls && seconds * furthest >= b.seconds)) return finest;
+  return { mark: isBeyond ? "~" : "", seconds };
 }
 
 // The largest stable step in words: at the largest or the smallest that was tried it is a bound.

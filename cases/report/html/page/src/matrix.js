@@ -12,7 +12,7 @@ import {
 } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
 import { digits, engineParts, isNumber, percent, quantity, words } from "./format.js";
-import { address, set, state } from "./state.js";
+import { address, openCase, state } from "./state.js";
 
 // What it can show that is no metric.
 export const shownAside = {
@@ -235,7 +235,7 @@ export class Matrix {
   go(event, one, changes) {
     if (event.metaKey || event.ctrlKey || event.shiftKey) return;
     event.preventDefault();
-    set({ case: one.id, time: 0, zoom: null, ...changes }, { push: true });
+    openCase(one.id, changes);
   }
 
   // Arrow keys go from cell to cell.

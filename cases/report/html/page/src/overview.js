@@ -3,7 +3,7 @@ import { metricOf } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
 import { digits, quantity, words } from "./format.js";
 import { Matrix, shownAside } from "./matrix.js";
-import { onChange, set, state } from "./state.js";
+import { address, onChange, openCase, set, state } from "./state.js";
 
 export class Overview {
   constructor(results, root) {
@@ -36,14 +36,30 @@ export class Overview {
       "section.intro",
       {},
       el("h1", {}, "How right each engine was"),
-      findings.length
-        ? el(
-            "ul.findings",
-            {},
-            findings.map((text) => el("li", {}, text)),
-          )
-        : null,
+      findings.length ? this.findings(findings) : null,
       el("p.fine", {}, `${cells.length} cells: ${status}.`),
+    );
+  }
+
+  // What was found, by topic; the names of cases lead to them.
+  findings(findings) {
+    const topics = new Map();
+    for (const { topic, text } of findings) topics.set(topic, [...(topics.get(topic) ?? []), text]);
+    const link = (id) =>
+      el("a", { href: address({ case: id }), onclick: (event) => (event.preventDefault(), openCase(id)) }, id);
+    const linked = (text) =>
+      text.split(/([\w.-]+(?:\/[\w.-]*\w)+)/).map((part) => (this.results.caseById.has(part) ? link(part) : part));
+    return el(
+      "ul.findings",
+      {},
+      [...topics].map(([topic, texts]) =>
+        el(
+          "li",
+          {},
+          el("b", {}, topic),
+          texts.map((text) => el("p", {}, linked(text))),
+        ),
+      ),
     );
   }
 
