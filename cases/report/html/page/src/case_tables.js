@@ -12,6 +12,9 @@ const usual = [
   "linear_momentum_drift",
 ];
 
+const stepForTitle =
+  "the largest step that keeps the error that matters within it, read off the line through the cells; ≥ at the largest step tried already, ~ extrapolated below the smallest, < not even there";
+
 export function numbersTable({ results, one, dt }) {
   const rows = results.engines.map((engine) => [engine, cellOf(one, engine.name, dt.text)]).filter(([, cell]) => cell);
   const present = results.metrics
@@ -56,10 +59,10 @@ export function numbersTable({ results, one, dt }) {
       tableHead(
         "run",
         "verdict",
-        names.map((name) => el("th", { scope: "col", title: results.summaries[name] }, words(name))),
+        el("th", { scope: "col", title: stepForTitle }, `dt for 1 m${results.units[one.main] ?? "m"}`),
         "largest stable dt",
-        `dt for 1 m${results.units[one.main] ?? "m"}`,
         "CPU a step",
+        names.map((name) => el("th", { scope: "col", title: results.summaries[name] }, words(name))),
       ),
       el(
         "tbody",
@@ -82,9 +85,8 @@ export function numbersTable({ results, one, dt }) {
               engine.name,
             ),
             el(`td.text.is-${verdict.kind}`, {}, el("span.word", {}, `${verdict.sign} ${verdict.word}`)),
-            numbers,
-            el("td", {}, stable(engine)),
             el("td", {}, millimetre(engine)),
+            el("td", {}, stable(engine)),
             el(
               "td",
               {},
@@ -92,6 +94,7 @@ export function numbersTable({ results, one, dt }) {
                 ? quantity((cell.cpu_seconds * cell.dt_seconds) / one.duration, "s")
                 : "–",
             ),
+            numbers,
           );
         }),
       ),

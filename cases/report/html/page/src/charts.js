@@ -88,7 +88,7 @@ function logLog(lines, { xLabel, yLabel, xTicks, label }) {
   return root;
 }
 
-const legend = (rows) =>
+export const legend = (rows) =>
   el(
     "ul.chart-legend",
     {},
@@ -195,7 +195,7 @@ export function stabilityMap({ one, shown, results }) {
       middle = y + row / 2;
     const known = isNumber(stable.dt),
       end = known ? x.at(stable.dt) : left;
-    const text = known ? stableText(stable) : stable.status;
+    const text = known ? stableText(stable) : stable.status === "unsupported" ? "" : stable.status;
     add(root, [
       svg(
         "text",
@@ -236,5 +236,9 @@ export function stabilityMap({ one, shown, results }) {
         }),
     ]);
   });
-  return el("div.scroll", {}, root);
+  const reasons = new Set(engines.map((e) => one.stable.get(e.name)).filter((s) => !isNumber(s.dt)).map((s) => s.reason));
+  return [
+    el("div.scroll", {}, root),
+    [...reasons].filter(Boolean).map((reason) => el("p.fine", {}, `No largest dt: ${reason}.`)),
+  ];
 }

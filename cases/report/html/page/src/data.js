@@ -19,11 +19,10 @@ function indexed(results, playback) {
   results.units = Object.fromEntries(results.metrics.map((m) => [m.name, m.unit]));
   results.summaries = Object.fromEntries(results.metrics.map((m) => [m.name, m.summary]));
   results.courses = playback.courses;
-  results.engineByName = new Map();
-  results.engines.forEach((engine, i) => {
-    Object.assign(engine, { index: i, core: engine.name.startsWith("core"), stock: engine.name.includes("@stock") });
-    results.engineByName.set(engine.name, engine);
-  });
+  for (const engine of results.engines)
+    Object.assign(engine, { core: engine.name.startsWith("core"), stock: engine.name.includes("@stock") });
+  results.engines = inReadingOrder(results);
+  results.engines.forEach((engine, i) => (engine.index = i));
   giveColours(results.engines);
   results.caseById = new Map();
   results.cases.forEach((one, i) => {
@@ -46,6 +45,14 @@ function indexed(results, playback) {
   for (const stable of results.stable_dt) results.caseById.get(stable.case).stable.set(stable.engine, stable);
   results.dts = distinctDts(results.cases);
   return results;
+}
+
+// Engines that are not ours first, for they are what a reader has come for; last what only some cases asked for.
+function inReadingOrder({ engines, cells, cases }) {
+  const casesOf = new Map(engines.map((e) => [e.name, new Set()]));
+  for (const cell of cells) casesOf.get(cell.engine).add(cell.case);
+  const place = (e) => (2 * casesOf.get(e.name).size < cases.length ? 2 : e.core ? 1 : 0);
+  return [...engines].sort((a, b) => place(a) - place(b));
 }
 
 // Engines that are not ours have the warm and the strong colours; the stock track of one is its dashed twin.

@@ -76,11 +76,11 @@ export class Matrix {
       engines.map((engine) => {
         const [who, method] = engineParts(engine.name);
         return el(
-          "th.engine",
+          `th.engine${method.length > 24 ? ".is-long" : ""}`,
           { scope: "col", title: `${engine.name}: ${engine.engine ?? ""} ${engine.version ?? ""}` },
           el("span.stripe", { style: { "--engine": `var(--e${engine.index})` } }),
           el("span.who", {}, who.replace("@", " @\u200b")),
-          method ? el("span.method", {}, method.replaceAll("-", "-\u200b")) : null,
+          method ? el("span.method", {}, method.replaceAll(/[-,=]/g, "$&\u200b")) : null,
         );
       }),
     );
@@ -141,7 +141,7 @@ export class Matrix {
       ),
       line(
         `dt for ${quantity(state.tolerance, "m")}`,
-        "the middle one of the cases: the largest step that keeps the error that matters within the tolerance",
+        "the middle one of the cases: the largest step that keeps the error that matters within the tolerance, extrapolated where it is below the steps that were tried",
         middleStep,
       ),
     );
