@@ -30,6 +30,24 @@ std::string listed_names(const std::vector<std::string>& names, std::size_t most
   return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
 }
 
+// "a, b in 2 of 3; c in 1 of 3": those that the same is said of stand together, in the order they came.
+class Sayings {
+ public:
+  void add(const std::string& name, const std::string& what) {
+    const auto said = std::find_if(said_.begin(), said_.end(), [&](const auto& s) { return s.first == what; });
+    said == said_.end() ? said_.push_back({what, name}) : void(said->second += ", " + name);
+  }
+  bool empty() const { return said_.empty(); }
+  std::string text() const {
+    std::string text;
+    for (const auto& [what, names] : said_) text += (text.empty() ? "" : "; ") + names + what;
+    return text;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> said_;  // what, of whom
+};
+
 // The largest dt that keeps an error in bounds; 0 if no dt that was tried, or can be extrapolated to, does.
 struct StepNeeded {
   double seconds = 0;
@@ -93,8 +111,8 @@ class Finder {
   }
 
   void say_who_blows_up() {
-    std::vector<std::string> steady, lost;
-    std::map<std::string, std::size_t> said;  // of engines not ours: which sentence they share
+    std::vector<std::string> steady;
+    Sayings lost;
     for (const std::size_t run : runs()) {
       std::vector<std::string> blown;
       std::size_t ran = 0;
@@ -105,17 +123,12 @@ class Finder {
       const std::string& name = results_.runs[run].text;
       if (blown.empty() && 2 * ran > results_.cases.size()) steady.push_back(name);
       if (blown.empty()) continue;
-      const std::string where = fmt::format(" in {} of {}", blown.size(), ran) +
-                                (is_ours(run) ? "" : fmt::format(" ({})", listed_names(blown, 3)));
-      if (const auto [at, is_new] = said.emplace(where, lost.size()); is_new) {
-        lost.push_back(name + where);
-      } else {
-        lost[at->second].insert(lost[at->second].size() - where.size(), ", " + name);
-      }
+      lost.add(name, fmt::format(" in {} of {}", blown.size(), ran) +
+                         (is_ours(run) ? "" : fmt::format(" ({})", listed_names(blown, 3))));
     }
     if (lost.empty() && !steady.empty()) say("stability", fmt::format("At dt = {} s nothing blows up.", dt_.text));
     if (lost.empty()) return;
-    std::string text = fmt::format("At dt = {} s these blow up: {}.", dt_.text, fmt::join(lost, "; "));
+    std::string text = fmt::format("At dt = {} s these blow up: {}.", dt_.text, lost.text());
     if (!steady.empty()) text += fmt::format(" Never: {}.", listed_names(steady, 5));
     say("stability", text);
   }
@@ -127,7 +140,8 @@ class Finder {
     for (const CaseResult& result : results_.cases) {
       if (stiffest_frequency(result.definition.scene) * dt_.seconds >= kStiff) stiff.push_back(&result);
     }
-    std::vector<std::string> ids, stable, drifting, lost;
+    std::vector<std::string> ids, stable, drifting;
+    Sayings lost;
     for (const CaseResult* result : stiff) ids.push_back(result->definition.id);
     for (const std::size_t run : runs()) {
       std::size_t ran = 0, blown = 0, drifts = 0;
@@ -138,7 +152,7 @@ class Finder {
       });
       if (ran == 0 || 2 * ran < stiff.size()) continue;
       const std::string& name = results_.runs[run].text;
-      if (blown > 0) lost.push_back(fmt::format("{} in {}", name, blown));
+      if (blown > 0) lost.add(name, fmt::format(" in {} of {}", blown, ran));
       if (blown == 0) (drifts > 0 ? drifting : stable).push_back(name);
     }
     if (stable.empty() && drifting.empty() && lost.empty()) return;
@@ -146,10 +160,12 @@ class Finder {
     const auto list = [&](const std::vector<std::string>& names) {
       return names.empty() ? std::string("none") : listed_names(names, kAll);
     };
-    say("stiff springs", fmt::format("Where omega dt is above {:g} at dt = {} s ({}), these stay stable: {}. Bounded, "
-                                     "but drifting: {}. Blown up, of {} cases: {}.",
-                                     kStiff, dt_.text, listed_names(ids, 4), list(stable), list(drifting), stiff.size(),
-                                     list(lost)));
+    std::string text =
+        fmt::format("Where springs are stiff for dt = {} s, omega dt above {:g} ({}), these stay stable: {}.", dt_.text,
+                    kStiff, listed_names(ids, 4), list(stable));
+    if (!drifting.empty()) text += fmt::format(" Bounded, but drifting: {}.", list(drifting));
+    if (!lost.empty()) text += fmt::format(" Blown up: {}.", lost.text());
+    say("stiff springs", text);
   }
 
   // For each engine that is not ours: where its mean energy falls most, and where it rises most, without blowing up.
