@@ -14,6 +14,9 @@ import { address, onChange, openCase, set, state } from "./state.js";
 
 const shownAtFirst = 6;
 
+// Lets the page answer to whatever has come in.
+const pause = () => new Promise((resolve) => setTimeout(resolve));
+
 const part = (id, title, text, ...content) =>
   el("section.part", { id }, el("h2", {}, title), text ? el("p.fine", {}, text) : null, content);
 
@@ -189,8 +192,11 @@ export class CaseView {
     this.stage?.close(), this.plots?.close();
     this.player.dt = this.dt.seconds;
     this.stage = new Stage(this.results, this.one, data, this.player, this.stageBox);
+    this.stage.show(this.shown);
+    await pause();
+    if (this.closed || wanted !== this.dt.text) return;
     this.plots = new TimePlots(this.results, this.one, data, this.player, this.plotsBox);
-    this.stage.show(this.shown), this.plots.show(this.shown);
+    this.plots.show(this.shown);
     this.drawFan();
     this.player.seek(Math.min(state.time, this.one.duration));
     this.root.dataset.loaded = `${this.one.id} ${wanted}`;
