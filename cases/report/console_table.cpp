@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cases/report/comparison.h"
+#include "cases/report/console_matrix.h"
 #include "cases/report/explained_error.h"
 #include "cases/report/explanation.h"
 #include "cases/report/findings.h"
@@ -45,15 +46,6 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
   return cell.status == Status::pass ? word_of(cell.stability.verdict) : word_of(cell.status);
 }
 
-// At most `width` bytes, cut between characters.
-std::string shortened(std::string text, std::size_t width) {
-  if (text.size() <= width) return text;
-  text.resize(width - 2);
-  while (!text.empty() && (text.back() & 0xc0) == 0x80) text.pop_back();
-  if (!text.empty() && (text.back() & 0x80)) text.pop_back();
-  return text + "..";
-}
-
 std::string table_line(const RowText& row) {
   std::string line =
       fmt::format("{} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {}", engine_column(row.engine), row.first_second, row.whole,
@@ -81,14 +73,21 @@ std::string row_line(const RowText& row) {
   return engine_column(row.engine) + " " + wrapped(row.verdict, 27) + "\n";
 }
 
-// The gates that did not hold.
-std::string gate_lines(const CaseResult& result) {
+// The gates that did not hold; those that no cell met only where asked for.
+std::string gate_lines(const CaseResult& result, bool with_unchecked) {
   std::string lines;
   for (const GateResult& gate : result.gates) {
     if (gate.answer == GateAnswer::held || gate.answer == GateAnswer::known_deviation) continue;
+    if (gate.answer == GateAnswer::not_checked && !with_unchecked) continue;
     lines += "  " + wrapped(fmt::format("gate {}: {}", word_of(gate.answer), gate.text), 4) + "\n";
   }
   return lines;
+}
+
+// Of a case that has no block of its own.
+std::string what_is_wrong(const CaseResult& result) {
+  const std::string error = result.error.empty() ? "" : "  " + wrapped(result.error, 2) + "\n";
+  return error + gate_lines(result, false);
 }
 
 std::string block(const Results& results, const CaseResult& result) {
@@ -102,7 +101,7 @@ std::string block(const Results& results, const CaseResult& result) {
   for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
   for (const std::string& sentence : work_precision_sentences(results, result))
     text += "  " + wrapped(sentence, 2) + "\n";
-  return text + gate_lines(result);
+  return text + gate_lines(result, true);
 }
 
 std::string count_line(const Results& results) {
@@ -129,6 +128,14 @@ std::string wrapped(const std::string& text, std::size_t indent) {
     rest.erase(0, at + 1);
   }
   return out + rest;
+}
+
+std::string shortened(std::string text, std::size_t width) {
+  if (text.size() <= width) return text;
+  text.resize(width - 2);
+  while (!text.empty() && (text.back() & 0xc0) == 0x80) text.pop_back();
+  if (!text.empty() && (text.back() & 0x80)) text.pop_back();
+  return text + "..";
 }
 
 std::string rounded(double value) {
@@ -201,10 +208,17 @@ std::string gate_summary(const Results& results) {
 }
 
 std::string console_table(const Results& results) {
-  std::string text;
-  for (const CaseResult& result : results.cases) text += block(results, result) + "\n";
+  constexpr std::size_t kMostInFull = 6;  // cases: a few screens
+  const bool is_in_full = results.cases.size() <= kMostInFull;
+  std::string text = is_in_full ? "" : console_matrix(results) + "\n";
+  for (const CaseResult& result : results.cases) {
+    if (is_in_full) text += block(results, result) + "\n";
+    const std::string short_of = is_in_full ? "" : what_is_wrong(result);
+    if (!short_of.empty()) text += result.definition.id + "\n" + short_of;
+  }
+  if (!is_in_full) text += "each case in full: report.html, report.md, or `rigor run CASE`\n\n";
   if (results.cases.size() > 1) {
-    for (const std::string& sentence : findings(results)) text += wrapped(sentence, 2) + "\n";
+    for (const Finding& found : findings(results)) text += wrapped(found.topic + ": " + found.text, 2) + "\n";
   }
   return text + count_line(results);
 }

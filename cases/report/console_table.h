@@ -1,4 +1,5 @@
-// What `rigor run` prints: a block a case, one row an engine, in at most 100 columns and plain text.
+// What `rigor run` prints: a block a case, one row an engine, in at most 100 columns and plain text; of many cases the
+// matrix, cases by engines.
 #pragma once
 
 #include <string>
@@ -28,6 +29,9 @@ std::string wrapped(const std::string& text, std::size_t indent);
 
 // Two or three significant digits: 0.0312, 1.3e-05, 490.
 std::string rounded(double value);
+
+// At most `width` bytes, cut between characters.
+std::string shortened(std::string text, std::size_t width);
 
 // The first column of a table; a long name gets a line of its own.
 std::string engine_column(const std::string& name);

@@ -9,6 +9,7 @@
 
 #include "cases/metrics/work_precision.h"
 #include "cases/report/console_table.h"
+#include "cases/report/explanation.h"
 #include "cases/report/verdict_matrix.h"
 
 namespace rigor {
@@ -29,17 +30,61 @@ std::string listed_names(const std::vector<std::string>& names, std::size_t most
   return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
 }
 
+// "a, b in 2 of 3; c in 1 of 3": those that the same is said of stand together, in the order they came.
+class Sayings {
+ public:
+  void add(const std::string& name, const std::string& what) {
+    const auto said = std::find_if(said_.begin(), said_.end(), [&](const auto& s) { return s.first == what; });
+    said == said_.end() ? said_.push_back({what, name}) : void(said->second += ", " + name);
+  }
+  bool empty() const { return said_.empty(); }
+  std::string text() const {
+    std::string text;
+    for (const auto& [what, names] : said_) text += (text.empty() ? "" : "; ") + names + what;
+    return text;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> said_;  // what, of whom
+};
+
+// The largest dt that keeps an error in bounds; 0 if no dt that was tried, or can be extrapolated to, does.
+struct StepNeeded {
+  double seconds = 0;
+  bool is_extrapolated = false;
+  bool operator<(const StepNeeded& other) const { return seconds < other.seconds; }
+};
+
+// Read off the straight line, in logarithms, through the cells; beyond the finest of them off the line through the last
+// two, if the error falls there at all and no further than a factor of 30.
+StepNeeded step_for(std::vector<ErrorPoint> points, double error) {
+  constexpr double kFurthest = 30, kFalls = 0.5;  // order
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.dt.seconds > b.dt.seconds; });
+  std::size_t i = 0;
+  while (i < points.size() && !(points[i].error <= error)) ++i;
+  const bool is_beyond = i == points.size();
+  if (is_beyond && i == 1) return {};
+  if (is_beyond) --i;
+  if (i == 0 || !(points[i].error > 0)) return {points[i].dt.seconds, false};
+  const double slope =
+      std::log(points[i - 1].error / points[i].error) / std::log(points[i - 1].dt.seconds / points[i].dt.seconds);
+  const double seconds = points[i].dt.seconds * std::pow(error / points[i].error, 1 / slope);
+  if (is_beyond && !(slope >= kFalls && seconds * kFurthest >= points[i].dt.seconds)) return {};
+  return {seconds, is_beyond};
+}
+
 class Finder {
  public:
   explicit Finder(const Results& results) : results_(results), dt_(headline_dt(results)) {}
 
-  std::vector<std::string> sentences() {
-    say_where_energy_goes();
+  std::vector<Finding> all() {
     say_who_blows_up();
-    say_whose_friction_is_a_pyramid();
+    say_who_holds_stiff_springs();
     say_what_a_millimetre_takes();
+    say_where_energy_goes();
+    say_whose_friction_is_a_pyramid();
     say_what_is_unexplained();
-    return sentences_;
+    return found_;
   }
 
  private:
@@ -53,6 +98,8 @@ class Finder {
     }
   }
 
+  void say(const std::string& topic, const std::string& text) { found_.push_back({topic, text}); }
+
   bool is_ours(std::size_t run) const { return results_.runs[run].engine == "core"; }
 
   // Engines that are not ours first: they are what a reader has come for.
@@ -64,8 +111,8 @@ class Finder {
   }
 
   void say_who_blows_up() {
-    std::vector<std::string> steady, lost;
-    std::map<std::string, std::size_t> said;  // of engines not ours: which sentence they share
+    std::vector<std::string> steady;
+    Sayings lost;
     for (const std::size_t run : runs()) {
       std::vector<std::string> blown;
       std::size_t ran = 0;
@@ -76,19 +123,49 @@ class Finder {
       const std::string& name = results_.runs[run].text;
       if (blown.empty() && 2 * ran > results_.cases.size()) steady.push_back(name);
       if (blown.empty()) continue;
-      const std::string where = fmt::format(" in {} of {}", blown.size(), ran) +
-                                (is_ours(run) ? "" : fmt::format(" ({})", listed_names(blown, 3)));
-      if (const auto [at, is_new] = said.emplace(where, lost.size()); is_new) {
-        lost.push_back(name + where);
-      } else {
-        lost[at->second].insert(lost[at->second].size() - where.size(), ", " + name);
-      }
+      lost.add(name, fmt::format(" in {} of {}", blown.size(), ran) +
+                         (is_ours(run) ? "" : fmt::format(" ({})", listed_names(blown, 3))));
     }
-    if (lost.empty() && !steady.empty()) sentences_.push_back(fmt::format("At dt = {} s nothing blows up.", dt_.text));
+    if (lost.empty() && !steady.empty()) say("stability", fmt::format("At dt = {} s nothing blows up.", dt_.text));
     if (lost.empty()) return;
-    std::string text = fmt::format("At dt = {} s these blow up: {}.", dt_.text, fmt::join(lost, "; "));
+    std::string text = fmt::format("At dt = {} s these blow up: {}.", dt_.text, lost.text());
     if (!steady.empty()) text += fmt::format(" Never: {}.", listed_names(steady, 5));
-    sentences_.push_back(text);
+    say("stability", text);
+  }
+
+  // Springs are stiff for a step once omega dt comes near the 2 at which a semi-implicit step loses every oscillation.
+  void say_who_holds_stiff_springs() {
+    constexpr double kStiff = 1;  // omega dt
+    std::vector<const CaseResult*> stiff;
+    for (const CaseResult& result : results_.cases) {
+      if (stiffest_frequency(result.definition.scene) * dt_.seconds >= kStiff) stiff.push_back(&result);
+    }
+    std::vector<std::string> ids, stable, drifting;
+    Sayings lost;
+    for (const CaseResult* result : stiff) ids.push_back(result->definition.id);
+    for (const std::size_t run : runs()) {
+      std::size_t ran = 0, blown = 0, drifts = 0;
+      for_cells(run, [&](const CaseResult& result, const Cell& cell) {
+        if (std::find(stiff.begin(), stiff.end(), &result) == stiff.end()) return;
+        ++ran;
+        blown += cell.stability.verdict == Verdict::blown_up, drifts += cell.stability.verdict == Verdict::drifting;
+      });
+      if (ran == 0 || 2 * ran < stiff.size()) continue;
+      const std::string& name = results_.runs[run].text;
+      if (blown > 0) lost.add(name, fmt::format(" in {} of {}", blown, ran));
+      if (blown == 0) (drifts > 0 ? drifting : stable).push_back(name);
+    }
+    if (stable.empty() && drifting.empty() && lost.empty()) return;
+    constexpr std::size_t kAll = 12;  // of a question that is asked of each engine
+    const auto list = [&](const std::vector<std::string>& names) {
+      return names.empty() ? std::string("none") : listed_names(names, kAll);
+    };
+    std::string text =
+        fmt::format("Where springs are stiff for dt = {} s, omega dt above {:g} ({}), these stay stable: {}.", dt_.text,
+                    kStiff, listed_names(ids, 4), list(stable));
+    if (!drifting.empty()) text += fmt::format(" Bounded, but drifting: {}.", list(drifting));
+    if (!lost.empty()) text += fmt::format(" Blown up: {}.", lost.text());
+    say("stiff springs", text);
   }
 
   // For each engine that is not ours: where its mean energy falls most, and where it rises most, without blowing up.
@@ -101,7 +178,7 @@ class Finder {
       }
       for (const auto& [text, names] : said) {
         const std::string verb = is_loss ? " lose" : " gain";
-        sentences_.push_back(listed_names(names, 4) + verb + (names.size() == 1 ? "s " : " ") + text);
+        say("energy", listed_names(names, 4) + verb + (names.size() == 1 ? "s " : " ") + text);
       }
     }
   }
@@ -149,7 +226,7 @@ class Finder {
     }
     if (pyramids.empty() && cones.empty()) return;
     const std::string none = "none";
-    sentences_.push_back(fmt::format(
+    say("friction", fmt::format(
         "Friction is a pyramid, braking harder along its diagonals, with: {}; a cone, as Coulomb's, with: {}. The per "
         "cent are how distances to a stop spread over directions ({}, dt = {} s).",
         pyramids.empty() ? none : listed_names(pyramids, 6), cones.empty() ? none : listed_names(cones, 6), where,
@@ -169,62 +246,53 @@ class Finder {
       });
     }
     if (compared == 0) return;
-    sentences_.push_back(
+    say("unexplained",
         fmt::format("Beside {} runs the core repeated the engine's own scheme: the largest position error that this "
                     "leaves unexplained is {:.2g} m{}.",
                     compared, largest, where.empty() ? "" : ", by " + where));
   }
 
-  // The largest dt at which a run's error is at most `error`, read off the line through its cells; 0 if none.
-  double step_for(const CaseResult& result, std::size_t run, const std::string& metric, double error) const {
-    auto points = error_points(result, run, metric);
-    std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.dt.seconds > b.dt.seconds; });
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!(points[i].error <= error)) continue;
-      if (i == 0 || !(points[i].error > 0)) return points[i].dt.seconds;
-      const double slope =
-          std::log(points[i - 1].error / points[i].error) / std::log(points[i - 1].dt.seconds / points[i].dt.seconds);
-      return points[i].dt.seconds * std::pow(error / points[i].error, 1 / slope);
-    }
-    return 0;
-  }
-
   void say_what_a_millimetre_takes() {
     constexpr double kMillimetre = 1e-3;  // m, or rad
-    std::vector<std::pair<double, std::string>> needs;
+    std::vector<std::pair<StepNeeded, std::string>> needs;
     for (const std::size_t run : runs()) {
-      std::vector<double> steps;
+      std::vector<StepNeeded> steps;
       for (const CaseResult& result : results_.cases) {
         const std::string metric = main_error(result);
-        if (metric.starts_with("energy") || error_points(result, run, metric).empty()) continue;
-        steps.push_back(step_for(result, run, metric, kMillimetre));
+        const auto points = error_points(result, run, metric);
+        if (!metric.starts_with("energy") && !points.empty()) steps.push_back(step_for(points, kMillimetre));
       }
       if (steps.empty() || steps.size() * 2 < results_.cases.size()) continue;  // too few to speak of a middle one
       std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
       needs.emplace_back(steps[steps.size() / 2], results_.runs[run].text);
     }
     if (needs.empty()) return;
-    std::stable_sort(needs.begin(), needs.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::stable_sort(needs.begin(), needs.end(), [](const auto& a, const auto& b) { return b.first < a.first; });
     std::vector<std::string> enough, too_few;
-    for (const auto& [step, name] : needs)
-      step > 0 ? enough.push_back(fmt::format("{} {:.2g} s", name, step)) : too_few.push_back(name);
+    for (const auto& [step, name] : needs) {
+      const bool is_known = step.seconds > 0;
+      (is_known ? enough : too_few)
+          .push_back(is_known ? fmt::format("{} {}{:.2g} s", name, step.is_extrapolated ? "~" : "", step.seconds)
+                              : name);
+    }
     std::string text =
         "To stay within 1 mm of the truth, or 1 mrad where nothing moves away, takes in the middle one of the cases a "
         "dt of: ";
-    text += enough.empty() ? "less than was tried with any of them" : listed_names(enough, 5);
-    if (!enough.empty() && !too_few.empty()) text += "; less than was tried with " + listed_names(too_few, 5);
-    sentences_.push_back(text + ".");
+    text += enough.empty() ? "less than was tried with any of them" : fmt::format("{}", fmt::join(enough, ", "));
+    if (!enough.empty() && !too_few.empty())
+      text += fmt::format("; less than was tried with {}", fmt::join(too_few, ", "));
+    say("step size", text + ".");
   }
 
   static constexpr const char* kDrift = "energy_drift";
   const Results& results_;
   StepSize dt_;
-  std::vector<std::string> sentences_;
+  std::vector<Finding> found_;
 };
 
 }  // namespace
 
-std::vector<std::string> findings(const Results& results) { return Finder(results).sentences(); }
+std::vector<Finding> findings(const Results& results) { return Finder(results).all(); }
 
 StepSize headline_dt(const Results& results) {
   constexpr double kHeadline = 1.0 / 30;

@@ -1,5 +1,5 @@
-// What the whole of the results comes to, in a few sentences: who blows up, who loses energy and why, what is left that
-// no scheme explains, what a millimetre costs.
+// What the whole of the results comes to, in a few sentences: who blows up and who holds stiff springs, what a millimetre
+// costs, who loses energy and why, whose friction knows directions, what is left that no scheme explains.
 #pragma once
 
 #include <string>
@@ -9,7 +9,11 @@
 
 namespace rigor {
 
-std::vector<std::string> findings(const Results& results);
+struct Finding {
+  std::string topic;  // "stability", "energy", ...: findings of one topic stand together
+  std::string text;   // a sentence or two
+};
+std::vector<Finding> findings(const Results& results);
 
 // The step size that the first page shows: 1/30 s if any case has it, else the coarsest of all.
 StepSize headline_dt(const Results& results);

@@ -99,6 +99,12 @@ Json case_json(const Results& results, const CaseResult& result) {
   return json;
 }
 
+Json findings_json(const Results& results) {
+  Json rows = Json::array();
+  for (const Finding& found : findings(results)) rows.push_back({{"topic", found.topic}, {"text", found.text}});
+  return rows;
+}
+
 Json metrics_json() {
   Json rows = Json::array();
   for (const MetricRow& row : metrics())
@@ -125,7 +131,7 @@ Json results_json(const Results& results) {
                {"machine", machine_json()},
                {"wall_seconds", results.wall_seconds},
                {"headline_dt", headline_dt(results).text},
-               {"findings", findings(results)},
+               {"findings", findings_json(results)},
                {"metrics", metrics_json()},
                {"engines", Json::array()},
                {"cases", Json::array()},

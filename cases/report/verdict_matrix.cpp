@@ -31,20 +31,38 @@ std::string error_text(const Cell& cell, const std::string& metric) {
 }
 
 std::string cell_text(const Cell& cell, const std::string& metric) {
-  if (cell.status == Status::diverged) return fmt::format("✕ blown up {:.2f} s", cell.stability.time);
-  if (cell.status == Status::unsupported) return "– unsupported";
-  if (cell.status == Status::pass && !cell.metrics.empty()) {
-    const bool is_drifting = cell.stability.verdict == Verdict::drifting;
-    return fmt::format("{} {}{}", is_drifting ? "≈" : "✓", word_of(cell.stability.verdict), error_text(cell, metric));
-  }
-  const char* sign = cell.status == Status::known_deviation   ? "◆"
-                     : cell.status == Status::unexpected_pass ? "◇"
-                     : cell.status == Status::fail            ? "✕"
-                                                              : "!";
-  return fmt::format("{} {}{}", sign, word_of(cell.status), error_text(cell, metric));
+  std::string word = word_of(cell.status);
+  if (cell.status == Status::diverged) return fmt::format("{} blown up {:.2f} s", sign_of(cell), cell.stability.time);
+  if (cell.status == Status::pass && !cell.metrics.empty()) word = word_of(cell.stability.verdict);
+  return fmt::format("{} {}{}", sign_of(cell), word, error_text(cell, metric));
 }
 
 }  // namespace
+
+std::string sign_of(const Cell& cell) {
+  switch (cell.status) {
+    case Status::pass:
+      return cell.stability.verdict == Verdict::drifting ? "≈" : "✓";
+    case Status::diverged:
+    case Status::fail:
+      return "✕";
+    case Status::unsupported:
+      return "–";
+    case Status::known_deviation:
+      return "◆";
+    case Status::unexpected_pass:
+      return "◇";
+    default:
+      return "!";
+  }
+}
+
+StepSize matrix_dt(const CaseResult& result, const StepSize& headline) {
+  const auto& steps = result.definition.dt;
+  const bool has_it =
+      std::any_of(steps.begin(), steps.end(), [&](const StepSize& dt) { return dt.text == headline.text; });
+  return has_it ? headline : coarsest_dt(result);
+}
 
 std::string main_error(const CaseResult& result) {
   constexpr double kMoves = 1e-9;  // m and rad: less is rounding
@@ -64,12 +82,9 @@ TextTable verdict_matrix(const Results& results) {
                    {{"case"}}};
   for (const RunName& run : results.runs) matrix.rows[0].push_back(run.text);
   for (const CaseResult& result : results.cases) {
-    const auto& steps = result.definition.dt;
-    const bool has_it =
-        std::any_of(steps.begin(), steps.end(), [&](const StepSize& dt) { return dt.text == headline.text; });
-    const StepSize dt = has_it ? headline : coarsest_dt(result);
+    const StepSize dt = matrix_dt(result, headline);
     std::vector<std::string> row(results.runs.size() + 1, "");
-    row[0] = result.definition.id + (has_it ? "" : fmt::format(" (dt {})", dt.text));
+    row[0] = result.definition.id + (dt.text == headline.text ? "" : fmt::format(" (dt {})", dt.text));
     const std::string metric = main_error(result);
     for (const Cell& cell : result.cells) {
       if (cell.dt.text == dt.text) row[cell.run + 1] = cell_text(cell, metric);

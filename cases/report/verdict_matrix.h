@@ -15,4 +15,10 @@ std::string main_error(const CaseResult& result);
 // At headline_dt(); a case that has no such step is shown at its coarsest, which its row says.
 TextTable verdict_matrix(const Results& results);
 
+// The step whose cells stand in a case's row: the headline's if the case has it, else its coarsest.
+StepSize matrix_dt(const CaseResult& result, const StepSize& headline);
+
+// One character for how a cell ended.
+std::string sign_of(const Cell& cell);
+
 }  // namespace rigor

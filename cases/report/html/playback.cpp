@@ -66,11 +66,16 @@ class Courses {
  public:
   explicit Courses(std::vector<NamedCourse> courses) : courses_(std::move(courses)) {
     for (const NamedCourse& course : courses_) {
-      double largest = 0;
+      double largest = kNoise;
       for (const double value : course.values) {
         if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
       }
-      largest_.push_back(std::max(largest, kNoise));
+      const double floor = std::max(kNoise, 1e-6 * largest);
+      Seen& seen = seen_.emplace_back();
+      for (const double value : course.values) {
+        seen.linear.push_back(value / (largest * kLinearSeen));
+        seen.decades.push_back(std::log10(std::max(std::abs(value), floor)) / kDecadesSeen);
+      }
       count_ = std::max(count_, course.values.size());
     }
   }
@@ -80,19 +85,17 @@ class Courses {
   double deviation(std::size_t n, std::size_t a, std::size_t b) const {
     const double share = static_cast<double>(n - a) / static_cast<double>(b - a);
     double worst = 0;
-    for (std::size_t c = 0; c < courses_.size(); ++c) {
-      const auto& values = courses_[c].values;
-      if (n >= values.size()) continue;
-      if (b >= values.size()) {  // it ends in this stretch, and its end is kept
-        if (n + 1 == values.size()) return std::numeric_limits<double>::max();
+    for (const Seen& seen : seen_) {
+      const std::size_t length = seen.linear.size();
+      if (n >= length) continue;
+      if (b >= length) {  // it ends in this stretch, and its end is kept
+        if (n + 1 == length) return std::numeric_limits<double>::max();
         continue;
       }
-      const auto off = [&](auto scale) {
-        return std::abs(scale(values[n]) - (1 - share) * scale(values[a]) - share * scale(values[b]));
+      const auto off = [&](const std::vector<double>& values) {
+        return std::abs(values[n] - (1 - share) * values[a] - share * values[b]);
       };
-      const double floor = std::max(kNoise, 1e-6 * largest_[c]);
-      worst = std::max(worst, off([&](double v) { return v / largest_[c]; }) / kLinearSeen);
-      worst = std::max(worst, off([&](double v) { return std::log10(std::max(std::abs(v), floor)); }) / kDecadesSeen);
+      worst = std::max({worst, off(seen.linear), off(seen.decades)});
     }
     return worst;
   }
@@ -113,8 +116,12 @@ class Courses {
   }
 
  private:
+  // A course on the two scales of a plot, in what can just be seen there.
+  struct Seen {
+    std::vector<double> linear, decades;
+  };
   std::vector<NamedCourse> courses_;
-  std::vector<double> largest_;
+  std::vector<Seen> seen_;
   std::size_t count_ = 0;
 };
 

@@ -57,6 +57,41 @@ BOOST_AUTO_TEST_CASE(every_line_fits_a_hundred_columns) {
   for (std::string line; std::getline(lines, line);) BOOST_TEST(line.size() <= 100u, line);
 }
 
+BOOST_AUTO_TEST_CASE(many_cases_stand_in_a_matrix_of_a_hundred_columns) {
+  Results results = sample_results();
+  const CaseResult one = results.cases.front();
+  for (const char* id : {"family/other", "family/of-a-name-longer-than-any-column", "second/case", "second/more",
+                         "second/last", "none"}) {
+    results.cases.push_back(one);
+    results.cases.back().definition.id = id;
+  }
+  results.cases[3].cells[0].metrics["position_error"].value = 0.9999e-3;
+  results.cases[4].cells[0].status = Status::known_deviation;
+  results.cases[5].gates.push_back({0, "good", "1/10", GateAnswer::failed, "too far"});
+  results.cases[5].gates.push_back({0, "", "", GateAnswer::not_checked, "no cell"});
+  while (results.runs.size() < 9) results.runs.push_back(results.runs.front());
+  for (CaseResult& result : results.cases) {
+    for (std::size_t run = 2; run < results.runs.size(); ++run) {
+      result.stable_steps.push_back(result.stable_steps.front());
+      result.cells.push_back(result.cells.front()), result.cells.back().run = run;
+    }
+  }
+  results.runs[8].text = "core:semi-implicit-euler,orientation=matrix-additive@stock";
+  const std::string text = console_table(results);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    BOOST_TEST(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }) <= 100, line);
+  }
+  BOOST_TEST(line_with(text, " other").find("✓ 250mm    ✕ 0.40s    ✓ 250mm") != std::string::npos, text);
+  BOOST_TEST(line_with(text, " case").find("✓ 250mm") != std::string::npos, text);
+  const std::string second = text.substr(text.find("\nsecond\n") + 1);
+  BOOST_TEST(line_with(second, " case").find("✓ 1mm") != std::string::npos, text);  // 0.9999 mm
+  BOOST_TEST(line_with(text, " more").find("◆ 250mm") != std::string::npos, text);
+  BOOST_TEST(line_with(text, "  gate failed").find("too far") != std::string::npos, text);
+  BOOST_TEST(text.find("not checked") == std::string::npos, text);
+  BOOST_TEST(text.find("st|one") == std::string::npos, text);  // no block
+}
+
 BOOST_AUTO_TEST_CASE(a_truth_says_how_far_it_can_be_trusted) {
   Results results = sample_results();
   CaseResult& result = results.cases.front();

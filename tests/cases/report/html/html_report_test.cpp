@@ -100,6 +100,7 @@ BOOST_AUTO_TEST_CASE(the_programs_own_report_works_in_a_browser, *boost::unit_te
                                   out + engines,
                               folder));
   BOOST_TEST(is_valid(out + "/results.json", folder));
+  BOOST_TEST(succeeds("node " + kHere + "recompute_test.mjs " + RIGOR_PROGRAM + " " + out, folder));
   BOOST_TEST(opens_well("page_test.mjs", folder, out + "/report.html", out + "/results.json", "report"));
 }
 

@@ -1,6 +1,6 @@
 // The tables of a case: numbers at one step, gates, settings, the file itself.
-import { cellOf, hasNumbers, judgement, metricOf, signedMetric, stepFor } from "./data.js";
-import { el } from "./dom.js";
+import { cellOf, hasNumbers, judgement, metricOf, signedMetric, stableText, stepFor } from "./data.js";
+import { el, tableHead } from "./dom.js";
 import { digits, isNumber, percent, quantity, words } from "./format.js";
 
 const usual = [
@@ -11,6 +11,9 @@ const usual = [
   "angular_momentum_drift",
   "linear_momentum_drift",
 ];
+
+const stepForTitle =
+  "the largest step that keeps the error that matters within it, read off the line through the cells; ≥ at the largest step tried already, ~ extrapolated below the smallest, < not even there";
 
 export function numbersTable({ results, one, dt }) {
   const rows = results.engines.map((engine) => [engine, cellOf(one, engine.name, dt.text)]).filter(([, cell]) => cell);
@@ -40,9 +43,7 @@ export function numbersTable({ results, one, dt }) {
   };
   const stable = (engine) => {
     const found = one.stable.get(engine.name);
-    return found && isNumber(found.dt)
-      ? `${found.is_cap ? "≥ " : found.is_floor ? "< " : ""}${quantity(found.dt, "s")}`
-      : "–";
+    return found && isNumber(found.dt) ? stableText(found) : "–";
   };
   const millimetre = (engine) => {
     if (one.main === "energy_drift_synchronised") return "–";
@@ -55,19 +56,13 @@ export function numbersTable({ results, one, dt }) {
     el(
       "table.plain.numbers",
       {},
-      el(
-        "thead",
-        {},
-        el(
-          "tr",
-          {},
-          el("th", { scope: "col" }, "run"),
-          el("th", { scope: "col" }, "verdict"),
-          names.map((name) => el("th", { scope: "col", title: results.summaries[name] }, words(name))),
-          el("th", { scope: "col" }, "largest stable dt"),
-          el("th", { scope: "col" }, `dt for 1 m${results.units[one.main] ?? "m"}`),
-          el("th", { scope: "col" }, "CPU a step"),
-        ),
+      tableHead(
+        "run",
+        "verdict",
+        el("th", { scope: "col", title: stepForTitle }, `dt for 1 m${results.units[one.main] ?? "m"}`),
+        "largest stable dt",
+        "CPU a step",
+        names.map((name) => el("th", { scope: "col", title: results.summaries[name] }, words(name))),
       ),
       el(
         "tbody",
@@ -90,9 +85,8 @@ export function numbersTable({ results, one, dt }) {
               engine.name,
             ),
             el(`td.text.is-${verdict.kind}`, {}, el("span.word", {}, `${verdict.sign} ${verdict.word}`)),
-            numbers,
-            el("td", {}, stable(engine)),
             el("td", {}, millimetre(engine)),
+            el("td", {}, stable(engine)),
             el(
               "td",
               {},
@@ -100,6 +94,7 @@ export function numbersTable({ results, one, dt }) {
                 ? quantity((cell.cpu_seconds * cell.dt_seconds) / one.duration, "s")
                 : "–",
             ),
+            numbers,
           );
         }),
       ),
@@ -160,15 +155,7 @@ export function gatesTable({ results, one }) {
           el(
             "table.plain",
             {},
-            el(
-              "thead",
-              {},
-              el(
-                "tr",
-                {},
-                ["run", "dt", "value", "", "in words"].map((t) => el("th", {}, t)),
-              ),
-            ),
+            tableHead("run", "dt", "value", "", "in words"),
             el(
               "tbody",
               {},

@@ -4,14 +4,21 @@ import { el, replace } from "./dom.js";
 import { digits, quantity } from "./format.js";
 import { convergence, stabilityMap, workPrecision } from "./charts.js";
 import { gatesTable, numbersTable, sceneFile, settingsTable } from "./case_tables.js";
+import { frictionFan } from "./friction_chart.js";
 import { loadCase } from "./playback_data.js";
 import { Player } from "./player.js";
 import { schemeSplit } from "./scheme_tables.js";
 import { Stage } from "./stage.js";
 import { TimePlots } from "./time_plots.js";
-import { address, onChange, set, state } from "./state.js";
+import { address, onChange, openCase, set, state } from "./state.js";
 
 const shownAtFirst = 6;
+
+// Lets the page answer to whatever has come in.
+const pause = () => new Promise((resolve) => setTimeout(resolve));
+
+const part = (id, title, text, ...content) =>
+  el("section.part", { id }, el("h2", {}, title), text ? el("p.fine", {}, text) : null, content);
 
 export class CaseView {
   constructor(results, one, root) {
@@ -21,7 +28,7 @@ export class CaseView {
     this.chips = el("div.chips", { role: "group", "aria-label": "Engines shown" });
     this.stageBox = el("section.stage", { "aria-label": "Playback" });
     this.plotsBox = el("section.plots", { "aria-label": "Courses over time" });
-    this.across = el("div.across");
+    (this.across = el("div.across")), (this.fan = el("div.fan"));
     this.steps = el("div.segments", { role: "group", "aria-label": "Step size" });
     replace(root, this.heading(), this.bar(), el("div.motion", {}, this.stageBox, this.plotsBox), this.across);
     this.stop = onChange((changed) => this.follow(changed));
@@ -185,22 +192,37 @@ export class CaseView {
     this.stage?.close(), this.plots?.close();
     this.player.dt = this.dt.seconds;
     this.stage = new Stage(this.results, this.one, data, this.player, this.stageBox);
+    this.stage.show(this.shown);
+    await pause();
+    if (this.closed || wanted !== this.dt.text) return;
     this.plots = new TimePlots(this.results, this.one, data, this.player, this.plotsBox);
-    this.stage.show(this.shown), this.plots.show(this.shown);
+    this.plots.show(this.shown);
+    this.drawFan();
     this.player.seek(Math.min(state.time, this.one.duration));
     this.root.dataset.loaded = `${this.one.id} ${wanted}`;
   }
 
+  get context() {
+    return { results: this.results, one: this.one, dt: this.dt, shown: this.shown };
+  }
+
+  // Once the motions are there, which say where bodies came to rest.
+  drawFan() {
+    const fan = this.data?.dt === this.dt.text ? frictionFan(this.context, this.data) : null;
+    const text =
+      "All should stop after the same way. Friction that is a cone leaves an arc; a pyramid brakes harder along its diagonals and dents it.";
+    replace(this.fan, fan ? part("friction", "Friction by direction", text, fan) : null);
+  }
+
   drawAcross() {
-    const context = { results: this.results, one: this.one, dt: this.dt, shown: this.shown };
-    const part = (id, title, text, ...content) =>
-      el("section.part", { id }, el("h2", {}, title), text ? el("p.fine", {}, text) : null, content);
+    const { context } = this;
     const split = schemeSplit(context),
       converged = convergence(context),
       worked = workPrecision(context);
     replace(
       this.across,
       part("numbers", `At dt = ${this.dt.text} s`, null, numbersTable(context)),
+      this.fan,
       split
         ? part(
             "scheme",
@@ -235,6 +257,7 @@ export class CaseView {
       part("settings", "Settings in force", "As read back from each engine in this case.", settingsTable(context)),
       part("file", "The case file", null, sceneFile(this.one)),
     );
+    this.drawFan();
   }
 
   follow(changed) {
@@ -253,7 +276,7 @@ export class CaseView {
 
   goTo(index) {
     const next = this.results.cases[index];
-    if (next) set({ case: next.id, time: 0, zoom: null, engines: null }, { push: true });
+    if (next) openCase(next.id);
   }
 
   key(event) {

@@ -1,5 +1,5 @@
 // Figures over the cells of a case, as SVG: they print, scale and carry their text.
-import { cellOf, errorPoints, judgement, order } from "./data.js";
+import { cellOf, errorPoints, judgement, order, stableText } from "./data.js";
 import { add, el, svg } from "./dom.js";
 import { digits, isNumber, power, quantity, words } from "./format.js";
 import { set } from "./state.js";
@@ -88,7 +88,7 @@ function logLog(lines, { xLabel, yLabel, xTicks, label }) {
   return root;
 }
 
-const legend = (rows) =>
+export const legend = (rows) =>
   el(
     "ul.chart-legend",
     {},
@@ -105,84 +105,62 @@ const legend = (rows) =>
 
 const errorsOf = (one) => [...new Set(one.observed_order.map((o) => o.metric))];
 
-export function convergence({ results, one, shown }) {
+// A figure for each kind of error there is, a line for each engine shown: `place` says where on the x axis a cell
+// stands and what to call it, or nothing where it stands nowhere.
+function errorFigures({ results, one, shown }, { place, axis, versus, below }) {
   const figures = errorsOf(one)
     .map((metric) => {
       const unit = results.units[metric];
-      const lines = shown
-        .map((engine) => ({
-          engine,
-          points: errorPoints(one, engine.name, metric).map((p) => ({
-            x: p.seconds,
-            y: p.error,
-            dt: p.dt,
-            text: quantity(p.error, unit),
-          })),
-        }))
-        .filter((l) => l.points.length);
-      if (!lines.length || one.dt.length < 2) return null;
-      const fitted = (engine) => {
-        const found = order(one, engine.name, metric);
-        return isNumber(found?.value) ? `order ${digits(Math.round(100 * found.value) / 100)}` : "no order";
-      };
+      const pointsOf = (engine) =>
+        errorPoints(one, engine.name, metric)
+          .map((p) => ({ ...place(p, quantity(p.error, unit)), y: p.error, dt: p.dt }))
+          .filter((p) => p.x > 0);
+      const lines = shown.map((engine) => ({ engine, points: pointsOf(engine) })).filter((l) => l.points.length);
+      if (!lines.length) return null;
       return el(
         "figure.wide",
         {},
         el("figcaption", {}, words(metric)),
-        logLog(lines, {
-          xLabel: "dt [s]",
-          yLabel: `${words(metric)} [${unit}]`,
-          xTicks: one.dt.map((dt) => [dt.seconds, dt.text]),
-          label: `${words(metric)} against step size`,
-        }),
-        legend(lines.map(({ engine }) => [engine, fitted(engine)])),
+        logLog(lines, { ...axis, yLabel: `${words(metric)} [${unit}]`, label: `${words(metric)} against ${versus}` }),
+        below(metric, lines),
       );
     })
     .filter(Boolean);
   return figures.length ? el("div.figures", {}, figures) : null;
 }
 
-export function workPrecision({ results, one, shown }) {
-  const figures = errorsOf(one)
-    .map((metric) => {
-      const unit = results.units[metric];
-      const lines = shown
-        .map((engine) => ({
-          engine,
-          points: errorPoints(one, engine.name, metric)
-            .filter((p) => p.cost > 0)
-            .map((p) => ({
-              x: p.cost,
-              y: p.error,
-              dt: p.dt,
-              text: `${quantity(p.error, unit)} for ${quantity(p.cost, "s")} of CPU a second`,
-            })),
-        }))
-        .filter((l) => l.points.length);
-      if (!lines.length) return null;
-      const best = (one.work_precision.find((w) => w.metric === metric)?.best_of_core ?? []).filter(
-        (b) => b.times_less,
-      );
-      return el(
-        "figure.wide",
-        {},
-        el("figcaption", {}, words(metric)),
-        logLog(lines, {
-          xLabel: "CPU time per simulated second [s/s]",
-          yLabel: `${words(metric)} [${unit}]`,
-          label: `${words(metric)} against CPU time`,
-        }),
-        best.map((b) =>
-          el(
-            "p.fine",
-            {},
-            `At the cost of ${b.baseline}, ${b.engine} errs ${digits(b.times_less, 2)} times less (${b.cells_compared} of ${b.cells} step sizes compared).`,
-          ),
+export function convergence(context) {
+  const { one } = context;
+  if (one.dt.length < 2) return null;
+  const fitted = (engine, metric) => {
+    const found = order(one, engine.name, metric);
+    return isNumber(found?.value) ? `order ${digits(Math.round(100 * found.value) / 100)}` : "no order";
+  };
+  return errorFigures(context, {
+    place: (p, error) => ({ x: p.seconds, text: error }),
+    axis: { xLabel: "dt [s]", xTicks: one.dt.map((dt) => [dt.seconds, dt.text]) },
+    versus: "step size",
+    below: (metric, lines) => legend(lines.map(({ engine }) => [engine, fitted(engine, metric)])),
+  });
+}
+
+export function workPrecision(context) {
+  const { one } = context;
+  const bestOfCore = (metric) =>
+    (one.work_precision.find((w) => w.metric === metric)?.best_of_core ?? []).filter((b) => b.times_less);
+  return errorFigures(context, {
+    place: (p, error) => ({ x: p.cost, text: `${error} for ${quantity(p.cost, "s")} of CPU a second` }),
+    axis: { xLabel: "CPU time per simulated second [s/s]" },
+    versus: "CPU time",
+    below: (metric) =>
+      bestOfCore(metric).map((b) =>
+        el(
+          "p.fine",
+          {},
+          `At the cost of ${b.baseline}, ${b.engine} errs ${digits(b.times_less, 2)} times less (${b.cells_compared} of ${b.cells} step sizes compared).`,
         ),
-      );
-    })
-    .filter(Boolean);
-  return figures.length ? el("div.figures", {}, figures) : null;
+      ),
+  });
 }
 
 // A bar an engine, up to its largest stable dt; on it the runs there were.
@@ -217,9 +195,7 @@ export function stabilityMap({ one, shown, results }) {
       middle = y + row / 2;
     const known = isNumber(stable.dt),
       end = known ? x.at(stable.dt) : left;
-    const text = known
-      ? `${stable.is_cap ? "≥ " : stable.is_floor ? "< " : ""}${quantity(stable.dt, "s")}`
-      : stable.status;
+    const text = known ? stableText(stable) : stable.status === "unsupported" ? "" : stable.status;
     add(root, [
       svg(
         "text",
@@ -260,5 +236,9 @@ export function stabilityMap({ one, shown, results }) {
         }),
     ]);
   });
-  return el("div.scroll", {}, root);
+  const reasons = new Set(engines.map((e) => one.stable.get(e.name)).filter((s) => !isNumber(s.dt)).map((s) => s.reason));
+  return [
+    el("div.scroll", {}, root),
+    [...reasons].filter(Boolean).map((reason) => el("p.fine", {}, `No largest dt: ${reason}.`)),
+  ];
 }

@@ -1,6 +1,6 @@
 // The results as the page uses them: cases with their cells, engines with their colours, and what follows from several
 // cells. All of it is read from the report itself.
-import { isNumber } from "./format.js";
+import { isNumber, quantity } from "./format.js";
 
 export async function unpacked(base64) {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
@@ -19,11 +19,10 @@ function indexed(results, playback) {
   results.units = Object.fromEntries(results.metrics.map((m) => [m.name, m.unit]));
   results.summaries = Object.fromEntries(results.metrics.map((m) => [m.name, m.summary]));
   results.courses = playback.courses;
-  results.engineByName = new Map();
-  results.engines.forEach((engine, i) => {
-    Object.assign(engine, { index: i, core: engine.name.startsWith("core"), stock: engine.name.includes("@stock") });
-    results.engineByName.set(engine.name, engine);
-  });
+  for (const engine of results.engines)
+    Object.assign(engine, { core: engine.name.startsWith("core"), stock: engine.name.includes("@stock") });
+  results.engines = inReadingOrder(results);
+  results.engines.forEach((engine, i) => (engine.index = i));
   giveColours(results.engines);
   results.caseById = new Map();
   results.cases.forEach((one, i) => {
@@ -46,6 +45,14 @@ function indexed(results, playback) {
   for (const stable of results.stable_dt) results.caseById.get(stable.case).stable.set(stable.engine, stable);
   results.dts = distinctDts(results.cases);
   return results;
+}
+
+// Engines that are not ours first, for they are what a reader has come for; last what only some cases asked for.
+function inReadingOrder({ engines, cells, cases }) {
+  const casesOf = new Map(engines.map((e) => [e.name, new Set()]));
+  for (const cell of cells) casesOf.get(cell.engine).add(cell.case);
+  const place = (e) => (2 * casesOf.get(e.name).size < cases.length ? 2 : e.core ? 1 : 0);
+  return [...engines].sort((a, b) => place(a) - place(b));
 }
 
 // Engines that are not ours have the warm and the strong colours; the stock track of one is its dashed twin.
@@ -168,19 +175,29 @@ export function errorPoints(one, engine, metric) {
 }
 
 // The largest step at which an engine's error is at most `tolerance`, read off the straight line, in logarithms, through
-// its cells. `mark`: "≥" it holds at the largest step tried already; "<" not even at the smallest.
+// its cells. `mark`: "≥" it holds at the largest step tried already; "~" extrapolated below the finest of them, off the
+// line through the last two, if the error falls there at all and no further than a factor of 30; "<" not even there.
 export function stepFor(one, engine, metric, tolerance) {
+  const furthest = 30,
+    falls = 0.5; // order
   const points = errorPoints(one, engine, metric);
   if (!points.length) return null;
-  const at = points.findIndex((p) => p.error <= tolerance);
-  if (at < 0) return { mark: "<", seconds: points.at(-1).seconds };
-  if (at === 0) return { mark: points[0].seconds === one.coarsest.seconds ? "≥" : "", seconds: points[0].seconds };
-  const a = points[at - 1],
-    b = points[at];
+  const within = points.findIndex((p) => p.error <= tolerance);
+  if (within === 0) return { mark: points[0].seconds === one.coarsest.seconds ? "≥" : "", seconds: points[0].seconds };
+  const isBeyond = within < 0,
+    finest = { mark: "<", seconds: points.at(-1).seconds };
+  if (isBeyond && points.length < 2) return finest;
+  const [a, b] = isBeyond ? points.slice(-2) : points.slice(within - 1);
   if (!(b.error > 0)) return { mark: "", seconds: b.seconds };
   const slope = Math.log(a.error / b.error) / Math.log(a.seconds / b.seconds);
-  return { mark: "", seconds: b.seconds * (tolerance / b.error) ** (1 / slope) };
+  const seconds = b.seconds * (tolerance / b.error) ** (1 / slope);
+  if (isBeyond && !(slope >= falls && seconds * furthest >= b.seconds)) return finest;
+  return { mark: isBeyond ? "~" : "", seconds };
 }
+
+// The largest stable step in words: at the largest or the smallest that was tried it is a bound.
+export const stableText = (stable) =>
+  `${stable.is_cap ? "≥ " : stable.is_floor ? "< " : ""}${quantity(stable.dt, "s")}`;
 
 export function median(values) {
   if (!values.length) return null;

@@ -36,3 +36,15 @@ export function replace(node, ...children) {
   node.replaceChildren();
   return add(node, children);
 }
+
+// The first row of a table.
+export const tableHead = (...labels) =>
+  el(
+    "thead",
+    {},
+    el(
+      "tr",
+      {},
+      labels.flat().map((label) => (label instanceof Node ? label : el("th", { scope: "col" }, label))),
+    ),
+  );

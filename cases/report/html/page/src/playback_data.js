@@ -69,7 +69,9 @@ class Motion {
       }
     }
     for (let slot = 0; slot < this.values.length; slot += 7) {
-      const [x, y, z] = this.values.subarray(slot + 4, slot + 7);
+      const x = this.values[slot + 4],
+        y = this.values[slot + 5],
+        z = this.values[slot + 6];
       this.values[slot + 3] = Math.sqrt(Math.max(0, 1 - x * x - y * y - z * z));
     }
   }

@@ -1,7 +1,7 @@
 // How much of an engine's error is its scheme's, as tables with a mark a part on a logarithmic line.
 import { bounds, decades, ink } from "./charts.js";
 import { cellOf, hasNumbers, signedMetric } from "./data.js";
-import { el, svg } from "./dom.js";
+import { el, svg, tableHead } from "./dom.js";
 import { isNumber, percent, quantity, words } from "./format.js";
 
 // For each run with a twin: the whole error, the scheme's part and what is left, on one logarithmic line.
@@ -32,15 +32,7 @@ export function schemeSplit({ results, one, dt }) {
       "table.plain.split",
       {},
       el("caption", {}, words(total)),
-      el(
-        "thead",
-        {},
-        el(
-          "tr",
-          {},
-          ["run", "total", "by its scheme", "unexplained", ""].map((t) => el("th", { scope: "col" }, t)),
-        ),
-      ),
+      tableHead("run", "total", "by its scheme", "unexplained", ""),
       el(
         "tbody",
         {},
@@ -123,17 +115,7 @@ function energySplit(cells) {
     "table.plain.split",
     {},
     el("caption", {}, "energy, largest drift"),
-    el(
-      "thead",
-      {},
-      el(
-        "tr",
-        {},
-        ["run", "total", "by its scheme", "scheme without gyroscopic term", "where it goes"].map((t) =>
-          el("th", { scope: "col" }, t),
-        ),
-      ),
-    ),
+    tableHead("run", "total", "by its scheme", "scheme without gyroscopic term", "where it goes"),
     el(
       "tbody",
       {},

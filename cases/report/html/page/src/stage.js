@@ -9,6 +9,8 @@ import { onTheme } from "./theme.js";
 import { WebglView } from "./webgl_view.js";
 import { set, state } from "./state.js";
 
+const longHold = 50; // ms: more, and a reader's keys and mouse seem to lag
+
 export class Stage {
   constructor(results, one, data, player, root) {
     Object.assign(this, { results, one, data, player, root, engines: [], dirty: true });
@@ -194,12 +196,25 @@ export class Stage {
     this.invalidate();
   }
 
-  // Draws once before the next frame, and only if anything changed.
+  // Draws once before the next frame, and only if anything changed. Without a GPU a picture can hold the page up: then
+  // it gets as long a rest after each as that took.
   invalidate() {
     if (this.waiting || this.closed) return;
-    this.waiting = requestAnimationFrame(() => {
-      this.waiting = 0;
-      if (!this.closed) this.draw();
+    this.waiting = true;
+    const rest = (this.restUntil ?? 0) - performance.now();
+    if (rest > 0) setTimeout(() => requestAnimationFrame(() => this.drawAtLast()), rest);
+    else requestAnimationFrame(() => this.drawAtLast());
+  }
+  drawAtLast() {
+    this.waiting = false;
+    if (this.closed) return;
+    const began = performance.now();
+    this.draw();
+    requestAnimationFrame(() => {
+      const now = performance.now(),
+        took = now - began; // up to the next frame, when the page could do something else again
+      this.view.keepPace?.(took);
+      this.restUntil = took > longHold ? now + Math.min(took, 500) : 0;
     });
   }
 

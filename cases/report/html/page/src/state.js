@@ -21,6 +21,10 @@ export function set(changes, { push = false } = {}) {
   for (const listener of [...listeners]) listener(new Set(changed));
 }
 
+// From its start, with the engines that the page chooses unless they are named.
+export const openCase = (id, changes = {}) =>
+  set({ case: id, time: 0, zoom: null, engines: null, ...changes }, { push: true });
+
 export function onChange(listener) {
   listeners.add(listener);
   return () => listeners.delete(listener);

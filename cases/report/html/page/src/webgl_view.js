@@ -136,8 +136,7 @@ export class WebglView {
   }
 
   draw(panes, { trails, width, height }) {
-    const began = performance.now(),
-      { renderer, eye } = this,
+    const { renderer, eye } = this,
       { camera } = this.context;
     renderer.setPixelRatio(this.ratio);
     renderer.setSize(width, height, false);
@@ -162,7 +161,6 @@ export class WebglView {
       eye.updateProjectionMatrix();
       renderer.render(this.scene, eye);
     }
-    this.keepPace(performance.now() - began);
   }
 
   // Several engines on top of one another: each lets the others be seen.
@@ -175,10 +173,10 @@ export class WebglView {
     }
   }
 
-  // Without a GPU a frame can take long: then with fewer pixels, so that the page answers.
+  // Of how long pictures take, in ms: those of a slow machine get fewer pixels.
   keepPace(took) {
-    this.pace = 0.8 * (this.pace ?? took) + 0.2 * took;
-    if (this.pace > 40 && this.ratio > 0.5) (this.ratio *= 0.8), (this.pace = 20);
+    this.pace = 0.8 * (this.pace ?? 16) + 0.2 * took;
+    if (this.pace > 40 && this.ratio > 0.5) (this.ratio = Math.max(0.5, this.ratio * 0.8)), (this.pace = 20);
   }
 
   place({ layer, meshes, coils, touching, trails }, showTrails) {

@@ -1,0 +1,253 @@
+// The verdict matrix: cases by engines at one step, sorted by family, with what each engine's column comes to.
+import {
+  cellOf,
+  dtOf,
+  hasNumbers,
+  judgement,
+  median,
+  metricOf,
+  signedMetric,
+  stableText,
+  stepFor,
+} from "./data.js";
+import { el, replace, tableHead } from "./dom.js";
+import { digits, engineParts, isNumber, percent, quantity, words } from "./format.js";
+import { address, openCase, state } from "./state.js";
+
+// What it can show that is no metric.
+export const shownAside = {
+  main: "the error that matters",
+  stable: "largest stable dt",
+  step: "dt needed for a tolerance",
+  cost: "CPU time",
+};
+
+export class Matrix {
+  constructor(results) {
+    (this.results = results), (this.root = el("div.matrix-scroll", { tabindex: -1 }));
+  }
+
+  draw(dt, filter) {
+    this.dt = dt;
+    const cases = this.results.cases.filter((c) => !filter || `${c.id} ${c.title}`.toLowerCase().includes(filter));
+    const engines = this.results.engines.filter((e) => this.results.cells.some((c) => c.engine === e.name));
+    const families = new Map();
+    for (const one of cases) families.set(one.family, [...(families.get(one.family) ?? []), one]);
+    const table = el(
+      "table.matrix",
+      { "aria-label": `Cases by engines at dt = ${dt.text} s` },
+      el("caption", {}, this.caption()),
+      this.head(engines),
+      this.summary(cases, engines),
+    );
+    for (const [family, members] of [...families].sort((a, b) => (a[0] < b[0] ? -1 : 1))) {
+      table.append(
+        el(
+          "tbody",
+          {},
+          el(
+            "tr.family",
+            {},
+            el("th", { scope: "rowgroup", colspan: engines.length + 1 }, el("span", {}, family || "cases")),
+          ),
+          members.map((one) => this.row(one, engines)),
+        ),
+      );
+    }
+    replace(this.root, cases.length ? table : el("p", {}, "No case has that in its name."));
+  }
+
+  caption() {
+    const what = shownAside[state.show] ?? words(state.show);
+    const tolerance =
+      state.show === "step" ? ` of ${quantity(state.tolerance, "m")} or ${quantity(state.tolerance, "rad")}` : "";
+    const main =
+      "the position's; the orientation's where nothing moves away; the energy's drift where there is no truth";
+    return [
+      el("b", {}, `dt = ${this.dt.text} s: ${what}${tolerance}`),
+      " ",
+      el("span.fine", {}, state.show === "main" ? main : (this.results.summaries[state.show] ?? "")),
+    ];
+  }
+
+  head(engines) {
+    return tableHead(
+      el("th.corner", { scope: "col" }, "case"),
+      engines.map((engine) => {
+        const [who, method] = engineParts(engine.name);
+        return el(
+          `th.engine${method.length > 24 ? ".is-long" : ""}`,
+          { scope: "col", title: `${engine.name}: ${engine.engine ?? ""} ${engine.version ?? ""}` },
+          el("span.stripe", { style: { "--engine": `var(--e${engine.index})` } }),
+          el("span.who", {}, who.replace("@", " @\u200b")),
+          method ? el("span.method", {}, method.replaceAll(/[-,=]/g, "$&\u200b")) : null,
+        );
+      }),
+    );
+  }
+
+  // What an engine's column comes to over all cases shown.
+  summary(cases, engines) {
+    const line = (label, title, of) =>
+      el(
+        "tr.summary",
+        {},
+        el("th", { scope: "row", title }, label),
+        engines.map((engine) => el("td", {}, of(engine))),
+      );
+    const cells = (engine) =>
+      cases
+        .map((one) => cellOf(one, engine.name, dtOf(one, this.dt.text).text))
+        .filter((c) => c && c.status !== "unsupported");
+    const typical = cases.map((one) =>
+      median(
+        engines.map((e) => metricOf(cellOf(one, e.name, dtOf(one, this.dt.text).text), one.main)).filter((v) => v > 0),
+      ),
+    );
+    const ratio = (engine) => {
+      const logs = cases
+        .map((one, i) => {
+          const cell = cellOf(one, engine.name, dtOf(one, this.dt.text).text),
+            value = hasNumbers(cell) ? metricOf(cell, one.main) : null;
+          return value > 0 && typical[i] > 0 ? Math.log(Math.max(value / typical[i], 1e-6)) : null;
+        })
+        .filter((v) => v !== null);
+      return logs.length ? `× ${digits(Math.exp(logs.reduce((a, b) => a + b) / logs.length), 2)}` : "–";
+    };
+    const middleStep = (engine) => {
+      const steps = cases
+        .filter((one) => one.main !== "energy_drift_synchronised")
+        .map((one) => stepFor(one, engine.name, one.main, state.tolerance))
+        .filter(Boolean);
+      if (!steps.length) return "–";
+      const middle = median(steps.map((s) => (s.mark === "<" ? 0 : s.seconds)));
+      return middle > 0
+        ? quantity(middle, "s")
+        : el("span.fine", { title: "smaller than the steps that were tried" }, "smaller");
+    };
+    const blown = (engine) => {
+      const ran = cells(engine),
+        bad = ran.filter((c) => judgement(c).kind === "bad").length;
+      return ran.length ? el("span", { class: bad ? "some-bad" : "" }, `${bad} of ${ran.length}`) : "–";
+    };
+    return el(
+      "tbody.summaries",
+      {},
+      line("blown up or failed", "cells at this step that blew up, crashed or failed a gate, of those that ran", blown),
+      line(
+        "error ÷ the middle engine's",
+        "geometric mean, over the cases, of the error that matters divided by that of the engine in the middle; below 1 is better than most",
+        ratio,
+      ),
+      line(
+        `dt for ${quantity(state.tolerance, "m")}`,
+        "the middle one of the cases: the largest step that keeps the error that matters within the tolerance, extrapolated where it is below the steps that were tried",
+        middleStep,
+      ),
+    );
+  }
+
+  row(one, engines) {
+    const dt = dtOf(one, this.dt.text),
+      isOther = dt.text !== this.dt.text;
+    return el(
+      "tr",
+      {},
+      el(
+        "th.case",
+        { scope: "row", title: one.title },
+        el(
+          "a",
+          { href: address({ case: one.id, time: 0, zoom: null }), onclick: (event) => this.go(event, one, {}) },
+          one.id.slice(one.family ? one.family.length + 1 : 0),
+        ),
+        el(
+          "span.note",
+          {},
+          one.error
+            ? "could not be judged"
+            : [
+                state.show === "main" ? words(one.main).replace(" synchronised", "") : one.title,
+                isOther ? ` · dt ${dt.text}` : "",
+              ],
+        ),
+      ),
+      engines.map((engine) => this.cell(one, engine, dt)),
+    );
+  }
+
+  cell(one, engine, dt) {
+    const cell = cellOf(one, engine.name, dt.text),
+      verdict = judgement(cell);
+    const [value, note] = this.value(one, engine, cell, verdict);
+    const shown = new Set([
+      engine.name,
+      ...one.cells
+        .filter((c) => c.playback && c.dt === dt.text)
+        .map((c) => c.engine)
+        .filter((n) => !n.startsWith("core"))
+        .slice(0, 3),
+    ]);
+    const changes = { case: one.id, dt: dt.text, engines: shown, time: 0, zoom: null };
+    if (!cell) return el("td.cell.is-absent", {}, "");
+    const title = `${one.id}, ${engine.name}, dt = ${dt.text} s: ${verdict.word}${cell.reason ? ` – ${cell.reason}` : ""}`;
+    return el(
+      `td.cell.is-${verdict.kind}`,
+      {},
+      el(
+        "a",
+        { href: address(changes), title, onclick: (event) => this.go(event, one, changes) },
+        el("span.value", {}, value),
+        el("span.word", {}, note ?? `${verdict.sign} ${verdict.word}`),
+      ),
+    );
+  }
+
+  // The number of a cell, and a word that stands in place of the verdict where it says more.
+  value(one, engine, cell, verdict) {
+    if (state.show === "stable") {
+      const stable = one.stable.get(engine.name);
+      if (!stable || !isNumber(stable.dt))
+        return ["–", stable && stable.status !== "unsupported" ? stable.status : undefined];
+      return [stableText(stable)];
+    }
+    if (state.show === "step") {
+      if (one.main === "energy_drift_synchronised") return ["–", "no truth"];
+      const step = stepFor(one, engine.name, one.main, state.tolerance);
+      return step ? [`${step.mark} ${quantity(step.seconds, "s")}`.trim()] : ["–"];
+    }
+    if (!hasNumbers(cell)) return [""];
+    if (state.show === "cost")
+      return [
+        isNumber(cell.cpu_seconds) ? `${digits((1e6 * cell.cpu_seconds * cell.dt_seconds) / one.duration)} µs` : "–",
+        "a step",
+      ];
+    const name = state.show === "main" ? one.main : state.show;
+    const unit = this.results.units[name];
+    if (unit === "1" && name.startsWith("energy")) {
+      const signed = signedMetric(cell.metrics, name);
+      return [signed === null ? "–" : (signed > 0 && Math.abs(signed) > 1e-11 ? "+" : "") + percent(signed)];
+    }
+    const value = metricOf(cell, name);
+    return value === null ? ["–", "not applicable"] : [quantity(value, unit)];
+  }
+
+  go(event, one, changes) {
+    if (event.metaKey || event.ctrlKey || event.shiftKey) return;
+    event.preventDefault();
+    openCase(one.id, changes);
+  }
+
+  // Arrow keys go from cell to cell.
+  key(event) {
+    const step = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] }[event.key];
+    const here = document.activeElement?.closest?.("td.cell, th.case");
+    if (!step || !here || !this.root.contains(here)) return false;
+    const rows = [...this.root.querySelectorAll("tbody tr")].filter((row) => row.querySelector("th.case"));
+    const row = rows.indexOf(here.parentElement),
+      column = [...here.parentElement.children].indexOf(here);
+    const target = rows[row + step[0]]?.children[column + step[1]]?.querySelector("a");
+    target?.focus();
+    return Boolean(target);
+  }
+}
