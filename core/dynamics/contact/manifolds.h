@@ -29,7 +29,6 @@ class Manifolds {
 
   // The points at the start of a step of dt, sorted by pair, with the impulses of the points a step ago.
   std::vector<PilePoint>& find(BodyColumns state, double dt);
-  const std::vector<Collider>& colliders() const { return colliders_; }
 
  private:
   void update_pairs(BodyColumns state, double dt);

@@ -18,6 +18,8 @@ inline constexpr std::size_t kFewRows = 1;
 #include "core/dynamics/kernels/body_kernels-inl.h"
 // and on these:
 #include "core/dynamics/kernels/moser_veselov_kernel-inl.h"
+#include "core/dynamics/kernels/pile_kernels-inl.h"
+#include "core/dynamics/kernels/sphere_kernels-inl.h"
 #include "core/dynamics/kernels/spring_kernel-inl.h"
 #include "core/dynamics/kernels/stage_kernels-inl.h"
 
@@ -41,6 +43,20 @@ const Kernels kTable = {
     .combine = combine,
     .relative_size = relative_size,
     .springs = springs,
+    .have_stayed = have_stayed,
+    .below_plane = below_plane,
+    .read_motions = read_motions,
+    .write_motions = write_motions,
+    .read_places = read_places,
+    .measure_changes = measure_changes,
+    .follow = follow,
+    .prepare_rows = prepare_rows,
+    .measure_gaps = measure_gaps,
+    .push_rows = push_rows,
+    .solve_rows_with_bias = solve_rows_with_bias,
+    .solve_hits_with_bias = solve_hits_with_bias,
+    .solve_rows = solve_rows,
+    .rebound_hits = rebound_hits,
 };
 
 }  // namespace RIGOR_LANES_OF
