@@ -3,10 +3,11 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <cstring>
+#include <algorithm>
 
 #include "bench/benchmarks.h"
 #include "bench/scenes.h"
+#include "core/dynamics/crew.h"
 #include "core/dynamics/integrators/integrator.h"
 
 namespace rigor::bench {
@@ -23,19 +24,30 @@ void report(benchmark::State& state, double seconds, double body_steps) {
 }
 
 // Thirteen doubles a body from one place to another, once a step.
-void copy_state(benchmark::State& state, int count) {
+void copy_rows(const BodyTable& from, BodyTable& to, std::size_t first, std::size_t last) {
+  for (int c = 0; c < kRotation; ++c) {
+    const double* const source = from.columns().column(c);
+    std::copy(source + first, source + last, to.columns().column(c) + first);
+  }
+  benchmark::ClobberMemory();
+}
+
+// By each thread's own time where there is one, else by the wall's.
+void copy_state(benchmark::State& state, int count, int threads) {
   const BodyTable from = state_of(scene_of(scene_row("free-bodies"), count));
   BodyTable to(from);
-  const int repeats = std::max(1, 100000 / count);
+  Crew crew(threads);
+  const std::size_t share = (from.size() + crew.members() - 1) / crew.members();
+  const auto copy = [&](std::size_t member) {
+    copy_rows(from, to, member * share, std::min((member + 1) * share, from.size()));
+  };
+  const auto now = [&] { return threads > 1 ? wall_seconds() : thread_seconds(); };
+  const int repeats = std::max(1, 100000 / count) * (threads > 1 ? 10 : 1);
   double seconds = 0;
   for (auto _ : state) {
-    const double start = thread_seconds();
-    for (int n = 0; n < repeats; ++n) {
-      for (int c = 0; c < kRotation; ++c)
-        std::memcpy(to.columns().column(c), from.columns().column(c), from.size() * sizeof(double));
-      benchmark::ClobberMemory();
-    }
-    const double taken = thread_seconds() - start;
+    const double start = now();
+    for (int n = 0; n < repeats; ++n) threads > 1 ? crew.run(copy) : copy(0);
+    const double taken = now() - start;
     seconds += taken;
     state.SetIterationTime(taken);
   }
@@ -64,8 +76,9 @@ void step_in_cache(benchmark::State& state, const std::string& method) {
 
 void register_limits() {
   for (const int count : scene_row("free-bodies").sizes) {
-    benchmark::RegisterBenchmark(fmt::format("limit/copy/{}", count).c_str(), copy_state, count)->UseManualTime();
+    benchmark::RegisterBenchmark(fmt::format("limit/copy/{}", count).c_str(), copy_state, count, 1)->UseManualTime();
   }
+  benchmark::RegisterBenchmark("limit/copy/100000/threads=2", copy_state, 100000, 2)->UseManualTime();
   for (const Integrator& method : integrators()) {
     if (!method.twin_of.empty()) continue;
     benchmark::RegisterBenchmark(fmt::format("limit/in-cache/core:{}", method.name).c_str(), step_in_cache, method.name)

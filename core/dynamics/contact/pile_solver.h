@@ -5,8 +5,8 @@
 // h, and one that overlaps is pushed out as by a damped spring, stiff for h; positions follow this pass. The second
 // has no bias, so that what pushed bodies out leaves them no speed. Then points that came together faster than gravity
 // can have brought them within a few h get their restitution.
-// Points are taken by colours: those of one colour share no body that moves, so that kernels (kernels/pile.h) can take
-// several at once with the same result as one by one.
+// Pairs of bodies that share none that moves are taken several at once (kernels/pile.h), with the same result as one by
+// one in their order.
 #pragma once
 
 #include <vector>
@@ -30,20 +30,25 @@ class PileSolver {
   void end_step();
 
  private:
+  struct Pair {
+    std::size_t first, points;      // among the points
+    std::size_t level, of_level;    // its place among the pairs of that level
+  };
   void set_law(double h);
-  void colour_points();
+  void sort_pairs_in_levels();
+  void place_points();
   void fill_row(const PilePoint& point, std::size_t row, double scale);
   PileRecords records() { return {motions_.data(), changes_.data(), places_.data(), turning_.data()}; }
 
   const System& system_;
   PileLaw law_{};
-  AlignedDoubles motions_, changes_, places_, turning_;  // records by body and one that means nothing
-  std::int32_t nobody_;                                  // the place of that one
+  AlignedDoubles motions_, changes_, places_, turning_;  // see PileRecords
+  std::int32_t nobody_;                                  // the first record that means nothing
   Columns start_;                                        // the state's poses at the step's start
   std::vector<PilePoint>* points_ = nullptr;
-  std::vector<std::uint64_t> colours_of_body_;  // a bit each
-  std::vector<std::uint8_t> colour_of_point_;
-  std::vector<std::size_t> row_of_point_;
+  std::vector<Pair> pairs_;
+  std::vector<std::size_t> next_level_, pairs_of_level_;  // by body; then where a level's groups of eight begin
+  std::vector<std::size_t> first_block_, row_of_point_;   // of eight pairs; of a point
   std::vector<RowBlock> blocks_;
   std::vector<std::int32_t> hits_;  // rows whose points may meet in this sub-step, faster than gravity brings them
   std::size_t hit_count_ = 0;

@@ -54,9 +54,9 @@ const Kernels kTable = {
     .measure_gaps = measure_gaps,
     .push_rows = push_rows,
     .solve_rows_with_bias = solve_rows_with_bias,
-    .solve_hits_with_bias = solve_hits_with_bias,
+    .settle_hits_with_bias = settle_hits_with_bias,
     .solve_rows = solve_rows,
-    .rebound_hits = rebound_hits,
+    .settle_rebounds = settle_rebounds,
 };
 
 }  // namespace RIGOR_LANES_OF

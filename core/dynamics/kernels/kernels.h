@@ -133,10 +133,10 @@ struct Kernels {
   // Each row's impulse; both passes over all rows, and over hits alone the first and what bounces.
   void (*push_rows)(RowBlock*, std::size_t count, const PileRecords&);
   void (*solve_rows_with_bias)(RowBlock*, std::size_t count, const PileRecords&, const PileLaw&);
-  void (*solve_hits_with_bias)(RowBlock*, const std::int32_t* hits, std::size_t count, const PileRecords&,
-                               const PileLaw&);
+  void (*settle_hits_with_bias)(RowBlock*, const std::int32_t* hits, std::size_t count, const PileRecords&,
+                                const PileLaw&);
   void (*solve_rows)(RowBlock*, std::size_t count, const PileRecords&);
-  void (*rebound_hits)(RowBlock*, const std::int32_t* hits, std::size_t count, const PileRecords&);
+  void (*settle_rebounds)(RowBlock*, const std::int32_t* hits, std::size_t count, const PileRecords&, const PileLaw&);
 };
 
 // The table in use.

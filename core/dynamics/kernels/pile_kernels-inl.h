@@ -174,6 +174,19 @@ RIGOR_INLINE Spun<T> spun(const Record<T>& turning, V3<T> arm, V3<T> n, V3<T> t,
   return {I * cross(arm, n), I * cross(arm, t), I * cross(arm, s)};
 }
 
+// Across n, and across the axis that n leans to least.
+template <class T>
+RIGOR_INLINE V3<T> tangent_of(V3<T> n) {
+  const T zero = T{};
+  const auto size = [&](T x) RIGOR_LAMBDA { return if_at_most(x, zero, zero - x, x); };
+  const T x = size(n.x), y = size(n.y), z = size(n.z);
+  const auto pick = [&](T across_x, T across_y, T across_z) RIGOR_LAMBDA {
+    return if_at_most(x, y, if_at_most(x, z, across_x, across_z), if_at_most(y, z, across_y, across_z));
+  };
+  const V3<T> t = {pick(zero, zero - n.z, n.y), pick(n.z, zero, zero - n.x), pick(zero - n.y, n.x, zero)};
+  return (broadcast(T(), 1) / square_root(dot(t, t))) * t;
+}
+
 void prepare_rows(RowBlock* blocks, std::size_t count, const PileRecords& of) {
   for_blocks(blocks, count, [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA {
     using T = decltype(lane);
@@ -181,7 +194,10 @@ void prepare_rows(RowBlock* blocks, std::size_t count, const PileRecords& of) {
     const auto put3_row = [&](int column, V3<T> x) RIGOR_LAMBDA {
       row.put(column, x.x), row.put(column + 1, x.y), row.put(column + 2, x.z);
     };
-    const V3<T> n = row.get3(kNormal), t = row.get3(kTangent), s = cross(n, t), point = row.get3(kArmA);
+    const V3<T> n = row.get3(kNormal), t = tangent_of(n), s = cross(n, t), point = row.get3(kArmA);
+    const V3<T> friction = row.get3(kSpinA);
+    row.put(kImpulse + 1, dot(t, friction)), row.put(kImpulse + 2, dot(s, friction));
+    put3_row(kTangent, t);
     const Record<T> place_a = get_record(T(), of.places, block.a + k),
                     place_b = get_record(T(), of.places, block.b + k);
     const V3<T> arm_a = point - twist_of(place_a).v, arm_b = point - twist_of(place_b).v;
@@ -268,21 +284,22 @@ RIGOR_INLINE void solve_friction(RowPair<T>& row, V3<T> n, T p_n) {
   row.put(kImpulse + 1, p_t), row.put(kImpulse + 2, p_s);
 }
 
+// Returns by how much the impulse changes the velocity along the normal.
 template <class T>
-RIGOR_INLINE void solve_with_bias(T, RowBlock& block, std::size_t k, const PileRecords& of, const PileLaw& law) {
+RIGOR_INLINE T solve_with_bias(T, RowBlock& block, std::size_t k, const PileRecords& of, const PileLaw& law) {
   RowPair<T> row(T(), block, k, of.motions);
   const V3<T> n = row.get3(kNormal);
-  const T gap = row.get(kGapNow), old = row.get(kImpulse);
+  const T gap = row.get(kGapNow), old = row.get(kImpulse), pace = row.get(kPaceNormal);
   const T mass_share = if_at_most(T{}, gap, broadcast(T(), 1), broadcast(T(), law.mass_share));
   const T impulse_share = if_at_most(T{}, gap, T{}, broadcast(T(), law.impulse_share));
-  const T wanted =
-      T{} - mass_share * ((dot(n, row.velocity()) + row.get(kBias)) * row.get(kPaceNormal)) - impulse_share * old;
+  const T wanted = T{} - mass_share * ((dot(n, row.velocity()) + row.get(kBias)) * pace) - impulse_share * old;
   const T p_n = at_least_zero(old + wanted);
-  if (all_at_most(old, 0) && all_at_most(p_n, 0)) return;
+  if (all_at_most(old, 0) && all_at_most(p_n, 0)) return T{};
   row.push_normal(n, p_n - old);
   row.put(kImpulse, p_n);
   solve_friction(row, n, p_n);
   row.put_motions(of.motions);
+  return (p_n - old) / pace;
 }
 
 void solve_rows_with_bias(RowBlock* blocks, std::size_t count, const PileRecords& of, const PileLaw& law) {
@@ -291,12 +308,26 @@ void solve_rows_with_bias(RowBlock* blocks, std::size_t count, const PileRecords
   });
 }
 
-void solve_hits_with_bias(RowBlock* blocks, const std::int32_t* hits, std::size_t count, const PileRecords& of,
-                          const PileLaw& law) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto row = static_cast<std::size_t>(hits[i]);
-    solve_with_bias(double(), blocks[row / kRowsPerBlock], row % kRowsPerBlock, of, law);
+// Calls solve(block, k) for each hit, up to so many times over, until none changes a velocity by more than `settled`.
+template <class F>
+RIGOR_INLINE void settle_hits(RowBlock* blocks, const std::int32_t* hits, std::size_t count, const PileLaw& law,
+                              F solve) {
+  bool is_settled = count == 0;
+  for (int turn = 0; turn < law.most_turns && !is_settled; ++turn) {
+    is_settled = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto row = static_cast<std::size_t>(hits[i]);
+      const double change = solve(blocks[row / kRowsPerBlock], row % kRowsPerBlock);
+      is_settled &= change * change <= law.settled * law.settled;
+    }
   }
+}
+
+void settle_hits_with_bias(RowBlock* blocks, const std::int32_t* hits, std::size_t count, const PileRecords& of,
+                           const PileLaw& law) {
+  settle_hits(blocks, hits, count, law, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
+    return solve_with_bias(double(), block, k, of, law);
+  });
 }
 
 void solve_rows(RowBlock* blocks, std::size_t count, const PileRecords& of) {
@@ -315,12 +346,11 @@ void solve_rows(RowBlock* blocks, std::size_t count, const PileRecords& of) {
   });
 }
 
-void rebound_hits(RowBlock* blocks, const std::int32_t* hits, std::size_t count, const PileRecords& of) {
-  for (std::size_t i = 0; i < count; ++i) {
-    RowBlock& block = blocks[static_cast<std::size_t>(hits[i]) / kRowsPerBlock];
-    const std::size_t k = static_cast<std::size_t>(hits[i]) % kRowsPerBlock;
+void settle_rebounds(RowBlock* blocks, const std::int32_t* hits, std::size_t count, const PileRecords& of,
+                     const PileLaw& law) {
+  settle_hits(blocks, hits, count, law, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
     const double restitution = block.columns[kRestitution][k], old = block.columns[kImpulse][k];
-    if (restitution == 0 || old == 0) continue;
+    if (restitution == 0 || old == 0) return 0.0;
     RowPair<double> row(double(), block, k, of.motions);
     const V3<double> n = row.get3(kNormal);
     const double wanted = (restitution * row.get(kApproach) - dot(n, row.velocity())) * row.get(kPaceNormal);
@@ -328,5 +358,6 @@ void rebound_hits(RowBlock* blocks, const std::int32_t* hits, std::size_t count,
     row.push_normal(n, p_n - old);
     row.put(kImpulse, p_n);
     row.put_motions(of.motions);
-  }
+    return (p_n - old) / row.get(kPaceNormal);
+  });
 }
