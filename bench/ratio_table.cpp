@@ -165,7 +165,9 @@ void RatioTable::print_row(const RatioRow& row) {
   std::cout << fmt::format("{:<{}} {:>9} {:>9} {:>9}  {:<19} {:>9}  {}\n", row.what, kNameWidth, time_text(median(of)),
                            time_text(median(against)), value_text(row.kind, value),
                            value_text(row.kind, *low) + " .. " + value_text(row.kind, *high), goal_text(row),
-                           row.goal == 0 ? "" : holds(row, value) ? "yes" : "no");
+                           row.goal == 0       ? ""
+                           : holds(row, value) ? "yes"
+                                               : "no");
 }
 
 void RatioTable::print_growth() {

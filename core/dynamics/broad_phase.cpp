@@ -15,7 +15,8 @@ constexpr int kBitsOfAxis = 21;
 std::uint64_t cell_index(double coordinate, double cells_per_metre) {
   const double index = std::floor(coordinate * cells_per_metre);
   constexpr auto kMost = static_cast<double>(kFarthest);
-  return static_cast<std::uint64_t>(kMiddle + static_cast<std::int64_t>(std::clamp(index == index ? index : 0, -kMost, kMost)));
+  return static_cast<std::uint64_t>(kMiddle +
+                                    static_cast<std::int64_t>(std::clamp(index == index ? index : 0, -kMost, kMost)));
 }
 
 constexpr std::uint64_t cells_away(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -50,8 +51,8 @@ bool BroadPhase::overlap(int a, int b, BodyColumns state) const {
   return (state.position(balls_[a].body) - state.position(balls_[b].body)).squaredNorm() < reach * reach;
 }
 
-// From what the balls moved in a step since the last search; the first knows nothing but how large they are. Fewer steps
-// if a search found many pairs, for each costs a look in every step.
+// From what the balls moved in a step since the last search; the first knows nothing but how large they are. Fewer
+// steps if a search found many pairs, for each costs a look in every step.
 void BroadPhase::choose_slack(BodyColumns state, const Columns& spheres) {
   constexpr double kMostSteps = 256;
   constexpr std::size_t kMostPairsOfBall = 4;

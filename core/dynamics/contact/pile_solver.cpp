@@ -79,8 +79,8 @@ void PileSolver::begin_step(BodyColumns state, std::vector<PilePoint>& points, d
   kernels().prepare_rows(blocks_.data(), blocks_.size(), records());
 }
 
-// A pair comes one level after the last that shares with it a body that moves, so that going through the levels is going
-// through the pairs.
+// A pair comes one level after the last that shares with it a body that moves, so that going through the levels is
+// going through the pairs.
 void PileSolver::sort_pairs_in_levels() {
   const std::vector<PilePoint>& points = *points_;
   std::fill(next_level_.begin(), next_level_.end(), 0);
@@ -102,8 +102,7 @@ void PileSolver::sort_pairs_in_levels() {
 void PileSolver::place_points() {
   std::vector<std::size_t>& first_group = pairs_of_level_;
   std::size_t groups = 0;
-  for (std::size_t& level : first_group)
-    groups += (std::exchange(level, groups) + kRowsPerBlock - 1) / kRowsPerBlock;
+  for (std::size_t& level : first_group) groups += (std::exchange(level, groups) + kRowsPerBlock - 1) / kRowsPerBlock;
   const auto group_of = [&](const Pair& pair) { return first_group[pair.level] + pair.of_level / kRowsPerBlock; };
   first_block_.assign(groups + 1, 0);
   for (const Pair& pair : pairs_) {

@@ -31,8 +31,8 @@ class PileSolver {
 
  private:
   struct Pair {
-    std::size_t first, points;      // among the points
-    std::size_t level, of_level;    // its place among the pairs of that level
+    std::size_t first, points;    // among the points
+    std::size_t level, of_level;  // its place among the pairs of that level
   };
   void set_law(double h);
   void sort_pairs_in_levels();

@@ -52,8 +52,10 @@ RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) {
   return Lane{p[i[0]], p[i[1]], p[i[2]], p[i[3]]};
 }
 RIGOR_INLINE void transpose(Lane* r) {
-  const Lane even01 = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6), odd01 = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
-  const Lane even23 = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6), odd23 = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
+  const Lane even01 = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6),
+             odd01 = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
+  const Lane even23 = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6),
+             odd23 = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
   r[0] = __builtin_shufflevector(even01, even23, 0, 1, 4, 5), r[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
   r[2] = __builtin_shufflevector(even01, even23, 2, 3, 6, 7), r[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
 }

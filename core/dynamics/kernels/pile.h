@@ -14,16 +14,16 @@ inline constexpr std::size_t kRowsPerBlock = 8, kRecord = 8;
 enum RowColumn {
   kNormal = 0,
   kTangent = 3,  // one of two
-  kArmA = 6,  // m, from the centre of mass to the point; until rows are prepared the point itself
+  kArmA = 6,     // m, from the centre of mass to the point; until rows are prepared the point itself
   kArmB = 9,
   kSpinA = 12,         // what unit impulses along the normal and the two tangents add to w; until then first the
                        // impulse of friction, in W
   kSpinB = 21,         // and take from it
   kInverseMassA = 30,  // 1/kg
   kInverseMassB = 31,
-  kPaceNormal = 32,   // kg, 1 / what a unit impulse gives
-  kPaceStick = 33,    // kg: tt, ss, ts of the inverse of the tangential give
-  kPaceSlip = 36,     // kg, 1 / the larger eigenvalue of that give
+  kPaceNormal = 32,  // kg, 1 / what a unit impulse gives
+  kPaceStick = 33,   // kg: tt, ss, ts of the inverse of the tangential give
+  kPaceSlip = 36,    // kg, 1 / the larger eigenvalue of that give
   kFriction = 37,
   kRestitution = 38,
   kGap = 39,       // m, at the step's start

@@ -74,9 +74,7 @@ struct RowPair {
   RIGOR_INLINE void put(int column, T x) const { store(block.columns[column] + k, x); }
 
   // Of the points of `a` against those of `b`.
-  RIGOR_INLINE V3<T> velocity() const {
-    return (a.v + cross(a.w, get3(kArmA))) - (b.v + cross(b.w, get3(kArmB)));
-  }
+  RIGOR_INLINE V3<T> velocity() const { return (a.v + cross(a.w, get3(kArmA))) - (b.v + cross(b.w, get3(kArmB))); }
   RIGOR_INLINE void push_normal(V3<T> n, T p) {
     a.v = a.v + (get(kInverseMassA) * p) * n, a.w = a.w + p * get3(kSpinA);
     b.v = b.v - (get(kInverseMassB) * p) * n, b.w = b.w - p * get3(kSpinB);
@@ -120,8 +118,7 @@ void read_places(const Bodies& b, const double* state, double* places, double* t
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
     const V3<T> p = get3(T(), state, b, kPosition, i);
-    put_records(places, i,
-                Record<T>{{p.x, p.y, p.z, get(T(), b.constants, b, kInverseMass, i), T{}, T{}, T{}, T{}}});
+    put_records(places, i, Record<T>{{p.x, p.y, p.z, get(T(), b.constants, b, kInverseMass, i), T{}, T{}, T{}, T{}}});
     const Symmetric<T> I = symmetric(T(), b, kInverseInertia, i);
     if (b.round) {
       put_records(turning, i, Record<T>{{I.xx, I.yy, I.zz, T{}, T{}, T{}, T{}, T{}}});
@@ -138,8 +135,7 @@ void measure_changes(const Bodies& b, const double* state, const double* start, 
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
     const Q4<T> q0 = get4(T(), start, b, kOrientation, i);
-    const Q4<T> turn =
-        get4(T(), state, b, kOrientation, i) * Q4<T>{q0.w, T{} - q0.x, T{} - q0.y, T{} - q0.z};
+    const Q4<T> turn = get4(T(), state, b, kOrientation, i) * Q4<T>{q0.w, T{} - q0.x, T{} - q0.y, T{} - q0.z};
     const T two = if_at_most(turn.w, T{}, broadcast(T(), -2), broadcast(T(), 2));
     put_records(changes, i,
                 record_of(Twist<T>{get3(T(), state, b, kPosition, i) - get3(T(), start, b, kPosition, i),
@@ -209,9 +205,8 @@ void prepare_rows(RowBlock* blocks, std::size_t count, const PileRecords& of) {
     put3_row(kSpinB, spin_b.n), put3_row(kSpinB + 3, spin_b.t), put3_row(kSpinB + 6, spin_b.s);
     row.put(kInverseMassA, mass_a), row.put(kInverseMassB, mass_b);
     // What a unit impulse along one direction gives along another: (arm x d) · spin = d · (spin x arm).
-    const auto give = [&](V3<T> d, V3<T> a, V3<T> b) RIGOR_LAMBDA {
-      return dot(d, cross(a, arm_a)) + dot(d, cross(b, arm_b));
-    };
+    const auto give = [&](V3<T> d, V3<T> a, V3<T> b)
+                          RIGOR_LAMBDA { return dot(d, cross(a, arm_a)) + dot(d, cross(b, arm_b)); };
     const T free = mass_a + mass_b, one = broadcast(T(), 1), half = broadcast(T(), 0.5);
     const T nn = free + give(n, spin_a.n, spin_b.n), tt = free + give(t, spin_a.t, spin_b.t),
             ss = free + give(s, spin_a.s, spin_b.s), ts = give(s, spin_a.t, spin_b.t);
@@ -303,9 +298,8 @@ RIGOR_INLINE T solve_with_bias(T, RowBlock& block, std::size_t k, const PileReco
 }
 
 void solve_rows_with_bias(RowBlock* blocks, std::size_t count, const PileRecords& of, const PileLaw& law) {
-  for_blocks(blocks, count, [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA {
-    solve_with_bias(lane, block, k, of, law);
-  });
+  for_blocks(blocks, count,
+             [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA { solve_with_bias(lane, block, k, of, law); });
 }
 
 // Calls solve(block, k) for each hit, up to so many times over, until none changes a velocity by more than `settled`.
@@ -337,8 +331,7 @@ void solve_rows(RowBlock* blocks, std::size_t count, const PileRecords& of) {
     if (all_at_most(old, 0)) return;
     RowPair<T> row(T(), block, k, of.motions);
     const V3<T> n = row.get3(kNormal);
-    const T p_n =
-        if_at_most(old, T{}, old, at_least_zero(old - dot(n, row.velocity()) * row.get(kPaceNormal)));
+    const T p_n = if_at_most(old, T{}, old, at_least_zero(old - dot(n, row.velocity()) * row.get(kPaceNormal)));
     row.push_normal(n, p_n - old);
     row.put(kImpulse, p_n);
     solve_friction(row, n, p_n);

@@ -22,9 +22,28 @@ Scene bouncing_balls(int count, const ContactLaw& law) {
   return on_floor(balls, law);
 }
 
-BodyTable stepped(const Scene& scene, const std::string& method, const Kernels& table, int steps) {
+// Boxes, capsules and balls that come down on each other, turning.
+Scene heap(int count, const ContactLaw& law) {
+  std::vector<Body> bodies;
+  for (int i = 0; i < count; ++i) {
+    const Shape shapes[] = {Sphere{0.1}, Box{{0.2, 0.25, 0.3}}, Capsule{0.08, 0.2}};
+    bodies.push_back(solid("body " + std::to_string(i), shapes[i % 3],
+                           {0.3 * (i % 3), 0.3 * (i / 3 % 3), 0.25 + 0.35 * (i / 9)}, 1 + i % 4));
+    bodies.back().angular_velocity = {0.5 * (i % 5), -1, 0.3 * i};
+  }
+  return on_floor(bodies, law);
+}
+
+struct ContactCase {
+  const char* what;
+  Scene scene;
+  const char* method;
+  const char* integrator;
+};
+
+BodyTable stepped(const ContactCase& c, const Kernels& table, int steps, const std::string& threads = "1") {
   const KernelsForTest in_use(table);
-  ContactRun run(scene, method, "semi-implicit-euler");
+  ContactRun run(c.scene, c.method, c.integrator, {{"threads", threads}});
   run.run(1.0 / 120, steps);
   return BodyTable(std::as_const(run).state());
 }
@@ -43,16 +62,29 @@ BOOST_AUTO_TEST_SUITE(core_dynamics_contact_same_bits)
 BOOST_AUTO_TEST_CASE(every_instruction_set_gives_the_same_bits) {
   const Kernels* tables[kMostKernelTables];
   const std::size_t count = available_kernels(tables);
-  const std::pair<const char*, Scene> runs[] = {
-      {"course", bouncing_balls(60, {0.9, kInfiniteFriction})},
+  const ContactCase cases[] = {
+      {"bouncing balls", bouncing_balls(60, {0.9, kInfiniteFriction}), "course", "semi-implicit-euler"},
+      {"a heap", heap(45, {0, 0.5}), "impulse", "semi-implicit-euler"},
+      {"a heap that bounces and does not slide", heap(45, {0.5, kInfiniteFriction}), "impulse", "velocity-verlet"},
+      {"a heap without friction", heap(45, {0.2, 0}), "impulse", "rk4"},
+      {"a heap of balls", bouncing_balls(60, {0.3, 0.4}), "impulse", "semi-implicit-euler"},
   };
-  for (const auto& [method, scene] : runs) {
-    const BodyTable plain = stepped(scene, method, *tables[0], 120);
-    BOOST_TEST(plain.columns().velocity(0).allFinite());
-    for (std::size_t k = 1; k < count; ++k) {
-      const BodyTable other = stepped(scene, method, *tables[k], 120);
-      BOOST_TEST(same_bits(other.columns(), plain.columns()), method << ": " << tables[k]->name);
-    }
+  for (const ContactCase& c : cases) {
+    const BodyTable plain = stepped(c, *tables[0], 120);
+    BOOST_TEST(plain.columns().velocity(0).allFinite(), c.what);
+    for (std::size_t k = 1; k < count; ++k)
+      BOOST_TEST(same_bits(stepped(c, *tables[k], 120).columns(), plain.columns()), c.what << ": " << tables[k]->name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
+  const int count = 8400;  // enough that threads are used
+  for (const auto& [method, steps] : {std::pair("course", 30), std::pair("impulse", 3)}) {
+    const ContactCase c{method, bouncing_balls(count, {0.9, kInfiniteFriction}), method, "semi-implicit-euler"};
+    const BodyTable alone = stepped(c, kernels(), steps);
+    for (const char* threads : {"2", "3"})
+      BOOST_TEST(same_bits(stepped(c, kernels(), steps, threads).columns(), alone.columns()),
+                 method << ", " << threads);
   }
 }
 
