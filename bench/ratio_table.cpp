@@ -66,7 +66,14 @@ std::vector<RatioRow> all_rows() {
 const std::vector<std::string> kAlone = {"harness/cell", "harness/read-case/springs/body-springs",
                                          "harness/truth/springs/fixed-spring",
                                          "harness/truth-kept/springs/fixed-spring", "limit/copy/1000"};
-const std::vector<int> kGrowth = {100, 1000, 10000, 100000};
+
+// How the cost of a body grows with N.
+struct Growth {
+  std::string scene, run;
+  std::vector<int> counts;
+};
+const std::vector<Growth> kGrowth = {{"free-bodies", kCore, {100, 1000, 10000, 100000}},
+                                     {"pile", kCore + ",contact=impulse", {216, 1000, 8000}}};
 
 // "step/x/real_time/manual_time" and the like: the library appends how it timed.
 std::string plain_name(const benchmark::BenchmarkReporter::Run& run) { return run.run_name.function_name; }
@@ -116,7 +123,9 @@ const std::vector<RatioRow>& ratio_rows() {
 std::string filter_of_table() {
   std::vector<std::string> names = kAlone;
   for (const RatioRow& row : ratio_rows()) names.push_back(row.of), names.push_back(row.against);
-  for (const int count : kGrowth) names.push_back(step("free-bodies", count, kCore));
+  for (const auto& [scene, run, counts] : kGrowth) {
+    for (const int count : counts) names.push_back(step(scene, count, run));
+  }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return fmt::format("^({})(/|$)", fmt::join(names, "|"));
@@ -171,15 +180,15 @@ void RatioTable::print_row(const RatioRow& row) {
 }
 
 void RatioTable::print_growth() {
-  std::vector<double> costs;
-  std::string text;
-  for (const int count : kGrowth) {
-    const std::string name = step("free-bodies", count, kCore);
-    if (!ns_.contains(name)) return;
-    costs.push_back(median(ns_[name]));
-    text += fmt::format("{}{} at {}", text.empty() ? "" : ", ", time_text(costs.back()), count);
+  for (const auto& [scene, run, counts] : kGrowth) {
+    std::string text;
+    for (const int count : counts) {
+      const auto rounds = ns_.find(step(scene, count, run));
+      if (rounds == ns_.end()) continue;
+      text += fmt::format("{}{} at {}", text.empty() ? "" : ", ", time_text(median(rounds->second)), count);
+    }
+    if (!text.empty()) std::cout << fmt::format("cost of a body as N grows, {}: {}\n", scene, text);
   }
-  std::cout << fmt::format("cost of a body as N grows: {}\n", text);
 }
 
 void RatioTable::print_alone(const std::string& name) {

@@ -18,10 +18,12 @@ inline constexpr std::size_t kFewRows = 1;
 #include "core/dynamics/kernels/body_kernels-inl.h"
 // and on these:
 #include "core/dynamics/kernels/moser_veselov_kernel-inl.h"
-#include "core/dynamics/kernels/pile_kernels-inl.h"
+#include "core/dynamics/kernels/pile_record_kernels-inl.h"
 #include "core/dynamics/kernels/sphere_kernels-inl.h"
 #include "core/dynamics/kernels/spring_kernel-inl.h"
 #include "core/dynamics/kernels/stage_kernels-inl.h"
+// and on these:
+#include "core/dynamics/kernels/pile_kernels-inl.h"
 
 }  // namespace
 
