@@ -1,5 +1,5 @@
 // What is timed, by name: "step/free-bodies/1000/core:rk4". Every timing is of CPU time of the thread that does the
-// work, unless it says "wall".
+// work, unless the name says how many threads do: then it is by the wall.
 #pragma once
 
 #include <string>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rigor {
 namespace {
@@ -9,6 +10,8 @@ namespace {
 // Twenty-one bits an axis, the last the lowest, so that the order of the numbers is that of the cells.
 constexpr std::int64_t kMiddle = 1 << 20, kFarthest = kMiddle - 2;
 constexpr int kBitsOfAxis = 21;
+
+constexpr double kLeast = 1.0 / 16;  // slack, of the largest radius: what was at rest so far may begin to move
 
 // What lies farther out shares the outermost cells, which costs looks and loses no pair. Where a centre is not a number
 // its cell does not matter.
@@ -56,7 +59,6 @@ bool BroadPhase::overlap(int a, int b, BodyColumns state) const {
 void BroadPhase::choose_slack(BodyColumns state, const Columns& spheres) {
   constexpr double kMostSteps = 256;
   constexpr std::size_t kMostPairsOfBall = 4;
-  constexpr double kLeast = 1.0 / 16;  // of the largest radius: what was at rest so far may begin to move
   if (steps_held_ == 0) {
     slack_.setConstant(largest_radius_);
     return;
@@ -91,20 +93,29 @@ void BroadPhase::sort_by_cell(BodyColumns state) {
 }
 
 // Of the twenty-six cells round a ball's, thirteen come after it: one in its own row along z, three in each of four
-// other rows. The other thirteen are searched from the other balls.
+// other rows. The other thirteen are searched from the other balls. Where a slack, which the fastest ball makes, brings
+// too many pairs, half of it has to do.
 void BroadPhase::search(BodyColumns state) {
-  sort_by_cell(state);
-  near_.clear();
-  search_cells(state, 0, cells_away(0, 0, 1), true);
-  for (const auto& [x, y] : {std::pair(0, 1), std::pair(1, -1), std::pair(1, 0), std::pair(1, 1)})
-    search_cells(state, cells_away(x, y, -1), cells_away(x, y, 1), false);
+  constexpr std::size_t kMostPairsOfBall = 16;
+  for (;; slack_ *= 0.5, steps_to_hold_ = std::max(1.0, steps_to_hold_ / 2)) {
+    const bool is_least = slack_.maxCoeff() <= kLeast * largest_radius_;
+    const std::size_t most = is_least ? std::numeric_limits<std::size_t>::max() : kMostPairsOfBall * balls_.size();
+    sort_by_cell(state);
+    near_.clear();
+    bool few = search_cells(state, 0, cells_away(0, 0, 1), true, most);
+    for (const auto& [x, y] : {std::pair(0, 1), std::pair(1, -1), std::pair(1, 0), std::pair(1, 1)})
+      few = few && search_cells(state, cells_away(x, y, -1), cells_away(x, y, 1), false, most);
+    if (few) break;
+  }
   std::sort(near_.begin(), near_.end());
 }
 
-// The cells from `to_low` to `to_high` away from each ball's own; as the balls are in order, so are these.
-void BroadPhase::search_cells(BodyColumns state, std::uint64_t to_low, std::uint64_t to_high, bool own) {
+// The cells from `to_low` to `to_high` away from each ball's own; as the balls are in order, so are these. False if
+// there are more than so many pairs.
+bool BroadPhase::search_cells(BodyColumns state, std::uint64_t to_low, std::uint64_t to_high, bool own,
+                              std::size_t most) {
   const std::size_t count = entries_.size();
-  for (std::size_t i = 0, first = 0; i < count; ++i) {
+  for (std::size_t i = 0, first = 0; i < count && near_.size() <= most; ++i) {
     const auto [cell, ball] = entries_[i];
     while (first < count && entries_[first].cell < cell + to_low) ++first;
     for (std::size_t j = own ? i + 1 : first; j < count && entries_[j].cell <= cell + to_high; ++j) {
@@ -112,6 +123,7 @@ void BroadPhase::search_cells(BodyColumns state, std::uint64_t to_low, std::uint
       if (may_meet(ball, other, state)) near_.push_back(std::minmax(ball, other));
     }
   }
+  return near_.size() <= most;
 }
 
 bool BroadPhase::may_meet(int a, int b, BodyColumns state) const {

@@ -35,7 +35,7 @@ class BroadPhase {
   void choose_slack(BodyColumns state, const Columns& spheres);
   void search(BodyColumns state);
   void sort_by_cell(BodyColumns state);
-  void search_cells(BodyColumns state, std::uint64_t to_low, std::uint64_t to_high, bool own);
+  bool search_cells(BodyColumns state, std::uint64_t to_low, std::uint64_t to_high, bool own, std::size_t most);
   bool may_meet(int a, int b, BodyColumns state) const;
 
   std::vector<Ball> balls_;

@@ -9,9 +9,9 @@ void pause() {
 #endif
 }
 
-// Looks for some tens of microseconds before it sleeps.
+// Looks for some hundred microseconds before it sleeps.
 void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  constexpr int kLooks = 2000;
+  constexpr int kLooks = 10000;
   for (int k = 0; k < kLooks; ++k) {
     if (value.load(std::memory_order_acquire) != old) return;
     pause();

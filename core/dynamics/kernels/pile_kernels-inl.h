@@ -239,6 +239,8 @@ void settle_rebounds(RowBlock* blocks, const std::int32_t* hits, std::size_t cou
     const double p_n = at_least_zero(old + wanted);
     row.push_normal(n, p_n - old);
     row.put(kImpulse, p_n);
+    // Without a normal impulse the next sub-step has no friction to start from.
+    if (p_n == 0) row.put(kImpulse + 1, 0), row.put(kImpulse + 2, 0);
     row.put_motions(of.motions);
     return (p_n - old) / row.get(kPaceNormal);
   });

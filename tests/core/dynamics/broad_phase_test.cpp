@@ -94,4 +94,20 @@ BOOST_AUTO_TEST_CASE(balls_of_all_sizes_are_found_wherever_they_appear) {
   }
 }
 
+// One that flies across all must not make every pair of the others one to look at in each step.
+BOOST_AUTO_TEST_CASE(a_ball_far_faster_than_the_others_costs_no_pair) {
+  const int side = 22, count = side * side * side;
+  Search search(std::vector<double>(count, 0.1));
+  const auto place = [&](int step) {
+    for (int i = 0; i < count; ++i)
+      search.place(i, {0.25 * (i % side), 0.25 * (i / side % side), 0.25 * (i / side / side)});
+    search.place(count - 1, {7.0 * (step % 9), 0.05, 0.05});
+  };
+  for (int n = 0; n < 30; ++n) {
+    place(n);
+    // It overlaps the first ball where it starts, and no other.
+    BOOST_TEST(search.found().size() == (n % 9 == 0 ? 1u : 0u), "step " << n);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
