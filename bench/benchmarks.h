@@ -1,5 +1,5 @@
 // What is timed, by name: "step/free-bodies/1000/core:rk4". Every timing is of CPU time of the thread that does the
-// work, unless it says "wall".
+// work, unless the name says how many threads do: then it is by the wall.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ void register_steps();    // step_bench.cpp: every engine and method on every sc
 void register_limits();   // limits_bench.cpp: what no method can undercut
 void register_harness();  // harness_bench.cpp: what the seam, a cell, a case file and a truth cost
 
-// Seconds for which this thread has run.
-double thread_seconds();
+double thread_seconds();  // for which this thread has run
+double wall_seconds();
 
 }  // namespace rigor::bench

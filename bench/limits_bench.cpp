@@ -3,10 +3,12 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <cstring>
+#include <algorithm>
+#include <limits>
 
 #include "bench/benchmarks.h"
 #include "bench/scenes.h"
+#include "core/dynamics/crew.h"
 #include "core/dynamics/integrators/integrator.h"
 
 namespace rigor::bench {
@@ -23,6 +25,14 @@ void report(benchmark::State& state, double seconds, double body_steps) {
 }
 
 // Thirteen doubles a body from one place to another, once a step.
+void copy_rows(const BodyTable& from, BodyTable& to, std::size_t first, std::size_t last) {
+  for (int c = 0; c < kRotation; ++c) {
+    const double* const source = from.columns().column(c);
+    std::copy(source + first, source + last, to.columns().column(c) + first);
+  }
+  benchmark::ClobberMemory();
+}
+
 void copy_state(benchmark::State& state, int count) {
   const BodyTable from = state_of(scene_of(scene_row("free-bodies"), count));
   BodyTable to(from);
@@ -30,16 +40,37 @@ void copy_state(benchmark::State& state, int count) {
   double seconds = 0;
   for (auto _ : state) {
     const double start = thread_seconds();
-    for (int n = 0; n < repeats; ++n) {
-      for (int c = 0; c < kRotation; ++c)
-        std::memcpy(to.columns().column(c), from.columns().column(c), from.size() * sizeof(double));
-      benchmark::ClobberMemory();
-    }
+    for (int n = 0; n < repeats; ++n) copy_rows(from, to, 0, from.size());
     const double taken = thread_seconds() - start;
     seconds += taken;
     state.SetIterationTime(taken);
   }
   report(state, seconds, static_cast<double>(state.iterations()) * repeats * count);
+}
+
+// The same by several threads, each its share; by the wall's time, the least of the copies.
+void copy_state_by_threads(benchmark::State& state, int count, int threads) {
+  constexpr int kRepeats = 10;
+  const BodyTable from = state_of(scene_of(scene_row("free-bodies"), count));
+  BodyTable to(from);
+  Crew crew(threads);
+  const std::size_t share = (from.size() + crew.members() - 1) / crew.members();
+  const auto copy = [&](std::size_t member) {
+    copy_rows(from, to, member * share, std::min((member + 1) * share, from.size()));
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (auto _ : state) {
+    double seconds = 0;
+    for (int n = 0; n < kRepeats; ++n) {
+      const double start = wall_seconds();
+      crew.run(copy);
+      const double taken = wall_seconds() - start;
+      seconds += taken;
+      least = std::min(least, taken);
+    }
+    state.SetIterationTime(seconds);
+  }
+  report(state, least, count);
 }
 
 // A method without its world, on so few bodies that hardly any memory beyond the first-level cache is touched.
@@ -65,6 +96,11 @@ void step_in_cache(benchmark::State& state, const std::string& method) {
 void register_limits() {
   for (const int count : scene_row("free-bodies").sizes) {
     benchmark::RegisterBenchmark(fmt::format("limit/copy/{}", count).c_str(), copy_state, count)->UseManualTime();
+  }
+  for (const int threads : {1, 2}) {
+    benchmark::RegisterBenchmark(fmt::format("limit/copy/100000,threads={}", threads).c_str(), copy_state_by_threads,
+                                 100000, threads)
+        ->UseManualTime();
   }
   for (const Integrator& method : integrators()) {
     if (!method.twin_of.empty()) continue;

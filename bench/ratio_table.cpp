@@ -46,8 +46,13 @@ std::vector<RatioRow> all_rows() {
                   "limit/copy/1000000", Kind::at_most_times, 1.25});
   rows.push_back({"free-bodies, N = 1000, against the arithmetic in cache", step("free-bodies", 1000, kCore),
                   "limit/in-cache/" + kCore, Kind::at_most_times, 2});
-  rows.push_back({"two threads against one, N = 100000 (wall)", step("free-bodies", 100000, kCore + ",threads=2"),
-                  step("free-bodies", 100000, kCore), Kind::times_as_fast, 1.8});
+  for (const std::string& method : {kCore, std::string("core:rk4")}) {
+    rows.push_back({fmt::format("two threads against one, N = 100000, {} (wall)", method),
+                    step("free-bodies", 100000, method + ",threads=2"),
+                    step("free-bodies", 100000, method + ",threads=1"), Kind::times_as_fast, 1.8});
+  }
+  rows.push_back({"the same of copying the state: the memory's bound", "limit/copy/100000,threads=2",
+                  "limit/copy/100000,threads=1", Kind::times_as_fast, 0});
   for (const std::string engine : {"ode", "bullet"}) {
     for (const auto& [count, goal] : {std::pair(1, 10.0), std::pair(100, 5.0)}) {
       rows.push_back({fmt::format("the seam around {}, N = {}", engine, count),
@@ -61,7 +66,14 @@ std::vector<RatioRow> all_rows() {
 const std::vector<std::string> kAlone = {"harness/cell", "harness/read-case/springs/body-springs",
                                          "harness/truth/springs/fixed-spring",
                                          "harness/truth-kept/springs/fixed-spring", "limit/copy/1000"};
-const std::vector<int> kGrowth = {100, 1000, 10000, 100000};
+
+// How the cost of a body grows with N.
+struct Growth {
+  std::string scene, run;
+  std::vector<int> counts;
+};
+const std::vector<Growth> kGrowth = {{"free-bodies", kCore, {100, 1000, 10000, 100000}},
+                                     {"pile", kCore + ",contact=impulse", {216, 1000, 8000}}};
 
 // "step/x/real_time/manual_time" and the like: the library appends how it timed.
 std::string plain_name(const benchmark::BenchmarkReporter::Run& run) { return run.run_name.function_name; }
@@ -89,6 +101,7 @@ std::string value_text(RatioRow::Kind kind, double value) {
 }
 
 std::string goal_text(const RatioRow& row) {
+  if (row.goal == 0) return "";
   switch (row.kind) {
     case RatioRow::Kind::times_as_fast:
       return fmt::format(">= {:g} x", row.goal);
@@ -110,7 +123,9 @@ const std::vector<RatioRow>& ratio_rows() {
 std::string filter_of_table() {
   std::vector<std::string> names = kAlone;
   for (const RatioRow& row : ratio_rows()) names.push_back(row.of), names.push_back(row.against);
-  for (const int count : kGrowth) names.push_back(step("free-bodies", count, kCore));
+  for (const auto& [scene, run, counts] : kGrowth) {
+    for (const int count : counts) names.push_back(step(scene, count, run));
+  }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return fmt::format("^({})(/|$)", fmt::join(names, "|"));
@@ -159,19 +174,21 @@ void RatioTable::print_row(const RatioRow& row) {
   std::cout << fmt::format("{:<{}} {:>9} {:>9} {:>9}  {:<19} {:>9}  {}\n", row.what, kNameWidth, time_text(median(of)),
                            time_text(median(against)), value_text(row.kind, value),
                            value_text(row.kind, *low) + " .. " + value_text(row.kind, *high), goal_text(row),
-                           holds(row, value) ? "yes" : "no");
+                           row.goal == 0       ? ""
+                           : holds(row, value) ? "yes"
+                                               : "no");
 }
 
 void RatioTable::print_growth() {
-  std::vector<double> costs;
-  std::string text;
-  for (const int count : kGrowth) {
-    const std::string name = step("free-bodies", count, kCore);
-    if (!ns_.contains(name)) return;
-    costs.push_back(median(ns_[name]));
-    text += fmt::format("{}{} at {}", text.empty() ? "" : ", ", time_text(costs.back()), count);
+  for (const auto& [scene, run, counts] : kGrowth) {
+    std::string text;
+    for (const int count : counts) {
+      const auto rounds = ns_.find(step(scene, count, run));
+      if (rounds == ns_.end()) continue;
+      text += fmt::format("{}{} at {}", text.empty() ? "" : ", ", time_text(median(rounds->second)), count);
+    }
+    if (!text.empty()) std::cout << fmt::format("cost of a body as N grows, {}: {}\n", scene, text);
   }
-  std::cout << fmt::format("cost of a body as N grows: {}\n", text);
 }
 
 void RatioTable::print_alone(const std::string& name) {

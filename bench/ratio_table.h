@@ -16,7 +16,7 @@ struct RatioRow {
   std::string what;
   std::string of, against;  // benchmarks; what is judged, and what it is held to
   Kind kind;
-  double goal;
+  double goal;  // 0: none, a bound for the rows above it
 };
 const std::vector<RatioRow>& ratio_rows();
 

@@ -161,7 +161,7 @@ const std::vector<SceneRow>& scenes() {
       {"bouncing-spheres", {1, 100, 1000, 10000}, kFine, Reached::energy, false, bouncing_spheres},
       {"contact/collision", {1}, kCourse, Reached::energy, false, of_the_suite},
       {"free-bodies", {1, 10, 100, 1000, 10000, 100000, 1000000}, kFine, Reached::trajectory, true, free_bodies},
-      {"pile", {216}, kPile, Reached::penetration, false, pile},
+      {"pile", {216, 1000, 8000}, kPile, Reached::penetration, false, pile},
       {"pyramid", {1240}, kPile, Reached::penetration, false, pyramid},
       {"spring-chain", {1, 10, 100, 1000, 10000, 100000}, kFine, Reached::trajectory, false, spring_chain},
       {"spring-net", {100, 1024, 10000}, kFine, Reached::trajectory, false, spring_net},

@@ -33,6 +33,7 @@ void BodyConstants::set_body(std::size_t i, const Inertia& body) {
   set_symmetric(kInertia, i, body.inertia_B);
   set_symmetric(kInverseInertia, i, body.inverse_inertia_B);
   diagonal_ &= body.inertia_B.isDiagonal(0);
+  round_ &= body.inertia_B.isDiagonal(0) && d.x() == d.y() && d.y() == d.z();
   principal_ &= rotation.q_BP.vec().isZero(0);
 }
 
@@ -50,7 +51,8 @@ Bodies BodyConstants::all() const {
           .has_gravity = !gravity_.isZero(0),
           .has_fixed = has_fixed_,
           .diagonal = diagonal_,
-          .principal = principal_};
+          .principal = principal_,
+          .round = round_};
 }
 
 }  // namespace rigor

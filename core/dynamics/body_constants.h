@@ -56,7 +56,7 @@ class BodyConstants {
   std::shared_ptr<Crew> crew_;  // null: this thread alone
   std::size_t size_ = 0;
   Vec3 gravity_ = Vec3::Zero();
-  bool has_fixed_ = false, diagonal_ = true, principal_ = true;
+  bool has_fixed_ = false, diagonal_ = true, principal_ = true, round_ = true;
 };
 
 }  // namespace rigor

@@ -1,109 +1,136 @@
 #include "core/dynamics/broad_phase.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace rigor {
 namespace {
 
-// Twenty-one bits an axis. Cells far apart may share a number, which costs a look and loses no pair.
-std::uint64_t cell_number(std::int64_t x, std::int64_t y, std::int64_t z) {
-  constexpr std::uint64_t kMask = (1u << 21) - 1;
-  return (static_cast<std::uint64_t>(x) & kMask) << 42 | (static_cast<std::uint64_t>(y) & kMask) << 21 |
-         (static_cast<std::uint64_t>(z) & kMask);
+// Twenty-one bits an axis, the last the lowest, so that the order of the numbers is that of the cells.
+constexpr std::int64_t kMiddle = 1 << 20, kFarthest = kMiddle - 2;
+constexpr int kBitsOfAxis = 21;
+
+constexpr double kLeast = 1.0 / 16;  // slack, of the largest radius: what was at rest so far may begin to move
+
+// What lies farther out shares the outermost cells, which costs looks and loses no pair. Where a centre is not a number
+// its cell does not matter.
+std::uint64_t cell_index(double coordinate, double cells_per_metre) {
+  const double index = std::floor(coordinate * cells_per_metre);
+  constexpr auto kMost = static_cast<double>(kFarthest);
+  return static_cast<std::uint64_t>(kMiddle +
+                                    static_cast<std::int64_t>(std::clamp(index == index ? index : 0, -kMost, kMost)));
 }
 
-// Cells are as wide as the largest ball and twice the slack, so that balls that may meet lie in the same cell or in
-// neighbouring ones. Where
-// a centre is not finite or out of all bounds, its cell does not matter.
-std::int64_t cell_index(double coordinate, double width) {
-  constexpr double kFar = 1e15;
-  const double index = std::floor(coordinate / width);
-  return std::abs(index) < kFar ? static_cast<std::int64_t>(index) : 0;
-}
-
-bool overlap(const Ball& a, const Ball& b) {
-  const double reach = a.radius + b.radius;
-  return (a.centre - b.centre).squaredNorm() < reach * reach;
+constexpr std::uint64_t cells_away(std::int64_t x, std::int64_t y, std::int64_t z) {
+  return static_cast<std::uint64_t>(((x << kBitsOfAxis) + y) * (1 << kBitsOfAxis) + z);
 }
 
 }  // namespace
 
-const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<Ball>& balls) {
-  if (!still_holds(balls)) {
-    choose_slack(balls);
-    search(balls);
+BroadPhase::BroadPhase(std::vector<Ball> balls) : balls_(std::move(balls)) {
+  for (const Ball& ball : balls_) largest_radius_ = std::max(largest_radius_, ball.radius);
+}
+
+const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const Bodies& bodies, BodyColumns state,
+                                                             Columns& spheres) {
+  if (steps_held_ == 0 || !kernels().have_stayed(bodies, state.column(0), spheres.data(), slack_.data())) {
+    choose_slack(state, spheres);
+    search(state);
+    for (int axis = 0; axis < 3; ++axis)
+      std::copy_n(state.column(kPosition + axis), state.size(), spheres.column(kFoundAt + axis));
+    steps_held_ = 0;
   }
   ++steps_held_;
   pairs_.clear();
   for (const auto& [a, b] : near_) {
-    if (overlap(balls[a], balls[b])) pairs_.emplace_back(a, b);
+    if (overlap(a, b, state)) pairs_.emplace_back(a, b);
   }
   return pairs_;
 }
 
-bool BroadPhase::still_holds(const std::vector<Ball>& balls) const {
-  if (balls.size() != found_at_.size()) return false;
-  bool holds = true;
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const Vec3 moved = (balls[i].centre - found_at_[i].centre).cwiseAbs();
-    holds &= moved.x() <= slack_.x() && moved.y() <= slack_.y() && moved.z() <= slack_.z() &&
-             balls[i].radius == found_at_[i].radius;
-  }
-  return holds;
+bool BroadPhase::overlap(int a, int b, BodyColumns state) const {
+  const double reach = balls_[a].radius + balls_[b].radius;
+  return (state.position(balls_[a].body) - state.position(balls_[b].body)).squaredNorm() < reach * reach;
 }
 
-// From what the balls moved in a step since the last search. Fewer steps if that search found many pairs, for each
-// costs a look in every step.
-void BroadPhase::choose_slack(const std::vector<Ball>& balls) {
-  constexpr double kMostSteps = 64;
+// From what the balls moved in a step since the last search; the first knows nothing but how large they are. Fewer
+// steps if a search found many pairs, for each costs a look in every step.
+void BroadPhase::choose_slack(BodyColumns state, const Columns& spheres) {
+  constexpr double kMostSteps = 256;
   constexpr std::size_t kMostPairsOfBall = 4;
-  steps_to_hold_ = near_.size() > kMostPairsOfBall * balls.size() ? std::max(1.0, steps_to_hold_ / 2)
-                                                                  : std::min(kMostSteps, steps_to_hold_ * 2);
-  Vec3 moved = Vec3::Zero();
-  if (balls.size() == found_at_.size()) {
-    for (std::size_t i = 0; i < balls.size(); ++i)
-      moved = moved.cwiseMax((balls[i].centre - found_at_[i].centre).cwiseAbs());
+  if (steps_held_ == 0) {
+    slack_.setConstant(largest_radius_);
+    return;
   }
-  slack_ = steps_to_hold_ / std::max(1, steps_held_) * moved;
+  steps_to_hold_ = near_.size() > kMostPairsOfBall * balls_.size() ? std::max(1.0, steps_to_hold_ / 2)
+                                                                   : std::min(kMostSteps, steps_to_hold_ * 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double *now = state.column(kPosition + axis), *then = spheres.column(kFoundAt + axis);
+    double moved = 0;
+    for (const Ball& ball : balls_) moved = std::max(moved, std::abs(now[ball.body] - then[ball.body]));
+    slack_[axis] = std::max(kLeast * largest_radius_, steps_to_hold_ / steps_held_ * moved);
+  }
   if (!slack_.allFinite()) slack_.setZero();
-  steps_held_ = 0;
 }
 
-void BroadPhase::search(const std::vector<Ball>& balls) {
-  found_at_ = balls;
-  double widest = 0;
-  for (const Ball& ball : balls) widest = std::max(widest, 2 * ball.radius);
-  const Vec3 width = Vec3::Constant(widest) + 2 * slack_;
-  const auto index = [&](const Ball& ball, int axis) { return cell_index(ball.centre[axis], width[axis]); };
-
+// Cells are as wide as the largest ball and twice the slack, so that balls that may meet lie in the same cell or in
+// neighbouring ones.
+void BroadPhase::sort_by_cell(BodyColumns state) {
+  constexpr double kRounding = 1 + 1e-9;  // of an index
+  const Vec3 per_metre = (kRounding * 2 * (Vec3::Constant(largest_radius_) + slack_)).cwiseInverse();
   entries_.clear();
-  for (int i = 0; i < static_cast<int>(balls.size()); ++i) {
-    entries_.push_back({cell_number(index(balls[i], 0), index(balls[i], 1), index(balls[i], 2)), i});
+  for (int i = 0; i < static_cast<int>(balls_.size()); ++i) {
+    const Vec3 centre = state.position(balls_[i].body);
+    const auto index = [&](int axis) { return cell_index(centre[axis], per_metre[axis]); };
+    entries_.push_back({(index(0) << kBitsOfAxis | index(1)) << kBitsOfAxis | index(2), i});
   }
-  std::sort(entries_.begin(), entries_.end(),
-            [](const Entry& a, const Entry& b) { return std::pair(a.cell, a.ball) < std::pair(b.cell, b.ball); });
+  const auto is_before = [](const Entry& a, const Entry& b) {
+    return a.cell < b.cell || (a.cell == b.cell && a.ball < b.ball);
+  };
+  if (!std::is_sorted(entries_.begin(), entries_.end(), is_before))
+    std::sort(entries_.begin(), entries_.end(), is_before);
+}
 
-  near_.clear();
-  for (int i = 0; i < static_cast<int>(balls.size()); ++i) {
-    const std::int64_t x = index(balls[i], 0), y = index(balls[i], 1), z = index(balls[i], 2);
-    for (int k = 0; k < 27; ++k) search_cell(balls, i, cell_number(x + k / 9 - 1, y + k / 3 % 3 - 1, z + k % 3 - 1));
+// Of the twenty-six cells round a ball's, thirteen come after it: one in its own row along z, three in each of four
+// other rows. The other thirteen are searched from the other balls. Where a slack, which the fastest ball makes, brings
+// too many pairs, half of it has to do.
+void BroadPhase::search(BodyColumns state) {
+  constexpr std::size_t kMostPairsOfBall = 16;
+  for (;; slack_ *= 0.5, steps_to_hold_ = std::max(1.0, steps_to_hold_ / 2)) {
+    const bool is_least = slack_.maxCoeff() <= kLeast * largest_radius_;
+    const std::size_t most = is_least ? std::numeric_limits<std::size_t>::max() : kMostPairsOfBall * balls_.size();
+    sort_by_cell(state);
+    near_.clear();
+    bool few = search_cells(state, 0, cells_away(0, 0, 1), true, most);
+    for (const auto& [x, y] : {std::pair(0, 1), std::pair(1, -1), std::pair(1, 0), std::pair(1, 1)})
+      few = few && search_cells(state, cells_away(x, y, -1), cells_away(x, y, 1), false, most);
+    if (few) break;
   }
   std::sort(near_.begin(), near_.end());
 }
 
-bool BroadPhase::may_meet(const Ball& a, const Ball& b) const {
-  const Vec3 apart = (a.centre - b.centre).cwiseAbs() - 2 * slack_;
-  const double reach = a.radius + b.radius;
-  // Not "<": where a centre is not a number the pair is looked at again, and found not to overlap.
-  return !(apart.x() > reach || apart.y() > reach || apart.z() > reach);
+// The cells from `to_low` to `to_high` away from each ball's own; as the balls are in order, so are these. False if
+// there are more than so many pairs.
+bool BroadPhase::search_cells(BodyColumns state, std::uint64_t to_low, std::uint64_t to_high, bool own,
+                              std::size_t most) {
+  const std::size_t count = entries_.size();
+  for (std::size_t i = 0, first = 0; i < count && near_.size() <= most; ++i) {
+    const auto [cell, ball] = entries_[i];
+    while (first < count && entries_[first].cell < cell + to_low) ++first;
+    for (std::size_t j = own ? i + 1 : first; j < count && entries_[j].cell <= cell + to_high; ++j) {
+      const int other = entries_[j].ball;
+      if (may_meet(ball, other, state)) near_.push_back(std::minmax(ball, other));
+    }
+  }
+  return near_.size() <= most;
 }
 
-void BroadPhase::search_cell(const std::vector<Ball>& balls, int ball, std::uint64_t cell) {
-  auto entry = std::upper_bound(entries_.begin(), entries_.end(), std::pair(cell, ball),
-                                [](const auto& key, const Entry& e) { return key < std::pair(e.cell, e.ball); });
-  for (; entry != entries_.end() && entry->cell == cell; ++entry) {
-    if (may_meet(balls[ball], balls[entry->ball])) near_.emplace_back(ball, entry->ball);
-  }
+bool BroadPhase::may_meet(int a, int b, BodyColumns state) const {
+  const Vec3 apart = (state.position(balls_[a].body) - state.position(balls_[b].body)).cwiseAbs() - 2 * slack_;
+  const double reach = balls_[a].radius + balls_[b].radius;
+  // Not "<": where a centre is not a number the pair is looked at again, and found not to overlap.
+  return !(apart.x() > reach || apart.y() > reach || apart.z() > reach);
 }
 
 }  // namespace rigor

@@ -1,8 +1,10 @@
 // Threads that do the same work on different bodies. Which member does which changes no bit of the result: no member
-// reads what another writes.
+// reads what another writes. Between two tasks they stay awake for about as long as a step lasts: to wake a thread
+// takes longer than many a task, and puts it on the core that woke it where others are busy.
 #pragma once
 
-#include <barrier>
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -21,9 +23,10 @@ class Crew {
   void run(const std::function<void(std::size_t member)>& task);
 
  private:
+  std::uint32_t begin();  // returns how many tasks there have been
   void help(std::size_t member);
 
-  std::barrier<> begin_, end_;
+  std::atomic<std::uint32_t> begun_ = 0, ended_ = 0;        // tasks; helpers' shares of them
   const std::function<void(std::size_t)>* task_ = nullptr;  // null: the crew is dismissed
   std::vector<std::thread> helpers_;
 };

@@ -24,7 +24,7 @@ class ImpulseStepper : public ContactStepper {
   ImpulseStepper(const Scene& scene, const ContactParts& parts)
       : sub_steps_(static_cast<int>(number_option(parts.settings, "substeps", 0))),
         manifolds_(scene),
-        solver_(parts.system, manifolds_.colliders(), parts.integrator.velocity_lag > 0 ? 1 : 0.5),
+        solver_(parts.system, parts.integrator.velocity_lag > 0 ? 1 : 0.5),
         stepper_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {

@@ -6,9 +6,11 @@
 namespace rigor {
 namespace {
 
-constexpr double kWider = 0.2;  // of a body's thickness: by so much its search box is wider than itself
-constexpr double kNear = 0.02;  // of the thinner body's thickness: closer points are kept even if they do not approach
-constexpr double kSame = 0.1;   // of the thinner body's thickness: a point this near is the one of a step ago
+constexpr double kWider = 0.2;   // of a body's thickness: by so much its search box is wider than itself,
+constexpr double kAhead = 8;     // and by its way in so many steps,
+constexpr double kFarthest = 1;  // but not by more than so many times its thickness
+constexpr double kNear = 0.02;   // of the thinner body's thickness: closer points are kept even if they do not approach
+constexpr double kSame = 0.1;    // of the thinner body's thickness: a point this near is the one of a step ago
 constexpr int kMostOfPair = 4;
 
 double thinner(const Collider& a, const Collider& b) { return std::min(a.thickness, b.thickness); }
@@ -51,30 +53,49 @@ void keep_four(Manifold& points) {
 
 }  // namespace
 
-void Manifolds::update_pairs(BodyColumns state, double dt) {
-  poses_.resize(colliders_.size());
-  boxes_.resize(colliders_.size());
-  bool all_within = wide_boxes_.size() == colliders_.size();
+void Manifolds::place_bodies(BodyColumns state, double dt) {
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
     const Collider& collider = colliders_[i];
-    poses_[i] = pose_of(state, collider.body);
-    boxes_[i] = swept_box(collider, poses_[i], dt * state.velocity(collider.body),
-                          kNear * collider.thickness + turn_way(collider, state, dt));
-    all_within = all_within && lies_within(boxes_[i], wide_boxes_[i]);
+    const bool round = std::holds_alternative<Sphere>(collider.shape);
+    poses_[i] = {state.position(collider.body), round ? Mat3::Identity() : state.rotation(collider.body)};
+    const Vec3 way = dt * state.velocity(collider.body);
+    const double margin = kNear * collider.thickness + turn_way(collider, state, dt);
+    boxes_[i] = swept_box(collider, poses_[i], way, margin);
+    bounds_[i] = collider.reach + margin + way.norm();
   }
+}
+
+void Manifolds::update_pairs(BodyColumns state, double dt) {
+  place_bodies(state, dt);
+  const auto is_within = [&](std::size_t i) { return lies_within(boxes_[i], wide_boxes_[i]); };
+  bool all_within = wide_boxes_.size() == colliders_.size();
+  for (std::size_t i = 0; i < colliders_.size() && all_within; ++i) all_within = is_within(i);
   if (all_within) return;
-  wide_boxes_.resize(colliders_.size());
+  wide_boxes_ = boxes_;
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
-    const double margin = std::isfinite(colliders_[i].thickness) ? kWider * colliders_[i].thickness : 0;
-    const Vec3 way = dt * state.velocity(colliders_[i].body);
-    wide_boxes_[i] = boxes_[i];
-    wide_boxes_[i].low += way.cwiseMin(Vec3::Zero()) - Vec3::Constant(margin);
-    wide_boxes_[i].high += way.cwiseMax(Vec3::Zero()) + Vec3::Constant(margin);
+    const double thickness = colliders_[i].thickness;
+    if (!std::isfinite(thickness)) continue;
+    const Vec3 most = Vec3::Constant(kFarthest * thickness), margin = Vec3::Constant(kWider * thickness);
+    const Vec3 way = (kAhead * dt * state.velocity(colliders_[i].body)).cwiseMin(most).cwiseMax(-most);
+    wide_boxes_[i].low += way.cwiseMin(Vec3::Zero()) - margin;
+    wide_boxes_[i].high += way.cwiseMax(Vec3::Zero()) + margin;
   }
   pairs_.clear();
   for (const auto& [a, b] : finder_.overlaps(wide_boxes_)) {
     if (!(colliders_[a].fixed && colliders_[b].fixed)) pairs_.emplace_back(a, b);
   }
+}
+
+// Whether two bodies stay apart within the step, by the balls that they fill at most, or by their boxes. Written so
+// that what is not a number does not.
+bool Manifolds::stay_apart(int a, int b) const {
+  if (const auto* plane = std::get_if<Plane>(&colliders_[a].shape))
+    return plane->normal.dot(poses_[b].p) - plane->offset > bounds_[b];
+  if (std::holds_alternative<Plane>(colliders_[b].shape)) return stay_apart(b, a);
+  const double reach = bounds_[a] + bounds_[b];
+  if ((poses_[a].p - poses_[b].p).squaredNorm() > reach * reach) return true;
+  return (boxes_[a].low.array() > boxes_[b].high.array()).any() ||
+         (boxes_[b].low.array() > boxes_[a].high.array()).any();
 }
 
 void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b) {
@@ -128,8 +149,7 @@ std::vector<PilePoint>& Manifolds::find(BodyColumns state, double dt) {
   points_.clear();
   std::size_t old = 0;
   for (const auto& [a, b] : pairs_) {
-    const Aabb &box_a = boxes_[a], &box_b = boxes_[b];
-    if ((box_a.low.array() > box_b.high.array()).any() || (box_b.low.array() > box_a.high.array()).any()) continue;
+    if (stay_apart(a, b)) continue;
     const std::size_t first = points_.size();
     add_pair(state, dt, colliders_[a], colliders_[b]);
     same_within_ = kSame * thinner(colliders_[a], colliders_[b]);

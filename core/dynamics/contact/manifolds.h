@@ -25,13 +25,19 @@ struct PilePoint {
 
 class Manifolds {
  public:
-  explicit Manifolds(const Scene& scene) : colliders_(colliders_of(scene)), laws_(scene) {}
+  explicit Manifolds(const Scene& scene)
+      : colliders_(colliders_of(scene)),
+        laws_(scene),
+        poses_(colliders_.size()),
+        boxes_(colliders_.size()),
+        bounds_(colliders_.size()) {}
 
   // The points at the start of a step of dt, sorted by pair, with the impulses of the points a step ago.
   std::vector<PilePoint>& find(BodyColumns state, double dt);
-  const std::vector<Collider>& colliders() const { return colliders_; }
 
  private:
+  void place_bodies(BodyColumns state, double dt);
+  bool stay_apart(int a, int b) const;
   void update_pairs(BodyColumns state, double dt);
   void add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b);
   void remember(std::size_t first, std::size_t& old);
@@ -41,6 +47,7 @@ class Manifolds {
   PairFinder finder_;
   std::vector<Pose> poses_;
   std::vector<Aabb> boxes_, wide_boxes_;
+  std::vector<double> bounds_;  // m: how far from its pose a body can be met within the step
   std::vector<std::pair<int, int>> pairs_;
   Manifold manifold_;
   double same_within_ = 0;  // m

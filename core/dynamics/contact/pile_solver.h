@@ -5,6 +5,8 @@
 // h, and one that overlaps is pushed out as by a damped spring, stiff for h; positions follow this pass. The second
 // has no bias, so that what pushed bodies out leaves them no speed. Then points that came together faster than gravity
 // can have brought them within a few h get their restitution.
+// Pairs of bodies that share none that moves are taken several at once (kernels/pile.h), with the same result as one by
+// one in their order.
 #pragma once
 
 #include <vector>
@@ -18,7 +20,7 @@ class PileSolver {
  public:
   // `share`: of h for which the velocity after a sub-step counts in its way: 1 for a semi-implicit method, 1/2 for one
   // that takes the mean of the velocities before and after.
-  PileSolver(const System& system, const std::vector<Collider>& colliders, double share);
+  PileSolver(const System& system, double share);
 
   // For a step of sub-steps h over these points, which take the impulses with them when it ends.
   void begin_step(BodyColumns state, std::vector<PilePoint>& points, double h);
@@ -28,51 +30,28 @@ class PileSolver {
   void end_step();
 
  private:
-  struct Motion {
-    Vec3 v = Vec3::Zero(), w = Vec3::Zero();
-    double inverse_mass = 0;
-    Mat3 inverse_inertia = Mat3::Zero();  // in W, at the step's start
-    Vec3 start = Vec3::Zero();            // m, at the step's start
-    Quat start_orientation = Quat::Identity();
-    Vec3 way = Vec3::Zero(), turn = Vec3::Zero();       // m and rad since then
-    Vec3 free_v = Vec3::Zero(), free_w = Vec3::Zero();  // without contact in this sub-step
+  struct Pair {
+    std::size_t first, points;    // among the points
+    std::size_t level, of_level;  // its place among the pairs of that level
   };
-  struct Row {
-    int a, b;
-    Vec3 n, t, s;               // the normal and two tangents, in W
-    Vec3 arm_a, arm_b;          // m
-    Vec3 arm_a_n, arm_b_n;      // arm x n
-    Vec3 spin_a_n, spin_b_n;    // what a unit normal impulse adds to w
-    double gap, give_n;         // m, 1/kg
-    double pace_t;              // kg, 1 / the larger eigenvalue of the tangential give
-    Eigen::Matrix2d inverse_t;  // kg, the inverse of that give
-    double friction, restitution;
-    double p_n = 0;  // N s, of one sub-step
-    Eigen::Vector2d p_t = Eigen::Vector2d::Zero();
-    double gap_now = 0, approach = 0;  // m, m/s, before the sub-step
-  };
-
-  void read(BodyColumns state);
-  void write(MutableBodyColumns state) const;
-  void add_row(const PilePoint& point);
-  void push(const Row& row, double n, const Eigen::Vector2d& t);
-  void push_normal(const Row& row, double n);
-  double normal_velocity(const Row& row) const;
-  void solve_with_bias(Row& row);
-  void solve_friction(Row& row);
-  void rebound();
-  void follow(MutableBodyColumns state) const;
+  void set_law(double h);
+  void sort_pairs_in_levels();
+  void place_points();
+  void fill_row(const PilePoint& point, std::size_t row, double scale);
+  PileRecords records() { return {motions_.data(), changes_.data(), places_.data(), turning_.data()}; }
 
   const System& system_;
-  const std::vector<Collider>& colliders_;
-  double share_;
-  double h_ = 0, old_h_ = 0;                                   // s
-  double rest_speed_ = 0;                                      // m/s
-  double push_rate_ = 0, mass_share_ = 0, impulse_share_ = 0;  // of the spring and damper
+  PileLaw law_{};
+  AlignedDoubles motions_, changes_, places_, turning_;  // see PileRecords
+  std::int32_t nobody_;                                  // the first record that means nothing
+  Columns start_;                                        // the state's poses at the step's start
   std::vector<PilePoint>* points_ = nullptr;
-  std::vector<Motion> motions_;  // by body
-  std::vector<Row> rows_;
-  std::vector<std::size_t> hits_;  // rows whose points may meet in this sub-step, faster than gravity brings them
+  std::vector<Pair> pairs_;
+  std::vector<std::size_t> next_level_, pairs_of_level_;  // by body; then where a level's groups of eight begin
+  std::vector<std::size_t> first_block_, row_of_point_;   // of eight pairs; of a point
+  std::vector<RowBlock> blocks_;
+  std::vector<std::int32_t> hits_;  // rows whose points may meet in this sub-step, faster than gravity brings them
+  std::size_t hit_count_ = 0;
   bool any_rebound_ = false;
 };
 

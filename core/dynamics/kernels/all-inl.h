@@ -18,10 +18,13 @@ inline constexpr std::size_t kFewBodies = 1, kFewSprings = 2;
 #include "core/dynamics/kernels/body_kernels-inl.h"
 // and on these:
 #include "core/dynamics/kernels/moser_veselov_kernel-inl.h"
+#include "core/dynamics/kernels/pile_record_kernels-inl.h"
+#include "core/dynamics/kernels/sphere_kernels-inl.h"
 #include "core/dynamics/kernels/spring_kernel-inl.h"
 #include "core/dynamics/kernels/stage_kernels-inl.h"
-// and on that:
+// and on these:
 #include "core/dynamics/kernels/multistep_kernels-inl.h"
+#include "core/dynamics/kernels/pile_kernels-inl.h"
 
 }  // namespace
 
@@ -45,6 +48,20 @@ const Kernels kTable = {
     .sums_of_older = sums_of_older,
     .adams_advance = adams_advance,
     .springs = springs,
+    .have_stayed = have_stayed,
+    .below_plane = below_plane,
+    .read_motions = read_motions,
+    .write_motions = write_motions,
+    .read_places = read_places,
+    .measure_changes = measure_changes,
+    .follow = follow,
+    .prepare_rows = prepare_rows,
+    .measure_gaps = measure_gaps,
+    .push_rows = push_rows,
+    .solve_rows_with_bias = solve_rows_with_bias,
+    .settle_hits_with_bias = settle_hits_with_bias,
+    .solve_rows = solve_rows,
+    .settle_rebounds = settle_rebounds,
 };
 
 }  // namespace RIGOR_LANES_OF

@@ -84,9 +84,11 @@ void kick(const Bodies& b, double* state, const double* wrench, double dt) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
     const T h = broadcast(T(), dt);
-    const V3<T> w = get3(T(), state, b, kAngularVelocity, i);
-    put3(state, b, kAngularVelocity, i,
-         w + h * angular_acceleration(b, i, get4(T(), state, b, kOrientation, i), w, wrench));
+    if (wrench || !b.round) {
+      const V3<T> w = get3(T(), state, b, kAngularVelocity, i);
+      put3(state, b, kAngularVelocity, i,
+           w + h * angular_acceleration(b, i, get4(T(), state, b, kOrientation, i), w, wrench));
+    }
     if (wrench || b.has_gravity)
       put3(state, b, kVelocity, i, get3(T(), state, b, kVelocity, i) + h * acceleration(T(), b, i, wrench));
   });

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/dynamics/kernels/pile.h"
 #include "core/engine/body_column.h"
 
 namespace rigor {
@@ -39,6 +40,7 @@ struct Bodies {
   bool has_gravity = false, has_fixed = false;
   bool diagonal = false;   // every inertia is diagonal in its B
   bool principal = false;  // every B is its body's principal axes, moments ascending
+  bool round = false;      // every inertia is the same about all axes
 };
 
 // How a rotation by dt w is made: exactly, or by q + dt/2 (0, w) q, normalised.
@@ -96,6 +98,10 @@ enum SpringColumn {
 };
 enum PullColumn { kPull = 0, kTorqueA = 3, kTorqueB = 6, kPullColumns = 9 };
 
+// Columns of spheres, row by row with the bodies': the radius, minus infinity where a body is no sphere, and where the
+// centre was when pairs were searched for [m].
+enum SphereColumn { kRadius = 0, kFoundAt = 1, kSphereColumns = 4 };
+
 // `wrench` is null where nothing but gravity acts. Steps in s.
 struct Kernels {
   const char* name;
@@ -137,6 +143,30 @@ struct Kernels {
   void (*adams_advance)(const Bodies&, const AdamsTables&, const AdamsWeights&, const double* wrench, double* rates,
                         AdamsRatesFrom from, bool needs_w);
   void (*springs)(const Springs&, const double* state, std::size_t stride, double* pulls);
+  // Whether no sphere is farther from where it was found than slack[axis] along any axis.
+  bool (*have_stayed)(const Bodies&, const double* state, const double* spheres, const double* slack);
+  // Which spheres overlap a plane {normal, offset}, to `rows`, which has room for all: their number.
+  std::size_t (*below_plane)(const Bodies&, const double* state, const double* spheres, const double* plane,
+                             std::int32_t* rows);
+  // Piles (pile.h). Velocities from the state to records and back; places and inverse inertias to records; how bodies
+  // have moved since `start`; positions and orientations go on by what the records' velocities have more than the
+  // state's, for h.
+  void (*read_motions)(const Bodies&, const double* state, double* motions);
+  void (*write_motions)(const Bodies&, const double* motions, double* state);
+  void (*read_places)(const Bodies&, const double* state, double* places, double* turning);
+  void (*measure_changes)(const Bodies&, const double* state, const double* start, double* changes);
+  void (*follow)(const Bodies&, const double* motions, double* state, double h);
+  // What is fixed about rows over a step; gaps, approaches and biases of a sub-step, with the rows that meet in it
+  // faster than rest_speed to `hits`, their number returned.
+  void (*prepare_rows)(RowBlock*, std::size_t count, const PileRecords&);
+  std::size_t (*measure_gaps)(RowBlock*, std::size_t count, const PileRecords&, const PileLaw&, std::int32_t* hits);
+  // Each row's impulse; both passes over all rows, and over hits alone the first and what bounces.
+  void (*push_rows)(RowBlock*, std::size_t count, const PileRecords&);
+  void (*solve_rows_with_bias)(RowBlock*, std::size_t count, const PileRecords&, const PileLaw&);
+  void (*settle_hits_with_bias)(RowBlock*, const std::int32_t* hits, std::size_t count, const PileRecords&,
+                                const PileLaw&);
+  void (*solve_rows)(RowBlock*, std::size_t count, const PileRecords&);
+  void (*settle_rebounds)(RowBlock*, const std::int32_t* hits, std::size_t count, const PileRecords&, const PileLaw&);
 };
 
 // The table in use.

@@ -17,6 +17,25 @@ RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) {
   return Lane{p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]};
 }
+// Rows to columns, of as many registers as each has lanes.
+RIGOR_INLINE void transpose(Lane* r) {
+  Lane even[4], odd[4];
+  for (int k = 0; k < 4; ++k) {
+    even[k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    odd[k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  const auto spread = [r](const Lane(&pairs)[4], int column) RIGOR_LAMBDA {
+    const Lane low04 = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5, 8, 9, 12, 13);
+    const Lane low26 = __builtin_shufflevector(pairs[0], pairs[1], 2, 3, 6, 7, 10, 11, 14, 15);
+    const Lane high04 = __builtin_shufflevector(pairs[2], pairs[3], 0, 1, 4, 5, 8, 9, 12, 13);
+    const Lane high26 = __builtin_shufflevector(pairs[2], pairs[3], 2, 3, 6, 7, 10, 11, 14, 15);
+    r[column] = __builtin_shufflevector(low04, high04, 0, 1, 4, 5, 8, 9, 12, 13);
+    r[column + 2] = __builtin_shufflevector(low26, high26, 0, 1, 4, 5, 8, 9, 12, 13);
+    r[column + 4] = __builtin_shufflevector(low04, high04, 2, 3, 6, 7, 10, 11, 14, 15);
+    r[column + 6] = __builtin_shufflevector(low26, high26, 2, 3, 6, 7, 10, 11, 14, 15);
+  };
+  spread(even, 0), spread(odd, 1);
+}
 #elif RIGOR_LANES == 4
 using Lane = __m256d;
 RIGOR_INLINE Lane broadcast(Lane, double x) { return _mm256_set1_pd(x); }
@@ -32,6 +51,14 @@ RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) {
   return Lane{p[i[0]], p[i[1]], p[i[2]], p[i[3]]};
 }
+RIGOR_INLINE void transpose(Lane* r) {
+  const Lane even01 = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6),
+             odd01 = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
+  const Lane even23 = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6),
+             odd23 = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
+  r[0] = __builtin_shufflevector(even01, even23, 0, 1, 4, 5), r[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
+  r[2] = __builtin_shufflevector(even01, even23, 2, 3, 6, 7), r[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
+}
 #else
 // Two doubles: what every x86-64 and ARM64 has; the compiler makes of it what the machine can.
 using Lane = double __attribute__((vector_size(16)));
@@ -44,6 +71,10 @@ RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
   return Lane{x[0] <= limit[0] ? yes[0] : no[0], x[1] <= limit[1] ? yes[1] : no[1]};
 }
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) { return Lane{p[i[0]], p[i[1]]}; }
+RIGOR_INLINE void transpose(Lane* r) {
+  const Lane low = r[0], high = r[1];
+  r[0] = Lane{low[0], high[0]}, r[1] = Lane{low[1], high[1]};
+}
 #endif
 inline constexpr std::size_t kWidth = sizeof(Lane) / sizeof(double);
 
@@ -54,6 +85,10 @@ RIGOR_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 RIGOR_INLINE bool all_at_most(double x, double limit) { return x <= limit; }
 RIGOR_INLINE double if_at_most(double x, double limit, double yes, double no) { return x <= limit ? yes : no; }
 RIGOR_INLINE double gather(double, const double* p, const std::int32_t* i) { return p[i[0]]; }
+RIGOR_INLINE void transpose(double*) {}
+
+constexpr std::size_t width_of(double) { return 1; }
+constexpr std::size_t width_of(Lane) { return kWidth; }
 
 // Calls f(T(), row) for the rows begin, begin + 1, … or, kWidth at once, begin, begin + kWidth, …: a few rows take one
 // at a time, for the sake of the other code that reads and writes single rows right before and after.

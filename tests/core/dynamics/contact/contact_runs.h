@@ -16,6 +16,7 @@ class ContactRun {
              std::map<std::string, std::string> options = {})
       : system_(scene), integrator_(integrator(integrator_name)), state_(scene.bodies.size()) {
     if (!integrator_.default_orientation.empty()) orientation_ = &orientation_update(integrator_.default_orientation);
+    if (options.contains("threads")) system_.constants.use_threads(std::stoi(options.at("threads")));
     set_initial_state(scene, state_.columns());
     stepper_ = contact_method(method).make(
         scene, {system_, integrator_, orientation_, {integrator_name, std::move(options), Track::matched}});

@@ -1,7 +1,5 @@
-#include <random>
 #include <utility>
 
-#include "core/dynamics/broad_phase.h"
 #include "core/dynamics/energy.h"
 #include "tests/core/dynamics/contact/contact_runs.h"
 #include "tests/scenes.h"
@@ -85,26 +83,6 @@ BOOST_AUTO_TEST_CASE(two_spheres_keep_their_momentum_and_part_with_the_restituti
   const Vec3 u = after.velocity(0) + after.angular_velocity(0).cross(Vec3(0.095, 0, 0)) - after.velocity(1) -
                  after.angular_velocity(1).cross(Vec3(-0.095, 0, 0));
   BOOST_TEST((u - Vec3(-0.25, 0, 0)).norm() < 1e-13);
-}
-
-BOOST_AUTO_TEST_CASE(the_broad_phase_finds_what_a_search_of_all_pairs_finds) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> coordinate(-2, 2), radius(0.05, 0.4);
-  BroadPhase broad_phase;
-  for (int round = 0; round < 20; ++round) {
-    std::vector<Ball> balls;
-    for (int i = 0; i < 150; ++i) {
-      balls.push_back({i, {coordinate(random), coordinate(random), coordinate(random)}, radius(random)});
-    }
-    std::vector<std::pair<int, int>> expected;
-    for (int a = 0; a < 150; ++a) {
-      for (int b = a + 1; b < 150; ++b) {
-        if ((balls[a].centre - balls[b].centre).norm() < balls[a].radius + balls[b].radius) expected.emplace_back(a, b);
-      }
-    }
-    BOOST_TEST((broad_phase.overlaps(balls) == expected));
-    BOOST_TEST(!expected.empty());
-  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,113 @@
+// Records of bodies (pile.h), and between them and the state; kernels.h says what comes out. Included once by each
+// kernels_*.cpp, on purpose without a guard.
+
+// Eight columns of as many bodies as T has lanes.
+template <class T>
+struct Record {
+  T c[kRecord];
+};
+template <class T>
+RIGOR_INLINE Record<T> get_record(T, const double* records, const std::int32_t* rows) {
+  Record<T> r;
+  for (std::size_t part = 0; part < kRecord; part += width_of(T())) {
+    for (std::size_t k = 0; k < width_of(T()); ++k)
+      r.c[part + k] = load(T(), records + kRecord * static_cast<std::size_t>(rows[k]) + part);
+    transpose(r.c + part);
+  }
+  return r;
+}
+template <class T>
+RIGOR_INLINE void put_record(double* records, const std::int32_t* rows, Record<T> r) {
+  for (std::size_t part = 0; part < kRecord; part += width_of(T())) {
+    transpose(r.c + part);
+    for (std::size_t k = 0; k < width_of(T()); ++k)
+      store(records + kRecord * static_cast<std::size_t>(rows[k]) + part, r.c[part + k]);
+  }
+}
+// The bodies i, i + 1, ….
+template <class T>
+RIGOR_INLINE void put_records(double* records, std::size_t i, const Record<T>& r) {
+  std::int32_t rows[kRowsPerBlock];
+  for (std::size_t k = 0; k < width_of(T()); ++k) rows[k] = static_cast<std::int32_t>(i + k);
+  put_record(records, rows, r);
+}
+template <class T>
+RIGOR_INLINE Record<T> get_records(T, const double* records, std::size_t i) {
+  std::int32_t rows[kRowsPerBlock];
+  for (std::size_t k = 0; k < width_of(T()); ++k) rows[k] = static_cast<std::int32_t>(i + k);
+  return get_record(T(), records, rows);
+}
+
+template <class T>
+struct Twist {
+  V3<T> v, w;
+};
+template <class T>
+RIGOR_INLINE Twist<T> twist_of(const Record<T>& r) {
+  return {{r.c[0], r.c[1], r.c[2]}, {r.c[3], r.c[4], r.c[5]}};
+}
+template <class T>
+RIGOR_INLINE Record<T> record_of(const Twist<T>& m) {
+  return {{m.v.x, m.v.y, m.v.z, m.w.x, m.w.y, m.w.z, T{}, T{}}};
+}
+
+void read_motions(const Bodies& b, const double* state, double* motions) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    put_records(motions, i,
+                record_of(Twist<T>{get3(T(), state, b, kVelocity, i), get3(T(), state, b, kAngularVelocity, i)}));
+  });
+}
+
+void write_motions(const Bodies& b, const double* motions, double* state) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const Twist<T> m = twist_of(get_records(T(), motions, i));
+    put3(state, b, kVelocity, i, m.v), put3(state, b, kAngularVelocity, i, m.w);
+  });
+}
+
+void read_places(const Bodies& b, const double* state, double* places, double* turning) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const V3<T> p = get3(T(), state, b, kPosition, i);
+    put_records(places, i, Record<T>{{p.x, p.y, p.z, get(T(), b.constants, b, kInverseMass, i), T{}, T{}, T{}, T{}}});
+    const Symmetric<T> I = symmetric(T(), b, kInverseInertia, i);
+    if (b.round) {
+      put_records(turning, i, Record<T>{{I.xx, I.yy, I.zz, T{}, T{}, T{}, T{}, T{}}});
+      return;
+    }
+    const M3<T> R = matrix_of(get4(T(), state, b, kOrientation, i));
+    const V3<T> x = I * R.x, y = I * R.y, z = I * R.z;  // columns of I Rᵀ
+    put_records(turning, i,
+                Record<T>{{dot(R.x, x), dot(R.y, y), dot(R.z, z), dot(R.x, y), dot(R.x, z), dot(R.y, z), T{}, T{}}});
+  });
+}
+
+void measure_changes(const Bodies& b, const double* state, const double* start, double* changes) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const Q4<T> q0 = get4(T(), start, b, kOrientation, i);
+    const Q4<T> turn = get4(T(), state, b, kOrientation, i) * Q4<T>{q0.w, T{} - q0.x, T{} - q0.y, T{} - q0.z};
+    const T two = if_at_most(turn.w, T{}, broadcast(T(), -2), broadcast(T(), 2));
+    put_records(changes, i,
+                record_of(Twist<T>{get3(T(), state, b, kPosition, i) - get3(T(), start, b, kPosition, i),
+                                   two * V3<T>{turn.x, turn.y, turn.z}}));
+  });
+}
+
+void follow(const Bodies& b, const double* motions, double* state, double h) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const Twist<T> m = twist_of(get_records(T(), motions, i));
+    const V3<T> way = broadcast(T(), h) * (m.v - get3(T(), state, b, kVelocity, i));
+    const V3<T> half_turn = broadcast(T(), 0.5 * h) * (m.w - get3(T(), state, b, kAngularVelocity, i));
+    put3(state, b, kPosition, i, get3(T(), state, b, kPosition, i) + way);
+    const Q4<T> q = get4(T(), state, b, kOrientation, i);
+    const Q4<T> to = nearly_unit_normalised(rotation_by_twice(half_turn) * q);
+    const T size = dot(half_turn, half_turn);  // what is not turned keeps its every bit
+    put4(state, b, kOrientation, i,
+         Q4<T>{if_at_most(size, T{}, q.w, to.w), if_at_most(size, T{}, q.x, to.x), if_at_most(size, T{}, q.y, to.y),
+               if_at_most(size, T{}, q.z, to.z)});
+  });
+}
