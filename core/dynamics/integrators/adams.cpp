@@ -68,7 +68,8 @@ class Adams : public Stepper {
  private:
   // Tables of few bodies are packed, so that a vector register takes several columns of a row at once.
   bool packed() const { return stride_ < kRowsPerLine; }
-  std::size_t table_size() const { return (kRotation * stride_ / kRowsPerLine + 1) * kRowsPerLine; }
+  // With room for a whole register at the last row of the last column.
+  std::size_t table_size() const { return column_stride(kRotation * stride_ + kRowsPerLine); }
 
   bool goes_on(BodyColumns state, double t, double dt) const {
     return last_.goes_on(state, t, dt, parts_.system.loads, t - static_cast<double>(known_) * dt / kParts);
