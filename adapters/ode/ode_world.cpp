@@ -162,6 +162,12 @@ void OdeWorld::advance(double dt) {
   const int done = quick_ ? quick_step(dt) : dWorldStep(world_, dt);
   if (can_touch_) dJointGroupEmpty(contacts_);
   complaint_ = ode_library::take_messages();
+  if (complaint_.starts_with("LCP")) {
+    complaint_ = fmt::format(
+        "ODE's direct solver gave up ({}): bodies have more contacts than carry them, so that its equations have no "
+        "single solution, and the forces of that step are not one of them",
+        complaint_);
+  }
   if (!done) complaint_ = "ODE had no memory for the step";
 }
 

@@ -11,6 +11,8 @@
 #include <random>
 #include <sstream>
 
+#include "cases/truth/events_solver.h"
+
 namespace rigor {
 namespace {
 
@@ -123,6 +125,11 @@ bool is_sound(const ReferenceSolution& s) {
          s.errors.size() == s.error_times.size();
 }
 
+void add_shape(Writer& content, const Sphere& sphere) { content.add(sphere.radius); }
+void add_shape(Writer& content, const Box& box) { content.add(box.size); }
+void add_shape(Writer& content, const Capsule& capsule) { content.add(capsule.radius), content.add(capsule.length); }
+void add_shape(Writer& content, const Plane& plane) { content.add(plane.normal), content.add(plane.offset); }
+
 }  // namespace
 
 std::string reference_content(const Scene& scene, double duration) {
@@ -146,6 +153,24 @@ std::string reference_content(const Scene& scene, double duration) {
   for (const TimedForce& force : scene.forces) {
     content.add(force.body), content.add(force.force), content.add(force.torque), content.add(force.point);
     content.add(force.from), content.add(force.until);
+  }
+  return content.bytes();
+}
+
+std::string events_content(const Scene& scene, double duration) {
+  Writer content;
+  content.add(std::string("events")), content.add(kEventsVersion), content.add(reference_content(scene, duration));
+  for (const Body& body : scene.bodies) {
+    content.add(body.collides);
+    if (!body.collides) continue;
+    content.add(body.shape->index());
+    std::visit([&](const auto& shape) { add_shape(content, shape); }, *body.shape);
+  }
+  for (std::size_t a = 0; a < scene.bodies.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const ContactLaw law = scene.contact_law(static_cast<int>(a), static_cast<int>(b));
+      content.add(law.restitution), content.add(law.friction);
+    }
   }
   return content.bytes();
 }

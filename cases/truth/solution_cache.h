@@ -14,6 +14,8 @@ namespace rigor {
 // All that a reference solution depends on, bit by bit: every number of the scene that its motion has to do with, the
 // duration, the solver. Names, shapes and contacts are not among it.
 std::string reference_content(const Scene& scene, double duration);
+// Likewise of a solution by events, with shapes and contacts.
+std::string events_content(const Scene& scene, double duration);
 
 std::optional<ReferenceSolution> kept_solution(const std::string& content);
 void keep_solution(const std::string& content, const ReferenceSolution& solution);

@@ -12,6 +12,7 @@ namespace rigor {
 TruthRow asymmetric_top_truth();
 TruthRow axisymmetric_top_truth();
 TruthRow bounce_truth();
+TruthRow events_truth();
 TruthRow line_impacts_truth();
 TruthRow oscillator_truth();
 TruthRow principal_torque_truth();
@@ -24,9 +25,19 @@ TruthRow steady_precession_truth();
 
 const std::vector<TruthRow>& truths() {
   static const std::vector<TruthRow> table = {
-      asymmetric_top_truth(), axisymmetric_top_truth(), bounce_truth(),     line_impacts_truth(),
-      oscillator_truth(),     principal_torque_truth(), projectile_truth(), pushed_truth(),
-      reference_truth(),      rolling_truth(),          sliding_truth(),    steady_precession_truth(),
+      asymmetric_top_truth(),
+      axisymmetric_top_truth(),
+      bounce_truth(),
+      events_truth(),
+      line_impacts_truth(),
+      oscillator_truth(),
+      principal_torque_truth(),
+      projectile_truth(),
+      pushed_truth(),
+      reference_truth(),
+      rolling_truth(),
+      sliding_truth(),
+      steady_precession_truth(),
   };
   return table;
 }

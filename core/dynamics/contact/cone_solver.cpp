@@ -10,10 +10,12 @@ namespace rigor {
 namespace {
 
 constexpr int kSweepsAtATime = 30;
-constexpr int kMostTurns = 12;              // of sweeps and Newton's method
-constexpr std::size_t kMostForNewton = 80;  // points: its cost grows as their cube
+constexpr int kMostTurns = 12;  // of sweeps and Newton's method
 // Of the bodies' own speeds at the points and of what the impulses make of them: roundings can move for ever.
 constexpr double kAtRest = 1e-13, kNearRest = 1e-9;
+constexpr double kCreeping = 0.99;  // of a sequence whose ratio is not known yet
+constexpr double kSlow = 0.9;       // from here on Newton's method is quicker
+constexpr int kFewestSweeps = 5;    // before that is judged
 
 double disc(double friction, double normal) {
   if (!(normal > 0)) return 0;
@@ -113,55 +115,42 @@ double ConeSolver::sweep(MutableBodyColumns state, std::vector<ConePoint>& point
   return largest;
 }
 
-// What a unit impulse at one point makes of the velocity at another, in their frames.
-Mat3 ConeSolver::coupling_of(const ConePoint& of, const ConePoint& by) const {
-  Mat3 in_world = Mat3::Zero();
-  const auto add = [&](int body_of, const Vec3& arm_of, int body_by, const Vec3& arm_by, double sign) {
-    if (body_of != body_by || system_.bodies[body_of].fixed) return;
-    in_world += sign * (system_.bodies[body_of].inverse_mass * Mat3::Identity() -
-                        cross_matrix(arm_of) * inverse_inertia_W_[body_of] * cross_matrix(arm_by));
-  };
-  add(of.a, of.arm_a, by.a, by.arm_a, 1);
-  add(of.b, of.arm_b, by.b, by.arm_b, 1);
-  add(of.a, of.arm_a, by.b, by.arm_b, -1);
-  add(of.b, of.arm_b, by.a, by.arm_a, -1);
-  return of.frame.transpose() * in_world * by.frame;
+bool ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConePoint>& points, double tolerance) const {
+  const std::vector<ConePoint> before = points;
+  if (!ConeNewton(system_, inverse_inertia_W_).solve(state, points, tolerance)) return false;
+  for (std::size_t i = 0; i < points.size(); ++i) push(points[i], points[i].impulse - before[i].impulse, state);
+  return true;
 }
 
-void ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConePoint>& points, double tolerance) const {
-  const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd coupling(3 * count, 3 * count);
-  Eigen::VectorXd velocities(3 * count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    velocities.segment<3>(3 * i) = velocity_at(points[i], state);
-    for (Eigen::Index j = 0; j < count; ++j) coupling.block<3, 3>(3 * i, 3 * j) = coupling_of(points[i], points[j]);
-  }
-  const Eigen::VectorXd change = ConeNewton().solve(coupling, velocities, points, tolerance);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    push(points[i], change.segment<3>(3 * i), state);
-    points[i].impulse += change.segment<3>(3 * i);
-  }
-}
-
-bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConePoint>& points) const {
+// What roundings are relative to: the bodies' speeds at the points, and what the impulses make of them.
+double ConeSolver::size_of(BodyColumns state, const std::vector<ConePoint>& points) const {
   const auto speed = [&](int body, const Vec3& arm) {
     if (system_.bodies[body].fixed) return 0.0;
     return state.velocity(body).norm() + state.angular_velocity(body).norm() * arm.norm();
   };
-  double size = 0, last = 0;
+  double size = 0;
+  for (const ConePoint& point : points) {
+    size = std::max(
+        {size, speed(point.a, point.arm_a), speed(point.b, point.arm_b), (point.inverse_mass * point.impulse).norm()});
+  }
+  return size;
+}
+
+bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConePoint>& points) const {
+  double size = 0, last = 0, ratio = kCreeping;
   for (int turn = 0; turn < kMostTurns; ++turn) {
     for (int k = 0; k < kSweepsAtATime; ++k) {
       const double change = sweep(state, points);
-      if (turn == 0 && k == 0) {
-        for (const ConePoint& point : points) {
-          size = std::max({size, speed(point.a, point.arm_a), speed(point.b, point.arm_b),
-                           (point.inverse_mass * point.impulse).norm()});
-        }
-      }
-      if (!(change > kAtRest * size)) return std::isfinite(change);
+      if (k == 0) size = std::max(size, size_of(state, points));
+      if (!std::isfinite(change)) return false;
+      // Of a creeping sequence, what is still to come counts.
+      if (k > 0) ratio = std::min(change / last, kCreeping);
       last = change;
+      if (change * ratio <= kAtRest * size * (1 - ratio)) return true;
+      if (k >= kFewestSweeps && ratio > kSlow) break;
     }
-    if (points.size() <= kMostForNewton) take_newton_steps(state, points, kAtRest * size);
+    if (!take_newton_steps(state, points, kAtRest * size)) continue;
+    ratio = 0.5;  // what Newton's method leaves is no sequence: it counts as it is
   }
   return last <= kNearRest * size;  // a set of points on the verge of sliding may never come closer
 }

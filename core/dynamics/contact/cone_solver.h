@@ -42,8 +42,8 @@ class ConeSolver {
   void push(const ConePoint& point, const Vec3& impulse, MutableBodyColumns state) const;
 
  private:
-  void take_newton_steps(MutableBodyColumns state, std::vector<ConePoint>& points, double tolerance) const;
-  Mat3 coupling_of(const ConePoint& of, const ConePoint& by) const;
+  double size_of(BodyColumns state, const std::vector<ConePoint>& points) const;
+  bool take_newton_steps(MutableBodyColumns state, std::vector<ConePoint>& points, double tolerance) const;
   double sweep(MutableBodyColumns state, std::vector<ConePoint>& points) const;
 
   const System& system_;

@@ -16,6 +16,10 @@ class ContactStepper : public Stepper {
  public:
   // What is in force beside the method's name.
   virtual SettingsInForce settings_in_force() const { return {}; }
+  // Whether the last step had no impact and no other event inside it, so far as the method knows.
+  virtual bool was_smooth() const { return false; }
+  // Steps of the integrator that all steps so far have taken.
+  virtual long work() const { return 0; }
 };
 
 // What a contact stepper is made from. Outlives it.

@@ -9,10 +9,13 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kMostPasses = 50;
-constexpr double kSettled = 1e-12;  // of 1 m/s and the speeds; the position is then right to this times dt
-constexpr double kClosed = 1e-13;   // m: a few roundings of a position of one metre
-constexpr int kMostMoves = 100;
+// The forces turn with the points that they act at, and so feed back on themselves: by some dt² F / (m r) in a pass.
+constexpr int kMostPasses = 50, kFewestPasses = 4;
+constexpr double kSettling = 0.1;   // what so many passes leave of a change at most: else a shorter step is quicker
+constexpr double kSettled = 1e-12;  // of 1 m/s, the speeds and what the forces make of them in a step
+constexpr double kNearlySettled = 1e-10;  // likewise, where roundings leave no more: forces on the verge of sliding
+constexpr double kClosed = 1e-13;         // m: a few roundings of a position of one metre
+constexpr int kMostMoves = 20;
 constexpr double kSliding = 1e-9;   // m/s: ten times what an impact or a stop may leave
 constexpr double kTouching = 1e-3;  // m: a held point that drifted further than this is not held any more
 
@@ -30,6 +33,13 @@ double speed_of(BodyColumns state) {
   return most;
 }
 
+void move(MutableBodyColumns state, std::size_t i, const PoseStep& motion) {
+  state.set_position(i, state.position(i) + motion.head<3>());
+  const Quat rotation = rotation_by(motion.tail<3>());
+  state.set_orientation(i, (rotation * state.orientation(i)).normalized());
+  if (state.has_rotation()) state.set_rotation(i, rotation.toRotationMatrix() * state.rotation(i));
+}
+
 }  // namespace
 
 HeldMotion::HeldMotion(const Scene& scene, const Integrator& integrator, const OrientationUpdate* orientation,
@@ -38,6 +48,7 @@ HeldMotion::HeldMotion(const Scene& scene, const Integrator& integrator, const O
       force_of_body_(scene.bodies.size(), kNone),
       stepper_(integrator.make({system_, nullptr, orientation, settings})),
       solver_(system_),
+      least_motion_(system_),
       touches_(touches),
       wrenches_(scene.bodies.size()),
       old_wrenches_(scene.bodies.size()) {
@@ -78,6 +89,7 @@ bool HeldMotion::hold_slower_than(double speed, BodyColumns state, const std::ve
 double HeldMotion::apply_forces(double dt) {
   old_wrenches_.swap(wrenches_);
   wrenches_.assign(system_.size(), Wrench{});
+  push_size_ = 0;
   for (const HeldPoint& point : points_) {
     const ConePoint &start = point.at_start.cone, &end = point.at_end.cone;
     const Vec3 force = 0.5 * (start.frame + end.frame) * point.force;
@@ -85,6 +97,8 @@ double HeldMotion::apply_forces(double dt) {
     wrenches_[start.a].torque += (0.5 * (start.arm_a + end.arm_a)).cross(force);
     wrenches_[start.b].force -= force;
     wrenches_[start.b].torque -= (0.5 * (start.arm_b + end.arm_b)).cross(force);
+    const double inverse_mass = std::max(system_.bodies[start.a].inverse_mass, system_.bodies[start.b].inverse_mass);
+    push_size_ = std::max(push_size_, dt * inverse_mass * force.norm());
   }
   double largest = 0;
   for (const Collider& collider : touches_.colliders()) {
@@ -115,19 +129,29 @@ void HeldMotion::correct(MutableBodyColumns end, double dt) {
   }
 }
 
-void HeldMotion::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
+bool HeldMotion::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
   complaint_.clear();
   for (HeldPoint& point : points_) point.at_end = point.at_start;
-  const double settled = kSettled * (1 + speed_of(start));
   apply_forces(dt);
+  const double speed = speed_of(start);
+  double last = kInfinity;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     copy_columns(start, end);
     stepper_->step(end, t, dt);
-    if (points_.empty()) return;
+    ++passes_;
+    if (points_.empty()) return true;
+    complaint_.clear();  // only of the last pass
     correct(end, dt);
-    if (!(apply_forces(dt) > settled)) return;
+    const double change = apply_forces(dt);
+    const double size = 1 + speed + push_size_;
+    if (change <= kSettled * size) return true;
+    if (pass % kFewestPasses != 0) continue;
+    if (!(change < last) && change <= kNearlySettled * size) return true;
+    if (!(change < kSettling * last) && change > kNearlySettled * size) break;
+    last = change;
   }
   complaint_ = "the motion of touching bodies and the forces between them did not settle";
+  return false;
 }
 
 double HeldMotion::distance_from_sticking() const {
@@ -147,41 +171,56 @@ bool HeldMotion::carries(const Touch& touch) const {
                      [&](const HeldPoint& point) { return point.at_end.same_place(touch) && point.force.x() > 0; });
 }
 
-// Along the normal, each body by as much as an impulse there would move it.
-void HeldMotion::move_apart(MutableBodyColumns state, const Touch& touch) const {
-  const Vec3 n = touch.cone.frame.col(0);
-  double give = 0;  // 1/kg, of the two bodies at the point
-  const auto turn_of = [&](int body, const Vec3& arm) {
-    return angular_velocity_of(system_.bodies[body], state.rotation(body), arm.cross(n));
-  };
-  const Vec3 turn_a = turn_of(touch.cone.a, touch.cone.arm_a), turn_b = turn_of(touch.cone.b, touch.cone.arm_b);
-  give += system_.bodies[touch.cone.a].inverse_mass + n.dot(turn_a.cross(touch.cone.arm_a));
-  give += system_.bodies[touch.cone.b].inverse_mass + n.dot(turn_b.cross(touch.cone.arm_b));
-  const auto move = [&](int body, const Vec3& turn, double amount) {
-    if (system_.bodies[body].fixed) return;
-    state.set_position(body, state.position(body) + amount * system_.bodies[body].inverse_mass * n);
-    const Quat rotation = rotation_by(amount * turn);
-    state.set_orientation(body, (rotation * state.orientation(body)).normalized());
-    if (state.has_rotation()) state.set_rotation(body, rotation.toRotationMatrix() * state.rotation(body));
-  };
-  move(touch.cone.a, turn_a, -touch.gap / give);
-  move(touch.cone.b, turn_b, touch.gap / give);
-}
-
-void HeldMotion::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs) {
+bool HeldMotion::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs, Closing which) {
+  double before = kInfinity;
   for (int k = 0; k < kMostMoves; ++k) {
-    open_.clear();
+    open_.clear(), demands_.clear();
     touches_.find(state, pairs, kTouching, open_);
     double widest = 0;
     for (const Touch& touch : open_) {
-      Touch now = touch;
-      // Moved by its neighbours since it was found.
-      if (!touches_.follow(state, now) || !(now.gap < 0 || carries(touch))) continue;
-      widest = std::max(widest, std::abs(now.gap));
-      if (std::abs(now.gap) > kClosed) move_apart(state, now);
+      const bool is_carrying = which == Closing::all && carries(touch);
+      if (!(touch.gap < 0 || is_carrying)) continue;
+      widest = std::max(widest, std::abs(touch.gap));
+      demand(touch.cone, 0, -touch.gap, is_carrying);
     }
-    if (!(widest > kClosed)) return;
+    // Where it does not fall by much any more, it is rounding, or there is no place for all bodies.
+    if (!(widest > kClosed) || widest > 0.5 * before) return k > 0;
+    before = widest;
+    const std::vector<PoseStep>& motion = least_motion_.meet(state, demands_);
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      if (!motion[i].isZero(0)) move(state, i, motion[i]);
+    }
   }
+  return true;
+}
+
+void HeldMotion::stop_carrying_points(MutableBodyColumns state) {
+  demands_.clear();
+  for (const HeldPoint& point : points_) {
+    Touch now = point.at_end;
+    if (!(point.force.x() > 0) || !touches_.follow(state, now) || now.gap > kTouching) continue;
+    const Vec3 u = ConeSolver::velocity_at(now.cone, state);
+    demand(now.cone, 0, -u.x(), true);
+    if (point.slip_at_end > kSliding || now.cone.friction == 0) continue;
+    demand(now.cone, 1, -u.y(), true);
+    demand(now.cone, 2, -u.z(), true);
+  }
+  const std::vector<PoseStep>& motion = least_motion_.meet(state, demands_);
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    if (motion[i].isZero(0)) continue;
+    state.set_velocity(i, state.velocity(i) + motion[i].head<3>());
+    state.set_angular_velocity(i, state.angular_velocity(i) + motion[i].tail<3>());
+  }
+}
+
+void HeldMotion::demand(const ConePoint& cone, int axis, double amount, bool both_ways) {
+  demands_.push_back({.a = cone.a,
+                      .b = cone.b,
+                      .arm_a = cone.arm_a,
+                      .arm_b = cone.arm_b,
+                      .direction = cone.frame.col(axis),
+                      .amount = amount,
+                      .both_ways = both_ways});
 }
 
 }  // namespace rigor

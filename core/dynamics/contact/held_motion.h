@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/dynamics/contact/impacts.h"
+#include "core/dynamics/contact/least_motion.h"
 #include "core/dynamics/integrators/integrator.h"
 
 namespace rigor {
@@ -26,31 +27,40 @@ class HeldMotion {
   void hold(BodyColumns state, const std::vector<Touch>& touches);
   // Holds those that part more slowly than `speed`, too. Returns whether there were any.
   bool hold_slower_than(double speed, BodyColumns state, const std::vector<Touch>& touches);
-  // From `start` at t to `end` at t + dt.
-  void advance(BodyColumns start, MutableBodyColumns end, double t, double dt);
+  // From `start` at t to `end` at t + dt. False if the forces did not settle, as they do in a shorter step.
+  bool advance(BodyColumns start, MutableBodyColumns end, double t, double dt);
   // How far the first of the sliding points is from sticking [m/s]: its speed while it slides; once it sticks, minus
   // the speed that the rest of its friction could stop. Infinite where nothing slides.
   double distance_from_sticking() const;
-  // Moves bodies so that what carries a force has no gap and nothing overlaps; velocities stay.
-  void close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs);
+  // Moves bodies so that nothing overlaps and, of `all`, what carries a force has no gap; velocities stay. Returns
+  // whether any body had to move.
+  enum class Closing { overlaps, all };
+  bool close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs, Closing which);
+  // After that the points that carry a force have speeds again, for their arms have turned: takes these away.
+  void stop_carrying_points(MutableBodyColumns state);
+  long passes() const { return passes_; }  // steps of the integrator so far
   // What did not settle in the last advance; empty if all did.
   std::string complaint() const { return complaint_.empty() ? stepper_->complaint() : complaint_; }
 
  private:
   double apply_forces(double dt);
   void correct(MutableBodyColumns end, double dt);
-  void move_apart(MutableBodyColumns state, const Touch& touch) const;
   bool carries(const Touch& touch) const;
+  void demand(const ConePoint& cone, int axis, double amount, bool both_ways);
 
   System system_;  // the scene's, with one more force on each colliding body
   std::vector<std::size_t> force_of_body_;
   std::unique_ptr<Stepper> stepper_;
   ConeSolver solver_;
+  LeastMotion least_motion_;
   Touches& touches_;
   std::vector<HeldPoint> points_, old_points_;
   std::vector<ConePoint> cones_;
   std::vector<Touch> open_;
+  std::vector<Demand> demands_;
   Wrenches wrenches_, old_wrenches_;
+  double push_size_ = 0;  // m/s, the most that one point's force alone would make of a body's speed in a step
+  long passes_ = 0;
   std::string complaint_;
 };
 

@@ -44,8 +44,8 @@ bool Impacts::choose(BodyColumns state, const std::vector<Touch>& touches, bool 
     const double approach = -ConeSolver::velocity_at(point, state).x();
     const bool hits = approach > kStillSpeed;
     hit = hit || hits;
-    const bool rebounds = approach > kRestSpeed && !inelastic && !all && touches[i].restitution > 0;
-    rebound_ = rebound_ || (hits && approach > kRestSpeed);
+    const bool rebounds = approach > rest_speed_ && !inelastic && !all && touches[i].restitution > 0;
+    rebound_ = rebound_ || (hits && approach > rest_speed_);
     point.wanted = rebounds ? touches[i].restitution * approach : 0;
     if (hits || all || touches[i].restitution == 0) chosen_.push_back(point);
   }

@@ -11,16 +11,18 @@ namespace rigor {
 
 // Approaching more slowly than this leaves no rebound: a sequence of bounces ends here, 2 u / (g (1 - e)) before its
 // own end, which for e = 0.9 on Earth is 2e-7 s.
-inline constexpr double kRestSpeed = 1e-7;  // m/s
+inline constexpr double kRestSpeed = 1e-7;  // m/s, unless a run names another
 // What the roundings of an impact leave of a velocity that should be zero.
 inline constexpr double kStillSpeed = 1e-10;  // m/s
 
 class Impacts {
  public:
-  explicit Impacts(const System& system) : system_(system), solver_(system) {}
+  Impacts(const System& system, double rest_speed) : system_(system), solver_(system), rest_speed_(rest_speed) {}
 
-  // Changes the velocities so that no touching points approach. Returns whether there were impacts above kRestSpeed.
-  // `inelastic`: no rebounds.
+  double rest_speed() const { return rest_speed_; }  // m/s
+
+  // Changes the velocities so that no touching points approach. Returns whether there were impacts above the rest
+  // speed. `inelastic`: no rebounds.
   bool resolve(MutableBodyColumns state, std::vector<Touch>& touches, bool inelastic);
   // Empty if every round came to its end.
   const std::string& complaint() const { return complaint_; }
@@ -32,6 +34,7 @@ class Impacts {
 
   const System& system_;
   ConeSolver solver_;
+  double rest_speed_;
   std::vector<ConePoint> points_, chosen_;
   BodyTable before_;
   bool rebound_ = false;

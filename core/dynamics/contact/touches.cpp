@@ -1,6 +1,7 @@
 #include "core/dynamics/contact/touches.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,12 @@ const Manifold& Touches::manifold(BodyColumns state, int a, int b) {
   const Collider &first = colliders_[a], &second = colliders_[b];
   collide(first.shape, pose_of(state, first.body), second.shape, pose_of(state, second.body), manifold_);
   return manifold_;
+}
+
+Vec3 Touches::parting(BodyColumns state, int a, int b) {
+  const Manifold& points = manifold(state, a, b);
+  assert(points.size() > 0 && "only two planes have none");
+  return points[0].normal;
 }
 
 void Touches::place(BodyColumns state, const ContactPoint& point, Touch& touch) const {

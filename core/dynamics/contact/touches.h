@@ -27,6 +27,8 @@ class Touches {
   const std::vector<std::pair<int, int>>& candidates(BodyColumns from, BodyColumns to, double dt);
   // Every point of the pair, whatever its gap.
   const Manifold& manifold(BodyColumns state, int a, int b);
+  // Unit, from b to a: the direction along which the pair is furthest apart, or least deep in each other.
+  Vec3 parting(BodyColumns state, int a, int b);
   // Adds each point of the candidates that is closer than `gap`.
   void find(BodyColumns state, const std::vector<std::pair<int, int>>& pairs, double gap, std::vector<Touch>& out);
   // The least gap of each pair, in the pairs' order.
