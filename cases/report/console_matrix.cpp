@@ -134,13 +134,13 @@ std::string console_matrix(const Results& results) {
   const std::vector<std::size_t> runs = runs_to_show(results);
   const std::size_t panels = (runs.size() + kMostColumns - 1) / kMostColumns,
                     columns = (runs.size() + panels - 1) / panels;
-  std::string text = wrapped(fmt::format("dt = {} s, or what stands behind a case: the largest error of the position "
-                                         "[m]; of the orientation [rad] where nothing moves away; of the energy [%] "
-                                         "where there is no truth.",
-                                         headline_dt(results).text),
-                             0) +
-                     "\n" +
-                     "✓ stable  ≈ drifting  ✕ blown up at that time, or gate failed  ◆ known deviation  – unsupported\n";
+  std::string text =
+      wrapped(fmt::format("dt = {} s, or what stands behind a case: the largest error of the position "
+                          "[m]; of the orientation [rad] where nothing moves away; of the energy [%] "
+                          "where there is no truth.",
+                          headline_dt(results).text),
+              0) +
+      "\n" + "✓ stable  ≈ drifting  ✕ blown up at that time, or gate failed  ◆ known deviation  – unsupported\n";
   for (std::size_t first = 0; first < runs.size(); first += columns) {
     const auto begin = runs.begin() + static_cast<long>(first),
                end = runs.begin() + static_cast<long>(std::min(first + columns, runs.size()));

@@ -213,7 +213,7 @@ class Finder {
   // distances to a stop then spread by 1 - 1/sqrt(2) = 0.29 over the directions. A cone has no spread.
   void say_whose_friction_is_a_pyramid() {
     constexpr double kPyramid = 0.2, kCone = 0.05;
-    std::vector<std::string> pyramids, cones;
+    std::vector<std::string> pyramids, cones, others;
     std::string where;
     for (const std::size_t run : runs()) {
       double worst = -1;
@@ -221,16 +221,23 @@ class Finder {
         const double spread = std::abs(value_of(cell.metrics, "friction_anisotropy"));
         if (cell.stability.verdict != Verdict::blown_up && spread > worst) worst = spread, where = result.definition.id;
       });
-      if (worst >= kPyramid) pyramids.push_back(fmt::format("{} ({:.0f} %)", results_.runs[run].text, 100 * worst));
-      if (worst >= 0 && worst < kCone) cones.push_back(results_.runs[run].text);
+      if (worst < 0) continue;
+      const std::string spread = fmt::format("{} ({:.0f} %)", results_.runs[run].text, 100 * worst);
+      if (worst < kCone) {
+        cones.push_back(results_.runs[run].text);
+      } else {
+        (worst >= kPyramid ? pyramids : others).push_back(spread);
+      }
     }
-    if (pyramids.empty() && cones.empty()) return;
+    if (pyramids.empty() && cones.empty() && others.empty()) return;
     const std::string none = "none";
-    say("friction", fmt::format(
-        "Friction is a pyramid, braking harder along its diagonals, with: {}; a cone, as Coulomb's, with: {}. The per "
-        "cent are how distances to a stop spread over directions ({}, dt = {} s).",
-        pyramids.empty() ? none : listed_names(pyramids, 6), cones.empty() ? none : listed_names(cones, 6), where,
-        dt_.text));
+    std::string text = fmt::format(
+        "Friction is a pyramid, braking harder along its diagonals, with: {}; a cone, as Coulomb's, with: {}",
+        pyramids.empty() ? none : listed_names(pyramids, 6), cones.empty() ? none : listed_names(cones, 6));
+    if (!others.empty()) text += fmt::format("; uneven, but no pyramid, with: {}", listed_names(others, 6));
+    say("friction",
+        text + fmt::format(". The per cent are how distances to a stop spread over directions ({}, dt = {} s).", where,
+                           dt_.text));
   }
 
   void say_what_is_unexplained() {

@@ -1,5 +1,5 @@
-// What the whole of the results comes to, in a few sentences: who blows up and who holds stiff springs, what a millimetre
-// costs, who loses energy and why, whose friction knows directions, what is left that no scheme explains.
+// What the whole of the results comes to, in a few sentences: who blows up and who holds stiff springs, what a
+// millimetre costs, who loses energy and why, whose friction knows directions, what is left that no scheme explains.
 #pragma once
 
 #include <string>

@@ -197,7 +197,7 @@ bool apply_message(CaseResult& result, const std::string& message) {
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
     result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2)), number(facts.at(3)),
-                    facts.at(4).get<std::string>()};
+                    facts.at(4).get<std::vector<std::string>>()};
     return false;
   }
   if (json.contains("spreads")) {
@@ -207,7 +207,7 @@ bool apply_message(CaseResult& result, const std::string& message) {
   if (json.contains("cell")) {
     Cell& cell = result.cells.at(json.at("cell").get<std::size_t>());
     fill_in(cell, json.at("result"), result.definition.scene);
-    cell.playback = json.at("playback").get<std::string>();
+    cell.playback = json.at("playback").get<std::vector<std::string>>();
   } else {
     fill_in(result.stable_steps.at(json.at("stable_step").get<std::size_t>()), json.at("result"));
   }

@@ -64,9 +64,9 @@ struct Cell {
   SchemeFindings scheme;
   SettingsInForce settings;
   double cpu_seconds = 0;
-  double wall_seconds = 0;  // of the whole cell: simulated, judged and written
-  std::string trajectory;   // file name in trajectories/; empty if there is none
-  std::string playback;     // its thinned motion and courses, see cases/report/html/playback.h; may be empty
+  double wall_seconds = 0;            // of the whole cell: simulated, judged and written
+  std::string trajectory;             // file name in trajectories/; empty if there is none
+  std::vector<std::string> playback;  // its thinned motion and courses, see cases/report/html/playback.h; may be empty
 };
 
 // The largest stable dt of a case and engine.
@@ -78,11 +78,11 @@ struct StableStepResult {
 
 // The truth of a case, in numbers.
 struct TruthFacts {
-  double error_at_end = 0;            // of the truth itself: m and rad
-  double horizon = 0;                 // s, to which that error stays below kHorizonTolerance
-  double largest_kinetic_energy = 0;  // J
-  double largest_energy_change = 0;   // J, from its start
-  std::string playback = "";          // its thinned motion, as a cell's
+  double error_at_end = 0;                 // of the truth itself: m and rad
+  double horizon = 0;                      // s, to which that error stays below kHorizonTolerance
+  double largest_kinetic_energy = 0;       // J
+  double largest_energy_change = 0;        // J, from its start
+  std::vector<std::string> playback = {};  // its thinned motion, as a cell's
 };
 inline constexpr double kHorizonTolerance = 1e-6;  // m and rad
 

@@ -3,6 +3,7 @@
 // that no browser runs; results.json is deflated in it, for it is long and says much the same many times.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -39,12 +40,13 @@ std::string results_data(const Results& results) {
   return base64(deflated(text_of(json, -1)));
 }
 
-Json playbacks(const Results& results) {
+Json playbacks(const Results& results, std::size_t budget) {
+  const PlaybackChoice chosen(results, budget);
   Json cases = Json::array();
   for (const CaseResult& result : results.cases) {
     Json cells = Json::array();
-    for (const Cell& cell : result.cells) cells.push_back(cell.playback);
-    cases.push_back({{"truth", result.truth ? result.truth->playback : ""}, {"cells", cells}});
+    for (const Cell& cell : result.cells) cells.push_back(chosen.of(result, cell));
+    cases.push_back({{"truth", chosen.of_truth(result)}, {"cells", cells}});
   }
   return {{"courses", course_names()}, {"cases", cases}};
 }
@@ -73,7 +75,9 @@ std::string html_report(const Results& results) {
       "<noscript>This report draws itself with JavaScript, which is off here; report.md says the same in words."
       "</noscript></main>\n";
   add_data(page, "rigor-results", {{"encoding", "base64 of zlib of results.json"}, {"data", results_data(results)}});
-  add_data(page, "rigor-playback", playbacks(results));
+  constexpr std::size_t kWholePage = 7'500'000, kLeastPlayback = 1'000'000;  // characters
+  const std::size_t rest = page.size() + kPageScript.size() + kPageLicences.size();
+  add_data(page, "rigor-playback", playbacks(results, std::max(kWholePage, rest + kLeastPlayback) - rest));
   page += "<script>\n";
   page += kPageScript;
   page += "</script>\n<!--\n";

@@ -23,6 +23,15 @@ constexpr double kDecadesSeen = 0.04;      // of a logarithmic plot: likewise
 constexpr double kNoise = 1e-12;           // of a course in any unit: what is smaller is rounding, and has no shape
 constexpr std::size_t kMostKeys = 6000;    // of a motion
 constexpr std::size_t kMostPoints = 1500;  // of the courses
+constexpr std::size_t kMost = 300000, kLeast = 200;  // characters of a packing
+constexpr double kCoarser = 0.7;                     // of the keys and points, from one packing to the next
+
+// What the page always plots.
+bool is_main(const NamedCourse& course) {
+  constexpr const char* kMain[] = {kEnergyChange,           "angular_momentum_drift", "energy_drift_synchronised",
+                                   "linear_momentum_drift", "orientation_error",      "position_error"};
+  return std::find(std::begin(kMain), std::end(kMain), course.name) != std::end(kMain);
+}
 
 void add_samples(Bytes& bytes, const std::vector<std::size_t>& samples) {
   std::vector<std::uint16_t> low, high;
@@ -133,38 +142,101 @@ NamedCourse energy_change(const Scene& scene, const Trajectory& trajectory, doub
   return course;
 }
 
-std::string packed(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth,
-                   std::vector<NamedCourse> named, std::size_t budget) {
-  if (trajectory.samples.empty()) return "";
-  const Motion motion(scene, trajectory, truth);
-  const Courses courses(std::move(named));
-  const bool is_like_truth = motion.is_like_truth();
-  const std::vector<std::size_t> candidates = is_like_truth ? std::vector<std::size_t>() : motion.candidates();
-  const Poses poses(motion, candidates);
-  const auto keys = ranked_samples(candidates.size(), kMostKeys, [&](std::size_t n, std::size_t a, std::size_t b) {
-    return poses.deviation(n, a, b);
-  });
-  const auto points = ranked_samples(courses.count(), kMostPoints, [&](std::size_t n, std::size_t a, std::size_t b) {
-    return courses.deviation(n, a, b);
-  });
-  double share = 1;
-  for (int attempt = 0; attempt < 6; ++attempt) {
-    Bytes bytes;
-    bytes.add_u8(is_like_truth);
-    bytes.add_f64(trajectory.samples.size() > 1 ? trajectory.samples[1].time - trajectory.samples[0].time : 0);
-    bytes.add_f64(trajectory.samples.back().time);
-    bytes.add_u32(static_cast<std::uint32_t>(scene.bodies.size()));
-    std::vector<std::size_t> kept = first_samples(keys, static_cast<std::size_t>(std::ceil(share * keys.size())));
-    for (std::size_t& n : kept) n = candidates[n];
-    constexpr std::size_t kFewest = 6;  // fewer show no motion
-    if (kept.size() < kFewest && keys.size() > kept.size()) kept.clear();
-    add_motion(bytes, motion, kept);
-    courses.add_to(bytes, first_samples(points, static_cast<std::size_t>(std::ceil(share * points.size()))));
-    const std::string text = base64(deflated(bytes.data()));
-    if (text.size() <= budget) return text;
-    share *= 0.9 * static_cast<double>(budget) / static_cast<double>(text.size());
+// The motion of one run and its courses, ranked once and packed at any fineness.
+class Packer {
+ public:
+  Packer(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth, std::vector<NamedCourse> named)
+      : trajectory_(trajectory),
+        motion_(scene, trajectory, truth),
+        is_like_truth_(motion_.is_like_truth()),
+        bodies_(scene.bodies.size()) {
+    if (!is_like_truth_) candidates_ = motion_.candidates();
+    const Poses poses(motion_, candidates_);
+    keys_ = ranked_samples(candidates_.size(), kMostKeys,
+                           [&](std::size_t n, std::size_t a, std::size_t b) { return poses.deviation(n, a, b); });
+    std::vector<NamedCourse> main;
+    std::copy_if(named.begin(), named.end(), std::back_inserter(main), is_main);
+    all_ = ranked(std::move(named)), main_ = ranked(std::move(main));
   }
-  return "";
+
+  Packings packings() const {
+    Packings found;
+    const auto add = [&](const Ranked& ranked, double share) {
+      std::string text = packed(ranked, share);
+      const bool is_shorter = found.empty() || text.size() < found.back().size();
+      if (text.size() <= kMost && is_shorter) found.push_back(std::move(text));
+    };
+    add(all_, 1);
+    for (double share = 1; share * std::max(keys_.size(), main_.points.size()) >= 1; share *= kCoarser) {
+      add(main_, share);
+      if (!found.empty() && found.back().size() <= kLeast) break;
+    }
+    return found;
+  }
+
+ private:
+  struct Ranked {
+    Courses courses{{}};
+    std::vector<KeptSample> points;
+  };
+
+  static Ranked ranked(std::vector<NamedCourse> named) {
+    Ranked out{Courses(std::move(named)), {}};
+    out.points = ranked_samples(out.courses.count(), kMostPoints, [&](std::size_t n, std::size_t a, std::size_t b) {
+      return out.courses.deviation(n, a, b);
+    });
+    return out;
+  }
+
+  std::string packed(const Ranked& ranked, double share) const {
+    const auto part = [&](const std::vector<KeptSample>& samples) {
+      return first_samples(samples, static_cast<std::size_t>(std::ceil(share * samples.size())));
+    };
+    const auto& samples = trajectory_.samples;
+    Bytes bytes;
+    bytes.add_u8(is_like_truth_);
+    bytes.add_f64(samples.size() > 1 ? samples[1].time - samples[0].time : 0);
+    bytes.add_f64(samples.back().time);
+    bytes.add_u32(static_cast<std::uint32_t>(bodies_));
+    std::vector<std::size_t> kept = part(keys_);
+    for (std::size_t& n : kept) n = candidates_[n];
+    constexpr std::size_t kFewest = 6;  // fewer show no motion
+    if (kept.size() < kFewest && keys_.size() > kept.size()) kept.clear();
+    add_motion(bytes, motion_, kept);
+    ranked.courses.add_to(bytes, part(ranked.points));
+    return base64(deflated(bytes.data()));
+  }
+
+  const Trajectory& trajectory_;
+  Motion motion_;
+  bool is_like_truth_;
+  std::size_t bodies_;
+  std::vector<std::size_t> candidates_;
+  std::vector<KeptSample> keys_;
+  Ranked all_, main_;
+};
+
+Packings packed(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth,
+                std::vector<NamedCourse> named) {
+  if (trajectory.samples.empty()) return {};
+  return Packer(scene, trajectory, truth, std::move(named)).packings();
+}
+
+// The coarsest step is the one that is looked at, and the truth beside each run; more bodies take more room, but each
+// of them less.
+double weight_of(const CaseResult& result, double seconds) {
+  double coarsest = 0;
+  for (const StepSize& step : result.definition.dt) coarsest = std::max(coarsest, step.seconds);
+  return std::pow(static_cast<double>(result.definition.scene.bodies.size()), 0.75) * (seconds < coarsest ? 1 : 4);
+}
+constexpr double kTruth = std::numeric_limits<double>::infinity();  // stands for its dt
+
+const std::string& finest_within(const Packings& packings, double size) {
+  static const std::string none;
+  for (const std::string& text : packings) {
+    if (static_cast<double>(text.size()) <= size) return text;
+  }
+  return none;
 }
 
 }  // namespace
@@ -178,44 +250,50 @@ const std::vector<std::string>& course_names() {
   return names;
 }
 
-std::string packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy,
-                       std::size_t budget) {
+Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy) {
   std::vector<NamedCourse> all = {energy_change(run.scene, run.trajectory, largest_kinetic_energy)};
   for (const NamedCourse& course : courses) {
     if (!course.values.empty()) all.push_back(course);
   }
-  return packed(run.scene, run.trajectory, run.truth, std::move(all), budget);
+  return packed(run.scene, run.trajectory, run.truth, std::move(all));
 }
 
-std::string packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy,
-                         std::size_t budget) {
+Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy) {
   constexpr int kSamples = 1500;
   Trajectory trajectory{.dt = duration / kSamples, .samples = {}};
   for (int n = 0; n <= kSamples; ++n) {
     trajectory.samples.push_back({duration * n / kSamples, BodyTable(scene.bodies.size())});
     truth.at(trajectory.samples.back().time, trajectory.samples.back().bodies.columns());
   }
-  return packed(scene, trajectory, nullptr, {energy_change(scene, trajectory, largest_kinetic_energy)}, budget);
+  return packed(scene, trajectory, nullptr, {energy_change(scene, trajectory, largest_kinetic_energy)});
 }
 
-std::size_t playback_budget(const Results& grid, const CaseResult& result, const StepSize* dt) {
-  constexpr double kWholePage = 5.2e6, kMost = 300e3;  // characters
-  // The coarsest step is the one that is looked at; more bodies take more room, but each of them less.
-  const auto weight = [](const CaseResult& one, double seconds) {
-    double coarsest = 0;
-    for (const StepSize& step : one.definition.dt) coarsest = std::max(coarsest, step.seconds);
-    return std::pow(static_cast<double>(one.definition.scene.bodies.size()), 0.75) * (seconds < coarsest ? 1 : 2);
-  };
-  constexpr double kTruth = std::numeric_limits<double>::infinity();
-  double sum = 0;
-  for (const CaseResult& one : grid.cases) {
-    sum += weight(one, kTruth);
-    for (const Cell& cell : one.cells) {
-      if (cell.status != Status::unsupported) sum += weight(one, cell.dt.seconds);
+PlaybackChoice::PlaybackChoice(const Results& results, std::size_t budget) {
+  const auto total = [&](double scale) {
+    scale_ = scale;
+    std::size_t sum = 0;
+    for (const CaseResult& result : results.cases) {
+      sum += of_truth(result).size();
+      for (const Cell& cell : result.cells) sum += of(result, cell).size();
     }
+    return sum;
+  };
+  double fits = 0, too_much = 2.0 * kMost;  // of the latter each is at its finest
+  if (total(too_much) <= budget) return;
+  for (int halving = 0; halving < 50; ++halving) {
+    const double middle = 0.5 * (fits + too_much);
+    (total(middle) <= budget ? fits : too_much) = middle;
   }
-  const double own = weight(result, dt ? dt->seconds : kTruth);
-  return static_cast<std::size_t>(std::min(kWholePage * own / sum, kMost));
+  scale_ = fits;
+}
+
+const std::string& PlaybackChoice::of(const CaseResult& result, const Cell& cell) const {
+  return finest_within(cell.playback, scale_ * weight_of(result, cell.dt.seconds));
+}
+
+const std::string& PlaybackChoice::of_truth(const CaseResult& result) const {
+  static const Packings none;
+  return finest_within(result.truth ? result.truth->playback : none, scale_ * weight_of(result, kTruth));
 }
 
 }  // namespace rigor

@@ -1,5 +1,7 @@
-// What the page plays and plots of one run: its motion and the courses of its metrics, thinned to a budget of bytes.
-// Full precision stays in the CSV files. The page reads it in page/src/playback_data.js; the layout is in playback.cpp.
+// What the page plays and plots of one run: its motion and the courses of its metrics, thinned. How much room there is
+// for a run only shows when all have been made, so each is packed several times, from fine to coarse, and the page
+// takes of each what fits. Full precision stays in the CSV files. The page reads it in page/src/playback_data.js; the
+// layout is in playback.cpp.
 #pragma once
 
 #include <string>
@@ -21,16 +23,25 @@ inline constexpr const char* kEnergyChange = "energy_change";
 // The names that a packed course's number stands for.
 const std::vector<std::string>& course_names();
 
-// Of one run, as text in base64, of about `budget` characters at most; "" where that is too few for anything. `truth`
-// may be null; a run that nobody could tell from it in the picture keeps no motion of its own.
-std::string packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy,
-                       std::size_t budget);
+// Texts in base64, the finest first, each shorter than the one before. All but the finest leave out the courses that
+// the page shows only when asked for more, the coarsest may have no motion.
+using Packings = std::vector<std::string>;
+
+// Of one run. `truth` may be null; a run that nobody could tell from it in the picture keeps no motion of its own.
+Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy);
 
 // Likewise of the truth itself.
-std::string packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy,
-                         std::size_t budget);
+Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy);
 
-// What a cell, or with no dt the truth, may use of the whole page's budget.
-std::size_t playback_budget(const Results& grid, const CaseResult& result, const StepSize* dt);
+// How fine each can be for all to be of at most `budget` characters.
+class PlaybackChoice {
+ public:
+  PlaybackChoice(const Results& results, std::size_t budget);
+  const std::string& of(const CaseResult& result, const Cell& cell) const;
+  const std::string& of_truth(const CaseResult& result) const;
+
+ private:
+  double scale_ = 0;  // characters for each unit of weight
+};
 
 }  // namespace rigor

@@ -69,6 +69,10 @@ BOOST_AUTO_TEST_CASE(friction_is_told_a_pyramid_from_a_cone_by_its_spread) {
   grid.cases[0].cells[0].metrics["friction_anisotropy"] = sample_metric(1e-3, {0.3, 0, "distance", 2.5, 2.5});
   sentences = findings(grid);
   BOOST_TEST(has(sentences, "with: none; a cone, as Coulomb's, with: good."), all(sentences));
+  grid.cases[0].cells[0].metrics["friction_anisotropy"] = sample_metric(0.16, {0.3, 0, "distance", 2.9, 2.5});
+  sentences = findings(grid);
+  BOOST_TEST(has(sentences, "with: none; a cone, as Coulomb's, with: none; uneven, but no pyramid, with: good (16 %)."),
+             all(sentences));
 }
 
 BOOST_AUTO_TEST_CASE(a_millimetre_is_read_off_the_line_through_the_cells) {

@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_SUITE(cases_report_html_playback)
 BOOST_AUTO_TEST_CASE(a_thinned_motion_stays_close_and_keeps_its_impacts) {
   const Scene scene = one_ball();
   const Trajectory run = bouncing(5, 1e-3);
-  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 100000));
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1).front());
   BOOST_TEST(page.keys.size() < run.samples.size() / 10);
   BOOST_TEST(page.last == 5.0, boost::test_tools::tolerance(1e-12));
   for (const Sample& sample : run.samples) {
@@ -71,17 +71,20 @@ BOOST_AUTO_TEST_CASE(a_thinned_motion_stays_close_and_keeps_its_impacts) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_small_budget_is_kept_and_the_impacts_with_it) {
+BOOST_AUTO_TEST_CASE(packings_go_from_fine_to_coarse_and_keep_the_impacts_as_long_as_there_is_a_motion) {
   const Scene scene = one_ball();
   const Trajectory run = bouncing(5, 1e-3);
-  for (const std::size_t budget : {500u, 1000u, 4000u}) {
-    const std::string text = packed_run(judged(scene, run), {}, 1, budget);
-    BOOST_TEST(text.size() <= budget);
-    BOOST_TEST(!text.empty());
+  NamedCourse aside{"creep", std::vector<double>(run.samples.size(), 1)};
+  const Packings packings = packed_run(judged(scene, run), {aside}, 1);
+  BOOST_TEST_REQUIRE(packings.size() > 5u);
+  BOOST_TEST(packings.back().size() < 500u);
+  for (std::size_t i = 0; i < packings.size(); ++i) {
+    const UnpackedRun page = unpacked_run(packings[i]);
+    if (i > 0) BOOST_TEST(packings[i].size() < packings[i - 1].size());
+    BOOST_TEST(page.courses.size() == (i == 0 ? 2u : 1u));
+    if (page.keys.size() < 12) continue;  // two for each impact, and the ends
+    for (const double impact : {0.5, 1.5, 2.5, 3.5, 4.5}) BOOST_TEST(position_at(page, impact).y() < 0.05);
   }
-  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 1000));
-  for (const double impact : {0.5, 1.5, 2.5, 3.5, 4.5}) BOOST_TEST(position_at(page, impact).y() < 0.05);
-  BOOST_TEST(packed_run(judged(scene, run), {}, 1, 10) == "");
 }
 
 BOOST_AUTO_TEST_CASE(courses_keep_their_extremes_and_end_where_they_were_compared) {
@@ -90,7 +93,7 @@ BOOST_AUTO_TEST_CASE(courses_keep_their_extremes_and_end_where_they_were_compare
   NamedCourse error{"position_error", {}};
   for (int n = 0; n < 3000; ++n) error.values.push_back(1e-9 * std::exp(n / 150.0));
   error.values[1234] = 0.5;  // one sample alone
-  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {error}, 1, 100000));
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {error}, 1).front());
   BOOST_TEST_REQUIRE(page.courses.size() == 2u);
   BOOST_TEST(course_names()[page.courses[0]] == kEnergyChange);
   BOOST_TEST(course_names()[page.courses[1]] == "position_error");
@@ -112,11 +115,11 @@ BOOST_AUTO_TEST_CASE(a_run_like_the_truth_has_no_motion_of_its_own) {
   const Trajectory run = bouncing(2, 0.01);
   TruthSamples truth{{}, std::vector<double>(run.samples.size(), 0), 1};
   for (const Sample& sample : run.samples) truth.bodies.push_back(sample.bodies);
-  const UnpackedRun same = unpacked_run(packed_run(judged(scene, run, &truth), {}, 1, 100000));
+  const UnpackedRun same = unpacked_run(packed_run(judged(scene, run, &truth), {}, 1).front());
   BOOST_TEST(same.is_like_truth);
   BOOST_TEST(same.keys.empty());
   truth.bodies[77].columns().set_position(0, truth.bodies[77].columns().position(0) + Vec3(0, 0.05, 0));
-  BOOST_TEST(!unpacked_run(packed_run(judged(scene, run, &truth), {}, 1, 100000)).is_like_truth);
+  BOOST_TEST(!unpacked_run(packed_run(judged(scene, run, &truth), {}, 1).front()).is_like_truth);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_leaves_the_picture_is_shown_until_then) {
@@ -124,7 +127,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_leaves_the_picture_is_shown_until_then) {
   Trajectory run = bouncing(2, 0.01);
   for (std::size_t n = 100; n < run.samples.size(); ++n)
     run.samples[n].bodies.columns().set_position(0, Vec3(0, std::pow(10.0, n), 0));
-  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 100000));
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1).front());
   BOOST_TEST(page.keys.back() >= 98u);
   BOOST_TEST(page.keys.back() <= 102u);
   for (const Vec3& position : page.positions) BOOST_TEST(position.norm() < 200);
@@ -132,38 +135,42 @@ BOOST_AUTO_TEST_CASE(a_run_that_leaves_the_picture_is_shown_until_then) {
 
 BOOST_AUTO_TEST_CASE(no_sample_is_no_trouble) {
   const Scene scene = one_ball();
-  BOOST_TEST(packed_run(judged(scene, Trajectory{}), {}, 1, 100000) == "");
+  BOOST_TEST(packed_run(judged(scene, Trajectory{}), {}, 1).empty());
   Trajectory start = bouncing(0, 0.01);
-  const UnpackedRun page = unpacked_run(packed_run(judged(scene, start), {}, 0, 100000));
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, start), {}, 0).front());
   BOOST_TEST(page.keys.size() == 1u);
 }
 
-BOOST_AUTO_TEST_CASE(shares_of_the_page_add_up_to_its_budget) {
+BOOST_AUTO_TEST_CASE(the_page_takes_of_each_run_what_fits) {
+  const Scene scene = one_ball();
+  const Trajectory run = bouncing(5, 1e-3), still = bouncing(0, 1e-3);
+  CaseResult one;
+  one.definition.scene = scene, one.definition.dt = {{1.0 / 30, "1/30"}, {1.0 / 240, "1/240"}};
+  for (const StepSize& dt : one.definition.dt) {
+    one.cells.emplace_back();
+    one.cells.back().dt = dt, one.cells.back().playback = packed_run(judged(scene, run), {}, 1);
+  }
+  one.cells.emplace_back();
+  one.cells.back().dt = one.definition.dt[1], one.cells.back().playback = packed_run(judged(scene, still), {}, 1);
   Results grid;
-  CaseResult small, pile;
-  small.definition.scene = one_ball();
-  pile.definition.scene.bodies.assign(216, Body());
-  for (CaseResult* one : {&small, &pile}) one->definition.dt = {{1.0 / 30, "1/30"}, {1.0 / 240, "1/240"}};
-  for (int i = 0; i < 300; ++i) grid.cases.push_back(small);
-  for (int i = 0; i < 5; ++i) grid.cases.push_back(pile);
-  double sum = 0;
-  for (CaseResult& one : grid.cases) {
-    for (std::size_t run = 0; run < 15; ++run) {
-      for (const StepSize& dt : one.definition.dt) {
-        one.cells.emplace_back();
-        one.cells.back().run = run, one.cells.back().dt = dt;
-      }
+  for (int i = 0; i < 20; ++i) grid.cases.push_back(one);
+  const auto size_of = [&](const PlaybackChoice& choice) {
+    std::size_t sum = 0;
+    for (const CaseResult& result : grid.cases) {
+      for (const Cell& cell : result.cells) sum += choice.of(result, cell).size();
     }
-  }
-  for (const CaseResult& one : grid.cases) {
-    sum += playback_budget(grid, one, nullptr);
-    for (const Cell& cell : one.cells) sum += playback_budget(grid, one, &cell.dt);
-  }
-  BOOST_TEST(sum <= 5.2e6);
-  BOOST_TEST(sum > 5e6);
-  const StepSize &coarse = pile.definition.dt[0], &fine = pile.definition.dt[1];
-  BOOST_TEST(playback_budget(grid, grid.cases.back(), &coarse) > playback_budget(grid, grid.cases.back(), &fine));
-  BOOST_TEST(playback_budget(grid, grid.cases.back(), &coarse) > 20 * playback_budget(grid, grid.cases[0], &coarse));
+    return sum;
+  };
+  const CaseResult& any = grid.cases[7];
+  const PlaybackChoice all(grid, 10'000'000);
+  for (const Cell& cell : any.cells) BOOST_TEST((all.of(any, cell) == cell.playback.front()));
+  const std::size_t half = size_of(all) / 2;
+  const PlaybackChoice some(grid, half);
+  BOOST_TEST(size_of(some) <= half);
+  BOOST_TEST(size_of(some) > half / 2);  // a packing is about 0.7 of the finer one
+  BOOST_TEST(some.of(any, any.cells[0]).size() > some.of(any, any.cells[1]).size());  // the coarsest step is looked at
+  BOOST_TEST((some.of(any, any.cells[2]) == any.cells[2].playback.front()));          // it asks for little
+  BOOST_TEST(size_of(PlaybackChoice(grid, 0)) == 0u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
