@@ -51,21 +51,23 @@ void PairFinder::enter_boxes(const std::vector<Aabb>& boxes) {
     for (std::int64_t x = cell(box.low, 0); x <= cell(box.high, 0); ++x)
       for (std::int64_t y = cell(box.low, 1); y <= cell(box.high, 1); ++y)
         for (std::int64_t z = cell(box.low, 2); z <= cell(box.high, 2); ++z)
-          entries_.push_back({cell_number(x, y, z), i});
+          entries_.push_back({cell_number(x, y, z), box.low.x(), i});
   }
-  std::sort(entries_.begin(), entries_.end(),
-            [](const Entry& a, const Entry& b) { return std::pair(a.cell, a.box) < std::pair(b.cell, b.box); });
+  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.low != b.low ? a.low < b.low : a.box < b.box;
+  });
 }
 
 void PairFinder::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) {
-    for (std::size_t j = i + 1; j < last; ++j) {
-      const Aabb &a = boxes[entries_[i].box], &b = boxes[entries_[j].box];
+    const Aabb& a = boxes[entries_[i].box];
+    for (std::size_t j = i + 1; j < last && entries_[j].low <= a.high.x(); ++j) {
+      const Aabb& b = boxes[entries_[j].box];
       if (!overlap(a, b)) continue;
       const Vec3 corner = a.low.cwiseMax(b.low);
       const std::uint64_t cell =
           cell_number(cell_index(corner.x(), width_), cell_index(corner.y(), width_), cell_index(corner.z(), width_));
-      if (cell == entries_[first].cell) pairs_.emplace_back(entries_[i].box, entries_[j].box);
+      if (cell == entries_[first].cell) pairs_.push_back(std::minmax(entries_[i].box, entries_[j].box));
     }
   }
 }

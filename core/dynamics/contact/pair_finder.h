@@ -1,7 +1,7 @@
 // Which of many boxes along W's axes overlap, in time that grows as N log N: each box is entered in the cells of a
-// cubic grid that it covers, entries are sorted by cell, and the boxes of one cell are tried against each other; a pair
-// is told by the one cell that holds the low corner of the two boxes' overlap. Cells are as wide as twice the median
-// box, and boxes far larger than that (a floor among bricks) are tried against all.
+// cubic grid that it covers, entries are sorted by cell and along x, and the boxes of one cell are swept along x; a
+// pair is told by the one cell that holds the low corner of the two boxes' overlap. Cells are as wide as twice the
+// median box, and boxes far larger than that (a floor among bricks) are tried against all.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,7 @@ class PairFinder {
  private:
   struct Entry {
     std::uint64_t cell;
+    double low;  // m, of the box along x
     int box;
   };
   void enter_boxes(const std::vector<Aabb>& boxes);
