@@ -180,12 +180,14 @@ class ExponentialAdams : public Stepper {
   }
 
   Vec12 read(BodyColumns state, std::size_t i) const {
+    constexpr double kRounding = 1e-15;  // rad
     const Frame& frame = frames_[i];
-    const Mat3 R = state.rotation(i);
+    const Vec3 phi = rotation_vector_of((state.orientation(i) * frame.orientation.conjugate()).normalized());
+    Vec3 e = state.angular_velocity(i);  // at the frame's own orientation, where J is the inertia
+    if (phi.norm() > kRounding)
+      e = frame.inverse_inertia_W * angular_momentum_of(parts_.system.bodies[i], state.rotation(i), e);
     Vec12 u;
-    u << state.position(i) - frame.position,
-        rotation_vector_of((state.orientation(i) * frame.orientation.conjugate()).normalized()), state.velocity(i),
-        frame.inverse_inertia_W * angular_momentum_of(parts_.system.bodies[i], R, state.angular_velocity(i));
+    u << state.position(i) - frame.position, phi, state.velocity(i), e;
     return u;
   }
 
