@@ -14,6 +14,7 @@ namespace rigor {
 namespace {
 
 constexpr const char* kVersion = "0.1.0";
+constexpr const char* kDefault = "dormand-prince";  // right whatever the step
 
 class CoreWorld : public World {
  public:
@@ -113,6 +114,10 @@ MethodInfo method_info(const Integrator& integrator) {
   }
   info.options.insert(info.options.end(), integrator.options.begin(), integrator.options.end());
   info.twin_of = integrator.twin_of;
+  if (!integrator.takes_contact) {
+    for (const ContactMethod& method : contact_methods())
+      info.lacks.insert(method.features.begin(), method.features.end());
+  }
   return info;
 }
 
@@ -125,8 +130,9 @@ EngineInfo CoreEngine::info() const {
     info.features.insert(method.features.begin(), method.features.end());
   }
   for (const Integrator& row : integrators()) info.methods.push_back(method_info(row));
-  // Twins last: the first is what a run named "core" gets.
+  // The first is what a run named "core" gets. Twins last.
   std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.twin_of.empty(); });
+  std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.name == kDefault; });
   return info;
 }
 

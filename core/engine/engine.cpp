@@ -62,7 +62,12 @@ std::string why_unsupported(const EngineInfo& engine, const Settings& settings, 
   const std::string why = why_unsupported(engine, scene, dt);
   if (!why.empty()) return why;
   const std::vector<Need> needs = needs_of(scene);
-  for (const OptionInfo& option : method_of(engine, settings).options) {
+  const MethodInfo& method = method_of(engine, settings);
+  for (const Need& need : needs) {
+    if (method.lacks.contains(need.feature))
+      return fmt::format("{}:{} has no {}, which {} asks for", engine.name, method.name, need.feature, need.because);
+  }
+  for (const OptionInfo& option : method.options) {
     if (option.features_of_choice.empty()) continue;
     const std::string choice_fails = why_choice_fails(engine.name, option, settings, needs);
     if (!choice_fails.empty()) return choice_fails;

@@ -41,6 +41,7 @@ struct MethodInfo {
   // Divides each step by itself until it meets a tolerance: its error does not follow from dt, and `order` is that of
   // its inner steps.
   bool adaptive = false;
+  Features lacks = {};  // of the engine's features, those that this method cannot express
   std::vector<OptionInfo> options = {};
   // The engine whose scheme this method repeats, to explain that engine's error; "" for a method of its own right. A
   // twin is an instrument and no contestant: it runs where it is named, and not by default.

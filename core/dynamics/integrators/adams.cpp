@@ -6,7 +6,7 @@
 // motion would soon be unstable: c dt/m up to some 2 with it.
 //
 // It remembers the rates of the last seven instants. Where they do not count (at the start, where a timed force begins
-// or ends, after an impact, after another dt) steps of order 8 by Dormand and Prince make them.
+// or ends, after another dt) steps of order 8 by Dormand and Prince make them.
 #include <algorithm>
 #include <cmath>
 
@@ -42,14 +42,13 @@ class Adams : public Stepper {
     starter_.keep_stages(dormand_prince::kStages);
     for (AlignedDoubles* table : {&y_, &older_predictor_, &older_corrector_, &known_values_})
       table->resize(table_size());
-    for (AlignedDoubles& rates : rates_) rates.resize(table_size());
+    for (std::size_t s = 0; s < kAdamsRates; ++s) {
+      rates_[s].resize(table_size());
+      newest_first_[s] = rates_[s].data();
+    }
   }
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    if (parts_.contact) {
-      parts_.system.wrenches(state, t, dt, wrenches_);
-      resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
-    }
     if (!goes_on(state, t, dt)) begin(state, dt);
     parts_.system.loads.for_each_smooth_part(t, dt, [&](double from, double length) {
       if (length == dt) {
@@ -77,7 +76,7 @@ class Adams : public Stepper {
 
   void begin(BodyColumns state, double dt) {
     starter_.begin(state, start_);
-    copy(start_, y_);
+    copy(start_, y_.data());
     known_ = 0, dt_ = dt;
   }
 
@@ -87,7 +86,7 @@ class Adams : public Stepper {
       if (known_ == kAdamsRates) advance(nullptr, AdamsRatesFrom::table);
       return;
     }
-    newest_ = (newest_ + kAdamsRates - 1) % kAdamsRates;
+    make_room();
     advance(loads_.over_step(stage_.columns(), t, dt), AdamsRatesFrom::stage);
     if (!parts_.system.loads.damped()) return;
     write(stage_.columns());
@@ -109,12 +108,12 @@ class Adams : public Stepper {
                                 stage_.columns().column(0),
                                 dt_ / kParts};
     AdamsRates rates = {{}, kPredictor.data(), kCorrector.data()};
-    for (std::size_t s = 0; s < kAdamsRates; ++s) rates.rates[s] = rates_[(newest_ + 1 + s) % kAdamsRates].data();
+    std::copy(newest_first_.begin() + 1, newest_first_.end(), rates.rates);
     const AdamsWeights weights = {kPredictor[0], kCorrector[0], kAtEnd};
     const bool damped = parts_.system.loads.damped();
     parts_.system.constants.for_each_block([&](const Bodies& block) {
       add_up(block, rates, tables);
-      kernels().adams_advance(block, tables, weights, wrench, rates_[newest_].data(), from, damped);
+      kernels().adams_advance(block, tables, weights, wrench, newest_first_[0], from, damped);
     });
   }
 
@@ -133,20 +132,23 @@ class Adams : public Stepper {
       starter_.rates(s == 0 ? start_ : next_, t, dt, starter_.rates_of_stage(s));
     }
     starter_.combine(&start_, h, dormand_prince::kWeight, next_);
-    copy(next_, y_);
+    copy(next_, y_.data());
     keep_rates(next_, t, dt);
   }
 
   void keep_rates(const BodyTable& y, double t, double dt) {
     starter_.rates(y, t, dt, starter_.rates_of_stage(0));
-    newest_ = (newest_ + kAdamsRates - 1) % kAdamsRates;
-    copy(starter_.rates_of_stage(0), rates_[newest_]);
+    make_room();
+    copy(starter_.rates_of_stage(0), newest_first_[0]);
     ++known_;
   }
 
-  void copy(const BodyTable& from, AlignedDoubles& to) const {
+  // The oldest rates give their place to new ones.
+  void make_room() { std::rotate(newest_first_.begin(), newest_first_.end() - 1, newest_first_.end()); }
+
+  void copy(const BodyTable& from, double* to) const {
     for (std::size_t c = 0; c < kRotation; ++c)
-      std::copy_n(from.columns().column(static_cast<int>(c)), from.size(), to.data() + c * stride_);
+      std::copy_n(from.columns().column(static_cast<int>(c)), from.size(), to + c * stride_);
   }
   void copy(const AlignedDoubles& from, BodyTable& to) const {
     for (std::size_t c = 0; c < kRotation; ++c)
@@ -156,15 +158,15 @@ class Adams : public Stepper {
   StepperParts parts_;
   std::size_t stride_;                                                   // of the tables below, see packed()
   AlignedDoubles y_, older_predictor_, older_corrector_, known_values_;  // see AdamsTables
-  std::array<AlignedDoubles, kAdamsRates> rates_;                        // a ring
-  std::size_t newest_ = 0, known_ = 0;                                   // index of the newest rates; how many count
+  std::array<AlignedDoubles, kAdamsRates> rates_;
+  std::array<double*, kAdamsRates> newest_first_;  // of rates_
+  std::size_t known_ = 0;                          // how many of them count
   WrenchColumns loads_;
   BodyTable stage_;
   Continuation last_;
   double dt_ = 0;
   MotionEquations starter_;
   BodyTable start_, next_;
-  Wrenches wrenches_;
 };
 
 }  // namespace
@@ -177,6 +179,7 @@ const Integrator kAdams = {
     .symplectic = false,
     .velocity_lag = 0,
     .default_orientation = "",
+    .takes_contact = false,
     .make = make_stepper<Adams>,
 };
 

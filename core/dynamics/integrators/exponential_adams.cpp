@@ -9,7 +9,7 @@
 // left to g: a stiff spring between two moving bodies still bounds the step.
 //
 // One evaluation of the loads a step. A new pose is chosen when a body has turned by 1 rad from the last. The first
-// four instants (at the start, after an impact, after another dt) are found together, by iteration; a step in which a
+// four instants (at the start, after another dt) are found together, by iteration; a step in which a
 // timed force begins or ends is left to the adaptive method of Dormand and Prince.
 #include <algorithm>
 
@@ -89,10 +89,6 @@ class ExponentialAdams : public Stepper {
 
   void step(MutableBodyColumns state, double t, double dt) override {
     complaint_.clear();
-    if (parts_.contact) {
-      parts_.system.wrenches(state, t, dt, wrenches_);
-      resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
-    }
     const double oldest = t - (kNodes - 1 - ahead_) * dt;
     const bool goes_on = known_ && last_.goes_on(state, t, dt, parts_.system.loads, oldest);
     if (goes_on) {
@@ -296,6 +292,7 @@ const Integrator kExponentialAdams = {
     .symplectic = false,
     .velocity_lag = 0,
     .default_orientation = "",
+    .takes_contact = false,
     .make = make_stepper<ExponentialAdams>,
 };
 

@@ -45,6 +45,7 @@ struct Integrator {
   double velocity_lag;                   // in steps, see MethodInfo
   std::string default_orientation;       // "" where the method has one way only
   bool adaptive = false;                 // see MethodInfo; it then has an option "tolerance"
+  bool takes_contact = true;             // false: an impact would make what it remembers worthless
   std::vector<OptionInfo> options = {};  // of this method alone
   std::string twin_of = "";              // see MethodInfo
   std::unique_ptr<Stepper> (*make)(const StepperParts& parts);

@@ -67,8 +67,8 @@ struct AdamsTables {
   double h;                                   // s
 };
 struct AdamsRates {
-  const double* rates[kAdamsRates];     // the newest first
-  const double *predictor, *corrector;  // their weights
+  const double* rates[kAdamsRates - 1];  // from the second newest after the step back in time
+  const double *predictor, *corrector;   // the weights of all, the newest first
 };
 struct AdamsWeights {
   double predictor, corrector;  // of the newest rates
