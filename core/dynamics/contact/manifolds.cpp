@@ -33,6 +33,33 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
   return (inner.low.array() >= outer.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
 }
 
+// A body that nothing touches.
+struct Flight {
+  Pose pose;
+  Vec3 v, w;  // m/s, rad/s in W
+  Vec3 velocity_at(const Vec3& point) const { return v + w.cross(point - pose.p); }
+  void go_on(double t) { pose = {pose.p + t * v, rotation_by(t * w).toRotationMatrix() * pose.R}; }
+};
+Flight flight_of(BodyColumns state, const Collider& collider, const Pose& pose) {
+  if (collider.fixed) return {pose, Vec3::Zero(), Vec3::Zero()};
+  return {pose, state.velocity(collider.body), state.angular_velocity(collider.body)};
+}
+
+double approach(const ContactPoint& point, const Flight& a, const Flight& b) {
+  return -point.normal.dot(a.velocity_at(point.point) - b.velocity_at(point.point));
+}
+
+// When the first of these points closes its gap: 0 if one is closed, or if none does within dt.
+double time_of_touch(const Manifold& points, const Flight& a, const Flight& b, double dt) {
+  double first = dt;
+  for (const ContactPoint& point : points) {
+    if (point.gap <= 0) return 0;
+    const double speed = approach(point, a, b);
+    if (point.gap < first * speed) first = point.gap / speed;
+  }
+  return first < dt ? first : 0;
+}
+
 // Four points hold a face as well as eight: the deepest, the one furthest from it, and the two furthest to either side
 // of the line between these.
 void keep_four(Manifold& points) {
@@ -99,21 +126,32 @@ bool Manifolds::stay_apart(int a, int b) const {
 }
 
 void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b) {
-  collide(a.shape, poses_[&a - colliders_.data()], b.shape, poses_[&b - colliders_.data()], manifold_);
-  const double near = kNear * thinner(a, b);
-  const Vec3 v = state.velocity(a.body) - state.velocity(b.body);
-  const double turning = turn_way(a, state, dt) + turn_way(b, state, dt);
+  const double near = kNear * thinner(a, b), turning = turn_way(a, state, dt) + turn_way(b, state, dt);
+  Flight flight_a = flight_of(state, a, poses_[&a - colliders_.data()]);
+  Flight flight_b = flight_of(state, b, poses_[&b - colliders_.data()]);
+  const Vec3 v = flight_a.v - flight_b.v;
+  collide(a.shape, flight_a.pose, b.shape, flight_b.pose, manifold_);
+  // What comes fast touches elsewhere, and along another normal, than where it is nearest now.
+  const double ahead = time_of_touch(manifold_, flight_a, flight_b, dt);
+  const bool looks_ahead = ahead * (v.norm() + turning / dt) > near;
+  if (looks_ahead) {
+    flight_a.go_on(ahead), flight_b.go_on(ahead);
+    collide(a.shape, flight_a.pose, b.shape, flight_b.pose, manifold_);
+    for (ContactPoint& point : manifold_) point.gap += ahead * approach(point, flight_a, flight_b);
+  }
   int kept = 0;
   for (const ContactPoint& point : manifold_) {
     if (point.gap < near + turning + dt * std::max(0.0, -point.normal.dot(v))) manifold_[kept++] = point;
   }
   manifold_.keep(kept);
   keep_four(manifold_);
-  if (manifold_.size() == 0) return;
   const ContactLaw& law = laws_.of(a.body, b.body);
   for (const ContactPoint& point : manifold_) {
-    points_.push_back({a.body, b.body, point.feature, point.normal, point.point, point.gap, law.friction,
-                       law.restitution, 0, Vec3::Zero()});
+    // Between points that are apart `point` is midway; each body will be met on its own surface.
+    const Vec3 to_surface = looks_ahead ? Vec3::Zero() : Vec3(0.5 * std::max(0.0, point.gap) * point.normal);
+    points_.push_back({a.body, b.body, point.feature, point.normal, point.point + to_surface - flight_a.pose.p,
+                       point.point - to_surface - flight_b.pose.p, point.gap, law.friction, law.restitution, 0,
+                       Vec3::Zero()});
   }
 }
 
@@ -133,7 +171,7 @@ void Manifolds::remember(std::size_t first, std::size_t& old) {
     for (std::size_t k = old; k < end; ++k) {
       if (taken >> (k - old) & 1) continue;
       const double distance =
-          old_points_[k].feature == points_[i].feature ? -1 : (old_points_[k].point - points_[i].point).norm();
+          old_points_[k].feature == points_[i].feature ? -1 : (old_points_[k].arm_a - points_[i].arm_a).norm();
       if (distance < least) least = distance, best = k;
     }
     if (best == end) continue;

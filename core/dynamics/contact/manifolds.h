@@ -11,13 +11,14 @@
 
 namespace rigor {
 
-// A point of two bodies that touch or may meet within the step. Impulses are those of one sub-step.
+// A point of two bodies that touch or may meet within the step, in which case it is the one at which they will.
+// Impulses are those of one sub-step.
 struct PilePoint {
   int a, b;  // bodies
   std::uint32_t feature;
-  Vec3 normal;  // unit, in W, from b to a
-  Vec3 point;   // m, in W
-  double gap;   // m
+  Vec3 normal;        // unit, in W, from b to a
+  Vec3 arm_a, arm_b;  // m, in W, from each body's centre of mass to its point
+  double gap;         // m
   double friction, restitution;
   double normal_impulse = 0;             // N s
   Vec3 friction_impulse = Vec3::Zero();  // N s, in W

@@ -49,9 +49,9 @@ PileSolver::PileSolver(const System& system, double share)
   law_.share = share;
   law_.fastest_push = kFastestPush;
   law_.most_turns = kTurnsOfImpact;
-  for (AlignedDoubles* records : {&motions_, &changes_, &places_, &turning_})
+  for (AlignedDoubles* records : {&motions_, &changes_, &inertias_})
     records->assign(kRecord * (static_cast<std::size_t>(nobody_) + 2), 0.0);
-  places_[kRecord * static_cast<std::size_t>(nobody_) + 3] = 1;  // 1/kg, of which rows divide by the sum
+  inertias_[kRecord * static_cast<std::size_t>(nobody_) + 6] = 1;  // 1/kg, of which rows divide by the sum
 }
 
 void PileSolver::set_law(double h) {
@@ -71,7 +71,7 @@ void PileSolver::begin_step(BodyColumns state, std::vector<PilePoint>& points, d
   for (int c = 0; c < kVelocity; ++c) std::copy_n(state.column(c), state.size(), start_.column(c));
   const Bodies bodies = system_.constants.all();
   kernels().read_motions(bodies, state.column(0), motions_.data());
-  kernels().read_places(bodies, state.column(0), places_.data(), turning_.data());
+  kernels().read_inertias(bodies, state.column(0), inertias_.data());
   sort_pairs_in_levels();
   place_points();
   any_rebound_ = false;
@@ -127,7 +127,7 @@ void PileSolver::fill_row(const PilePoint& point, std::size_t row, double scale)
   block.to_a[k] = system_.bodies[point.a].fixed ? nobody_ + 1 : point.a;
   block.to_b[k] = system_.bodies[point.b].fixed ? nobody_ + 1 : point.b;
   set_vector(block, kNormal, k, point.normal);
-  set_vector(block, kArmA, k, point.point);
+  set_vector(block, kArmA, k, point.arm_a), set_vector(block, kArmB, k, point.arm_b);
   set_vector(block, kSpinA, k, scale * point.friction_impulse);
   block.columns[kImpulse][k] = scale * point.normal_impulse;
   block.columns[kGap][k] = point.gap;

@@ -148,12 +148,12 @@ struct Kernels {
   // Which spheres overlap a plane {normal, offset}, to `rows`, which has room for all: their number.
   std::size_t (*below_plane)(const Bodies&, const double* state, const double* spheres, const double* plane,
                              std::int32_t* rows);
-  // Piles (pile.h). Velocities from the state to records and back; places and inverse inertias to records; how bodies
-  // have moved since `start`; positions and orientations go on by what the records' velocities have more than the
-  // state's, for h.
+  // Piles (pile.h). Velocities from the state to records and back; inverse inertias and masses to records; how
+  // bodies have moved since `start`; positions and orientations go on by what the records' velocities have more than
+  // the state's, for h.
   void (*read_motions)(const Bodies&, const double* state, double* motions);
   void (*write_motions)(const Bodies&, const double* motions, double* state);
-  void (*read_places)(const Bodies&, const double* state, double* places, double* turning);
+  void (*read_inertias)(const Bodies&, const double* state, double* inertias);
   void (*measure_changes)(const Bodies&, const double* state, const double* start, double* changes);
   void (*follow)(const Bodies&, const double* motions, double* state, double h);
   // What is fixed about rows over a step; gaps, approaches and biases of a sub-step, with the rows that meet in it

@@ -14,7 +14,7 @@ inline constexpr std::size_t kRowsPerBlock = 8, kRecord = 8;
 enum RowColumn {
   kNormal = 0,
   kTangent = 3,  // one of two
-  kArmA = 6,     // m, from the centre of mass to the point; until rows are prepared the point itself
+  kArmA = 6,     // m, from the centre of mass to the point of a
   kArmB = 9,
   kSpinA = 12,         // what unit impulses along the normal and the two tangents add to w; until then first the
                        // impulse of friction, in W
@@ -43,10 +43,9 @@ struct alignas(64) RowBlock {
 // Records by body, and after them two that mean nothing: rows that fill a block read the first, of a body at rest, and
 // write the second.
 struct PileRecords {
-  double* motions;        // v, w
-  double* changes;        // m and rad since the step's start
-  const double* places;   // m, at the step's start; 1/kg
-  const double* turning;  // 1/(kg m²): the inverse inertia in W, xx, yy, zz, xy, xz, yz, at the step's start
+  double* motions;         // v, w
+  double* changes;         // m and rad since the step's start
+  const double* inertias;  // the inverse inertia in W, xx, yy, zz, xy, xz, yz, 1/(kg m²), at the step's start; 1/kg
 };
 
 struct PileLaw {

@@ -54,8 +54,8 @@ struct Spun {
 };
 // What unit impulses at the end of an arm add to w.
 template <class T>
-RIGOR_INLINE Spun<T> spun(const Record<T>& turning, V3<T> arm, V3<T> n, V3<T> t, V3<T> s) {
-  const Symmetric<T> I = {turning.c[0], turning.c[1], turning.c[2], turning.c[3], turning.c[4], turning.c[5]};
+RIGOR_INLINE Spun<T> spun(const Record<T>& inertia, V3<T> arm, V3<T> n, V3<T> t, V3<T> s) {
+  const Symmetric<T> I = {inertia.c[0], inertia.c[1], inertia.c[2], inertia.c[3], inertia.c[4], inertia.c[5]};
   return {I * cross(arm, n), I * cross(arm, t), I * cross(arm, s)};
 }
 
@@ -79,17 +79,15 @@ void prepare_rows(RowBlock* blocks, std::size_t count, const PileRecords& of) {
     const auto put3_row = [&](int column, V3<T> x) RIGOR_LAMBDA {
       row.put(column, x.x), row.put(column + 1, x.y), row.put(column + 2, x.z);
     };
-    const V3<T> n = row.get3(kNormal), t = tangent_of(n), s = cross(n, t), point = row.get3(kArmA);
+    const V3<T> n = row.get3(kNormal), t = tangent_of(n), s = cross(n, t), arm_a = row.get3(kArmA),
+                arm_b = row.get3(kArmB);
     const V3<T> friction = row.get3(kSpinA);
     row.put(kImpulse + 1, dot(t, friction)), row.put(kImpulse + 2, dot(s, friction));
     put3_row(kTangent, t);
-    const Record<T> place_a = get_record(T(), of.places, block.a + k),
-                    place_b = get_record(T(), of.places, block.b + k);
-    const V3<T> arm_a = point - twist_of(place_a).v, arm_b = point - twist_of(place_b).v;
-    const T mass_a = place_a.c[3], mass_b = place_b.c[3];
-    const Spun<T> spin_a = spun(get_record(T(), of.turning, block.a + k), arm_a, n, t, s);
-    const Spun<T> spin_b = spun(get_record(T(), of.turning, block.b + k), arm_b, n, t, s);
-    put3_row(kArmA, arm_a), put3_row(kArmB, arm_b);
+    const Record<T> inertia_a = get_record(T(), of.inertias, block.a + k),
+                    inertia_b = get_record(T(), of.inertias, block.b + k);
+    const T mass_a = inertia_a.c[6], mass_b = inertia_b.c[6];
+    const Spun<T> spin_a = spun(inertia_a, arm_a, n, t, s), spin_b = spun(inertia_b, arm_b, n, t, s);
     put3_row(kSpinA, spin_a.n), put3_row(kSpinA + 3, spin_a.t), put3_row(kSpinA + 6, spin_a.s);
     put3_row(kSpinB, spin_b.n), put3_row(kSpinB + 3, spin_b.t), put3_row(kSpinB + 6, spin_b.s);
     row.put(kInverseMassA, mass_a), row.put(kInverseMassB, mass_b);
@@ -239,8 +237,7 @@ void settle_rebounds(RowBlock* blocks, const std::int32_t* hits, std::size_t cou
     const double p_n = at_least_zero(old + wanted);
     row.push_normal(n, p_n - old);
     row.put(kImpulse, p_n);
-    // Without a normal impulse the next sub-step has no friction to start from.
-    if (p_n == 0) row.put(kImpulse + 1, 0), row.put(kImpulse + 2, 0);
+    solve_friction(row, n, p_n);
     row.put_motions(of.motions);
     return (p_n - old) / row.get(kPaceNormal);
   });

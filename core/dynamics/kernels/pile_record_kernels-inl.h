@@ -67,20 +67,19 @@ void write_motions(const Bodies& b, const double* motions, double* state) {
   });
 }
 
-void read_places(const Bodies& b, const double* state, double* places, double* turning) {
+void read_inertias(const Bodies& b, const double* state, double* inertias) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
-    const V3<T> p = get3(T(), state, b, kPosition, i);
-    put_records(places, i, Record<T>{{p.x, p.y, p.z, get(T(), b.constants, b, kInverseMass, i), T{}, T{}, T{}, T{}}});
+    const T mass = get(T(), b.constants, b, kInverseMass, i);
     const Symmetric<T> I = symmetric(T(), b, kInverseInertia, i);
     if (b.round) {
-      put_records(turning, i, Record<T>{{I.xx, I.yy, I.zz, T{}, T{}, T{}, T{}, T{}}});
+      put_records(inertias, i, Record<T>{{I.xx, I.yy, I.zz, T{}, T{}, T{}, mass, T{}}});
       return;
     }
     const M3<T> R = matrix_of(get4(T(), state, b, kOrientation, i));
     const V3<T> x = I * R.x, y = I * R.y, z = I * R.z;  // columns of I Rᵀ
-    put_records(turning, i,
-                Record<T>{{dot(R.x, x), dot(R.y, y), dot(R.z, z), dot(R.x, y), dot(R.x, z), dot(R.y, z), T{}, T{}}});
+    put_records(inertias, i,
+                Record<T>{{dot(R.x, x), dot(R.y, y), dot(R.z, z), dot(R.x, y), dot(R.x, z), dot(R.y, z), mass, T{}}});
   });
 }
 
