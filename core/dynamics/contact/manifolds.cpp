@@ -6,11 +6,11 @@
 namespace rigor {
 namespace {
 
-constexpr double kWider = 0.2;   // of a body's thickness: by so much its search box is wider than itself,
-constexpr double kAhead = 8;     // and by its way in so many steps,
-constexpr double kFarthest = 1;  // but not by more than so many times its thickness
-constexpr double kNear = 0.02;   // of the thinner body's thickness: closer points are kept even if they do not approach
-constexpr double kSame = 0.1;    // of the thinner body's thickness: a point this near is the one of a step ago
+constexpr double kWider = 0.2;     // of a body's thickness: by so much its search box is wider than itself,
+constexpr double kAhead = 12;      // and by its way in so many steps,
+constexpr double kFarthest = 1.5;  // but not by more than so many times its thickness
+constexpr double kNear = 0.02;  // of the thinner body's thickness: closer points are kept even if they do not approach
+constexpr double kSame = 0.1;   // of the thinner body's thickness: a point this near is the one of a step ago
 constexpr int kMostOfPair = 4;
 
 double thinner(const Collider& a, const Collider& b) { return std::min(a.thickness, b.thickness); }
@@ -26,6 +26,17 @@ Aabb swept_box(const Collider& collider, const Pose& pose, const Vec3& way, doub
   Aabb box = aabb_of(collider.shape, pose, margin);
   box.low += way.cwiseMin(Vec3::Zero());
   box.high += way.cwiseMax(Vec3::Zero());
+  return box;
+}
+
+// What a body whose way in a step is `way` will not leave for some steps.
+Aabb widened(Aabb box, const Collider& collider, const Vec3& way) {
+  if (!std::isfinite(collider.thickness)) return box;
+  const Vec3 most = Vec3::Constant(kFarthest * collider.thickness);
+  const Vec3 ahead = (kAhead * way).cwiseMin(most).cwiseMax(-most);
+  const Vec3 margin = Vec3::Constant(kWider * collider.thickness);
+  box.low += ahead.cwiseMin(Vec3::Zero()) - margin;
+  box.high += ahead.cwiseMax(Vec3::Zero()) + margin;
   return box;
 }
 
@@ -92,24 +103,21 @@ void Manifolds::place_bodies(BodyColumns state, double dt) {
   }
 }
 
+// Boxes wider than the bodies hold for some steps; only those of bodies that leave theirs are chosen and searched anew.
 void Manifolds::update_pairs(BodyColumns state, double dt) {
   place_bodies(state, dt);
-  const auto is_within = [&](std::size_t i) { return lies_within(boxes_[i], wide_boxes_[i]); };
-  bool all_within = wide_boxes_.size() == colliders_.size();
-  for (std::size_t i = 0; i < colliders_.size() && all_within; ++i) all_within = is_within(i);
-  if (all_within) return;
-  wide_boxes_ = boxes_;
+  const bool is_first = wide_boxes_.empty();
+  if (is_first) wide_boxes_ = boxes_;
+  left_.clear();
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
-    const double thickness = colliders_[i].thickness;
-    if (!std::isfinite(thickness)) continue;
-    const Vec3 most = Vec3::Constant(kFarthest * thickness), margin = Vec3::Constant(kWider * thickness);
-    const Vec3 way = (kAhead * dt * state.velocity(colliders_[i].body)).cwiseMin(most).cwiseMax(-most);
-    wide_boxes_[i].low += way.cwiseMin(Vec3::Zero()) - margin;
-    wide_boxes_[i].high += way.cwiseMax(Vec3::Zero()) + margin;
+    if (!is_first && lies_within(boxes_[i], wide_boxes_[i])) continue;
+    left_.push_back(static_cast<int>(i));
+    wide_boxes_[i] = widened(boxes_[i], colliders_[i], dt * state.velocity(colliders_[i].body));
   }
-  pairs_.clear();
-  for (const auto& [a, b] : finder_.overlaps(wide_boxes_)) {
-    if (!(colliders_[a].fixed && colliders_[b].fixed)) pairs_.emplace_back(a, b);
+  if (is_first) {
+    pairs_ = &finder_.overlaps(wide_boxes_);
+  } else if (!left_.empty()) {
+    pairs_ = &finder_.overlaps(wide_boxes_, left_);
   }
 }
 
@@ -186,8 +194,8 @@ std::vector<PilePoint>& Manifolds::find(BodyColumns state, double dt) {
   old_points_.swap(points_);
   points_.clear();
   std::size_t old = 0;
-  for (const auto& [a, b] : pairs_) {
-    if (stay_apart(a, b)) continue;
+  for (const auto& [a, b] : *pairs_) {
+    if ((colliders_[a].fixed && colliders_[b].fixed) || stay_apart(a, b)) continue;
     const std::size_t first = points_.size();
     add_pair(state, dt, colliders_[a], colliders_[b]);
     same_within_ = kSame * thinner(colliders_[a], colliders_[b]);

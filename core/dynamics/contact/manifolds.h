@@ -1,6 +1,6 @@
 // The contacts of many bodies from step to step, for the method `impulse`: pairs that may meet within a step, the
-// points of each, and which of them were there a step ago. Pairs are searched for anew only when a body has left the
-// box, wider than itself, in which it was searched for last; a pile at rest needs no search.
+// points of each, and which of them were there a step ago. A body's pairs are searched for anew only when it has left
+// the box, wider than itself, in which it was searched for last; a pile at rest needs no search.
 #pragma once
 
 #include <array>
@@ -49,7 +49,8 @@ class Manifolds {
   std::vector<Pose> poses_;
   std::vector<Aabb> boxes_, wide_boxes_;
   std::vector<double> bounds_;  // m: how far from its pose a body can be met within the step
-  std::vector<std::pair<int, int>> pairs_;
+  std::vector<int> left_;       // colliders
+  const std::vector<std::pair<int, int>>* pairs_ = nullptr;
   Manifold manifold_;
   double same_within_ = 0;  // m
   std::vector<PilePoint> points_, old_points_;

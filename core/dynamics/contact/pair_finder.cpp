@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace rigor {
 namespace {
@@ -23,67 +24,73 @@ std::int64_t cell_index(double coordinate, double width) {
   return static_cast<std::int64_t>(std::floor(coordinate / width));
 }
 
+// Of what is sorted up to `known`.
+template <class T>
+void sort_from(std::vector<T>& values, std::ptrdiff_t known) {
+  std::sort(values.begin() + known, values.end());
+  std::inplace_merge(values.begin(), values.begin() + known, values.end());
+}
+
 }  // namespace
 
-void PairFinder::enter_boxes(const std::vector<Aabb>& boxes) {
+void PairFinder::choose_width(const std::vector<Aabb>& boxes) {
   sizes_.clear();
   for (const Aabb& box : boxes) {
     const double size = (box.high - box.low).maxCoeff();
     if (std::isfinite(size) && size > 0) sizes_.push_back(size);
   }
   width_ = 1;
-  if (!sizes_.empty()) {
-    const auto middle = sizes_.begin() + static_cast<std::ptrdiff_t>(sizes_.size() / 2);
-    std::nth_element(sizes_.begin(), middle, sizes_.end());
-    width_ = 2 * *middle;
-  }
-  entries_.clear();
-  large_.clear();
-  for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
-    const Aabb& box = boxes[i];
-    const double farthest = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
-    // Written so that what is not a number is large.
-    if (!((box.high - box.low).maxCoeff() <= kLarge * width_ && farthest < kFarthestCell * width_)) {
-      large_.push_back(i);
-      continue;
-    }
-    const auto cell = [&](const Vec3& p, int axis) { return cell_index(p[axis], width_); };
-    for (std::int64_t x = cell(box.low, 0); x <= cell(box.high, 0); ++x)
-      for (std::int64_t y = cell(box.low, 1); y <= cell(box.high, 1); ++y)
-        for (std::int64_t z = cell(box.low, 2); z <= cell(box.high, 2); ++z)
-          entries_.push_back({cell_number(x, y, z), box.low.x(), i});
-  }
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return a.cell != b.cell ? a.cell < b.cell : a.low != b.low ? a.low < b.low : a.box < b.box;
-  });
+  if (sizes_.empty()) return;
+  const auto middle = sizes_.begin() + static_cast<std::ptrdiff_t>(sizes_.size() / 2);
+  std::nth_element(sizes_.begin(), middle, sizes_.end());
+  width_ = 2 * *middle;
 }
 
+void PairFinder::forget_changed() {
+  const auto is_changed = [&](int place) { return is_changed_[place] != 0; };
+  std::erase_if(entries_, [&](const Entry& entry) { return is_changed(entry.box); });
+  std::erase_if(large_, is_changed);
+  std::erase_if(pairs_, [&](const auto& pair) { return is_changed(pair.first) || is_changed(pair.second); });
+}
+
+void PairFinder::enter(const Aabb& box, int place) {
+  const double farthest = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
+  // Written so that what is not a number is large.
+  if (!((box.high - box.low).maxCoeff() <= kLarge * width_ && farthest < kFarthestCell * width_)) {
+    large_.push_back(place);
+    return;
+  }
+  const auto cell = [&](const Vec3& p, int axis) { return cell_index(p[axis], width_); };
+  for (std::int64_t x = cell(box.low, 0); x <= cell(box.high, 0); ++x)
+    for (std::int64_t y = cell(box.low, 1); y <= cell(box.high, 1); ++y)
+      for (std::int64_t z = cell(box.low, 2); z <= cell(box.high, 2); ++z)
+        entries_.push_back({cell_number(x, y, z), box.low.x(), place});
+}
+
+// Those with a changed box: each of these with all that are not, and with the changed ones that come after it.
 void PairFinder::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t first, std::size_t last) {
+  const auto try_pair = [&](int a, int b) {
+    if (!overlap(boxes[a], boxes[b])) return;
+    const Vec3 corner = boxes[a].low.cwiseMax(boxes[b].low);
+    const std::uint64_t cell =
+        cell_number(cell_index(corner.x(), width_), cell_index(corner.y(), width_), cell_index(corner.z(), width_));
+    if (cell == entries_[first].cell) pairs_.push_back(std::minmax(a, b));
+  };
   for (std::size_t i = first; i < last; ++i) {
-    const Aabb& a = boxes[entries_[i].box];
-    for (std::size_t j = i + 1; j < last && entries_[j].low <= a.high.x(); ++j) {
-      const Aabb& b = boxes[entries_[j].box];
-      if (!overlap(a, b)) continue;
-      const Vec3 corner = a.low.cwiseMax(b.low);
-      const std::uint64_t cell =
-          cell_number(cell_index(corner.x(), width_), cell_index(corner.y(), width_), cell_index(corner.z(), width_));
-      if (cell == entries_[first].cell) pairs_.push_back(std::minmax(entries_[i].box, entries_[j].box));
+    const int place = entries_[i].box;
+    if (is_changed_[place] == 0) continue;
+    for (std::size_t j = first; j < i; ++j) {
+      if (is_changed_[entries_[j].box] == 0) try_pair(place, entries_[j].box);
     }
+    const double high = boxes[place].high.x();
+    for (std::size_t j = i + 1; j < last && entries_[j].low <= high; ++j) try_pair(place, entries_[j].box);
   }
 }
 
-const std::vector<std::pair<int, int>>& PairFinder::overlaps(const std::vector<Aabb>& boxes) {
-  enter_boxes(boxes);
-  pairs_.clear();
-  for (std::size_t first = 0; first < entries_.size();) {
-    std::size_t last = first + 1;
-    while (last < entries_.size() && entries_[last].cell == entries_[first].cell) ++last;
-    pairs_of_cell(boxes, first, last);
-    first = last;
-  }
-  for (std::size_t k = 0; k < large_.size(); ++k) {
-    const int i = large_[k];
+void PairFinder::pairs_with_large(const std::vector<Aabb>& boxes) {
+  for (const int i : large_) {
     for (int j = 0; j < static_cast<int>(boxes.size()); ++j) {
+      if (is_changed_[i] == 0 && is_changed_[j] == 0) continue;
       // Of two large boxes, the first tells the pair.
       if (j == i || (j < i && std::binary_search(large_.begin(), large_.end(), j))) continue;
       // Unordered numbers compare false: such a box is told with all, and the narrow phase sees it.
@@ -92,7 +99,36 @@ const std::vector<std::pair<int, int>>& PairFinder::overlaps(const std::vector<A
       if (!apart) pairs_.emplace_back(std::min(i, j), std::max(i, j));
     }
   }
-  std::sort(pairs_.begin(), pairs_.end());
+}
+
+const std::vector<std::pair<int, int>>& PairFinder::overlaps(const std::vector<Aabb>& boxes) {
+  choose_width(boxes);
+  entries_.clear(), large_.clear(), pairs_.clear();
+  all_.resize(boxes.size());
+  std::iota(all_.begin(), all_.end(), 0);
+  return overlaps(boxes, all_);
+}
+
+const std::vector<std::pair<int, int>>& PairFinder::overlaps(const std::vector<Aabb>& boxes,
+                                                             const std::vector<int>& changed) {
+  is_changed_.assign(boxes.size(), 0);
+  for (const int place : changed) is_changed_[place] = 1;
+  forget_changed();
+  const auto known_entries = static_cast<std::ptrdiff_t>(entries_.size()),
+             known_pairs = static_cast<std::ptrdiff_t>(pairs_.size());
+  for (const int place : changed) enter(boxes[place], place);
+  std::sort(large_.begin(), large_.end());
+  sort_from(entries_, known_entries);
+  for (std::size_t first = 0; first < entries_.size();) {
+    bool any_changed = false;
+    std::size_t last = first;
+    for (; last < entries_.size() && entries_[last].cell == entries_[first].cell; ++last)
+      any_changed = any_changed || is_changed_[entries_[last].box] != 0;
+    if (any_changed) pairs_of_cell(boxes, first, last);
+    first = last;
+  }
+  pairs_with_large(boxes);
+  sort_from(pairs_, known_pairs);
   return pairs_;
 }
 

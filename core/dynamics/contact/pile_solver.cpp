@@ -51,6 +51,7 @@ PileSolver::PileSolver(const System& system, double share)
   law_.most_turns = kTurnsOfImpact;
   for (AlignedDoubles* records : {&motions_, &changes_, &inertias_})
     records->assign(kRecord * (static_cast<std::size_t>(nobody_) + 2), 0.0);
+  stirred_.assign(static_cast<std::size_t>(nobody_) + 2, 0);
   inertias_[kRecord * static_cast<std::size_t>(nobody_) + 6] = 1;  // 1/kg, of which rows divide by the sum
 }
 

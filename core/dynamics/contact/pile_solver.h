@@ -38,13 +38,14 @@ class PileSolver {
   void sort_pairs_in_levels();
   void place_points();
   void fill_row(const PilePoint& point, std::size_t row, double scale);
-  PileRecords records() { return {motions_.data(), changes_.data(), inertias_.data()}; }
+  PileRecords records() { return {motions_.data(), changes_.data(), stirred_.data(), inertias_.data()}; }
 
   const System& system_;
   PileLaw law_{};
   AlignedDoubles motions_, changes_, inertias_;  // see PileRecords
-  std::int32_t nobody_;                          // the first record that means nothing
-  Columns start_;                                // the state's poses at the step's start
+  std::vector<std::int32_t> stirred_;
+  std::int32_t nobody_;  // the first record that means nothing
+  Columns start_;        // the state's poses at the step's start
   std::vector<PilePoint>* points_ = nullptr;
   std::vector<Pair> pairs_;
   std::vector<std::size_t> next_level_, pairs_of_level_;  // by body; then where a level's groups of eight begin

@@ -45,6 +45,7 @@ struct alignas(64) RowBlock {
 struct PileRecords {
   double* motions;         // v, w
   double* changes;         // m and rad since the step's start
+  std::int32_t* stirred;   // the last turn over the hits in which one changed it
   const double* inertias;  // the inverse inertia in W, xx, yy, zz, xy, xz, yz, 1/(kg m²), at the step's start; 1/kg
 };
 

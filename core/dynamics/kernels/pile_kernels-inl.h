@@ -189,24 +189,34 @@ void solve_rows_with_bias(RowBlock* blocks, std::size_t count, const PileRecords
              [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA { solve_with_bias(lane, block, k, of, law); });
 }
 
-// Calls solve(block, k) for each hit, up to so many times over, until none changes a velocity by more than `settled`.
+// Calls solve(block, k) for each hit, and up to so many times over for those of bodies that the turn before, or this
+// one, has changed by more than `settled`.
 template <class F>
-RIGOR_INLINE void settle_hits(RowBlock* blocks, const std::int32_t* hits, std::size_t count, const PileLaw& law,
-                              F solve) {
+RIGOR_INLINE void settle_hits(RowBlock* blocks, const std::int32_t* hits, std::size_t count, const PileRecords& of,
+                              const PileLaw& law, F solve) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const RowBlock& block = blocks[hits[i] / kRowsPerBlock];
+    of.stirred[block.a[hits[i] % kRowsPerBlock]] = of.stirred[block.b[hits[i] % kRowsPerBlock]] = 0;
+  }
   bool is_settled = count == 0;
   for (int turn = 0; turn < law.most_turns && !is_settled; ++turn) {
     is_settled = true;
     for (std::size_t i = 0; i < count; ++i) {
-      const auto row = static_cast<std::size_t>(hits[i]);
-      const double change = solve(blocks[row / kRowsPerBlock], row % kRowsPerBlock);
-      is_settled &= change * change <= law.settled * law.settled;
+      RowBlock& block = blocks[hits[i] / kRowsPerBlock];
+      const std::size_t k = hits[i] % kRowsPerBlock;
+      if (of.stirred[block.a[k]] < turn - 1 && of.stirred[block.b[k]] < turn - 1) continue;
+      const double change = solve(block, k);
+      if (change * change <= law.settled * law.settled) continue;
+      // What is written of a body that does not move is not what is read.
+      of.stirred[block.to_a[k]] = of.stirred[block.to_b[k]] = turn;
+      is_settled = false;
     }
   }
 }
 
 void settle_hits_with_bias(RowBlock* blocks, const std::int32_t* hits, std::size_t count, const PileRecords& of,
                            const PileLaw& law) {
-  settle_hits(blocks, hits, count, law, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
+  settle_hits(blocks, hits, count, of, law, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
     return solve_with_bias(double(), block, k, of, law);
   });
 }
@@ -228,7 +238,7 @@ void solve_rows(RowBlock* blocks, std::size_t count, const PileRecords& of) {
 
 void settle_rebounds(RowBlock* blocks, const std::int32_t* hits, std::size_t count, const PileRecords& of,
                      const PileLaw& law) {
-  settle_hits(blocks, hits, count, law, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
+  settle_hits(blocks, hits, count, of, law, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
     const double restitution = block.columns[kRestitution][k], old = block.columns[kImpulse][k];
     if (restitution == 0 || old == 0) return 0.0;
     RowPair<double> row(double(), block, k, of.motions);

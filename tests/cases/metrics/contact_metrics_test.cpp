@@ -180,6 +180,10 @@ BOOST_AUTO_TEST_CASE(a_distance_to_a_stop_is_judged_relative_to_the_true_one) {
         200);
     const TruthSamples samples = test::sampled(*truth, run, scene, 25);
     BOOST_TEST(std::abs(value_of("stop_distance_error", {scene, run, &samples, 0}) - std::abs(share - 1)) < 1e-12);
+    // A truth that does not know its own place to better than that knows of no stop.
+    TruthSamples unsure = samples;
+    unsure.error.assign(samples.error.size(), 1.1 * stop);
+    BOOST_TEST(reason_of("stop_distance_error", {scene, run, &unsure, 0}) != "");
   }
 }
 

@@ -61,11 +61,13 @@ BOOST_AUTO_TEST_CASE(a_box_three_hundred_times_heavier_stands_on_a_pyramid_of_li
     }
   }
   const Scene scene = on_floor(boxes, {0, 0.5});
-  for (const double dt : {1.0 / 30, 1.0 / 120}) {
-    ContactRun run(scene, "impulse", "semi-implicit-euler");
-    run.run(dt, static_cast<int>(std::lround(10 / dt)));
-    // The springs of the points give way under the weight: 2.4 mm and 10.2 mm measured. A collapse is a metre.
-    BOOST_TEST(farthest_moved(scene, run.state()) < 0.02, dt);
+  for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 120}) {
+    for (const char* integrator : {"semi-implicit-euler", "velocity-verlet"}) {
+      ContactRun run(scene, "impulse", integrator);
+      run.run(dt, static_cast<int>(std::lround(10 / dt)));
+      // The springs of the points give way under the weight: 2.5 to 2.7 mm measured. A collapse is a metre.
+      BOOST_TEST(farthest_moved(scene, run.state()) < 0.01, integrator << " " << dt);
+    }
   }
 }
 
