@@ -190,8 +190,10 @@ class CaseJobs {
     cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const JudgedCell judged =
-                           run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_);
+                       const std::size_t limit =
+                           options_.folder.empty() ? 0 : playback_limit(grid_, planned_, &cell.dt);
+                       const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
+                                                          facts_, options_, limit);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
                        channel.send(packed(judged.path));
                      },
@@ -248,7 +250,8 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const GridOp
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options) {
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
+                    std::size_t limit_of_playback) {
   const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
@@ -272,7 +275,9 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   std::vector<NamedCourse> courses;
   cell.metrics = measured(judged, definition, options, courses);
-  if (!options.folder.empty()) cell.playback = packed_run(judged, courses, facts.largest_kinetic_energy);
+  if (limit_of_playback > 0) {
+    cell.playback = packed_run(judged, courses, facts.largest_kinetic_energy, limit_of_playback);
+  }
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   if (!options.folder.empty()) {
@@ -296,7 +301,8 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
   if (truth && !options.folder.empty()) {
-    facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy);
+    facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy,
+                                  playback_limit(grid, planned, nullptr));
   }
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts);
   const std::string message = message_of_truth(facts);

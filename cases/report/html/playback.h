@@ -27,11 +27,17 @@ const std::vector<std::string>& course_names();
 // the page shows only when asked for more, the coarsest may have no motion.
 using Packings = std::vector<std::string>;
 
-// Of one run. `truth` may be null; a run that nobody could tell from it in the picture keeps no motion of its own.
-Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy);
+// Of one run, none longer than `limit` characters. `truth` may be null; a run that nobody could tell from it in the
+// picture keeps no motion of its own.
+Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy,
+                    std::size_t limit);
 
 // Likewise of the truth itself.
-Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy);
+Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy,
+                      std::size_t limit);
+
+// What a cell, or with no dt the truth, can get at most, some times its even share: no more of it need be kept.
+std::size_t playback_limit(const Results& grid, const CaseResult& result, const StepSize* dt);
 
 // How fine each can be for all to be of at most `budget` characters.
 class PlaybackChoice {

@@ -79,7 +79,7 @@ CaseResult crowd(const Results& grid, int bodies, const std::string& id) {
   }
   const JudgedRun judged{result.definition.scene, run, nullptr, 0};
   for (Cell& cell : result.cells) {
-    if (cell.status == Status::pass) cell.playback = packed_run(judged, {}, 1);
+    if (cell.status == Status::pass) cell.playback = packed_run(judged, {}, 1, 200000);
   }
   return result;
 }
