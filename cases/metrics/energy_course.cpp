@@ -19,8 +19,8 @@ bool has_contact(const Scene& scene) {
 enum class Exchange { none, contact, damping, driving };
 
 Exchange exchange_of(const Scene& scene) {
-  if (contact_may_lose(scene)) return Exchange::contact;
   if (!scene.forces.empty()) return Exchange::driving;
+  if (contact_may_lose(scene)) return Exchange::contact;
   const bool damped =
       std::any_of(scene.springs.begin(), scene.springs.end(), [](const Spring& s) { return s.damping != 0; });
   return damped ? Exchange::damping : Exchange::none;
