@@ -42,10 +42,12 @@ export async function firstScreen(browser) {
   });
   await check("findings are the sentences of results.json", async () => {
     const texts = await browser.run(
-      "return [...document.querySelectorAll('.intro .findings p')].map(p => p.textContent)",
+      "return [...document.querySelectorAll('.intro .answer')].map(a => ({topic: a.querySelector('h2').textContent, text: a.querySelector('p').textContent, more: a.querySelector('details p')?.textContent ?? ''}))",
     );
-    equal(JSON.stringify(texts), JSON.stringify(results.findings.map((f) => f.text)), "sentences");
+    equal(JSON.stringify(texts), JSON.stringify(results.findings), "sentences");
     expect(texts.length > 0, "there are none");
+    const longest = Math.max(...texts.map(({ text }) => text.length));
+    expect(longest < 700, `one is ${longest} characters long before it is asked for more`);
   });
   await check("the matrix shows the step that a tolerance needs, and the address says so", async () => {
     await browser.run(

@@ -41,23 +41,22 @@ export class Overview {
     );
   }
 
-  // What was found, by topic; the names of cases lead to them.
+  // What was found, a card a topic, with what stands behind it a click away; the names of cases lead to them.
   findings(findings) {
-    const topics = new Map();
-    for (const { topic, text } of findings) topics.set(topic, [...(topics.get(topic) ?? []), text]);
     const link = (id) =>
       el("a", { href: address({ case: id }), onclick: (event) => (event.preventDefault(), openCase(id)) }, id);
     const linked = (text) =>
       text.split(/([\w.-]+(?:\/[\w.-]*\w)+)/).map((part) => (this.results.caseById.has(part) ? link(part) : part));
     return el(
-      "ul.findings",
+      "div.answers",
       {},
-      [...topics].map(([topic, texts]) =>
+      findings.map(({ topic, text, more }) =>
         el(
-          "li",
+          "section.answer",
           {},
-          el("b", {}, topic),
-          texts.map((text) => el("p", {}, linked(text))),
+          el("h2", {}, topic),
+          el("p", {}, linked(text)),
+          more ? el("details", {}, el("summary", {}, "why, and who else"), el("p", {}, linked(more))) : null,
         ),
       ),
     );
