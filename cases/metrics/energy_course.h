@@ -15,7 +15,8 @@ struct EnergyCourse {
 };
 
 // `lag`: the velocities are first brought forward by that many steps, see synchronised.h; 0 takes them as they are
-// read.
+// read. So they are, too, where forces push what contact brakes: the push alone, without the friction that all but
+// balances it, would bring them further from the positions' time than they were.
 //
 // What is expected, the first that applies:
 //   nothing takes or gives energy                        what it was at the start
