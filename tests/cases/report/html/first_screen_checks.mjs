@@ -42,7 +42,7 @@ export async function firstScreen(browser) {
   });
   await check("findings are the sentences of results.json", async () => {
     const texts = await browser.run(
-      "return [...document.querySelectorAll('.intro .answer')].map(a => ({topic: a.querySelector('h2').textContent, text: a.querySelector('p').textContent, more: a.querySelector('details p')?.textContent ?? ''}))",
+      "return [...document.querySelectorAll('.intro .answer')].map(a => ({topic: a.querySelector('h2').textContent, text: a.querySelector('.text').textContent, more: a.querySelector('.more')?.textContent ?? ''}))",
     );
     equal(JSON.stringify(texts), JSON.stringify(results.findings), "sentences");
     expect(texts.length > 0, "there are none");
