@@ -198,7 +198,8 @@ class Finder {
       }
     }
     if (sentences[0].empty()) std::swap(sentences[0], sentences[1]);
-    if (!sentences[0].empty()) say("energy", sentences[0], sentences[1]);
+    const std::string where = fmt::format("Energy at dt = {} s: ", dt_.text);
+    if (!sentences[0].empty()) say("energy", where + sentences[0], sentences[1]);
   }
 
   // Only where nothing is meant to take or give energy.
@@ -213,20 +214,19 @@ class Finder {
       if (std::abs(drift) > largest) largest = std::abs(drift), worst = &cell, worst_case = &result;
     });
     if (!worst) return "";
-    return fmt::format("{} % of the energy of {} within {:g} s at dt = {} s{}", rounded(100 * largest),
-                       worst_case->definition.id, worst_case->definition.duration, dt_.text,
-                       cause_of(*worst, is_loss ? -largest : largest));
+    return fmt::format("{} % of that of {} in {:g} s{}", rounded(100 * largest), worst_case->definition.id,
+                       worst_case->definition.duration, cause_of(*worst, is_loss ? -largest : largest));
   }
 
   static std::string cause_of(const Cell& cell, double drift) {
     constexpr double kAlike = 0.01, kGone = 0.1;
     const double scheme = value_of(cell.scheme.metrics, kDrift),
                  without = value_of(cell.scheme.without_gyroscopic_term, kDrift);
-    if (std::isnan(scheme)) return ", the most of all its cases.";
+    if (std::isnan(scheme)) return ", its most.";
     if (std::abs(drift - scheme) > kAlike * std::abs(drift))
-      return fmt::format("; of that the scheme explains {:.2g} %.", 100 * scheme / drift);
-    if (std::abs(without) < kGone * std::abs(drift)) return "; all of it is the gyroscopic part of the scheme.";
-    return "; all of it is the scheme: the core, repeating it, comes to the same.";
+      return fmt::format(", {:.2g} % of it by the scheme.", 100 * scheme / drift);
+    if (std::abs(without) < kGone * std::abs(drift)) return ", all by the gyroscopic part of the scheme.";
+    return ", all by the scheme: the core, repeating it, comes to the same.";
   }
 
   // Two friction forces along fixed axes, each limited by itself, brake along the diagonal with sqrt(2) of the force:
@@ -337,7 +337,8 @@ class Finder {
     }
     std::string text = "dt for 1 mm, in the middle one of the cases: ", more;
     text += fmt::format("{}", fmt::join(others, ", "));
-    if (!ours.empty()) text += (others.empty() ? "" : "; ") + listed_names(ours, others.empty() ? ours.size() : 1);
+    if (!ours.empty()) text += (others.empty() ? "" : "; ") + ours.front();
+    if (ours.size() > 1) text += fmt::format(", the best of the core's {} methods", ours.size());
     if (!ours.empty()) more = fmt::format(" Ours: {}.", fmt::join(ours, ", "));
     say("step size", text + ".",
         "The largest step that stays within 1 mm of the truth, or 1 mrad where nothing moves away; ~ is extrapolated "
