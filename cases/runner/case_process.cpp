@@ -104,7 +104,13 @@ class CaseJobs {
  public:
   CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
            const Truth* truth, const TruthFacts& facts)
-      : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), facts_(facts) {
+      : grid_(grid),
+        planned_(planned),
+        engines_(engines),
+        options_(options),
+        truth_(truth),
+        facts_(facts),
+        limit_(grid) {
     const Case& definition = planned.definition;
     if (searches_steps(planned, options) && truth) {
       const double horizon = stability_horizon(definition);
@@ -190,8 +196,7 @@ class CaseJobs {
     cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const std::size_t limit =
-                           options_.folder.empty() ? 0 : playback_limit(grid_, planned_, &cell.dt);
+                       const std::size_t limit = options_.folder.empty() ? 0 : limit_.of(planned_, &cell.dt);
                        const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
                                                           facts_, options_, limit);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
@@ -213,6 +218,7 @@ class CaseJobs {
   const GridOptions& options_;
   const Truth* truth_;
   TruthFacts facts_;
+  PlaybackLimit limit_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<Job> jobs_;
   std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
@@ -302,7 +308,7 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   TruthFacts facts = facts_of(definition, truth.get());
   if (truth && !options.folder.empty()) {
     facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy,
-                                  playback_limit(grid, planned, nullptr));
+                                  PlaybackLimit(grid).of(planned, nullptr));
   }
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts);
   const std::string message = message_of_truth(facts);

@@ -162,14 +162,17 @@ class Packer {
 
   Packings packings(std::size_t limit) const {
     Packings found;
+    // Returns which share of it would fit.
     const auto add = [&](const Ranked& ranked, double share) {
       std::string text = packed(ranked, share);
+      const double fits = std::min(1.0, static_cast<double>(limit) / static_cast<double>(text.size()));
       const bool is_shorter = found.empty() || text.size() < found.back().size();
-      if (text.size() <= limit && is_shorter) found.push_back(std::move(text));
+      if (fits == 1 && is_shorter) found.push_back(std::move(text));
+      return fits;
     };
     add(all_, 1);
-    for (double share = 1; share * std::max(keys_.size(), main_.points.size()) >= 1; share *= kCoarser) {
-      add(main_, share);
+    for (double share = 1; share * std::max(keys_.size(), main_.points.size()) >= 1;) {
+      share *= std::min(kCoarser, add(main_, share));
       if (!found.empty() && found.back().size() <= kLeast) break;
     }
     return found;
@@ -271,15 +274,17 @@ Packings packed_truth(const Scene& scene, const Truth& truth, double duration, d
   return packed(scene, trajectory, nullptr, {energy_change(scene, trajectory, largest_kinetic_energy)}, limit);
 }
 
-std::size_t playback_limit(const Results& grid, const CaseResult& result, const StepSize* dt) {
-  double sum = 0;
+PlaybackLimit::PlaybackLimit(const Results& grid) {
   for (const CaseResult& one : grid.cases) {
-    sum += weight_of(one, kTruth);
+    weights_ += weight_of(one, kTruth);
     for (const Cell& cell : one.cells) {
-      if (cell.status != Status::unsupported) sum += weight_of(one, cell.dt.seconds);
+      if (cell.status != Status::unsupported) weights_ += weight_of(one, cell.dt.seconds);
     }
   }
-  const double even = kWholePage * weight_of(result, dt ? dt->seconds : kTruth) / sum;
+}
+
+std::size_t PlaybackLimit::of(const CaseResult& result, const StepSize* dt) const {
+  const double even = kWholePage * weight_of(result, dt ? dt->seconds : kTruth) / weights_;
   return static_cast<std::size_t>(std::min(kShares * even, static_cast<double>(kMost)));
 }
 

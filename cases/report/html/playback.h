@@ -36,8 +36,16 @@ Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& course
 Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy,
                       std::size_t limit);
 
-// What a cell, or with no dt the truth, can get at most, some times its even share: no more of it need be kept.
-std::size_t playback_limit(const Results& grid, const CaseResult& result, const StepSize* dt);
+// How many characters a cell, or with no dt the truth, can get at most, some times its even share: no more of it need
+// be kept.
+class PlaybackLimit {
+ public:
+  explicit PlaybackLimit(const Results& grid);
+  std::size_t of(const CaseResult& result, const StepSize* dt) const;
+
+ private:
+  double weights_ = 0;  // of the whole grid
+};
 
 // How fine each can be for all to be of at most `budget` characters.
 class PlaybackChoice {

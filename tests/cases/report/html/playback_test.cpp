@@ -165,16 +165,17 @@ BOOST_AUTO_TEST_CASE(the_limit_is_some_even_shares_of_the_page) {
     }
   }
   for (int i = 0; i < 300; ++i) grid.cases.push_back(i < 5 ? pile : small);
+  const PlaybackLimit limit(grid);
   double sum = 0;
   for (const CaseResult& one : grid.cases) {
-    sum += playback_limit(grid, one, nullptr);
-    for (const Cell& cell : one.cells) sum += playback_limit(grid, one, &cell.dt);
+    sum += limit.of(one, nullptr);
+    for (const Cell& cell : one.cells) sum += limit.of(one, &cell.dt);
   }
   BOOST_TEST(sum <= 6 * 6e6);
   BOOST_TEST(sum > 5.9 * 6e6);
   const StepSize &coarse = pile.definition.dt[0], &fine = pile.definition.dt[1];
-  BOOST_TEST(playback_limit(grid, grid.cases[0], &coarse) > playback_limit(grid, grid.cases[0], &fine));
-  BOOST_TEST(playback_limit(grid, grid.cases[0], &coarse) > 20 * playback_limit(grid, grid.cases[299], &coarse));
+  BOOST_TEST(limit.of(grid.cases[0], &coarse) > limit.of(grid.cases[0], &fine));
+  BOOST_TEST(limit.of(grid.cases[0], &coarse) > 20 * limit.of(grid.cases[299], &coarse));
 }
 
 BOOST_AUTO_TEST_CASE(the_page_takes_of_each_run_what_fits) {
