@@ -42,7 +42,8 @@ std::optional<Finding> impacts_finding(const Results& results, const std::vector
     for (const auto& [reason, one] : by_reason) {
       said += fmt::format("{}{} ({}: {})", said.empty() ? "" : "; ", fmt::join(one.names, ", "), one.where,
                           worst_of(one.worst));
-      if (!reason.empty()) finding.more += (finding.more.empty() ? "" : " ") + reason;
+      if (!reason.empty())
+        finding.more += fmt::format("{}{}: {}", finding.more.empty() ? "" : " ", fmt::join(one.names, ", "), reason);
     }
     if (!said.empty()) finding.text += (finding.text.empty() ? "" : " ") + what + ": " + said + ".";
   };

@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(what_contacts_do_wrong_is_told_with_its_worst_case_and_the_
   auto found = findings(grid);
   BOOST_TEST(has(found, "do not converge as dt falls: good (worse: restitution off by 0.01 at 1/10, 0.4 at"),
              all(found));
-  BOOST_TEST(has(found, "across a gap"), all(found));
+  BOOST_TEST(has(found, "good: Its setting \"restitution\": across a gap"), all(found));
   grid.cases[1].cells[1].metrics["restitution_error"] = sample_metric(7, {0.5, 0, "restitution", 8, 1});
   found = findings(grid);  // more than all of the speed: no restitution
   BOOST_TEST(has(found, "good (family/case: restitution off by 0.01 at 1/10, 0.2 at"), all(found));
