@@ -192,6 +192,8 @@ BOOST_AUTO_TEST_CASE(the_data_in_the_page_is_that_of_results_json) {
   BOOST_TEST(data.at("cells").size() == results.at("cells").size());
   BOOST_TEST((data.at("cells").at(0).at("settings") == results.at("cells").at(0).at("settings")));
   BOOST_TEST((data.at("findings") == results.at("findings")));
+  BOOST_TEST((data.at("cells").at(0).at("metrics").at("position_error").at("worst") ==
+              results.at("cells").at(0).at("metrics").at("position_error").at("worst")));
   BOOST_TEST(data.at("cells").at(2).at("metrics").at("position_error").at("value").is_null());  // it was infinite
   const auto playback = nlohmann::json::parse(data_of(page, "rigor-playback"));
   BOOST_TEST(playback.at("cases").size() == grid.cases.size());
