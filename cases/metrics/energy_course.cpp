@@ -19,8 +19,8 @@ bool has_contact(const Scene& scene) {
 enum class Exchange { none, contact, damping, driving };
 
 Exchange exchange_of(const Scene& scene) {
-  if (contact_may_lose(scene)) return Exchange::contact;
   if (!scene.forces.empty()) return Exchange::driving;
+  if (contact_may_lose(scene)) return Exchange::contact;
   const bool damped =
       std::any_of(scene.springs.begin(), scene.springs.end(), [](const Spring& s) { return s.damping != 0; });
   return damped ? Exchange::damping : Exchange::none;
@@ -88,8 +88,9 @@ EnergyCourse energy_course(const JudgedRun& run, double lag) {
     return course;
   }
   course.scale = energy_scale(run);
-  course.found = energies(run, lag);
   const Exchange exchange = exchange_of(run.scene);
+  const bool is_lag_known = exchange != Exchange::driving || !contact_may_lose(run.scene);
+  course.found = energies(run, is_lag_known ? lag : 0);
   const auto truth = truths_energies(run, samples_within(run, kTruthNeededPosition));
   const bool conserved = exchange == Exchange::none || (exchange == Exchange::contact && stays(truth, course.scale));
   if (conserved) {

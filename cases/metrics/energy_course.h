@@ -15,15 +15,15 @@ struct EnergyCourse {
 };
 
 // `lag`: the velocities are first brought forward by that many steps, see synchronised.h; 0 takes them as they are
-// read.
+// read. So they are, too, where forces push what contact brakes: the push alone, without the friction that all but
+// balances it, would bring them further from the positions' time than they were.
 //
 // What is expected, the first that applies:
 //   nothing takes or gives energy                        what it was at the start
 //   a truth whose energy stays what it was               likewise (an elastic bounce, say)
-//   contact that may lose energy                         not above the lowest so far: only gains count
-//   dampers or timed forces, and a truth                 its own start plus the truth's change, up to its horizon
-//   dampers                                              not above the lowest so far
+//   timed forces, or dampers, and a truth                its own start plus the truth's change, up to its horizon
 //   timed forces without a truth                         nothing
+//   contact that may lose energy, or dampers             not above the lowest so far: only gains count
 EnergyCourse energy_course(const JudgedRun& run, double lag);
 
 // Whether contact may take energy: an impact below restitution 1 does, and so does friction, even an infinite one when

@@ -35,10 +35,10 @@ Course course_of(const CaseResult& result, std::size_t run, const std::string& m
   return course;
 }
 
-// ": erp 0.2: that share ..." of the setting in force, if the engine tells it.
+// What the engine tells of the setting in force, if it does.
 std::string in_its_words(const Cell& cell, const std::string& setting) {
   for (const auto& [name, words] : cell.settings) {
-    if (name == setting) return fmt::format(" Its setting \"{}\": {}.", name, words);
+    if (name == setting) return fmt::format("Its setting \"{}\": {}.", name, words);
   }
   return "";
 }
@@ -48,62 +48,68 @@ std::string how_it_corrects(const Cell& cell) {
   return split.empty() ? in_its_words(cell, "erp") : split;
 }
 
-// Of a first-order engine the error falls with dt; this one's is, at some finer step, larger than at the coarsest.
-std::string restitution_that_does_not_converge(const std::string& name, const Course& course) {
-  constexpr double kWorthSaying = 0.05;
-  if (course.values.size() < 2) return "";
-  double later = 0;
-  for (std::size_t i = 1; i < course.values.size(); ++i) {
-    if (course.values[i]->worst.expected > 0) later = std::max(later, course.values[i]->value);
-  }
-  if (later < kWorthSaying || later <= course.values.front()->value) return "";
-  return fmt::format("Why: the restitution of {} is off by {} s: it does not converge as dt falls.{}", name,
-                     course.text(), in_its_words(*course.cells.front(), "restitution"));
-}
-
-// Bodies that should stay together part: an overlap is given back as speed, a share of the one they met with. One that
-// keeps more than half has not been stopped at all.
-std::string pop(const std::string& name, const Course& course) {
-  constexpr double kWorthSaying = 0.02, kMostGivenBack = 0.5;
-  for (std::size_t i = course.values.size(); i-- > 0;) {
-    const Instant& worst = course.values[i]->worst;
-    if (worst.expected != 0 || worst.found < kWorthSaying || worst.found > kMostGivenBack) continue;
-    return fmt::format(
-        "Why: after an impact without bounce {} parts the bodies at {:.2g} of the speed they met with, at "
-        "dt = {} s: an overlap is pushed out as speed.{}",
-        name, worst.found, course.cells[i]->dt.text, how_it_corrects(*course.cells[i]));
-  }
-  return "";
-}
-
 std::string friction_with_directions(const std::string& name, const Course& course) {
   constexpr double kWorthSaying = 0.1;
   if (course.empty() || course.values.back()->value < kWorthSaying) return "";
   const MetricValue& finest = *course.values.back();
   return fmt::format(
       "Why: with {} bodies that should all stop after the same way differ by {:.2g} of it, whatever dt is "
-      "({} s); the worst stops after {:.3g} m instead of {:.3g}. Its friction knows directions.{}",
+      "({} s); the worst stops after {:.3g} m instead of {:.3g}. Its friction knows directions. {}",
       name, finest.value, course.text(), finest.worst.found, finest.worst.expected,
       in_its_words(*course.cells.back(), "friction"));
 }
 
+// In a pile some balls graze each other, and what a step's overlap makes of the normal there is no matter of
+// restitution.
+bool is_pile(const CaseResult& result) {
+  constexpr std::size_t kMostTellable = 60;  // bodies
+  return result.definition.scene.bodies.size() > kMostTellable;
+}
+
 }  // namespace
+
+// Bodies that should stay together part, with a share of the speed they met with. One that keeps more than half has not
+// been stopped at all.
+std::optional<ContactFault> overlap_given_back(const CaseResult& result, std::size_t run) {
+  constexpr double kWorthSaying = 0.02, kMostGivenBack = 0.5;
+  const Course course = course_of(result, run, "restitution_error");
+  for (std::size_t i = course.values.size(); i-- > 0;) {
+    const Instant& worst = course.values[i]->worst;
+    if (worst.expected != 0 || worst.found < kWorthSaying || worst.found > kMostGivenBack) continue;
+    return ContactFault{worst.found, "at dt = " + course.cells[i]->dt.text + " s", how_it_corrects(*course.cells[i])};
+  }
+  return std::nullopt;
+}
+
+// Of a first-order engine the error falls with dt; this one's is, at some finer step, larger than at the coarsest.
+std::optional<ContactFault> unconverged_restitution(const CaseResult& result, std::size_t run) {
+  constexpr double kWorthSaying = 0.05;
+  const Course course = course_of(result, run, "restitution_error");
+  if (course.values.size() < 2 || is_pile(result) || overlap_given_back(result, run)) return std::nullopt;
+  double later = 0;
+  for (std::size_t i = 1; i < course.values.size(); ++i) {
+    if (course.values[i]->worst.expected > 0) later = std::max(later, course.values[i]->value);
+  }
+  if (later < kWorthSaying || later <= course.values.front()->value) return std::nullopt;
+  return ContactFault{later, course.text() + " s", in_its_words(*course.cells.front(), "restitution")};
+}
 
 std::vector<std::string> contact_explanations(const Results& results, const CaseResult& result) {
   std::vector<std::string> sentences;
-  const auto add = [&](const std::string& sentence) {
-    if (!sentence.empty()) sentences.push_back(sentence);
-  };
-  // In a pile some balls graze each other, and what a step's overlap makes of the normal there is no matter of
-  // restitution.
-  constexpr std::size_t kMostTellable = 60;  // bodies
-  const bool is_pile = result.definition.scene.bodies.size() > kMostTellable;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
     const std::string& name = results.runs[run].text;
-    const Course restitution = course_of(result, run, "restitution_error");
-    const std::string popped = pop(name, restitution);
-    add(popped.empty() && !is_pile ? restitution_that_does_not_converge(name, restitution) : popped);
-    add(friction_with_directions(name, course_of(result, run, "friction_anisotropy")));
+    if (const auto popped = overlap_given_back(result, run)) {
+      sentences.push_back(
+          fmt::format("Why: after an impact without bounce {} parts the bodies at {:.2g} of the speed they met with, "
+                      "{}: an overlap "
+                      "is pushed out as speed. {}",
+                      name, popped->size, popped->course, popped->reason));
+    } else if (const auto restitution = unconverged_restitution(result, run)) {
+      sentences.push_back(fmt::format("Why: the restitution of {} is off by {}: it does not converge as dt falls. {}",
+                                      name, restitution->course, restitution->reason));
+    }
+    const std::string friction = friction_with_directions(name, course_of(result, run, "friction_anisotropy"));
+    if (!friction.empty()) sentences.push_back(friction);
   }
   return sentences;
 }

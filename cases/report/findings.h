@@ -11,7 +11,8 @@ namespace rigor {
 
 struct Finding {
   std::string topic;  // "stability", "energy", ...: findings of one topic stand together
-  std::string text;   // a sentence or two
+  std::string text;   // a sentence or two, to be read at a glance
+  std::string more;   // what stands behind it: all names, cases, reasons; may be empty
 };
 std::vector<Finding> findings(const Results& results);
 

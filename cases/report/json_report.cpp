@@ -101,7 +101,9 @@ Json case_json(const Results& results, const CaseResult& result) {
 
 Json findings_json(const Results& results) {
   Json rows = Json::array();
-  for (const Finding& found : findings(results)) rows.push_back({{"topic", found.topic}, {"text", found.text}});
+  for (const Finding& found : findings(results)) {
+    rows.push_back({{"topic", found.topic}, {"text", found.text}, {"more", found.more}});
+  }
   return rows;
 }
 

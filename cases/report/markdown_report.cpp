@@ -107,7 +107,10 @@ std::string settings(const Results& results) {
 
 std::string markdown_report(const Results& results) {
   std::string text = "# Rigor: how right each engine was\n\n";
-  for (const Finding& found : findings(results)) text += fmt::format("- **{}:** {}\n", found.topic, plain(found.text));
+  for (const Finding& found : findings(results)) {
+    text += fmt::format("- **{}:** {}\n", found.topic, plain(found.text));
+    if (!found.more.empty()) text += fmt::format("  <br>{}\n", plain(found.more));
+  }
   text += "\n" + table(verdict_matrix(results)) + "\n";
   for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
   text += "# Other step sizes\n\n";

@@ -104,7 +104,13 @@ class CaseJobs {
  public:
   CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
            const Truth* truth, const TruthFacts& facts)
-      : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), facts_(facts) {
+      : grid_(grid),
+        planned_(planned),
+        engines_(engines),
+        options_(options),
+        truth_(truth),
+        facts_(facts),
+        limit_(grid) {
     const Case& definition = planned.definition;
     if (searches_steps(planned, options) && truth) {
       const double horizon = stability_horizon(definition);
@@ -190,8 +196,9 @@ class CaseJobs {
     cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const JudgedCell judged =
-                           run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_);
+                       const std::size_t limit = options_.folder.empty() ? 0 : limit_.of(planned_, &cell.dt);
+                       const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
+                                                          facts_, options_, limit);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
                        channel.send(packed(judged.path));
                      },
@@ -211,6 +218,7 @@ class CaseJobs {
   const GridOptions& options_;
   const Truth* truth_;
   TruthFacts facts_;
+  PlaybackLimit limit_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<Job> jobs_;
   std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
@@ -248,7 +256,8 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const GridOp
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options) {
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
+                    std::size_t limit_of_playback) {
   const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
@@ -272,7 +281,9 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   std::vector<NamedCourse> courses;
   cell.metrics = measured(judged, definition, options, courses);
-  if (!options.folder.empty()) cell.playback = packed_run(judged, courses, facts.largest_kinetic_energy);
+  if (limit_of_playback > 0) {
+    cell.playback = packed_run(judged, courses, facts.largest_kinetic_energy, limit_of_playback);
+  }
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   if (!options.folder.empty()) {
@@ -296,7 +307,8 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
   if (truth && !options.folder.empty()) {
-    facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy);
+    facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy,
+                                  PlaybackLimit(grid).of(planned, nullptr));
   }
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts);
   const std::string message = message_of_truth(facts);

@@ -11,13 +11,14 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
               const Channel& channel);
 
 // Simulates and judges one cell: everything but its gates. `truth` may be null. Writes the trajectory below
-// options.folder if that is named, and then keeps the run for the page, too. The path is what the cell's spread from
-// others is found by.
+// options.folder if that is named, and keeps up to `limit_of_playback` characters of the run for the page. The path is
+// what the cell's spread from others is found by.
 struct JudgedCell {
   Cell cell;
   Path path;
 };
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options);
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
+                    std::size_t limit_of_playback = 0);
 
 }  // namespace rigor

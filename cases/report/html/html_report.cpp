@@ -36,6 +36,10 @@ std::string results_data(const Results& results) {
     one.erase("spread");
     for (Json& table : one["work_precision"]) table.erase("at_equal_cost");
   }
+  for (Json& cell : json["cells"]) {
+    cell.erase("trajectory"), cell.erase("wall_seconds");
+    for (Json& metric : cell["metrics"]) metric.erase("first_second"), metric.erase("unit");
+  }
   round_numbers(json);
   return base64(deflated(text_of(json, -1)));
 }

@@ -24,6 +24,7 @@ constexpr double kNoise = 1e-12;           // of a course in any unit: what is s
 constexpr std::size_t kMostKeys = 6000;    // of a motion
 constexpr std::size_t kMostPoints = 1500;  // of the courses
 constexpr std::size_t kMost = 300000, kLeast = 200;  // characters of a packing
+constexpr double kWholePage = 6e6, kShares = 6;      // characters; even shares of them that a run may ask for
 constexpr double kCoarser = 0.7;                     // of the keys and points, from one packing to the next
 
 // What the page always plots.
@@ -159,16 +160,19 @@ class Packer {
     all_ = ranked(std::move(named)), main_ = ranked(std::move(main));
   }
 
-  Packings packings() const {
+  Packings packings(std::size_t limit) const {
     Packings found;
+    // Returns which share of it would fit.
     const auto add = [&](const Ranked& ranked, double share) {
       std::string text = packed(ranked, share);
+      const double fits = std::min(1.0, static_cast<double>(limit) / static_cast<double>(text.size()));
       const bool is_shorter = found.empty() || text.size() < found.back().size();
-      if (text.size() <= kMost && is_shorter) found.push_back(std::move(text));
+      if (fits == 1 && is_shorter) found.push_back(std::move(text));
+      return fits;
     };
     add(all_, 1);
-    for (double share = 1; share * std::max(keys_.size(), main_.points.size()) >= 1; share *= kCoarser) {
-      add(main_, share);
+    for (double share = 1; share * std::max(keys_.size(), main_.points.size()) >= 1;) {
+      share *= std::min(kCoarser, add(main_, share));
       if (!found.empty() && found.back().size() <= kLeast) break;
     }
     return found;
@@ -217,9 +221,9 @@ class Packer {
 };
 
 Packings packed(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth,
-                std::vector<NamedCourse> named) {
+                std::vector<NamedCourse> named, std::size_t limit) {
   if (trajectory.samples.empty()) return {};
-  return Packer(scene, trajectory, truth, std::move(named)).packings();
+  return Packer(scene, trajectory, truth, std::move(named)).packings(limit);
 }
 
 // The coarsest step is the one that is looked at, and the truth beside each run; more bodies take more room, but each
@@ -250,22 +254,38 @@ const std::vector<std::string>& course_names() {
   return names;
 }
 
-Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy) {
+Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy,
+                    std::size_t limit) {
   std::vector<NamedCourse> all = {energy_change(run.scene, run.trajectory, largest_kinetic_energy)};
   for (const NamedCourse& course : courses) {
     if (!course.values.empty()) all.push_back(course);
   }
-  return packed(run.scene, run.trajectory, run.truth, std::move(all));
+  return packed(run.scene, run.trajectory, run.truth, std::move(all), limit);
 }
 
-Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy) {
+Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy,
+                      std::size_t limit) {
   constexpr int kSamples = 1500;
   Trajectory trajectory{.dt = duration / kSamples, .samples = {}};
   for (int n = 0; n <= kSamples; ++n) {
     trajectory.samples.push_back({duration * n / kSamples, BodyTable(scene.bodies.size())});
     truth.at(trajectory.samples.back().time, trajectory.samples.back().bodies.columns());
   }
-  return packed(scene, trajectory, nullptr, {energy_change(scene, trajectory, largest_kinetic_energy)});
+  return packed(scene, trajectory, nullptr, {energy_change(scene, trajectory, largest_kinetic_energy)}, limit);
+}
+
+PlaybackLimit::PlaybackLimit(const Results& grid) {
+  for (const CaseResult& one : grid.cases) {
+    weights_ += weight_of(one, kTruth);
+    for (const Cell& cell : one.cells) {
+      if (cell.status != Status::unsupported) weights_ += weight_of(one, cell.dt.seconds);
+    }
+  }
+}
+
+std::size_t PlaybackLimit::of(const CaseResult& result, const StepSize* dt) const {
+  const double even = kWholePage * weight_of(result, dt ? dt->seconds : kTruth) / weights_;
+  return static_cast<std::size_t>(std::min(kShares * even, static_cast<double>(kMost)));
 }
 
 PlaybackChoice::PlaybackChoice(const Results& results, std::size_t budget) {

@@ -27,11 +27,25 @@ const std::vector<std::string>& course_names();
 // the page shows only when asked for more, the coarsest may have no motion.
 using Packings = std::vector<std::string>;
 
-// Of one run. `truth` may be null; a run that nobody could tell from it in the picture keeps no motion of its own.
-Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy);
+// Of one run, none longer than `limit` characters. `truth` may be null; a run that nobody could tell from it in the
+// picture keeps no motion of its own.
+Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy,
+                    std::size_t limit);
 
 // Likewise of the truth itself.
-Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy);
+Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy,
+                      std::size_t limit);
+
+// How many characters a cell, or with no dt the truth, can get at most, some times its even share: no more of it need
+// be kept.
+class PlaybackLimit {
+ public:
+  explicit PlaybackLimit(const Results& grid);
+  std::size_t of(const CaseResult& result, const StepSize* dt) const;
+
+ private:
+  double weights_ = 0;  // of the whole grid
+};
 
 // How fine each can be for all to be of at most `budget` characters.
 class PlaybackChoice {

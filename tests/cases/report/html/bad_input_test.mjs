@@ -14,6 +14,25 @@ const expect = (condition, message) => {
   if (!condition) throw new Error(message);
 };
 
+// ms: the longest that the page did not answer for while a case played. Without a GPU, as here.
+async function longestSilence() {
+  await browser.run(`
+    const beat = new MessageChannel(), before = window.heart;
+    if (before) before.port1.close();
+    window.heart = beat, window.silence = 0;
+    let last = performance.now();
+    beat.port1.onmessage = () => {
+      const now = performance.now();
+      (window.silence = Math.max(window.silence, now - last)), (last = now);
+      setTimeout(() => beat.port2.postMessage(0), 4);
+    };
+    beat.port2.postMessage(0)`);
+  await browser.keys(" ");
+  await sleep(600);
+  await browser.keys(" ");
+  return browser.run("return window.silence");
+}
+
 try {
   let took = Infinity; // the quickest of a few: what else the machine does only ever adds
   for (let i = 0; i < 4 && took >= 2000; ++i) {
@@ -46,11 +65,10 @@ try {
     expect(shown === one.title, `${one.id} has the title ${shown}`);
     const played = await browser.run("return [...document.querySelectorAll('.stage canvas')].length");
     expect(played === 1, `${one.id} has no picture`);
-    const answered = Date.now();
-    await browser.keys(" ");
-    await sleep(400);
-    await browser.keys(" ");
-    expect(Date.now() - answered < 6000, `${one.id}: the page froze for ${Date.now() - answered} ms`);
+    let froze = Infinity; // ms, the least of a few: what else the machine does only ever adds
+    for (let i = 0; i < 3 && froze >= 1000; ++i) froze = Math.min(froze, await longestSilence());
+    console.log(`${one.id}: silent for at most ${Math.round(froze)} ms while it played`);
+    expect(froze < 1000, `${one.id}: the page froze for ${froze} ms`);
     if (one.id.startsWith("crowd")) writeFileSync(join(shots, "crowd.png"), await browser.screenshot());
     expect(await browser.run("return window.harm === undefined"), `${one.id}: what stands in a name was run`);
   }

@@ -42,10 +42,25 @@ export async function firstScreen(browser) {
   });
   await check("findings are the sentences of results.json", async () => {
     const texts = await browser.run(
-      "return [...document.querySelectorAll('.intro .findings p')].map(p => p.textContent)",
+      "return [...document.querySelectorAll('.intro .answer')].map(a => [a.querySelector('h2').textContent, a.querySelector('.text').textContent, a.querySelector('.more')?.textContent ?? ''])",
     );
-    equal(JSON.stringify(texts), JSON.stringify(results.findings.map((f) => f.text)), "sentences");
+    equal(JSON.stringify(texts), JSON.stringify(results.findings.map((f) => [f.topic, f.text, f.more])), "sentences");
     expect(texts.length > 0, "there are none");
+    const longest = Math.max(...texts.map(([, text]) => text.length));
+    expect(longest < 700, `one is ${longest} characters long before it is asked for more`);
+  });
+  await check("the matrix's row of steps for 1 mm says what the finding says", async () => {
+    const { text } = results.findings.find(({ topic }) => topic === "step size");
+    const said = [...text.matchAll(/(ode|bullet) ~?([0-9.e-]+) ms/g)].map(([, who, ms]) => [who, Number(ms) / 1000]);
+    expect(said.length > 0, `no step in "${text}"`);
+    const [names, steps] = await browser.run(
+      "return [[...document.querySelectorAll('.matrix thead .engine')].map(t => t.title.split(':')[0]), [...document.querySelectorAll('.summaries tr')].at(-1).querySelectorAll('td')].map((list) => [...list].map((x) => x.textContent ?? x))",
+    );
+    for (const [who, seconds] of said) {
+      const [value, unit] = steps[names.indexOf(who)].split(" ");
+      const shown = Number(value) * { s: 1, ms: 1e-3, µs: 1e-6 }[unit];
+      expect(Math.abs(shown / seconds - 1) < 0.06, `${who}: ${steps[names.indexOf(who)]}, and ${seconds} s in words`);
+    }
   });
   await check("the matrix shows the step that a tolerance needs, and the address says so", async () => {
     await browser.run(

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "cases/report/html/playback.h"
 #include "cases/report/json_report.h"
@@ -57,8 +58,18 @@ std::string data_of(const std::string& page, const std::string& id) {
   return page.substr(from, page.find("</script>", from) - from);
 }
 
+// What no compression makes smaller, as a motion of this many characters and ever coarser ones of it.
+Packings incompressible(std::size_t finest, std::mt19937& random) {
+  std::string text;
+  while (text.size() < finest)
+    text += "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"[random() % 64];
+  Packings packings;
+  for (std::size_t size = finest; size > 200; size = size * 7 / 10) packings.push_back(text.substr(0, size));
+  return packings;
+}
+
 // Bodies on a line that fall, drawn as boxes, with a name each that would do harm as markup.
-CaseResult crowd(const Results& grid, int bodies, const std::string& id) {
+CaseResult crowd(const Results& grid, int bodies, const std::string& id, std::size_t samples = 31) {
   CaseResult result = grid.cases.front();
   result.definition.id = id;
   result.definition.scene.bodies.clear();
@@ -77,9 +88,10 @@ CaseResult crowd(const Results& grid, int bodies, const std::string& id) {
     }
     run.samples.push_back(sample);
   }
+  run.samples.resize(samples);
   const JudgedRun judged{result.definition.scene, run, nullptr, 0};
   for (Cell& cell : result.cells) {
-    if (cell.status == Status::pass) cell.playback = packed_run(judged, {}, 1);
+    if (cell.status == Status::pass) cell.playback = packed_run(judged, {}, 1, 200000);
   }
   return result;
 }
@@ -96,6 +108,7 @@ BOOST_AUTO_TEST_CASE(the_programs_own_report_works_in_a_browser, *boost::unit_te
       "core:semi-implicit-euler";
   BOOST_TEST_REQUIRE(succeeds(std::string(RIGOR_PROGRAM) +
                                   " run springs/fixed-spring springs/stiff-3 tops/asymmetric-top contact/collision "
+                                  "contact/friction-fan "
                                   "--jobs 2 --out " +
                                   out + engines,
                               folder));
@@ -108,6 +121,9 @@ BOOST_AUTO_TEST_CASE(names_that_would_do_harm_and_runs_of_every_ending_are_shown
   Folder folder;
   Results grid = sample_results();
   grid.cases.push_back(crowd(grid, 1, "<b>markup</b>/\"quoted\" & \xf0\x9f\x8e\xb2"));
+  grid.cases.push_back(crowd(grid, 3, "endings/at its start", 1));
+  grid.cases.push_back(crowd(grid, 3, "endings/without a sample", 0));
+  BOOST_TEST(grid.cases.back().cells.front().playback.empty());
   grid.cases.push_back(crowd(grid, 1000, "crowd/thousand"));
   grid.cases.back().definition.text = "# </script><script>window.harm = 1</script>\n";
   for (Status status : {Status::fail, Status::known_deviation, Status::unexpected_pass, Status::unsupported,
@@ -139,6 +155,34 @@ BOOST_AUTO_TEST_CASE(three_hundred_cases_stay_small_and_quick) {
   BOOST_TEST(opens_well("bad_input_test.mjs", folder, page, results, "three-hundred"));
 }
 
+BOOST_AUTO_TEST_CASE(one_case_alone_is_shown) {
+  Folder folder;
+  const Results grid = sample_results();
+  const std::string page = folder.write("report.html", html_report(grid));
+  BOOST_TEST(opens_well("bad_input_test.mjs", folder, page, folder.write("results.json", json_report(grid)), "one"));
+}
+
+BOOST_AUTO_TEST_CASE(the_page_keeps_to_its_budget_and_uses_it_however_much_there_is_to_play) {
+  std::mt19937 random(5);
+  Results grid = sample_results();
+  grid.cases.resize(300, grid.cases.front());
+  std::size_t finest = 0;
+  for (CaseResult& result : grid.cases) {
+    for (Cell& cell : result.cells) {
+      cell.playback = incompressible(10000 + random() % 20000, random);
+      finest += cell.playback.front().size();
+    }
+  }
+  BOOST_TEST_REQUIRE(finest > 20e6);
+  const std::string page = html_report(grid);
+  BOOST_TEST(page.size() < 8e6);
+  BOOST_TEST(page.size() > 7e6);
+  const auto playback = nlohmann::json::parse(data_of(page, "rigor-playback"));
+  for (const auto& one : playback.at("cases")) {
+    for (const auto& cell : one.at("cells")) BOOST_REQUIRE(!cell.get<std::string>().empty());
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_data_in_the_page_is_that_of_results_json) {
   const Results grid = sample_results();
   const std::string page = html_report(grid);
@@ -148,6 +192,8 @@ BOOST_AUTO_TEST_CASE(the_data_in_the_page_is_that_of_results_json) {
   BOOST_TEST(data.at("cells").size() == results.at("cells").size());
   BOOST_TEST((data.at("cells").at(0).at("settings") == results.at("cells").at(0).at("settings")));
   BOOST_TEST((data.at("findings") == results.at("findings")));
+  BOOST_TEST((data.at("cells").at(0).at("metrics").at("position_error").at("worst") ==
+              results.at("cells").at(0).at("metrics").at("position_error").at("worst")));
   BOOST_TEST(data.at("cells").at(2).at("metrics").at("position_error").at("value").is_null());  // it was infinite
   const auto playback = nlohmann::json::parse(data_of(page, "rigor-playback"));
   BOOST_TEST(playback.at("cases").size() == grid.cases.size());

@@ -78,6 +78,7 @@ export async function looks() {
         const { data } = await browser.devtools("Page.printToPDF", { printBackground: true, preferCSSPageSize: true });
         writeFileSync(join(shots, "first.pdf"), Buffer.from(data, "base64"));
         expect(data.length > 10000, "the PDF is all but empty");
+        equal(await browser.run("return document.querySelectorAll('.answers details:not([open])').length"), 0, "folded");
       });
     }
     await browser.close();

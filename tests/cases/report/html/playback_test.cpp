@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_SUITE(cases_report_html_playback)
 BOOST_AUTO_TEST_CASE(a_thinned_motion_stays_close_and_keeps_its_impacts) {
   const Scene scene = one_ball();
   const Trajectory run = bouncing(5, 1e-3);
-  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1).front());
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 300000).front());
   BOOST_TEST(page.keys.size() < run.samples.size() / 10);
   BOOST_TEST(page.last == 5.0, boost::test_tools::tolerance(1e-12));
   for (const Sample& sample : run.samples) {
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(packings_go_from_fine_to_coarse_and_keep_the_impacts_as_lon
   const Scene scene = one_ball();
   const Trajectory run = bouncing(5, 1e-3);
   NamedCourse aside{"creep", std::vector<double>(run.samples.size(), 1)};
-  const Packings packings = packed_run(judged(scene, run), {aside}, 1);
+  const Packings packings = packed_run(judged(scene, run), {aside}, 1, 300000);
   BOOST_TEST_REQUIRE(packings.size() > 5u);
   BOOST_TEST(packings.back().size() < 500u);
   for (std::size_t i = 0; i < packings.size(); ++i) {
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(courses_keep_their_extremes_and_end_where_they_were_compare
   NamedCourse error{"position_error", {}};
   for (int n = 0; n < 3000; ++n) error.values.push_back(1e-9 * std::exp(n / 150.0));
   error.values[1234] = 0.5;  // one sample alone
-  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {error}, 1).front());
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {error}, 1, 300000).front());
   BOOST_TEST_REQUIRE(page.courses.size() == 2u);
   BOOST_TEST(course_names()[page.courses[0]] == kEnergyChange);
   BOOST_TEST(course_names()[page.courses[1]] == "position_error");
@@ -115,11 +115,11 @@ BOOST_AUTO_TEST_CASE(a_run_like_the_truth_has_no_motion_of_its_own) {
   const Trajectory run = bouncing(2, 0.01);
   TruthSamples truth{{}, std::vector<double>(run.samples.size(), 0), 1};
   for (const Sample& sample : run.samples) truth.bodies.push_back(sample.bodies);
-  const UnpackedRun same = unpacked_run(packed_run(judged(scene, run, &truth), {}, 1).front());
+  const UnpackedRun same = unpacked_run(packed_run(judged(scene, run, &truth), {}, 1, 300000).front());
   BOOST_TEST(same.is_like_truth);
   BOOST_TEST(same.keys.empty());
   truth.bodies[77].columns().set_position(0, truth.bodies[77].columns().position(0) + Vec3(0, 0.05, 0));
-  BOOST_TEST(!unpacked_run(packed_run(judged(scene, run, &truth), {}, 1).front()).is_like_truth);
+  BOOST_TEST(!unpacked_run(packed_run(judged(scene, run, &truth), {}, 1, 300000).front()).is_like_truth);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_leaves_the_picture_is_shown_until_then) {
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_leaves_the_picture_is_shown_until_then) {
   Trajectory run = bouncing(2, 0.01);
   for (std::size_t n = 100; n < run.samples.size(); ++n)
     run.samples[n].bodies.columns().set_position(0, Vec3(0, std::pow(10.0, n), 0));
-  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1).front());
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 300000).front());
   BOOST_TEST(page.keys.back() >= 98u);
   BOOST_TEST(page.keys.back() <= 102u);
   for (const Vec3& position : page.positions) BOOST_TEST(position.norm() < 200);
@@ -135,10 +135,47 @@ BOOST_AUTO_TEST_CASE(a_run_that_leaves_the_picture_is_shown_until_then) {
 
 BOOST_AUTO_TEST_CASE(no_sample_is_no_trouble) {
   const Scene scene = one_ball();
-  BOOST_TEST(packed_run(judged(scene, Trajectory{}), {}, 1).empty());
+  BOOST_TEST(packed_run(judged(scene, Trajectory{}), {}, 1, 300000).empty());
   Trajectory start = bouncing(0, 0.01);
-  const UnpackedRun page = unpacked_run(packed_run(judged(scene, start), {}, 0).front());
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, start), {}, 0, 300000).front());
   BOOST_TEST(page.keys.size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(no_packing_is_longer_than_its_limit) {
+  const Scene scene = one_ball();
+  const Trajectory run = bouncing(5, 1e-3);
+  for (const std::size_t limit : {400u, 700u, 1000u}) {  // at its finest it has 1100
+    const Packings packings = packed_run(judged(scene, run), {}, 1, limit);
+    BOOST_TEST_REQUIRE(!packings.empty());
+    BOOST_TEST(packings.front().size() <= limit);
+    BOOST_TEST(packings.front().size() > limit / 2);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_limit_is_some_even_shares_of_the_page) {
+  Results grid;
+  CaseResult small, pile;
+  small.definition.scene = one_ball();
+  pile.definition.scene.bodies.assign(216, Body());
+  for (CaseResult* one : {&small, &pile}) {
+    one->definition.dt = {{1.0 / 30, "1/30"}, {1.0 / 240, "1/240"}};
+    for (std::size_t n = 0; n < 30; ++n) {
+      one->cells.emplace_back();
+      one->cells.back().dt = one->definition.dt[n % 2];
+    }
+  }
+  for (int i = 0; i < 300; ++i) grid.cases.push_back(i < 5 ? pile : small);
+  const PlaybackLimit limit(grid);
+  double sum = 0;
+  for (const CaseResult& one : grid.cases) {
+    sum += limit.of(one, nullptr);
+    for (const Cell& cell : one.cells) sum += limit.of(one, &cell.dt);
+  }
+  BOOST_TEST(sum <= 6 * 6e6);
+  BOOST_TEST(sum > 5.9 * 6e6);
+  const StepSize &coarse = pile.definition.dt[0], &fine = pile.definition.dt[1];
+  BOOST_TEST(limit.of(grid.cases[0], &coarse) > limit.of(grid.cases[0], &fine));
+  BOOST_TEST(limit.of(grid.cases[0], &coarse) > 20 * limit.of(grid.cases[299], &coarse));
 }
 
 BOOST_AUTO_TEST_CASE(the_page_takes_of_each_run_what_fits) {
@@ -148,10 +185,11 @@ BOOST_AUTO_TEST_CASE(the_page_takes_of_each_run_what_fits) {
   one.definition.scene = scene, one.definition.dt = {{1.0 / 30, "1/30"}, {1.0 / 240, "1/240"}};
   for (const StepSize& dt : one.definition.dt) {
     one.cells.emplace_back();
-    one.cells.back().dt = dt, one.cells.back().playback = packed_run(judged(scene, run), {}, 1);
+    one.cells.back().dt = dt, one.cells.back().playback = packed_run(judged(scene, run), {}, 1, 300000);
   }
   one.cells.emplace_back();
-  one.cells.back().dt = one.definition.dt[1], one.cells.back().playback = packed_run(judged(scene, still), {}, 1);
+  one.cells.back().dt = one.definition.dt[1],
+  one.cells.back().playback = packed_run(judged(scene, still), {}, 1, 300000);
   Results grid;
   for (int i = 0; i < 20; ++i) grid.cases.push_back(one);
   const auto size_of = [&](const PlaybackChoice& choice) {

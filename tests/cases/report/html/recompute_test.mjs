@@ -56,7 +56,8 @@ function energy(scene, bodies) {
   return sum;
 }
 
-let compared = 0;
+let compared = 0,
+  spreads = 0;
 const misses = [];
 // Both sum the same 17-digit numbers in another order: some roundings of the largest of them.
 function compare(cell, name, found, scale) {
@@ -80,6 +81,16 @@ for (const one of results.cases) {
     );
     const overBodies = (of) => (now, n) => Math.max(...now.bodies.map((body, i) => of(body, truth[n].bodies[i])));
     const { position_error: position, orientation_error: orientation, energy_drift: drift } = cell.metrics;
+    const anisotropy = cell.metrics.friction_anisotropy;
+    if (anisotropy?.value !== undefined) {
+      const stop = run.findLastIndex((now) => now.time <= anisotropy.compared_until * (1 + 1e-12));
+      const stopped = one.scene.bodies.flatMap(({ fixed }, i) => (fixed || size(truth[stop].bodies[i].v) ? [] : [i]));
+      const ways = (instants) => stopped.map((i) => size(minus(instants[stop].bodies[i].p, instants[0].bodies[i].p)));
+      const found = ways(run).filter((_, i) => ways(truth)[i] > 0),
+        expected = Math.max(...ways(truth));
+      compare(cell, "friction_anisotropy", (Math.max(...found) - Math.min(...found)) / expected, 10);
+      ++spreads;
+    }
     if (position?.value !== undefined)
       compare(
         cell,
@@ -103,4 +114,4 @@ for (const one of results.cases) {
 }
 misses.forEach((text) => console.log(text));
 console.log(`${compared} numbers compared, ${misses.length} differ`);
-if (misses.length || compared < 20) process.exit(1);
+if (misses.length || compared < 20 || !spreads) process.exit(1);

@@ -104,9 +104,10 @@ export class CanvasView {
       for (const { index, fixed, type } of shapes) if (!fixed && type !== "plane") this.trail(layer, index);
     }
     (pen.globalAlpha = 1), (pen.fillStyle = colour("--bad-solid"));
+    const side = shapes.length <= 30 ? 5 : 3;
     for (const p of layer.contacts) {
       const at = this.project(p);
-      if (at) pen.fillRect(at[0] - 2.5, at[1] - 2.5, 5, 5);
+      if (at) pen.fillRect(at[0] - side / 2, at[1] - side / 2, side, side);
     }
   }
 

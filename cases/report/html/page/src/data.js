@@ -51,7 +51,8 @@ function indexed(results, playback) {
 function inReadingOrder({ engines, cells, cases }) {
   const casesOf = new Map(engines.map((e) => [e.name, new Set()]));
   for (const cell of cells) casesOf.get(cell.engine).add(cell.case);
-  const place = (e) => (2 * casesOf.get(e.name).size < cases.length ? 2 : e.core ? 1 : 0);
+  for (const e of engines) e.isRare = 2 * casesOf.get(e.name).size < cases.length;
+  const place = (e) => (e.isRare ? 2 : e.core ? 1 : 0);
   return [...engines].sort((a, b) => place(a) - place(b));
 }
 
@@ -160,10 +161,13 @@ export function judgement(cell) {
 
 export const hasNumbers = (cell) => cell && cell.status !== "diverged" && Object.keys(cell.metrics ?? {}).length > 0;
 
-// Error against dt of one engine, coarse to fine; blown-up cells have none.
+// Whether a cell's numbers are the engine's: not if it blew up or did not do what its method promises.
+const cameToAResult = (cell) => ["pass", "fail", "known-deviation", "unexpected-pass"].includes(cell.status);
+
+// Error against dt of one engine, coarse to fine.
 export function errorPoints(one, engine, metric) {
   return one.cells
-    .filter((c) => c.engine === engine && hasNumbers(c) && metricOf(c, metric) !== null)
+    .filter((c) => c.engine === engine && cameToAResult(c) && metricOf(c, metric) !== null)
     .map((c) => ({
       dt: c.dt,
       seconds: c.dt_seconds,

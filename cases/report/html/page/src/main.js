@@ -86,7 +86,10 @@ async function start() {
     if (event.key === "?") openHelp();
     else if (view?.key?.(event)) event.preventDefault();
   });
-  window.addEventListener("beforeprint", () => applyTheme("light"));
+  window.addEventListener("beforeprint", () => {
+    applyTheme("light");
+    for (const folded of document.querySelectorAll(".answers details")) folded.open = true;
+  });
   window.addEventListener("afterprint", () => applyTheme());
   show();
   document.documentElement.dataset.ready = "true";

@@ -31,6 +31,7 @@ export class Matrix {
     this.dt = dt;
     const cases = this.results.cases.filter((c) => !filter || `${c.id} ${c.title}`.toLowerCase().includes(filter));
     const engines = this.results.engines.filter((e) => this.results.cells.some((c) => c.engine === e.name));
+    const rare = engines.filter((e) => e.isRare).length;
     const families = new Map();
     for (const one of cases) families.set(one.family, [...(families.get(one.family) ?? []), one]);
     const table = el(
@@ -48,7 +49,8 @@ export class Matrix {
           el(
             "tr.family",
             {},
-            el("th", { scope: "rowgroup", colspan: engines.length + 1 }, el("span", {}, family || "cases")),
+            el("th", { scope: "rowgroup", colspan: engines.length - rare + 1 }, el("span", {}, family || "cases")),
+            rare ? el("td.is-rare", { colspan: rare }) : null,
           ),
           members.map((one) => this.row(one, engines)),
         ),
@@ -67,6 +69,9 @@ export class Matrix {
       el("b", {}, `dt = ${this.dt.text} s: ${what}${tolerance}`),
       " ",
       el("span.fine", {}, state.show === "main" ? main : (this.results.summaries[state.show] ?? "")),
+      this.results.engines.some((e) => e.isRare)
+        ? el("span.fine.only-print", {}, " – without the runs that only some cases ask for")
+        : null,
     ];
   }
 
@@ -76,7 +81,7 @@ export class Matrix {
       engines.map((engine) => {
         const [who, method] = engineParts(engine.name);
         return el(
-          `th.engine${method.length > 24 ? ".is-long" : ""}`,
+          `th.engine${method.length > 24 ? ".is-long" : ""}${engine.isRare ? ".is-rare" : ""}`,
           { scope: "col", title: `${engine.name}: ${engine.engine ?? ""} ${engine.version ?? ""}` },
           el("span.stripe", { style: { "--engine": `var(--e${engine.index})` } }),
           el("span.who", {}, who.replace("@", " @\u200b")),
@@ -93,7 +98,7 @@ export class Matrix {
         "tr.summary",
         {},
         el("th", { scope: "row", title }, label),
-        engines.map((engine) => el("td", {}, of(engine))),
+        engines.map((engine) => el(engine.isRare ? "td.is-rare" : "td", {}, of(engine))),
       );
     const cells = (engine) =>
       cases
@@ -189,10 +194,11 @@ export class Matrix {
         .slice(0, 3),
     ]);
     const changes = { case: one.id, dt: dt.text, engines: shown, time: 0, zoom: null };
-    if (!cell) return el("td.cell.is-absent", {}, "");
+    const rare = engine.isRare ? ".is-rare" : "";
+    if (!cell) return el(`td.cell.is-absent${rare}`, {}, "");
     const title = `${one.id}, ${engine.name}, dt = ${dt.text} s: ${verdict.word}${cell.reason ? ` – ${cell.reason}` : ""}`;
     return el(
-      `td.cell.is-${verdict.kind}`,
+      `td.cell.is-${verdict.kind}${rare}`,
       {},
       el(
         "a",

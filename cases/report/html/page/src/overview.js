@@ -41,26 +41,34 @@ export class Overview {
     );
   }
 
-  // What was found, by topic; the names of cases lead to them.
+  // What was found: a card for each of the first topics, with what stands behind it a click away; the others behind
+  // their names. The names of cases lead to them.
   findings(findings) {
-    const topics = new Map();
-    for (const { topic, text } of findings) topics.set(topic, [...(topics.get(topic) ?? []), text]);
+    const cards = 4;
     const link = (id) =>
       el("a", { href: address({ case: id }), onclick: (event) => (event.preventDefault(), openCase(id)) }, id);
     const linked = (text) =>
       text.split(/([\w.-]+(?:\/[\w.-]*\w)+)/).map((part) => (this.results.caseById.has(part) ? link(part) : part));
-    return el(
-      "ul.findings",
-      {},
-      [...topics].map(([topic, texts]) =>
-        el(
-          "li",
-          {},
-          el("b", {}, topic),
-          texts.map((text) => el("p", {}, linked(text))),
-        ),
-      ),
-    );
+    const card = ({ topic, text, more }) =>
+      el(
+        "section.answer",
+        {},
+        el("h2", {}, topic),
+        el("p.text", {}, linked(text)),
+        more ? el("details", {}, el("summary", {}, "why, and who else"), el("p.more", {}, linked(more))) : null,
+      );
+    const folded = ({ topic, text, more }) =>
+      el(
+        "details.answer",
+        {},
+        el("summary", {}, el("h2", {}, topic)),
+        el("p.text", {}, linked(text)),
+        more ? el("p.more", {}, linked(more)) : null,
+      );
+    return [
+      el("div.answers", {}, findings.slice(0, cards).map(card)),
+      el("div.answers", {}, findings.slice(cards).map(folded)),
+    ];
   }
 
   controls() {

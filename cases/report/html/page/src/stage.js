@@ -9,6 +9,7 @@ import { onTheme } from "./theme.js";
 import { WebglView } from "./webgl_view.js";
 import { set, state } from "./state.js";
 
+const mostWithoutGpu = 100; // bodies: more of them, shaded without a GPU, hold the page up
 const longHold = 50; // ms: more, and a reader's keys and mouse seem to lag
 
 export class Stage {
@@ -49,14 +50,18 @@ export class Stage {
       camera: this.camera,
       size: this.bounds(),
     };
-    this.surface = el("canvas", { tabindex: 0, "aria-label": "The bodies in motion; drag to turn" });
+    const surface = () => el("canvas", { tabindex: 0, "aria-label": "The bodies in motion; drag to turn" });
+    const isLarge = this.shapes.length > mostWithoutGpu;
+    this.surface = surface();
+    this.note = "";
     try {
-      this.view = new WebglView(this.surface, context);
-      this.note = "";
+      this.view = new WebglView(this.surface, context, { onlyWithGpu: isLarge });
     } catch (error) {
-      this.surface = el("canvas", { tabindex: 0, "aria-label": "The bodies in motion; drag to turn" });
+      this.surface = surface();
       this.view = new CanvasView(this.surface, context);
-      this.note = "WebGL is not to be had in this browser, so the picture is drawn with lines.";
+      this.note = isLarge
+        ? "This browser has no GPU for WebGL, so the picture of so many bodies is drawn with lines."
+        : "WebGL is not to be had in this browser, so the picture is drawn with lines.";
     }
     this.surface.dataset.kind = this.view.kind;
     moveByHand(this.camera, this.surface, () => this.invalidate());

@@ -184,7 +184,7 @@ export class TimePlots {
       scales: { x: { time: false, range: () => state.zoom ?? [0, this.one.duration] }, y: { range: scale.range } },
       axes: [
         { ...axis, size: 22, values: (u, ticks) => ticks.map((t) => `${Number(t.toPrecision(6))} s`) },
-        { ...axis, size: 54, splits: scale.splits, values: (u, ticks) => ticks.map(scale.tick) },
+        { ...axis, size: 60, splits: scale.splits, values: (u, ticks) => ticks.map(scale.tick) },
       ],
       series: [
         {},

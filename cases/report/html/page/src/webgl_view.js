@@ -4,7 +4,8 @@ import { coil, pointOf } from "./scene_model.js";
 import { colour, isDark } from "./theme.js";
 
 export class WebglView {
-  constructor(canvas, context) {
+  // Throws where there is no WebGL, or with `onlyWithGpu` none but a slow one.
+  constructor(canvas, context, { onlyWithGpu = false } = {}) {
     (this.kind = "webgl"), (this.context = context), (this.ratio = Math.min(devicePixelRatio || 1, 2));
     const quiet = console.error;
     console.error = () => {}; // three.js would also log what it throws
@@ -14,9 +15,14 @@ export class WebglView {
         antialias: true,
         alpha: true,
         powerPreference: "high-performance",
+        failIfMajorPerformanceCaveat: onlyWithGpu, // not all browsers heed it, so the name tells, too
       });
     } finally {
       console.error = quiet;
+    }
+    if (onlyWithGpu && isSoftware(this.renderer.getContext())) {
+      this.renderer.dispose(), this.renderer.forceContextLoss();
+      throw new Error("WebGL without a GPU");
     }
     this.renderer.setScissorTest(true);
     this.scene = new THREE.Scene();
@@ -223,6 +229,12 @@ export class WebglView {
   }
 }
 
+function isSoftware(gl) {
+  const told = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = gl.getParameter(told ? told.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 function restore(points, motion, body, now) {
   for (let key = 0; key < motion.times.length; ++key) {
     if (key !== now)
@@ -249,7 +261,7 @@ function matrixOf(poses, shape) {
 
 // One face, or every other patch, is darker, so that a turn can be seen.
 function geometryOf(shape, count) {
-  const fine = count > 200 ? 12 : 24;
+  const fine = count > 200 ? 12 : count > 40 ? 16 : 24;
   let geometry;
   if (shape.type === "sphere") geometry = new THREE.SphereGeometry(1, fine, fine / 2);
   else if (shape.type === "capsule")
