@@ -1,7 +1,7 @@
 // Contact by impulses, for piles: the step is divided into small sub-steps of the integrator, and within
-// each the bodies move freely by its scheme and are then corrected (pile_solver.h). Contacts are found once a step
-// (manifolds.h). What is fast and far enough to meet something within the step is seen before it
-// does, so that it cannot pass through.
+// each the bodies move freely by its scheme and are then corrected (pile_solver.h). Contacts are found once a step, and
+// in long ones once every kLongestStretch (manifolds.h). What is fast and far enough to meet something by the next time
+// is seen before it does, so that it cannot pass through.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,6 +22,11 @@ constexpr double kCoarse = 1.0 / 50, kLongestSubStep = 1.0 / 480, kShorter = 1.0
 constexpr double kUneven = 30;                                                           // to one
 constexpr int kFewestSubSteps = 4;
 
+constexpr double kLongestStretch = 1.0 / 120;  // s, over which contacts keep their normals
+
+// What is a whole number but for rounding is not made one more.
+int rounded_up(double count) { return static_cast<int>(std::ceil(count - 1e-9)); }
+
 bool has_uneven_masses(const Scene& scene) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const Body& body : scene.bodies) {
@@ -41,22 +46,26 @@ class ImpulseStepper : public ContactStepper {
 
   void step(MutableBodyColumns state, double t, double dt) override {
     if (!(dt > 0)) return stepper_->step(state, t, dt);
-    const int count = sub_steps_of(dt);
+    const int count = sub_steps_of(dt), stretches = std::min(count, rounded_up(dt / kLongestStretch));
     const double h = dt / count;
-    solver_.begin_step(state, manifolds_.find(state, dt), h);
-    for (int k = 0; k < count; ++k) {
-      solver_.begin_sub_step(state);
-      stepper_->step(state, t + k * h, h);
-      solver_.first_pass(state);
-      solver_.second_pass(state);
+    for (int stretch = 0, k = 0; stretch < stretches; ++stretch) {
+      const int end = (stretch + 1) * count / stretches;
+      solver_.begin_stretch(state, manifolds_.find(state, (end - k) * h), h);
+      for (; k < end; ++k) {
+        solver_.begin_sub_step(state);
+        stepper_->step(state, t + k * h, h);
+        solver_.first_pass(state);
+        solver_.second_pass(state);
+      }
+      solver_.end_stretch();
     }
-    solver_.end_step();
   }
 
   std::string complaint() const override { return stepper_->complaint(); }
 
   SettingsInForce settings_in_force() const override {
     return {{"contact solver", "sequential impulses, two passes a sub-step, warm start"},
+            {"contacts", fmt::format("found once a step and every 1/{:.0f} s", 1 / kLongestStretch)},
             {"sub-steps",
              sub_steps_ > 0
                  ? fmt::format("{} a step", sub_steps_)
@@ -67,10 +76,7 @@ class ImpulseStepper : public ContactStepper {
  private:
   int sub_steps_of(double dt) const {
     if (sub_steps_ > 0) return sub_steps_;
-    // A step of exactly so many sub-steps must not get one more by rounding.
-    constexpr double kRounding = 1e-9;
-    const double longest = dt > kCoarse ? kShorter : longest_;
-    return std::max(kFewestSubSteps, static_cast<int>(std::ceil(dt / longest - kRounding)));
+    return std::max(kFewestSubSteps, rounded_up(dt / (dt > kCoarse ? kShorter : longest_)));
   }
 
   int sub_steps_;   // 0: as dt asks

@@ -10,7 +10,7 @@ constexpr double kWider = 0.2;     // of a body's thickness: by so much its sear
 constexpr double kAhead = 12;      // and by its way in so many steps,
 constexpr double kFarthest = 1.5;  // but not by more than so many times its thickness
 constexpr double kNear = 0.02;  // of the thinner body's thickness: closer points are kept even if they do not approach
-constexpr double kSame = 0.1;   // of the thinner body's thickness: a point this near is the one of a step ago
+constexpr double kSame = 0.1;   // of the thinner body's thickness: a point this near is the one of last time
 constexpr int kMostOfPair = 4;
 
 double thinner(const Collider& a, const Collider& b) { return std::min(a.thickness, b.thickness); }
@@ -121,7 +121,7 @@ void Manifolds::update_pairs(BodyColumns state, double dt) {
   }
 }
 
-// Whether two bodies stay apart within the step, by the balls that they fill at most, or by their boxes. Written so
+// Whether two bodies stay apart within dt, by the balls that they fill at most, or by their boxes. Written so
 // that what is not a number does not.
 bool Manifolds::stay_apart(int a, int b) const {
   if (const auto* plane = std::get_if<Plane>(&colliders_[a].shape))

@@ -1,6 +1,6 @@
-// The contacts of many bodies from step to step, for the method `impulse`: pairs that may meet within a step, the
-// points of each, and which of them were there a step ago. A body's pairs are searched for anew only when it has left
-// the box, wider than itself, in which it was searched for last; a pile at rest needs no search.
+// The contacts of many bodies from one time they are found to the next, for the method `impulse`: pairs that may meet
+// until then, the points of each, and which of them were there the last time. A body's pairs are searched for anew only
+// when it has left the box, wider than itself, in which it was searched for last; a pile at rest needs no search.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace rigor {
 
-// A point of two bodies that touch or may meet within the step, in which case it is the one at which they will.
+// A point of two bodies that touch or may meet within dt, in which case it is the one at which they will.
 // Impulses are those of one sub-step.
 struct PilePoint {
   int a, b;  // bodies
@@ -33,7 +33,7 @@ class Manifolds {
         boxes_(colliders_.size()),
         bounds_(colliders_.size()) {}
 
-  // The points at the start of a step of dt, sorted by pair, with the impulses of the points a step ago.
+  // The points for the next dt, sorted by pair, with the impulses of the points of last time.
   std::vector<PilePoint>& find(BodyColumns state, double dt);
 
  private:
@@ -48,7 +48,7 @@ class Manifolds {
   PairFinder finder_;
   std::vector<Pose> poses_;
   std::vector<Aabb> boxes_, wide_boxes_;
-  std::vector<double> bounds_;  // m: how far from its pose a body can be met within the step
+  std::vector<double> bounds_;  // m: how far from its pose a body can be met within dt
   std::vector<int> left_;       // colliders
   const std::vector<std::pair<int, int>>* pairs_ = nullptr;
   Manifold manifold_;

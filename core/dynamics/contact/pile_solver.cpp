@@ -65,7 +65,7 @@ void PileSolver::set_law(double h) {
   law_.settled = kSettled * law_.rest_speed;
 }
 
-void PileSolver::begin_step(BodyColumns state, std::vector<PilePoint>& points, double h) {
+void PileSolver::begin_stretch(BodyColumns state, std::vector<PilePoint>& points, double h) {
   points_ = &points;
   const double scale = law_.h > 0 ? h / law_.h : 1;
   set_law(h);
@@ -137,7 +137,7 @@ void PileSolver::fill_row(const PilePoint& point, std::size_t row, double scale)
   any_rebound_ = any_rebound_ || point.restitution > 0;
 }
 
-void PileSolver::end_step() {
+void PileSolver::end_stretch() {
   for (std::size_t i = 0; i < points_->size(); ++i) {
     PilePoint& point = (*points_)[i];
     const RowBlock& block = blocks_[row_of_point_[i] / kRowsPerBlock];

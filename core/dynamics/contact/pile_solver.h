@@ -22,12 +22,12 @@ class PileSolver {
   // that takes the mean of the velocities before and after.
   PileSolver(const System& system, double share);
 
-  // For a step of sub-steps h over these points, which take the impulses with them when it ends.
-  void begin_step(BodyColumns state, std::vector<PilePoint>& points, double h);
+  // For a stretch of sub-steps h over these points, which take the impulses with them when it ends.
+  void begin_stretch(BodyColumns state, std::vector<PilePoint>& points, double h);
   void begin_sub_step(BodyColumns state);
   void first_pass(MutableBodyColumns state);
   void second_pass(MutableBodyColumns state);
-  void end_step();
+  void end_stretch();
 
  private:
   struct Pair {
@@ -45,7 +45,7 @@ class PileSolver {
   AlignedDoubles motions_, changes_, inertias_;  // see PileRecords
   std::vector<std::int32_t> stirred_;
   std::int32_t nobody_;  // the first record that means nothing
-  Columns start_;        // the state's poses at the step's start
+  Columns start_;        // the state's poses at the stretch's start
   std::vector<PilePoint>* points_ = nullptr;
   std::vector<Pair> pairs_;
   std::vector<std::size_t> next_level_, pairs_of_level_;  // by body; then where a level's groups of eight begin

@@ -156,7 +156,7 @@ struct Kernels {
   void (*read_inertias)(const Bodies&, const double* state, double* inertias);
   void (*measure_changes)(const Bodies&, const double* state, const double* start, double* changes);
   void (*follow)(const Bodies&, const double* motions, double* state, double h);
-  // What is fixed about rows over a step; gaps, approaches and biases of a sub-step, with the rows that meet in it
+  // What is fixed about rows over a stretch; gaps, approaches and biases of a sub-step, with the rows that meet in it
   // faster than rest_speed to `hits`, their number returned.
   void (*prepare_rows)(RowBlock*, std::size_t count, const PileRecords&);
   std::size_t (*measure_gaps)(RowBlock*, std::size_t count, const PileRecords&, const PileLaw&, std::int32_t* hits);

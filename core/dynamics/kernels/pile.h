@@ -26,7 +26,7 @@ enum RowColumn {
   kPaceSlip = 36,    // kg, 1 / the larger eigenvalue of that give
   kFriction = 37,
   kRestitution = 38,
-  kGap = 39,       // m, at the step's start
+  kGap = 39,       // m, at the stretch's start
   kGapNow = 40,    // m, before the sub-step
   kApproach = 41,  // m/s, before the sub-step
   kBias = 42,      // m/s
@@ -44,9 +44,9 @@ struct alignas(64) RowBlock {
 // write the second.
 struct PileRecords {
   double* motions;         // v, w
-  double* changes;         // m and rad since the step's start
+  double* changes;         // m and rad since the stretch's start
   std::int32_t* stirred;   // the last turn over the hits in which one changed it
-  const double* inertias;  // the inverse inertia in W, xx, yy, zz, xy, xz, yz, 1/(kg m²), at the step's start; 1/kg
+  const double* inertias;  // the inverse inertia in W, xx, yy, zz, xy, xz, yz, 1/(kg m²), at its start; 1/kg
 };
 
 struct PileLaw {

@@ -173,6 +173,27 @@ BOOST_AUTO_TEST_CASE(a_box_that_comes_down_flat_stays_flat) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(balls_that_roll_over_each_other_gain_no_energy_at_a_coarse_step) {
+  std::vector<Body> balls;
+  for (int i = 0; i < 64; ++i) {
+    const Vec3 aside(0.001 * std::sin(1.0 * i), 0.001 * std::cos(2.0 * i), 0);
+    balls.push_back(solid("ball " + std::to_string(i), Sphere{0.1},
+                          Vec3(0.21 * (i % 4), 0.21 * (i / 4 % 4), 0.4 + 0.21 * (i / 16)) + aside));
+  }
+  const Scene scene = on_floor(balls, {0, 0.5});
+  ContactRun run(scene, "impulse");
+  const double start = rigor::energy(scene, run.state()), fall = 64 * kG * 0.3;
+  double most = start, penetration = 0;
+  for (int n = 0; n < 60; ++n) {
+    run.step(1.0 / 30);
+    most = std::max(most, rigor::energy(scene, run.state()));
+    penetration = std::max(penetration, deepest(scene, run.state()));
+  }
+  BOOST_TEST(most - start < 0.01 * fall);
+  // Normals are up to 1/120 s old, in which a ball goes so far at the end of its fall: 12 mm measured.
+  BOOST_TEST(penetration < std::sqrt(2 * kG * 0.3) / 120);
+}
+
 BOOST_AUTO_TEST_CASE(a_thin_wall_stops_what_is_fast) {
   Scene scene;
   scene.bodies = {solid("bullet", Box{{1, 1, 1}}, {-7, 0, 0}), solid("wall", Box{{0.1, 10, 10}}, {0, 0, 0})};
