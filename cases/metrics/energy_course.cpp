@@ -6,15 +6,10 @@
 #include "cases/metrics/measuring.h"
 #include "cases/metrics/synchronised.h"
 #include "core/dynamics/energy.h"
-#include "core/scene/features.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
-
-bool has_contact(const Scene& scene) {
-  const auto needs = needs_of(scene);
-  return std::any_of(needs.begin(), needs.end(), [](const Need& n) { return n.feature.starts_with("contact:"); });
-}
 
 enum class Exchange { none, contact, damping, driving };
 
@@ -61,12 +56,14 @@ std::vector<double> lowest_so_far(const std::vector<double>& found) {
 
 // The default law counts even where each pair has its own: that can only make the judgement milder.
 bool contact_may_lose(const Scene& scene) {
-  if (!has_contact(scene)) return false;
+  if (!anything_can_touch(scene)) return false;
   const auto loses = [](const ContactLaw& law) { return law.restitution < 1 || law.friction > 0; };
   const auto& pairs = scene.contact_pairs;
   return loses(scene.contact_default) ||
          std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return loses(pair.law); });
 }
+
+bool may_change_energy(const Scene& scene) { return exchange_of(scene) != Exchange::none; }
 
 double energy_scale(const JudgedRun& run) {
   if (run.truth && run.truth->largest_kinetic_energy > 0) return run.truth->largest_kinetic_energy;

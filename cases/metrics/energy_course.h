@@ -30,6 +30,9 @@ EnergyCourse energy_course(const JudgedRun& run, double lag);
 // a body slips as it lands.
 bool contact_may_lose(const Scene& scene);
 
+// Whether contact, dampers or timed forces may take or give energy.
+bool may_change_energy(const Scene& scene);
+
 // J: what a change of energy is relative to. The truth's largest kinetic energy; else the run's at the start; else the
 // depth to which its potential energy falls, which is what its motion can have come from; else 1 J, for nothing moves.
 double energy_scale(const JudgedRun& run);

@@ -13,6 +13,7 @@
 #include "cases/metrics/momentum_course.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/system.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -22,13 +23,9 @@ constexpr double kDrifting = 0.01;                          // of the largest ki
 constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
 constexpr double kStepPrecision = 1.01;                     // 1 %
 
-// From one step tried to the next. Springs resonate with a step in narrow bands of it; without one, bodies that touch
-// know none.
-double sweep_of(const Scene& scene) {
-  const bool can_touch =
-      std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.collides; });
-  return can_touch && scene.springs.empty() ? 1.2 : 1.03;
-}
+// From one step tried to the next. Springs resonate with a step in narrow bands of it; bodies that touch and have none
+// do not: 333 of 334 searches of the suite found the same at 20 % as at 3 %.
+double sweep_of(const Scene& scene) { return anything_can_touch(scene) && scene.springs.empty() ? 1.2 : 1.03; }
 
 // Friction and impacts may take any amount of energy, as on a long slope: there only a rise is a blow-up. False, too,
 // where the energy is not a number.

@@ -43,6 +43,10 @@ std::string in_its_words(const Cell& cell, const std::string& setting) {
   return "";
 }
 
+std::string with_reason(const std::string& sentence, const std::string& reason) {
+  return reason.empty() ? sentence : sentence + " " + reason;
+}
+
 std::string how_it_corrects(const Cell& cell) {
   const std::string split = in_its_words(cell, "split impulse threshold");
   return split.empty() ? in_its_words(cell, "erp") : split;
@@ -52,10 +56,10 @@ std::string friction_with_directions(const std::string& name, const Course& cour
   constexpr double kWorthSaying = 0.1;
   if (course.empty() || course.values.back()->value < kWorthSaying) return "";
   const MetricValue& finest = *course.values.back();
-  return fmt::format(
-      "Why: with {} bodies that should all stop after the same way differ by {:.2g} of it, whatever dt is "
-      "({} s); the worst stops after {:.3g} m instead of {:.3g}. Its friction knows directions. {}",
-      name, finest.value, course.text(), finest.worst.found, finest.worst.expected,
+  return with_reason(
+      fmt::format("Why: with {} bodies that should all stop after the same way differ by {:.2g} of it, whatever dt is "
+                  "({} s); the worst stops after {:.3g} m instead of {:.3g}. Its friction knows directions.",
+                  name, finest.value, course.text(), finest.worst.found, finest.worst.expected),
       in_its_words(*course.cells.back(), "friction"));
 }
 
@@ -99,14 +103,16 @@ std::vector<std::string> contact_explanations(const Results& results, const Case
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
     const std::string& name = results.runs[run].text;
     if (const auto popped = overlap_given_back(result, run)) {
-      sentences.push_back(
+      sentences.push_back(with_reason(
           fmt::format("Why: after an impact without bounce {} parts the bodies at {:.2g} of the speed they met with, "
-                      "{}: an overlap "
-                      "is pushed out as speed. {}",
-                      name, popped->size, popped->course, popped->reason));
+                      "{}: an overlap is pushed out as speed.",
+                      name, popped->size, popped->course),
+          popped->reason));
     } else if (const auto restitution = unconverged_restitution(result, run)) {
-      sentences.push_back(fmt::format("Why: the restitution of {} is off by {}: it does not converge as dt falls. {}",
-                                      name, restitution->course, restitution->reason));
+      sentences.push_back(
+          with_reason(fmt::format("Why: the restitution of {} is off by {}: it does not converge as dt falls.", name,
+                                  restitution->course),
+                      restitution->reason));
     }
     const std::string friction = friction_with_directions(name, course_of(result, run, "friction_anisotropy"));
     if (!friction.empty()) sentences.push_back(friction);

@@ -31,12 +31,6 @@ double value_of(const std::map<std::string, MetricValue>& metrics, const std::st
 // 0.0031 s as 3.1 ms.
 std::string milliseconds(double seconds) { return fmt::format("{:.2g} ms", 1e3 * seconds); }
 
-bool may_change_energy(const Scene& scene) {
-  const auto is_damped = [](const Spring& spring) { return spring.damping != 0; };
-  return !scene.forces.empty() || contact_may_lose(scene) ||
-         std::any_of(scene.springs.begin(), scene.springs.end(), is_damped);
-}
-
 class Finder {
  public:
   explicit Finder(const Results& results) : results_(results), dt_(headline_dt(results)) {}

@@ -24,7 +24,7 @@ constexpr double kNoise = 1e-12;           // of a course in any unit: what is s
 constexpr std::size_t kMostKeys = 6000;    // of a motion
 constexpr std::size_t kMostPoints = 1500;  // of the courses
 constexpr std::size_t kMost = 300000, kLeast = 200;  // characters of a packing
-constexpr double kWholePage = 6e6, kShares = 6;      // characters; even shares of them that a run may ask for
+constexpr double kOfAllRuns = 6e6, kShares = 6;      // characters; even shares of them that a run may ask for
 constexpr double kCoarser = 0.7;                     // of the keys and points, from one packing to the next
 
 // What the page always plots.
@@ -284,7 +284,7 @@ PlaybackLimit::PlaybackLimit(const Results& grid) {
 }
 
 std::size_t PlaybackLimit::of(const CaseResult& result, const StepSize* dt) const {
-  const double even = kWholePage * weight_of(result, dt ? dt->seconds : kTruth) / weights_;
+  const double even = kOfAllRuns * weight_of(result, dt ? dt->seconds : kTruth) / weights_;
   return static_cast<std::size_t>(std::min(kShares * even, static_cast<double>(kMost)));
 }
 

@@ -92,6 +92,7 @@ export class CanvasView {
       { poses, engine } = layer;
     pen.strokeStyle = engine ? engine.hex[isDark() ? 1 : 0] : colour("--truth-solid");
     (pen.globalAlpha = engine ? 1 : 0.5), (pen.lineWidth = 1.5);
+    const areFew = shapes.length <= 30; // more, and trails and large points hide them
     for (const shape of shapes) this.shape(shape, poses);
     pen.lineWidth = 1;
     for (const spring of springs) {
@@ -99,12 +100,12 @@ export class CanvasView {
         b = pointOf(poses, spring.b, spring.pointB);
       this.line(spring.coil ? coil(a, b, 0.025 * size.radius) : [a, b]);
     }
-    if (trails && engine && shapes.length <= 30) {
+    if (trails && engine && areFew) {
       pen.globalAlpha = 0.5;
       for (const { index, fixed, type } of shapes) if (!fixed && type !== "plane") this.trail(layer, index);
     }
     (pen.globalAlpha = 1), (pen.fillStyle = colour("--bad-solid"));
-    const side = shapes.length <= 30 ? 5 : 3;
+    const side = areFew ? 5 : 3;
     for (const p of layer.contacts) {
       const at = this.project(p);
       if (at) pen.fillRect(at[0] - side / 2, at[1] - side / 2, side, side);
