@@ -2,7 +2,7 @@
 // state before each step, and handed over as constant forces for that step.
 #pragma once
 
-#include "core/dynamics/loads.h"
+#include "core/dynamics/model/loads.h"
 #include "core/engine/engine.h"
 
 namespace rigor {

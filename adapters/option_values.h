@@ -1,8 +1,8 @@
 // What an adapter asks of its settings and its scene before it converts them: the options' values, and a last guard.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/engine/option_values.h"
-#include "core/error.h"
 
 namespace rigor {
 

@@ -11,8 +11,8 @@
 #include "bench/benchmarks.h"
 #include "bench/raw_engines.h"
 #include "bench/scenes.h"
-#include "cases/case_reader.h"
-#include "cases/suite.h"
+#include "cases/case/case_reader.h"
+#include "cases/case/suite.h"
 #include "cases/truth/truth.h"
 
 namespace rigor::bench {

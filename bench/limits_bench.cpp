@@ -8,7 +8,7 @@
 
 #include "bench/benchmarks.h"
 #include "bench/scenes.h"
-#include "core/dynamics/crew.h"
+#include "core/base/thread_pool.h"
 #include "core/dynamics/integrators/integrator.h"
 
 namespace rigor::bench {
@@ -53,8 +53,8 @@ void copy_state_by_threads(benchmark::State& state, int count, int threads) {
   constexpr int kRepeats = 10;
   const BodyTable from = state_of(scene_of(scene_row("free-bodies"), count));
   BodyTable to(from);
-  Crew crew(threads);
-  const std::size_t share = (from.size() + crew.members() - 1) / crew.members();
+  ThreadPool thread_pool(threads);
+  const std::size_t share = (from.size() + thread_pool.members() - 1) / thread_pool.members();
   const auto copy = [&](std::size_t member) {
     copy_rows(from, to, member * share, std::min((member + 1) * share, from.size()));
   };
@@ -63,7 +63,7 @@ void copy_state_by_threads(benchmark::State& state, int count, int threads) {
     double seconds = 0;
     for (int n = 0; n < kRepeats; ++n) {
       const double start = wall_seconds();
-      crew.run(copy);
+      thread_pool.run(copy);
       const double taken = wall_seconds() - start;
       seconds += taken;
       least = std::min(least, taken);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "cases/report/machine.h"
+#include "cases/report/json/machine.h"
 
 namespace rigor::bench {
 namespace {

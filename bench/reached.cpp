@@ -46,7 +46,7 @@ double measured(const char* metric, const SceneRow& row, int count, const Engine
   const Simulation run = simulate(engine, settings, scene, row.dt, duration, {}, false);
   if (run.not_finite) return std::numeric_limits<double>::infinity();
   const MetricResult result =
-      at->measure({.scene = scene, .trajectory = run.trajectory, .truth = nullptr, .velocity_lag = 0});
+      at->measure({.scene = scene, .trajectory = run.trajectory, .truth = nullptr, .leapfrog_stagger = 0});
   return result.measurement ? result.measurement->value : kNone;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "cases/suite.h"
+#include "cases/case/suite.h"
 
 namespace rigor::bench {
 namespace {

@@ -18,7 +18,7 @@ std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btG
 MethodInfo sequential_impulse() {
   return {.name = "sequential-impulse",
           .summary = "semi-implicit Euler, contacts by projected Gauss-Seidel",
-          .velocity_lag = 0.5,
+          .leapfrog_stagger = 0.5,
           .options = {{"iterations", "sweeps of the contact solver a step", {}, 1, 10000, true},
                       {"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
                       {"split-impulse", "penetration corrected without adding velocity", {"on", "off"}}}};

@@ -24,7 +24,7 @@ class BulletWorld : public World {
   void step(double dt) override;
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
-  std::string complaint() const override { return ""; }  // Bullet reports nothing of a step
+  std::string solver_warning() const override { return ""; }  // Bullet reports nothing of a step
 
  private:
   struct Row {

@@ -59,7 +59,7 @@ class CoreWorld : public World {
     return settings;
   }
 
-  std::string complaint() const override { return stepper_->complaint(); }
+  std::string solver_warning() const override { return stepper_->solver_warning(); }
 
  private:
   System system_;
@@ -94,7 +94,7 @@ MethodInfo method_info(const Integrator& integrator) {
                   .order = integrator.order,
                   .symplectic = integrator.symplectic,
                   .symmetric = integrator.symmetric,
-                  .velocity_lag = integrator.velocity_lag,
+                  .leapfrog_stagger = integrator.leapfrog_stagger,
                   .adaptive = integrator.adaptive,
                   .options = {contact_option()}};
   info.options.push_back(

@@ -24,21 +24,21 @@ MethodInfo by_size() {
   return {
       .name = "auto",
       .summary = fmt::format("worldstep, but quickstep where more than {} moving bodies can touch", kMostForWorldStep),
-      .velocity_lag = 0.5,
+      .leapfrog_stagger = 0.5,
       .options = options_of_both()};
 }
 
 MethodInfo worldstep() {
   return {.name = "worldstep",
           .summary = "semi-implicit Euler, contacts by a direct (Dantzig) solver",
-          .velocity_lag = 0.5,
+          .leapfrog_stagger = 0.5,
           .options = options_of_both()};
 }
 
 MethodInfo quickstep() {
   MethodInfo method = {.name = "quickstep",
                        .summary = "semi-implicit Euler, contacts by successive over-relaxation",
-                       .velocity_lag = 0.5,
+                       .leapfrog_stagger = 0.5,
                        .options = options_of_both()};
   method.options.push_back({"iterations", "sweeps a step", {}, 1, 10000, true});
   method.options.push_back({"sor", "over-relaxation factor", {}, 0.01, 2});

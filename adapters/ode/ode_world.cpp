@@ -147,7 +147,8 @@ void OdeWorld::step(double dt) {
   if (!lost_) advance(dt);
   clock_.advance(dt);
   if (!lost_) lost_ = runs_away();
-  if (lost_) complaint_ = fmt::format("a speed or force passed {:g}: ODE was stopped before it would abort", kRunaway);
+  if (lost_)
+    solver_warning_ = fmt::format("a speed or force passed {:g}: ODE was stopped before it would abort", kRunaway);
 }
 
 bool OdeWorld::runs_away() const {
@@ -161,14 +162,14 @@ void OdeWorld::advance(double dt) {
   if (can_touch_) find_contacts();
   const int done = quick_ ? quick_step(dt) : dWorldStep(world_, dt);
   if (can_touch_) dJointGroupEmpty(contacts_);
-  complaint_ = ode_library::take_messages();
-  if (complaint_.starts_with("LCP")) {
-    complaint_ = fmt::format(
+  solver_warning_ = ode_library::take_messages();
+  if (solver_warning_.starts_with("LCP")) {
+    solver_warning_ = fmt::format(
         "ODE's direct solver gave up ({}): bodies have more contacts than carry them, so that its equations have no "
         "single solution, and the forces of that step are not one of them",
-        complaint_);
+        solver_warning_);
   }
-  if (!done) complaint_ = "ODE had no memory for the step";
+  if (!done) solver_warning_ = "ODE had no memory for the step";
 }
 
 // QuickStep shuffles its constraints by a random sequence that is global to the process. Each world continues its own,

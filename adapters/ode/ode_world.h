@@ -27,7 +27,7 @@ class OdeWorld : public World {
   void step(double dt) override;
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
-  std::string complaint() const override { return complaint_; }
+  std::string solver_warning() const override { return solver_warning_; }
 
  private:
   void apply(const Settings& settings);
@@ -54,7 +54,7 @@ class OdeWorld : public World {
   bool matched_, by_size_, quick_;
   bool lost_ = false;  // blown up: from then on its state is "not a number"
   Clock clock_;
-  std::string complaint_;
+  std::string solver_warning_;
   unsigned long random_seed_ = 0;  // ODE's own at its start
 
   dWorldID world_;

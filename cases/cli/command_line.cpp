@@ -8,12 +8,12 @@
 #include <cmath>
 #include <thread>
 
+#include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/gates/deviations.h"
-#include "cases/report/changes.h"
-#include "cases/suite.h"
-#include "core/error.h"
-#include "core/near_match.h"
+#include "cases/results/changes.h"
+#include "core/base/error.h"
+#include "core/base/near_match.h"
 
 namespace rigor {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/case.h"
+#include "cases/case/case.h"
 
 namespace rigor {
 

@@ -3,8 +3,8 @@
 
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
-#include "cases/report/changes.h"
-#include "core/error.h"
+#include "cases/results/changes.h"
+#include "core/base/error.h"
 
 namespace rigor {
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "adapters/engines.h"
+#include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/metrics/metric.h"
-#include "cases/suite.h"
 #include "cases/truth/truth.h"
-#include "core/error.h"
-#include "core/near_match.h"
+#include "core/base/error.h"
+#include "core/base/near_match.h"
 
 namespace rigor {
 namespace {

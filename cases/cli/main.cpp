@@ -9,7 +9,7 @@
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/runner/process_pool.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace {
 

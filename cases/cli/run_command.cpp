@@ -6,20 +6,20 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress.h"
 #include "cases/gates/deviations.h"
 #include "cases/gates/gates.h"
 #include "cases/gates/quick.h"
-#include "cases/report/console_table.h"
-#include "cases/report/job_summary.h"
-#include "cases/report/output_folder.h"
+#include "cases/report/console/console_table.h"
+#include "cases/report/github/job_summary.h"
 #include "cases/report/reports.h"
 #include "cases/runner/grid.h"
+#include "cases/runner/output_folder.h"
 #include "cases/runner/process_pool.h"
-#include "cases/suite.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {

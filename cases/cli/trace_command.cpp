@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
+#include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
-#include "cases/report/trajectory_csv.h"
+#include "cases/report/csv/trajectory_csv.h"
 #include "cases/runner/grid.h"
 #include "cases/runner/process_pool.h"
 #include "cases/runner/simulate.h"
-#include "cases/suite.h"
 #include "cases/truth/truth.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {
@@ -53,9 +53,9 @@ void send_trajectory(const Simulation& run, const Scene& scene, int every, const
     channel.send(fmt::format("{}blown up: from {:.6g} s on the state of '{}' is not finite", kNote,
                              run.not_finite->time, scene.body_name(run.not_finite->body)));
   }
-  if (!run.complaint.empty()) {
-    channel.send(
-        fmt::format("{}from {:.6g} s on not what its method promises: {}", kNote, run.complaint_time, run.complaint));
+  if (!run.solver_warning.empty()) {
+    channel.send(fmt::format("{}from {:.6g} s on not what its method promises: {}", kNote, run.solver_warning_time,
+                             run.solver_warning));
   }
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/runner/results.h"
+#include "cases/results/results.h"
 
 namespace rigor {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cases/case.h"
+#include "cases/case/case.h"
 #include "cases/gates/deviations.h"
-#include "core/error.h"
-#include "core/near_match.h"
-#include "core/scene/table_reader.h"
+#include "core/base/error.h"
+#include "core/base/near_match.h"
+#include "core/scene/toml/table_reader.h"
 
 namespace rigor {
 namespace {

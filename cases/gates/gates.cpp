@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/gates/selection.h"
-#include "cases/metrics/observed_order.h"
+#include "cases/analysis/observed_order.h"
+#include "cases/case/selection.h"
 
 namespace rigor {
 namespace {

@@ -1,7 +1,7 @@
 // Holds the results of a case against the gates its file states.
 #pragma once
 
-#include "cases/runner/results.h"
+#include "cases/results/results.h"
 
 namespace rigor {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "cases/gates/selection.h"
-#include "core/error.h"
+#include "cases/case/selection.h"
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {

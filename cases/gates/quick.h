@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cases/case.h"
+#include "cases/case/case.h"
 #include "core/engine/engine.h"
 
 namespace rigor {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "cases/metrics/momentum_course.h"
-#include "core/dynamics/energy.h"
+#include "cases/metrics/measures/momentum_series.h"
+#include "core/dynamics/model/energy.h"
 
 namespace rigor {
 namespace {

@@ -1,8 +1,8 @@
 // How long a structure built to stand (built_at_rest.h) stands: the first instant at which a body has moved by more
 // than half the radius of the sphere round it; the end of the run if none ever has.
-#include "cases/metrics/built_at_rest.h"
-#include "cases/metrics/measuring.h"
-#include "cases/metrics/shape_gap.h"
+#include "cases/metrics/measures/built_at_rest.h"
+#include "cases/metrics/measures/measuring.h"
+#include "cases/metrics/measures/shape_gap.h"
 
 namespace rigor {
 namespace {

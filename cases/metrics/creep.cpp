@@ -1,7 +1,7 @@
 // How far a body that should stay where it is has moved from its start, in a scene built to stand (built_at_rest.h). It
 // counts the settling of the first steps too.
-#include "cases/metrics/built_at_rest.h"
-#include "cases/metrics/measuring.h"
+#include "cases/metrics/measures/built_at_rest.h"
+#include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
@@ -10,7 +10,7 @@ MetricResult measure(const JudgedRun& run) {
   const std::string why_not = why_not_built_at_rest(run);
   if (!why_not.empty()) return {{}, why_not};
   const BodyColumns start = run.trajectory.samples.front().bodies.columns();
-  Course course;
+  TimeSeries series;
   for (const Sample& sample : run.trajectory.samples) {
     double farthest = 0;
     Instant worst{sample.time, kWorld, "displacement", 0, 0};
@@ -20,9 +20,9 @@ MetricResult measure(const JudgedRun& run) {
       farthest = moved;
       worst = {sample.time, static_cast<int>(i), "displacement", moved, 0};
     }
-    course.add(farthest, worst);
+    series.add(farthest, worst);
   }
-  return {std::move(course).finish(), ""};
+  return {std::move(series).finish(), ""};
 }
 
 }  // namespace

@@ -1,21 +1,21 @@
-// (E - E_expected) / scale, from the velocities as they are read; what is expected, and the scale: energy_course.h.
+// (E - E_expected) / scale, from the velocities as they are read; what is expected, and the scale: energy_series.h.
 #include <cmath>
 
-#include "cases/metrics/energy_course.h"
-#include "cases/metrics/measuring.h"
+#include "cases/metrics/measures/energy_series.h"
+#include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
 
 MetricResult measure_with(const JudgedRun& run, double lag) {
-  const EnergyCourse energies = energy_course(run, lag);
+  const EnergySeries energies = energy_series(run, lag);
   if (!energies.not_applicable.empty()) return {{}, energies.not_applicable};
-  Course course;
+  TimeSeries series;
   for (std::size_t n = 0; n < energies.expected.size(); ++n) {
-    course.add(std::abs(energies.found[n] - energies.expected[n]) / energies.scale,
+    series.add(std::abs(energies.found[n] - energies.expected[n]) / energies.scale,
                {run.trajectory.samples[n].time, kWorld, "energy", energies.found[n], energies.expected[n]});
   }
-  return {std::move(course).finish(), ""};
+  return {std::move(series).finish(), ""};
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ MetricRow energy_drift() {
 MetricRow energy_drift_synchronised() {
   return {"energy_drift_synchronised", "1",
           "the same with the velocities brought to the positions' time: what the scheme itself loses or gains",
-          [](const JudgedRun& run) { return measure_with(run, run.velocity_lag); }};
+          [](const JudgedRun& run) { return measure_with(run, run.leapfrog_stagger); }};
 }
 
 }  // namespace rigor

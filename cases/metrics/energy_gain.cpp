@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "cases/metrics/energy_course.h"
-#include "cases/metrics/measuring.h"
-#include "cases/metrics/synchronised.h"
-#include "core/dynamics/energy.h"
+#include "cases/metrics/measures/energy_series.h"
+#include "cases/metrics/measures/measuring.h"
+#include "cases/metrics/measures/synchronised.h"
+#include "core/dynamics/model/energy.h"
 
 namespace rigor {
 namespace {
@@ -17,18 +17,18 @@ MetricResult measure(const JudgedRun& run) {
   if (!run.scene.forces.empty()) return {{}, "forces drive the scene and may add energy"};
   if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
   const double scale = energy_scale(run);
-  Synchroniser synchroniser(run.scene, run.trajectory.dt, run.velocity_lag);
+  Synchroniser synchroniser(run.scene, run.trajectory.dt, run.leapfrog_stagger);
   double lowest = std::numeric_limits<double>::infinity();
-  Course course;
+  TimeSeries series;
   BodyTable bodies;
   for (const Sample& sample : run.trajectory.samples) {
     bodies = sample.bodies.columns();
     synchroniser.apply(sample.time, bodies.columns());
     const double now = energy(run.scene, bodies.columns());
     lowest = std::min(lowest, now);
-    course.add((now - lowest) / scale, {sample.time, kWorld, "energy", now, lowest});
+    series.add((now - lowest) / scale, {sample.time, kWorld, "energy", now, lowest});
   }
-  return {std::move(course).finish(), ""};
+  return {std::move(series).finish(), ""};
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/metrics/measuring.h"
-#include "cases/metrics/stop_distances.h"
+#include "cases/metrics/measures/measuring.h"
+#include "cases/metrics/measures/stop_distances.h"
 
 namespace rigor {
 namespace {

@@ -3,8 +3,8 @@
 // run.
 #include <cmath>
 
-#include "cases/metrics/impacts.h"
-#include "cases/metrics/measuring.h"
+#include "cases/metrics/measures/impacts.h"
+#include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
@@ -23,7 +23,7 @@ MetricResult measure(const JudgedRun& run) {
   const Trajectory truth = truth_of(run, count);
   const auto expected = impacts_of(run.scene, truth, 0);
   if (expected.empty()) return {{}, kNoImpact};
-  const auto found = impacts_of(run.scene, run.trajectory, run.velocity_lag);
+  const auto found = impacts_of(run.scene, run.trajectory, run.leapfrog_stagger);
   const double end = truth.samples.back().time;
   Measurement out;
   for (const auto& [pair, impacts] : expected) {

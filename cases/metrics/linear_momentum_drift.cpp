@@ -1,7 +1,7 @@
 // P = sum m v must be P(0) + M g t + the impulses of the timed forces, where nothing holds the bodies from outside;
 // else it is held against the truth's. Absolute, so that it means the same where P(0) = 0.
-#include "cases/metrics/momentum_course.h"
-#include "core/dynamics/energy.h"
+#include "cases/metrics/measures/momentum_series.h"
+#include "core/dynamics/model/energy.h"
 
 namespace rigor {
 namespace {

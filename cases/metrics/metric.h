@@ -1,4 +1,4 @@
-// What is measured of one run: a number, the instant at which it is worst, and its course over time.
+// What is measured of one run: a number, the instant at which it is worst, and its series over time.
 #pragma once
 
 #include <limits>
@@ -35,7 +35,7 @@ struct JudgedRun {
   const Scene& scene;
   const Trajectory& trajectory;
   const TruthSamples* truth;      // null where the case has none
-  double velocity_lag;            // in steps, see MethodInfo
+  double leapfrog_stagger;        // in steps, see MethodInfo
   const TwinRun* twin = nullptr;  // null for the core's own schemes, and where bodies can touch
   double cpu_seconds = std::numeric_limits<double>::quiet_NaN();  // s, of the run's steps
   double survived = std::numeric_limits<double>::quiet_NaN();     // s, until it blew up, or `duration`

@@ -1,6 +1,6 @@
 // The largest angle, over bodies and time, of the turn that takes a body's orientation to the truth's. A quaternion and
 // its negative are the same orientation, and a quaternion's length does not matter here (see orthonormality_error).
-#include "cases/metrics/measuring.h"
+#include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
@@ -9,7 +9,7 @@ MetricResult measure(const JudgedRun& run) {
   if (!run.truth) return {{}, kNoTruth};
   const std::size_t count = samples_within(run, kTruthNeededOrientation);
   if (count == 0) return {{}, kNoSamples};
-  Course course;
+  TimeSeries series;
   for (std::size_t n = 0; n < count; ++n) {
     const Sample& sample = run.trajectory.samples[n];
     const BodyColumns found = sample.bodies.columns(), truth = run.truth->bodies[n].columns();
@@ -18,9 +18,9 @@ MetricResult measure(const JudgedRun& run) {
       const double angle = angle_between(found.orientation(i), truth.orientation(i));
       if (angle > worst.found) worst.body = static_cast<int>(i), worst.found = angle;
     }
-    course.add(worst.found, worst);
+    series.add(worst.found, worst);
   }
-  return {std::move(course).finish(), ""};
+  return {std::move(series).finish(), ""};
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 // How far an orientation is from a rotation: the largest Frobenius norm of RᵀR - I, over bodies and time. R is the
 // engine's own matrix where it keeps one, else that of its quaternion as it stands, whose lost norm then shows.
-#include "cases/metrics/measuring.h"
+#include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
 
 MetricResult measure(const JudgedRun& run) {
   if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
-  Course course;
+  TimeSeries series;
   for (const Sample& sample : run.trajectory.samples) {
     Instant worst{.time = sample.time, .body = 0, .component = "RᵀR - I"};
     for (std::size_t i = 0; i < sample.bodies.size(); ++i) {
@@ -15,9 +15,9 @@ MetricResult measure(const JudgedRun& run) {
       const double error = (R.transpose() * R - Mat3::Identity()).norm();
       if (error > worst.found) worst.body = static_cast<int>(i), worst.found = error;
     }
-    course.add(worst.found, worst);
+    series.add(worst.found, worst);
   }
-  return {std::move(course).finish(), ""};
+  return {std::move(series).finish(), ""};
 }
 
 }  // namespace

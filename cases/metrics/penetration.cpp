@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "cases/metrics/measuring.h"
-#include "cases/metrics/shape_gap.h"
+#include "cases/metrics/measures/measuring.h"
+#include "cases/metrics/measures/shape_gap.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -28,7 +28,7 @@ MetricResult measure(const JudgedRun& run) {
   if (!anything_can_touch(run.scene)) return {{}, "no two bodies of the scene can touch"};
   if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
   const std::map<Pair, double> at_start = overlaps_of(run.scene);
-  Course course;
+  TimeSeries series;
   for (const Sample& sample : run.trajectory.samples) {
     double deepest = 0;
     Instant worst{sample.time, kWorld, "gap", 0, 0};
@@ -40,9 +40,9 @@ MetricResult measure(const JudgedRun& run) {
       const int mover = run.scene.bodies[a].fixed ? b : a, other = mover == a ? b : a;
       worst = {sample.time, mover, fmt::format("gap to '{}'", run.scene.bodies[other].name), gap, 0};
     });
-    course.add(deepest, worst);
+    series.add(deepest, worst);
   }
-  return {std::move(course).finish(), ""};
+  return {std::move(series).finish(), ""};
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The largest distance, over bodies and time, between where a body is and where the truth says it is.
 #include <string>
 
-#include "cases/metrics/measuring.h"
+#include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
@@ -28,13 +28,13 @@ MetricResult measure(const JudgedRun& run) {
   if (!run.truth) return {{}, kNoTruth};
   const std::size_t count = samples_within(run, kTruthNeededPosition);
   if (count == 0) return {{}, kNoSamples};
-  Course course;
+  TimeSeries series;
   for (std::size_t n = 0; n < count; ++n) {
     double value = 0;
     const Instant worst = worst_at(run.trajectory.samples[n], run.truth->bodies[n].columns(), value);
-    course.add(value, worst);
+    series.add(value, worst);
   }
-  return {std::move(course).finish(), ""};
+  return {std::move(series).finish(), ""};
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 // engine made of the pair's restitution. Needs no truth.
 #include <cmath>
 
-#include "cases/metrics/impacts.h"
-#include "cases/metrics/measuring.h"
+#include "cases/metrics/measures/impacts.h"
+#include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 MetricResult measure(const JudgedRun& run) {
   Measurement out;
   bool has_any = false;
-  for (const auto& [pair, impacts] : impacts_of(run.scene, run.trajectory, run.velocity_lag)) {
+  for (const auto& [pair, impacts] : impacts_of(run.scene, run.trajectory, run.leapfrog_stagger)) {
     const double expected = run.scene.contact_law(pair.first, pair.second).restitution;
     const int mover = run.scene.bodies[pair.first].fixed ? pair.second : pair.first;
     for (const Impact& impact : impacts) {

@@ -1,6 +1,6 @@
 // Drifting: the energy, with the velocities brought to the positions' time, has moved away from what it should be by
 // more than 1 % of the largest kinetic energy between the first and the last tenth of what can be compared
-// (energy_course.h says what it should be and how far). Means of tenths, because a bounded oscillation of the energy is
+// (energy_series.h says what it should be and how far). Means of tenths, because a bounded oscillation of the energy is
 // no drift.
 #include "cases/metrics/stability.h"
 
@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/metrics/energy_course.h"
-#include "cases/metrics/momentum_course.h"
-#include "core/dynamics/energy.h"
-#include "core/dynamics/system.h"
+#include "cases/metrics/measures/energy_series.h"
+#include "cases/metrics/measures/momentum_series.h"
+#include "core/dynamics/model/energy.h"
+#include "core/dynamics/model/system.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -81,7 +81,7 @@ std::optional<Stability> energy_explosion(const Scene& scene, const Trajectory& 
 }
 
 // The mean deviation of the last tenth of the samples less that of the first, in J.
-double secular_change(const EnergyCourse& energies) {
+double secular_change(const EnergySeries& energies) {
   const std::size_t count = energies.expected.size(), tenth = std::max<std::size_t>(1, count / 10);
   const auto mean_from = [&](std::size_t first) {
     double sum = 0;
@@ -92,7 +92,7 @@ double secular_change(const EnergyCourse& energies) {
 }
 
 Stability drift(const JudgedRun& run, double largest) {
-  const EnergyCourse energies = energy_course(run, run.velocity_lag);
+  const EnergySeries energies = energy_series(run, run.leapfrog_stagger);
   if (!energies.not_applicable.empty()) {
     return {Verdict::stable, 0, kWorld,
             "the energy stays bounded; whether it drifts is not known: " + energies.not_applicable};
@@ -137,8 +137,8 @@ std::string word_of(Verdict verdict) {
   return "";
 }
 
-Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy, double velocity_lag,
-                          const TruthSamples* truth, double largest_energy_change) {
+Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy,
+                          double leapfrog_stagger, const TruthSamples* truth, double largest_energy_change) {
   const double in_play = std::max(largest_kinetic_energy, largest_energy_change);
   if (const auto explosion = energy_explosion(scene, run.trajectory, in_play)) return *explosion;
   if (run.not_finite) {
@@ -146,7 +146,7 @@ Stability judge_stability(const Scene& scene, const Simulation& run, double larg
             fmt::format("at {:.4g} s the state of '{}' is no longer finite", run.not_finite->time,
                         scene.body_name(run.not_finite->body))};
   }
-  return drift({scene, run.trajectory, truth, velocity_lag}, largest_kinetic_energy);
+  return drift({scene, run.trajectory, truth, leapfrog_stagger}, largest_kinetic_energy);
 }
 
 double largest_kinetic_energy(const Scene& scene, const Truth* truth, double duration) {

@@ -25,8 +25,9 @@ struct Stability {
 // energy or, where that is more, the largest change of its energy. A weight that dampers let creep back to rest moves
 // little and loses much. Drifting: see stability.cpp; the truth says there what energy is left in a scene with dampers
 // or timed forces.
-Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy, double velocity_lag,
-                          const TruthSamples* truth = nullptr, double largest_energy_change = 0);
+Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy,
+                          double leapfrog_stagger, const TruthSamples* truth = nullptr,
+                          double largest_energy_change = 0);
 
 // J, of the truth over [0, duration]; without a truth, or where it never moves, a bound on what the start, the springs'
 // stored energy, gravity and the timed forces can give by then.

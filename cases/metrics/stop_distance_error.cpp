@@ -2,8 +2,8 @@
 // expected, the largest of its magnitudes over the bodies, at the end of the run. What creeps on after its stop counts.
 #include <cmath>
 
-#include "cases/metrics/measuring.h"
-#include "cases/metrics/stop_distances.h"
+#include "cases/metrics/measures/measuring.h"
+#include "cases/metrics/measures/stop_distances.h"
 
 namespace rigor {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/metrics/measuring.h"
-#include "cases/metrics/pose_gap.h"
+#include "cases/metrics/measures/measuring.h"
+#include "cases/metrics/measures/pose_gap.h"
 
 namespace rigor {
 namespace {

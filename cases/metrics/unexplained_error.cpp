@@ -1,7 +1,7 @@
 // The largest distance, over bodies and time, between where the engine has a body and where its twin has it: what is
 // left of the position's error once the scheme's own part is taken off. In metres; relative to motion_extents() it is
 // rounding while below 1e-9.
-#include "cases/metrics/measuring.h"
+#include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
@@ -12,7 +12,7 @@ MetricResult measure(const JudgedRun& run) {
   const std::size_t count =
       samples_with_twin(run, run.twin->position_rounding, motion_extents(twin), kTruthNeededPosition);
   if (count == 0) return {{}, kNoSamples};
-  Course course;
+  TimeSeries series;
   for (std::size_t n = 0; n < count; ++n) {
     const BodyColumns found = run.trajectory.samples[n].bodies.columns(), expected = twin.samples[n].bodies.columns();
     double value = 0;
@@ -26,9 +26,9 @@ MetricResult measure(const JudgedRun& run) {
       worst.body = static_cast<int>(i), worst.component = std::string("position.") + "xyz"[axis];
       worst.found = found.position(i)[axis], worst.expected = expected.position(i)[axis];
     }
-    course.add(value, worst);
+    series.add(value, worst);
   }
-  return {std::move(course).finish(), ""};
+  return {std::move(series).finish(), ""};
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The largest angle, over bodies and time, of the turn that takes the engine's orientation of a body to its twin's:
 // what is left of the orientation's error once the scheme's own part is taken off. Relative to one radian.
-#include "cases/metrics/measuring.h"
+#include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
@@ -11,7 +11,7 @@ MetricResult measure(const JudgedRun& run) {
   const std::vector<double> one_radian(twin.samples.size(), 1.0);
   const std::size_t count = samples_with_twin(run, run.twin->orientation_rounding, one_radian, kTruthNeededOrientation);
   if (count == 0) return {{}, kNoSamples};
-  Course course;
+  TimeSeries series;
   for (std::size_t n = 0; n < count; ++n) {
     const BodyColumns found = run.trajectory.samples[n].bodies.columns(), expected = twin.samples[n].bodies.columns();
     Instant worst{.time = twin.samples[n].time, .body = 0, .component = "orientation"};
@@ -19,9 +19,9 @@ MetricResult measure(const JudgedRun& run) {
       const double angle = angle_between(found.orientation(i), expected.orientation(i));
       if (angle > worst.found) worst.body = static_cast<int>(i), worst.found = angle;
     }
-    course.add(worst.found, worst);
+    series.add(worst.found, worst);
   }
-  return {std::move(course).finish(), ""};
+  return {std::move(series).finish(), ""};
 }
 
 }  // namespace

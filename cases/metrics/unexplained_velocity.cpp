@@ -3,7 +3,7 @@
 // fastest frequency.
 #include <algorithm>
 
-#include "cases/metrics/rate_gap.h"
+#include "cases/metrics/measures/rate_gap.h"
 
 namespace rigor {
 namespace {

@@ -1,6 +1,6 @@
 // Velocities and angular velocities, as read, against the truth's. A semi-implicit step leaves them half a step behind
 // the positions, which is an error of first order here: what is read belongs to no one instant.
-#include "cases/metrics/rate_gap.h"
+#include "cases/metrics/measures/rate_gap.h"
 
 namespace rigor {
 namespace {

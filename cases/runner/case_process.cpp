@@ -10,13 +10,13 @@
 #include <map>
 #include <set>
 
+#include "cases/report/csv/trajectory_csv.h"
 #include "cases/report/html/playback.h"
-#include "cases/report/result_json.h"
-#include "cases/report/trajectory_csv.h"
+#include "cases/results/result_json.h"
 #include "cases/runner/journal.h"
 #include "cases/runner/simulate.h"
 #include "cases/runner/twin_run.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {
@@ -38,9 +38,10 @@ void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
     cell.status = Status::diverged;
     cell.reason = fmt::format("blown up at {:.2f} s: {}; {}", cell.stability.time, scene.body_name(cell.stability.body),
                               cell.stability.why);
-  } else if (!run.complaint.empty()) {
+  } else if (!run.solver_warning.empty()) {
     cell.status = Status::invalid;
-    cell.reason = fmt::format("from {:.4g} s on not what its method promises: {}", run.complaint_time, run.complaint);
+    cell.reason =
+        fmt::format("from {:.4g} s on not what its method promises: {}", run.solver_warning_time, run.solver_warning);
   } else {
     cell.status = Status::pass;
     cell.reason.clear();
@@ -76,15 +77,15 @@ bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
                      [&](const Gate& gate) { return metrics.contains(gate.metric); });
 }
 
-// Their courses over time come out apart: no result keeps them.
+// Their series over time come out apart: no result keeps them.
 std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options,
-                                            std::vector<NamedCourse>& courses) {
+                                            std::vector<NamedSeries>& series) {
   std::map<std::string, MetricValue> values;
   for (const MetricRow& row : metrics()) {
     const bool is_wanted = options.is_thorough || !row.is_costly || has_gate_on(definition, {row.name});
     MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
     values[row.name] = condensed(found, run.trajectory);
-    if (found.measurement) courses.push_back({row.name, std::move(found.measurement->series)});
+    if (found.measurement) series.push_back({row.name, std::move(found.measurement->series)});
   }
   return values;
 }
@@ -262,7 +263,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   Cell cell = planned;
   const Scene& scene = definition.scene;
   const Engine& engine = find_engine(engines, run_name.engine);
-  const double velocity_lag = method_of(engine.info(), run_name.settings).velocity_lag;
+  const double leapfrog_stagger = method_of(engine.info(), run_name.settings).leapfrog_stagger;
   const bool is_timed = options.is_thorough || has_gate_on(definition, {"cost"});
   const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed);
   cell.settings = run.settings;
@@ -273,16 +274,17 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   if (options.is_thorough || has_gate_on(definition, kOfTwins)) twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;
   if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
-  JudgedRun judged{scene,        run.trajectory,          samples ? &*samples : nullptr,
-                   velocity_lag, twin ? &*twin : nullptr, cell.cpu_seconds};
-  cell.stability = judge_stability(scene, run, facts.largest_kinetic_energy, velocity_lag, judged.truth,
+  JudgedRun judged{
+      scene,           run.trajectory, samples ? &*samples : nullptr, leapfrog_stagger, twin ? &*twin : nullptr,
+      cell.cpu_seconds};
+  cell.stability = judge_stability(scene, run, facts.largest_kinetic_energy, leapfrog_stagger, judged.truth,
                                    facts.largest_energy_change);
   judged.duration = definition.duration;
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
-  std::vector<NamedCourse> courses;
-  cell.metrics = measured(judged, definition, options, courses);
+  std::vector<NamedSeries> series;
+  cell.metrics = measured(judged, definition, options, series);
   if (limit_of_playback > 0) {
-    cell.playback = packed_run(judged, courses, facts.largest_kinetic_energy, limit_of_playback);
+    cell.playback = packed_run(judged, series, facts.largest_kinetic_energy, limit_of_playback);
   }
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);

@@ -1,5 +1,5 @@
 // What happens inside the process of one case: the truth is made, then each cell is run and judged in a child of its
-// own, which inherits the truth. Results go to the grid's process as messages (cases/report/result_json.h).
+// own, which inherits the truth. Results go to the grid's process as messages (cases/results/result_json.h).
 #pragma once
 
 #include "cases/runner/grid.h"

@@ -7,11 +7,11 @@
 #include <numeric>
 #include <set>
 
-#include "cases/gates/selection.h"
-#include "cases/report/result_json.h"
+#include "cases/case/selection.h"
+#include "cases/results/result_json.h"
 #include "cases/runner/case_process.h"
 #include "cases/runner/process_pool.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "adapters/engines.h"
-#include "cases/runner/results.h"
+#include "cases/results/results.h"
 
 namespace rigor {
 

@@ -20,7 +20,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {
@@ -30,8 +30,8 @@ using Time = std::chrono::steady_clock;
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t caught_signal = 0;
 
-// A limit is one of CPU time, so that no verdict depends on what else the machine does; a job that sleeps ends too, after
-// so many times its limit by the clock.
+// A limit is one of CPU time, so that no verdict depends on what else the machine does; a job that sleeps ends too,
+// after so many times its limit by the clock.
 constexpr double kWaits = 10;
 
 // While it lives, the first SIGINT, SIGTERM or SIGHUP is noted; a second one acts as if Rigor had not asked.

@@ -80,9 +80,9 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     world->step(dt);
     if (is_timed) run.cpu_seconds += std::max(0.0, thread_cpu_seconds() - begin - cost_of_reading_the_clock());
     world->read(now);
-    if (run.complaint.empty()) {
-      run.complaint = world->complaint();
-      if (!run.complaint.empty()) run.complaint_time = now.time;
+    if (run.solver_warning.empty()) {
+      run.solver_warning = world->solver_warning();
+      if (!run.solver_warning.empty()) run.solver_warning_time = now.time;
     }
   }
 }

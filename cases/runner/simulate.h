@@ -18,9 +18,9 @@ struct Simulation {
   Trajectory trajectory;  // finite samples only, t = 0 first
   SettingsInForce settings;
   std::optional<NotFinite> not_finite;
-  std::string complaint;      // the first one of the world, with its time; empty if none
-  double complaint_time = 0;  // s
-  double cpu_seconds = 0;     // of the steps alone, without recording; not a number if nobody timed them
+  std::string solver_warning;      // the first one of the world, with its time; empty if none
+  double solver_warning_time = 0;  // s
+  double cpu_seconds = 0;          // of the steps alone, without recording; not a number if nobody timed them
   long steps_per_sample = 1;
 };
 

@@ -74,7 +74,7 @@ SchemeFindings judge_scheme(const EngineTable& engines, const RunName& twin, con
                             const Simulation& run, double duration) {
   SchemeFindings findings;
   findings.twin = twin.text;
-  const JudgedRun as_run{judged.scene, judged.twin->trajectory, judged.truth, judged.velocity_lag};
+  const JudgedRun as_run{judged.scene, judged.twin->trajectory, judged.truth, judged.leapfrog_stagger};
   for (const char* name : {"angular_momentum_drift", "energy_drift", "orientation_error", "position_error"}) {
     findings.metrics[name] = measured(name, as_run);
   }
@@ -84,7 +84,7 @@ SchemeFindings judge_scheme(const EngineTable& engines, const RunName& twin, con
       simulate_twin(engines, *without, judged.scene, run.trajectory.dt, duration, run.steps_per_sample);
   auto& samples = off_run.trajectory.samples;
   samples.resize(std::min(samples.size(), as_run.trajectory.samples.size()));  // the truth may have no more
-  const JudgedRun off{judged.scene, off_run.trajectory, judged.truth, judged.velocity_lag};
+  const JudgedRun off{judged.scene, off_run.trajectory, judged.truth, judged.leapfrog_stagger};
   for (const char* name : {"angular_momentum_drift", "energy_drift"}) {
     findings.without_gyroscopic_term[name] = measured(name, off);
   }

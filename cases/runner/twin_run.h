@@ -2,7 +2,7 @@
 #pragma once
 
 #include "adapters/engines.h"
-#include "cases/runner/results.h"
+#include "cases/results/results.h"
 #include "cases/runner/simulate.h"
 
 namespace rigor {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "cases/truth/truth.h"
-#include "core/error.h"
-#include "core/near_match.h"
+#include "core/base/error.h"
+#include "core/base/near_match.h"
 
 namespace rigor {
 

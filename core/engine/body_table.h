@@ -6,9 +6,9 @@
 #include <array>
 #include <cstddef>
 
+#include "core/base/math.h"
 #include "core/engine/body_column.h"
 #include "core/engine/columns.h"
-#include "core/math.h"
 
 namespace rigor {
 

@@ -37,7 +37,7 @@ struct MethodInfo {
   bool symmetric = false;   // a step back undoes a step forward, to rounding, on undamped smooth scenes
   // Steps by which the velocities read lag behind the positions (1/2 for a semi-implicit step): the judge brings them
   // to the positions' time before it speaks of lost energy.
-  double velocity_lag = 0;
+  double leapfrog_stagger = 0;
   // Divides each step by itself until it meets a tolerance: its error does not follow from dt, and `order` is that of
   // its inner steps.
   bool adaptive = false;
@@ -97,7 +97,7 @@ class World {
   virtual void read(Snapshot& out) const = 0;  // every body, at the world's current time
   virtual SettingsInForce settings_in_force() const = 0;
   // Why the last step did not do what its method promises (an iteration that did not converge, say); empty if it did.
-  virtual std::string complaint() const = 0;
+  virtual std::string solver_warning() const = 0;
 };
 
 class Engine {

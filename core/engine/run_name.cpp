@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/near_match.h"
+#include "core/base/error.h"
+#include "core/base/near_match.h"
 
 namespace rigor {
 namespace {

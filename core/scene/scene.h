@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/math.h"
+#include "core/base/math.h"
 
 namespace rigor {
 

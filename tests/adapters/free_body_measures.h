@@ -6,7 +6,7 @@
 #include <string>
 
 #include "adapters/engines.h"
-#include "core/dynamics/energy.h"
+#include "core/dynamics/model/energy.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {

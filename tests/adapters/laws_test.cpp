@@ -208,7 +208,8 @@ const std::vector<Exception> kExceptions = {
 
 const Exception* exception_for(const std::string& law, bool touching, const Run& run) {
   const auto row = std::find_if(kExceptions.begin(), kExceptions.end(), [&](const Exception& e) {
-    return e.law == law && e.touching == touching && run.name().starts_with(e.engine) && run.name().ends_with(e.settings);
+    return e.law == law && e.touching == touching && run.name().starts_with(e.engine) &&
+           run.name().ends_with(e.settings);
   });
   return row == kExceptions.end() ? nullptr : &*row;
 }

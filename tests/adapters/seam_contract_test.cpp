@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/dynamics/loads.h"
+#include "core/dynamics/model/loads.h"
 #include "tests/adapters/seam_runs.h"
 
 using namespace rigor;
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(gravity_alone_is_as_far_from_the_parabola_as_the_scheme_mus
     const double rounding = 1e-12;  // 30 steps of numbers of about 10 m
     BOOST_TEST(error.head<2>().norm() < rounding);
     BOOST_TEST(std::abs(error.z()) < 0.5 * g * dt * t + rounding);
-    if (run.method().velocity_lag == 0.5) BOOST_TEST(std::abs(error.z() + 0.5 * g * dt * t) < rounding);
+    if (run.method().leapfrog_stagger == 0.5) BOOST_TEST(std::abs(error.z() + 0.5 * g * dt * t) < rounding);
   });
 }
 
@@ -286,7 +286,7 @@ BOOST_AUTO_TEST_CASE(a_scene_that_blows_up_ends_in_numbers_that_are_not_finite_a
     scene.springs[0].rest_length = 1;
     for_each_run(scene, 1.0 / 30, [&](const Run& run) {
       // Far beyond its limit, omega dt = 2, a semi-implicit step multiplies the motion; an implicit one need not.
-      if (run.method().velocity_lag != 0.5) return;
+      if (run.method().leapfrog_stagger != 0.5) return;
       const auto world = run.load(scene);
       const BodyTable end = state_after(*world, 1.0 / 30, 2000);
       const Vec3 position = end.columns().position(0);

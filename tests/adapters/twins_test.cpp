@@ -1,11 +1,11 @@
 // ODE and Bullet against their twins: on smooth scenes an engine must do what its published scheme does, to rounding.
 #include <boost/test/unit_test.hpp>
 
-#include "cases/metrics/measuring.h"
+#include "cases/case/suite.h"
+#include "cases/metrics/measures/measuring.h"
 #include "cases/runner/twin_run.h"
-#include "cases/suite.h"
-#include "core/dynamics/energy.h"
-#include "core/dynamics/system.h"
+#include "core/dynamics/model/energy.h"
+#include "core/dynamics/model/system.h"
 #include "core/scene/turned.h"
 #include "tests/adapters/seam_runs.h"
 #include "tests/cases/judged.h"

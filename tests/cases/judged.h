@@ -13,7 +13,7 @@
 
 namespace rigor::test {
 
-// Two cubes hung below each other by two springs each (the course, assignment 5, exercise 2-2).
+// Two cubes hung below each other by two springs each (the series, assignment 5, exercise 2-2).
 inline Scene body_springs() {
   Scene scene;
   scene.gravity = {0, -9.8, 0};

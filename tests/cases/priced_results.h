@@ -1,7 +1,7 @@
 // Results whose cells have errors and costs that a test states, for what is read across cells.
 #pragma once
 
-#include "cases/runner/results.h"
+#include "cases/results/results.h"
 #include "tests/cases/runner/faulty_engine.h"
 
 namespace rigor::test {

@@ -11,7 +11,7 @@ namespace rigor::test {
 
 struct Script {
   std::function<void(int step, MutableBodyColumns bodies)> play = [](int, MutableBodyColumns) {};
-  std::function<std::string(int step)> complaint = [](int) { return std::string(); };
+  std::function<std::string(int step)> solver_warning = [](int) { return std::string(); };
 };
 
 class ScriptedWorld : public World {
@@ -31,7 +31,7 @@ class ScriptedWorld : public World {
     out.borrow(bodies_.columns());
   }
   SettingsInForce settings_in_force() const override { return {{"scripted", "yes"}}; }
-  std::string complaint() const override { return script_.complaint(steps_); }
+  std::string solver_warning() const override { return script_.solver_warning(steps_); }
 
  private:
   const Script& script_;

@@ -47,7 +47,7 @@ class BrokenWorld : public World {
   }
 
   SettingsInForce settings_in_force() const override { return world_->settings_in_force(); }
-  std::string complaint() const override { return world_->complaint(); }
+  std::string solver_warning() const override { return world_->solver_warning(); }
 
  private:
   void remember() {

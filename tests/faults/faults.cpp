@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/dynamics/loads.h"
-#include "core/dynamics/system.h"
+#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/system.h"
 #include "tests/faults/contact_faults.h"
 #include "tests/faults/scene_faults.h"
 

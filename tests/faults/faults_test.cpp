@@ -9,12 +9,12 @@
 #include <set>
 #include <tuple>
 
+#include "cases/case/suite.h"
 #include "cases/gates/deviations.h"
 #include "cases/gates/gates.h"
 #include "cases/gates/quick.h"
 #include "cases/runner/grid.h"
-#include "cases/suite.h"
-#include "core/error.h"
+#include "core/base/error.h"
 
 using namespace rigor;
 using rigor::test::BrokenEngine;

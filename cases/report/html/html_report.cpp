@@ -10,9 +10,9 @@
 #include "cases/report/html/packing.h"
 #include "cases/report/html/page_bundle.h"
 #include "cases/report/html/playback.h"
-#include "cases/report/json_report.h"
+#include "cases/report/json/json_report.h"
 #include "cases/report/reports.h"
-#include "cases/report/result_json.h"
+#include "cases/results/result_json.h"
 
 namespace rigor {
 namespace {
@@ -52,7 +52,7 @@ Json playbacks(const Results& results, std::size_t budget) {
     for (const Cell& cell : result.cells) cells.push_back(chosen.of(result, cell));
     cases.push_back({{"truth", chosen.of_truth(result)}, {"cells", cells}});
   }
-  return {{"courses", course_names()}, {"cases", cases}};
+  return {{"series", series_names()}, {"cases", cases}};
 }
 
 // JSON that may stand in a <script>: no "<" is left that could end it or begin a comment.

@@ -14,7 +14,7 @@ class Bytes {
   void add_u32(std::uint32_t value);
   void add_f32(float value);
   void add_f64(double value);
-  // Differences from one value to the next, first all low bytes, then all high ones: smooth courses deflate well so.
+  // Differences from one value to the next, first all low bytes, then all high ones: smooth series deflate well so.
   void add_differences(const std::vector<std::uint16_t>& values);
   const std::string& data() const { return data_; }
 

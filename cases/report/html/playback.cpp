@@ -2,8 +2,8 @@
 //   u8 1 if the motion is the truth's; f64 seconds between samples; f64 time of the last; u32 bodies;
 //   u32 keys (0: no motion here), their samples; f32 lowest x y z, f32 extent x y z; for each of x, y, z and the
 //   quaternion's x, y, z (its w >= 0), for each body, for each key: u16, over the extent or over -1..1;
-//   u32 points, their samples; u8 courses, u8 its name's number for each; for each course and point: u16, the upper
-//   half of a float32, not a number where the course has ended.
+//   u32 points, their samples; u8 series, u8 its name's number for each; for each series and point: u16, the upper
+//   half of a float32, not a number where the series has ended.
 // All u16 stand as Bytes::add_differences; samples are two such lists, the lower and the upper halves of u32.
 #include "cases/report/html/playback.h"
 
@@ -13,25 +13,25 @@
 #include "cases/report/html/motion.h"
 #include "cases/report/html/packing.h"
 #include "cases/report/html/thinning.h"
-#include "core/dynamics/energy.h"
+#include "core/dynamics/model/energy.h"
 
 namespace rigor {
 namespace {
 
 constexpr double kLinearSeen = 5e-3;       // of a course's range: a pixel of a plot
 constexpr double kDecadesSeen = 0.04;      // of a logarithmic plot: likewise
-constexpr double kNoise = 1e-12;           // of a course in any unit: what is smaller is rounding, and has no shape
+constexpr double kNoise = 1e-12;           // of a series in any unit: what is smaller is rounding, and has no shape
 constexpr std::size_t kMostKeys = 6000;    // of a motion
-constexpr std::size_t kMostPoints = 1500;  // of the courses
+constexpr std::size_t kMostPoints = 1500;  // of the series
 constexpr std::size_t kMost = 300000, kLeast = 200;  // characters of a packing
 constexpr double kOfAllRuns = 6e6, kShares = 6;      // characters; even shares of them that a run may ask for
 constexpr double kCoarser = 0.7;                     // of the keys and points, from one packing to the next
 
 // What the page always plots.
-bool is_main(const NamedCourse& course) {
+bool is_main(const NamedSeries& series) {
   constexpr const char* kMain[] = {kEnergyChange,           "angular_momentum_drift", "energy_drift_synchronised",
                                    "linear_momentum_drift", "orientation_error",      "position_error"};
-  return std::find(std::begin(kMain), std::end(kMain), course.name) != std::end(kMain);
+  return std::find(std::begin(kMain), std::end(kMain), series.name) != std::end(kMain);
 }
 
 void add_samples(Bytes& bytes, const std::vector<std::size_t>& samples) {
@@ -71,22 +71,22 @@ void add_motion(Bytes& bytes, const Motion& motion, const std::vector<std::size_
   bytes.add_differences(values);
 }
 
-// The courses of one run, for thinning: all at the same samples.
-class Courses {
+// The series of one run, for thinning: all at the same samples.
+class SeriesSet {
  public:
-  explicit Courses(std::vector<NamedCourse> courses) : courses_(std::move(courses)) {
-    for (const NamedCourse& course : courses_) {
+  explicit SeriesSet(std::vector<NamedSeries> all) : series_(std::move(all)) {
+    for (const NamedSeries& series : series_) {
       double largest = kNoise;
-      for (const double value : course.values) {
+      for (const double value : series.values) {
         if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
       }
       const double floor = std::max(kNoise, 1e-6 * largest);
       Seen& seen = seen_.emplace_back();
-      for (const double value : course.values) {
+      for (const double value : series.values) {
         seen.linear.push_back(value / (largest * kLinearSeen));
         seen.decades.push_back(std::log10(std::max(std::abs(value), floor)) / kDecadesSeen);
       }
-      count_ = std::max(count_, course.values.size());
+      count_ = std::max(count_, series.values.size());
     }
   }
 
@@ -112,41 +112,41 @@ class Courses {
 
   void add_to(Bytes& bytes, const std::vector<std::size_t>& points) const {
     add_samples(bytes, points);
-    bytes.add_u8(static_cast<std::uint8_t>(courses_.size()));
-    for (const NamedCourse& course : courses_) {
-      const auto& names = course_names();
-      bytes.add_u8(static_cast<std::uint8_t>(std::find(names.begin(), names.end(), course.name) - names.begin()));
+    bytes.add_u8(static_cast<std::uint8_t>(series_.size()));
+    for (const NamedSeries& series : series_) {
+      const auto& names = series_names();
+      bytes.add_u8(static_cast<std::uint8_t>(std::find(names.begin(), names.end(), series.name) - names.begin()));
     }
     std::vector<std::uint16_t> values;
-    for (const NamedCourse& course : courses_) {
+    for (const NamedSeries& series : series_) {
       for (const std::size_t n : points)
-        values.push_back(half_of_float(n < course.values.size() ? course.values[n] : NAN));
+        values.push_back(half_of_float(n < series.values.size() ? series.values[n] : NAN));
     }
     bytes.add_differences(values);
   }
 
  private:
-  // A course on the two scales of a plot, in what can just be seen there.
+  // A series on the two scales of a plot, in what can just be seen there.
   struct Seen {
     std::vector<double> linear, decades;
   };
-  std::vector<NamedCourse> courses_;
+  std::vector<NamedSeries> series_;
   std::vector<Seen> seen_;
   std::size_t count_ = 0;
 };
 
-NamedCourse energy_change(const Scene& scene, const Trajectory& trajectory, double scale) {
-  NamedCourse course{kEnergyChange, {}};
-  for (const Sample& sample : trajectory.samples) course.values.push_back(energy(scene, sample.bodies.columns()));
-  for (std::size_t n = course.values.size(); n-- > 0;) course.values[n] -= course.values.front();
-  for (double& value : course.values) value /= scale > 0 ? scale : 1;
-  return course;
+NamedSeries energy_change(const Scene& scene, const Trajectory& trajectory, double scale) {
+  NamedSeries series{kEnergyChange, {}};
+  for (const Sample& sample : trajectory.samples) series.values.push_back(energy(scene, sample.bodies.columns()));
+  for (std::size_t n = series.values.size(); n-- > 0;) series.values[n] -= series.values.front();
+  for (double& value : series.values) value /= scale > 0 ? scale : 1;
+  return series;
 }
 
-// The motion of one run and its courses, ranked once and packed at any fineness.
+// The motion of one run and its series, ranked once and packed at any fineness.
 class Packer {
  public:
-  Packer(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth, std::vector<NamedCourse> named)
+  Packer(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth, std::vector<NamedSeries> named)
       : trajectory_(trajectory),
         motion_(scene, trajectory, truth),
         is_like_truth_(motion_.is_like_truth()),
@@ -155,7 +155,7 @@ class Packer {
     const Poses poses(motion_, candidates_);
     keys_ = ranked_samples(candidates_.size(), kMostKeys,
                            [&](std::size_t n, std::size_t a, std::size_t b) { return poses.deviation(n, a, b); });
-    std::vector<NamedCourse> main;
+    std::vector<NamedSeries> main;
     std::copy_if(named.begin(), named.end(), std::back_inserter(main), is_main);
     all_ = ranked(std::move(named)), main_ = ranked(std::move(main));
   }
@@ -180,14 +180,14 @@ class Packer {
 
  private:
   struct Ranked {
-    Courses courses{{}};
+    SeriesSet series{{}};
     std::vector<KeptSample> points;
   };
 
-  static Ranked ranked(std::vector<NamedCourse> named) {
-    Ranked out{Courses(std::move(named)), {}};
-    out.points = ranked_samples(out.courses.count(), kMostPoints, [&](std::size_t n, std::size_t a, std::size_t b) {
-      return out.courses.deviation(n, a, b);
+  static Ranked ranked(std::vector<NamedSeries> named) {
+    Ranked out{SeriesSet(std::move(named)), {}};
+    out.points = ranked_samples(out.series.count(), kMostPoints, [&](std::size_t n, std::size_t a, std::size_t b) {
+      return out.series.deviation(n, a, b);
     });
     return out;
   }
@@ -207,7 +207,7 @@ class Packer {
     constexpr std::size_t kFewest = 6;  // fewer show no motion
     if (kept.size() < kFewest && keys_.size() > kept.size()) kept.clear();
     add_motion(bytes, motion_, kept);
-    ranked.courses.add_to(bytes, part(ranked.points));
+    ranked.series.add_to(bytes, part(ranked.points));
     return base64(deflated(bytes.data()));
   }
 
@@ -221,7 +221,7 @@ class Packer {
 };
 
 Packings packed(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth,
-                std::vector<NamedCourse> named, std::size_t limit) {
+                std::vector<NamedSeries> named, std::size_t limit) {
   if (trajectory.samples.empty()) return {};
   return Packer(scene, trajectory, truth, std::move(named)).packings(limit);
 }
@@ -245,7 +245,7 @@ const std::string& finest_within(const Packings& packings, double size) {
 
 }  // namespace
 
-const std::vector<std::string>& course_names() {
+const std::vector<std::string>& series_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all = {kEnergyChange};
     for (const MetricRow& row : metrics()) all.push_back(row.name);
@@ -254,11 +254,11 @@ const std::vector<std::string>& course_names() {
   return names;
 }
 
-Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy,
+Packings packed_run(const JudgedRun& run, const std::vector<NamedSeries>& series, double largest_kinetic_energy,
                     std::size_t limit) {
-  std::vector<NamedCourse> all = {energy_change(run.scene, run.trajectory, largest_kinetic_energy)};
-  for (const NamedCourse& course : courses) {
-    if (!course.values.empty()) all.push_back(course);
+  std::vector<NamedSeries> all = {energy_change(run.scene, run.trajectory, largest_kinetic_energy)};
+  for (const NamedSeries& one : series) {
+    if (!one.values.empty()) all.push_back(one);
   }
   return packed(run.scene, run.trajectory, run.truth, std::move(all), limit);
 }

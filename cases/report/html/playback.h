@@ -1,4 +1,4 @@
-// What the page plays and plots of one run: its motion and the courses of its metrics, thinned. How much room there is
+// What the page plays and plots of one run: its motion and the series of its metrics, thinned. How much room there is
 // for a run only shows when all have been made, so each is packed several times, from fine to coarse, and the page
 // takes of each what fits. Full precision stays in the CSV files. The page reads it in page/src/playback_data.js; the
 // layout is in playback.cpp.
@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "cases/metrics/metric.h"
-#include "cases/runner/results.h"
+#include "cases/results/results.h"
 
 namespace rigor {
 
-struct NamedCourse {
+struct NamedSeries {
   std::string name;            // of the metric; or kEnergyChange
   std::vector<double> values;  // one a sample, may be shorter than the trajectory
 };
@@ -21,15 +21,15 @@ struct NamedCourse {
 inline constexpr const char* kEnergyChange = "energy_change";
 
 // The names that a packed course's number stands for.
-const std::vector<std::string>& course_names();
+const std::vector<std::string>& series_names();
 
-// Texts in base64, the finest first, each shorter than the one before. All but the finest leave out the courses that
+// Texts in base64, the finest first, each shorter than the one before. All but the finest leave out the series that
 // the page shows only when asked for more, the coarsest may have no motion.
 using Packings = std::vector<std::string>;
 
 // Of one run, none longer than `limit` characters. `truth` may be null; a run that nobody could tell from it in the
 // picture keeps no motion of its own.
-Packings packed_run(const JudgedRun& run, const std::vector<NamedCourse>& courses, double largest_kinetic_energy,
+Packings packed_run(const JudgedRun& run, const std::vector<NamedSeries>& series, double largest_kinetic_energy,
                     std::size_t limit);
 
 // Likewise of the truth itself.

@@ -1,4 +1,4 @@
-// Which samples of a course to keep so that straight lines between them stay close to it. Top-down as by Ramer, Douglas
+// Which samples of a series to keep so that straight lines between them stay close to it. Top-down as by Ramer, Douglas
 // and Peucker, worst deviation first: an impact or an extreme is the worst of its stretch and so among the first.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace rigor {
 // How far sample i is from the straight line between samples a and b, a < i < b; 1 is what a reader begins to see.
 using Deviation = std::function<double(std::size_t i, std::size_t a, std::size_t b)>;
 
-// A sample worth keeping, and how far the course strays from those before it in the list if it is left out.
+// A sample worth keeping, and how far the series strays from those before it in the list if it is left out.
 struct KeptSample {
   std::size_t index;
   double deviation;

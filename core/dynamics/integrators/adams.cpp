@@ -13,7 +13,7 @@
 #include "core/dynamics/integrators/continuation.h"
 #include "core/dynamics/integrators/dormand_prince_tableau.h"
 #include "core/dynamics/integrators/integrator.h"
-#include "core/dynamics/motion_equations.h"
+#include "core/dynamics/model/motion_equations.h"
 
 namespace rigor {
 namespace {
@@ -177,7 +177,7 @@ const Integrator kAdams = {
     .summary = "Adams-Bashforth-Moulton; four steps of the formula a step, each with one evaluation of the loads",
     .order = kAdamsRates,
     .symplectic = false,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .takes_contact = false,
     .make = make_stepper<Adams>,

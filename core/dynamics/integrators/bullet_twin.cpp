@@ -148,7 +148,7 @@ const Integrator kBulletTwin = {
     .summary = "repeats Bullet's own smooth step, to explain its error",
     .order = 1,
     .symplectic = false,  // the gyroscopic term damps
-    .velocity_lag = 0.5,
+    .leapfrog_stagger = 0.5,
     .default_orientation = "",
     .options = {{"gyroscopic",
                  "the gyroscopic torque; default implicit-body",

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "core/dynamics/integrators/integrator.h"
-#include "core/dynamics/wrench_columns.h"
+#include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {
 

@@ -1,7 +1,7 @@
 // Whether a step goes on where the last one ended: what a multistep method asks before it uses what it remembers.
 #pragma once
 
-#include "core/dynamics/loads.h"
+#include "core/dynamics/model/loads.h"
 #include "core/engine/body_table.h"
 
 namespace rigor {

@@ -9,7 +9,7 @@
 
 #include "core/dynamics/integrators/dormand_prince_tableau.h"
 #include "core/dynamics/integrators/integrator.h"
-#include "core/dynamics/motion_equations.h"
+#include "core/dynamics/model/motion_equations.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
@@ -32,7 +32,7 @@ class DormandPrince : public Stepper {
   }
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    complaint_.clear();
+    solver_warning_.clear();
     if (parts_.contact) {
       parts_.system.wrenches(state, t, dt, wrenches_);
       resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
@@ -42,7 +42,7 @@ class DormandPrince : public Stepper {
     equations_.write(y_, state);
   }
 
-  std::string complaint() const override { return complaint_; }
+  std::string solver_warning() const override { return solver_warning_; }
 
  private:
   // Takes y_ over [t, t + length] in equal steps, whose number is found anew after each of them.
@@ -61,8 +61,8 @@ class DormandPrince : public Stepper {
         if (left != 0) equations_.rates(y_, t, length, equations_.rates_of_stage(0));
       }
       if (given_up) {
-        complaint_ = fmt::format("the tolerance of {} was not met in {} inner steps; the rest of the step was left out",
-                                 tolerance_, tries);
+        solver_warning_ = fmt::format(
+            "the tolerance of {} was not met in {} inner steps; the rest of the step was left out", tolerance_, tries);
       }
       longest = std::abs(h) * next_length(error);
     }
@@ -105,7 +105,7 @@ class DormandPrince : public Stepper {
   MotionEquations equations_;
   Wrenches wrenches_;
   BodyTable y_, next_, estimate_;
-  std::string complaint_;
+  std::string solver_warning_;
 };
 
 }  // namespace
@@ -116,7 +116,7 @@ const Integrator kDormandPrince = {
     .summary = "adaptive Runge-Kutta of order 8: divides each step until its error meets the tolerance",
     .order = 8,
     .symplectic = false,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .adaptive = true,
     .options = {{.name = "tolerance",

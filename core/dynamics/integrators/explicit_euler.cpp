@@ -1,8 +1,8 @@
 // Explicit Euler: everything moves with what was known at the start of the step.
 //   x1 = x0 + dt v0,  R1 = R0 turned by dt w0,  v1 = v0 + dt F0/m,  w1 = w0 + dt I⁻¹(tau0 - w0 x I w0)
 // On an undamped oscillation of frequency f [rad/s] each step multiplies the energy by 1 + (f dt)²: it always blows up.
-#include "core/dynamics/euler_passes.h"
-#include "core/dynamics/wrench_columns.h"
+#include "core/dynamics/integrators/euler_passes.h"
+#include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {
 namespace {
@@ -32,7 +32,7 @@ const Integrator kExplicitEuler = {
     .summary = "positions and velocities from the start of the step; blows up on any oscillation",
     .order = 1,
     .symplectic = false,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "quaternion-exponential",
     .make = make_stepper<ExplicitEuler>,
 };

@@ -15,8 +15,8 @@
 
 #include "core/dynamics/integrators/continuation.h"
 #include "core/dynamics/integrators/integrator.h"
-#include "core/dynamics/load_jacobian.h"
-#include "core/dynamics/phi_functions.h"
+#include "core/dynamics/integrators/phi_functions.h"
+#include "core/dynamics/model/load_jacobian.h"
 
 namespace rigor {
 namespace {
@@ -88,7 +88,7 @@ class ExponentialAdams : public Stepper {
   }
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    complaint_.clear();
+    solver_warning_.clear();
     const double oldest = t - (kNodes - 1 - ahead_) * dt;
     const bool goes_on = known_ && last_.goes_on(state, t, dt, parts_.system.loads, oldest);
     if (goes_on) {
@@ -100,7 +100,7 @@ class ExponentialAdams : public Stepper {
     } else if (!start(state, t, dt)) {
       known_ = false;
       switching_->step(state, t, dt);
-      complaint_ = switching_->complaint();
+      solver_warning_ = switching_->solver_warning();
       return;
     }
     write(instants_[index_behind(ahead_)], state);
@@ -108,7 +108,7 @@ class ExponentialAdams : public Stepper {
     if (ahead_ == 0) choose_new_frames(dt);
   }
 
-  std::string complaint() const override { return complaint_; }
+  std::string solver_warning() const override { return solver_warning_; }
 
  private:
   using BodiesAt = std::vector<Instant>;
@@ -279,7 +279,7 @@ class ExponentialAdams : public Stepper {
   BodyTable scratch_;
   Wrenches wrenches_;
   std::unique_ptr<Stepper> switching_;
-  std::string complaint_;
+  std::string solver_warning_;
 };
 
 }  // namespace
@@ -290,7 +290,7 @@ const Integrator kExponentialAdams = {
     .summary = "exponential Adams-Bashforth; each body's own springs and dampers solved exactly, the rest extrapolated",
     .order = kNodes,
     .symplectic = false,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .takes_contact = false,
     .make = make_stepper<ExponentialAdams>,

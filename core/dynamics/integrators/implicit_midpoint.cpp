@@ -8,8 +8,8 @@
 
 #include <utility>
 
-#include "core/dynamics/block_system.h"
 #include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/model/block_system.h"
 
 namespace rigor {
 namespace {
@@ -41,19 +41,19 @@ class ImplicitMidpoint : public Stepper {
     for (std::size_t i = 0; i < state.size(); ++i) finish(state, i, dt);
   }
 
-  std::string complaint() const override { return complaint_; }
+  std::string solver_warning() const override { return solver_warning_; }
 
  private:
-  // Newton's method on middle_'s velocities; complaint_ says if it did not arrive.
+  // Newton's method on middle_'s velocities; solver_warning_ says if it did not arrive.
   void solve_for_middle(double t, double dt) {
-    complaint_.clear();
+    solver_warning_.clear();
     double correction = 0;
     for (int iteration = 0; iteration < kMostIterations; ++iteration) {
       place_middle(dt);
       parts_.system.wrenches(middle_.columns(), t, dt, wrenches_);
       assemble(t, dt);
       if (!newton_.solve(residual_, correction_)) {
-        complaint_ = "Newton's method met a singular matrix";
+        solver_warning_ = "Newton's method met a singular matrix";
         return;
       }
       correction = apply_correction();
@@ -62,8 +62,8 @@ class ImplicitMidpoint : public Stepper {
         return;
       }
     }
-    complaint_ = fmt::format("Newton's method did not converge in {} iterations; its last correction was {:.1e}",
-                             kMostIterations, correction);
+    solver_warning_ = fmt::format("Newton's method did not converge in {} iterations; its last correction was {:.1e}",
+                                  kMostIterations, correction);
     place_middle(dt);
   }
 
@@ -147,7 +147,7 @@ class ImplicitMidpoint : public Stepper {
   BodyTable start_, middle_;
   Wrenches wrenches_;
   Eigen::VectorXd residual_, correction_;
-  std::string complaint_;
+  std::string solver_warning_;
 };
 
 }  // namespace
@@ -159,7 +159,7 @@ const Integrator kImplicitMidpoint = {
     .order = 2,
     .symplectic = true,
     .symmetric = true,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .make = make_stepper<ImplicitMidpoint>,
 };

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/contact.h"
-#include "core/dynamics/orientation_updates.h"
-#include "core/dynamics/system.h"
+#include "core/dynamics/contact/velocity_correction.h"
+#include "core/dynamics/integrators/orientation_updates.h"
+#include "core/dynamics/model/system.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
@@ -21,7 +21,7 @@ class Stepper {
   // Takes `state` from t to t + dt.
   virtual void step(MutableBodyColumns state, double t, double dt) = 0;
   // Why the last step is not what the method promises; empty if it is.
-  virtual std::string complaint() const { return ""; }
+  virtual std::string solver_warning() const { return ""; }
 };
 
 // What an adaptive method allows each of its inner steps to err by, unless its option says otherwise; see
@@ -42,7 +42,7 @@ struct Integrator {
   int order;                             // the global error falls as dt^order on smooth scenes
   bool symplectic;                       // on undamped smooth scenes
   bool symmetric = false;                // see MethodInfo
-  double velocity_lag;                   // in steps, see MethodInfo
+  double leapfrog_stagger;               // in steps, see MethodInfo
   std::string default_orientation;       // "" where the method has one way only
   bool adaptive = false;                 // see MethodInfo; it then has an option "tolerance"
   bool takes_contact = true;             // false: an impact would make what it remembers worthless

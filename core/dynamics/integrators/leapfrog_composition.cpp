@@ -6,7 +6,7 @@ LeapfrogComposition::LeapfrogComposition(const StepperParts& parts, std::span<co
     : parts_(parts), weights_(weights), kick_(parts.system) {}
 
 void LeapfrogComposition::step(MutableBodyColumns state, double t, double dt) {
-  complaint_.clear();
+  solver_warning_.clear();
   if (parts_.contact) {
     parts_.system.wrenches(state, t, dt, wrenches_);
     resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
@@ -51,7 +51,7 @@ void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double
 }
 
 void LeapfrogComposition::kick(MutableBodyColumns state, double h, double t, double dt) {
-  if (!kick_.apply(state, h, t, dt)) complaint_ = kNoSymmetricKick;
+  if (!kick_.apply(state, h, t, dt)) solver_warning_ = kNoSymmetricKick;
 }
 
 }  // namespace rigor

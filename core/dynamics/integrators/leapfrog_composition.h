@@ -8,7 +8,7 @@
 #include <span>
 
 #include "core/dynamics/integrators/integrator.h"
-#include "core/dynamics/symmetric_kick.h"
+#include "core/dynamics/integrators/symmetric_kick.h"
 
 namespace rigor {
 
@@ -17,7 +17,7 @@ class LeapfrogComposition : public Stepper {
   // The weights must outlive the stepper.
   LeapfrogComposition(const StepperParts& parts, std::span<const double> weights);
   void step(MutableBodyColumns state, double t, double dt) override;
-  std::string complaint() const override { return complaint_; }
+  std::string solver_warning() const override { return solver_warning_; }
 
  private:
   void free_step(MutableBodyColumns state, double dt);
@@ -28,7 +28,7 @@ class LeapfrogComposition : public Stepper {
   std::span<const double> weights_;
   SymmetricKick kick_;
   Wrenches wrenches_;
-  std::string complaint_;
+  std::string solver_warning_;
 };
 
 }  // namespace rigor

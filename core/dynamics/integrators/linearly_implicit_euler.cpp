@@ -7,8 +7,8 @@
 // step. One Newton step does not see how a stiff spring's line turns with a fast body: there it can gain energy.
 // (P. Deuflhard, Recent progress in extrapolation methods for ordinary differential equations, 1985; D. Baraff,
 // A. Witkin, Large steps in cloth simulation, 1998.)
-#include "core/dynamics/block_system.h"
 #include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/model/block_system.h"
 
 namespace rigor {
 namespace {
@@ -22,17 +22,17 @@ class LinearlyImplicitEuler : public Stepper {
         change_(impulse_.size()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    complaint_.clear();
+    solver_warning_.clear();
     assemble(state, t, dt);
     if (equations_.solve(impulse_, change_))
       for (std::size_t i = 0; i < state.size(); ++i) change_velocity(state, i);
     else
-      complaint_ = "the equations for the velocities were singular";
+      solver_warning_ = "the equations for the velocities were singular";
     if (parts_.contact) parts_.contact->resolve(state);
     for (std::size_t i = 0; i < state.size(); ++i) drift(state, i, dt);
   }
 
-  std::string complaint() const override { return complaint_; }
+  std::string solver_warning() const override { return solver_warning_; }
 
  private:
   void assemble(BodyColumns state, double t, double dt) {
@@ -83,7 +83,7 @@ class LinearlyImplicitEuler : public Stepper {
   BlockSystem equations_;
   Wrenches wrenches_;
   Eigen::VectorXd impulse_, change_;
-  std::string complaint_;
+  std::string solver_warning_;
 };
 
 }  // namespace
@@ -94,7 +94,7 @@ const Integrator kLinearlyImplicitEuler = {
     .summary = "one linear solve a step with the loads' exact derivative; for stiff springs and dampers",
     .order = 1,
     .symplectic = false,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .make = make_stepper<LinearlyImplicitEuler>,
 };

@@ -5,7 +5,7 @@
 // which for F = (1 + [f]x) (1 - [f]x)⁻¹ is  2 (J f + f x J f) = (1 + |f|²) dt Rᵀ L,  solved by Newton's method.
 // About a principal axis it says sin(angle) = dt w: there is no solution once a body turns by about a radian a step.
 #include "core/dynamics/integrators/integrator.h"
-#include "core/dynamics/symmetric_kick.h"
+#include "core/dynamics/integrators/symmetric_kick.h"
 
 namespace rigor {
 namespace {
@@ -15,21 +15,21 @@ class MoserVeselov : public Stepper {
   explicit MoserVeselov(const StepperParts& parts) : parts_(parts), kick_(parts.system) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    complaint_.clear();
+    solver_warning_.clear();
     kick_.begin(state);
     kick(state, t, dt);
     if (parts_.contact) resolve_contact(state);
     if (!kernels().moser_veselov_drift(parts_.system.constants.all(), state.column(0), kick_.carried(), dt))
-      complaint_ = "the discrete Moser-Veselov equation has no solution for so much rotation in a step";
+      solver_warning_ = "the discrete Moser-Veselov equation has no solution for so much rotation in a step";
     kick(state, t, dt);
     kick_.end(state);
   }
 
-  std::string complaint() const override { return complaint_; }
+  std::string solver_warning() const override { return solver_warning_; }
 
  private:
   void kick(MutableBodyColumns state, double t, double dt) {
-    if (!kick_.apply(state, 0.5 * dt, t, dt)) complaint_ = kNoSymmetricKick;
+    if (!kick_.apply(state, 0.5 * dt, t, dt)) solver_warning_ = kNoSymmetricKick;
   }
 
   void resolve_contact(MutableBodyColumns state) {
@@ -40,7 +40,7 @@ class MoserVeselov : public Stepper {
 
   StepperParts parts_;
   SymmetricKick kick_;
-  std::string complaint_;
+  std::string solver_warning_;
 };
 
 }  // namespace
@@ -52,7 +52,7 @@ const Integrator kMoserVeselov = {
     .order = 2,
     .symplectic = true,
     .symmetric = true,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .make = make_stepper<MoserVeselov>,
 };

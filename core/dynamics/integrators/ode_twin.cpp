@@ -61,7 +61,7 @@ const Integrator kOdeTwin = {
     .summary = "repeats ODE's own smooth step, to explain its error",
     .order = 1,
     .symplectic = false,  // the gyroscopic term damps
-    .velocity_lag = 0.5,
+    .leapfrog_stagger = 0.5,
     .default_orientation = "",
     .options = {{"gyroscopic", "the implicit gyroscopic torque; default on", {"on", "off"}},
                 {"rotation",

@@ -11,7 +11,7 @@ const Integrator kRk4 = {
     .summary = "the classical Runge-Kutta method, four evaluations a step",
     .order = 4,
     .symplectic = false,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
       return std::make_unique<ClassicalRungeKutta>(parts, OrientationChart::quaternion);

@@ -12,7 +12,7 @@ const Integrator kRkmk4 = {
     .summary = "Runge-Kutta-Munthe-Kaas: the classical stages on rotation vectors, so that rotations stay rotations",
     .order = 4,
     .symplectic = false,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
       return std::make_unique<ClassicalRungeKutta>(parts, OrientationChart::rotation_vector);

@@ -3,8 +3,8 @@
 // The course's rule for contact acts between the two. Its velocities belong half a step before its positions. On an
 // oscillation of frequency f it is stable while f dt < 2. The gyroscopic term is explicit, so that a free body's spin
 // is not symplectic.
-#include "core/dynamics/euler_passes.h"
-#include "core/dynamics/wrench_columns.h"
+#include "core/dynamics/integrators/euler_passes.h"
+#include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {
 namespace {
@@ -42,7 +42,7 @@ const Integrator kSemiImplicitEuler = {
     .summary = "velocities first, then positions with them; what most engines do",
     .order = 1,
     .symplectic = true,
-    .velocity_lag = 0.5,
+    .leapfrog_stagger = 0.5,
     .default_orientation = "quaternion-exponential",
     .make = make_stepper<SemiImplicitEuler>,
 };

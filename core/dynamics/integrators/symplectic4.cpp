@@ -21,7 +21,7 @@ const Integrator kSymplectic4 = {
     .order = 4,
     .symplectic = true,
     .symmetric = true,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
       return std::make_unique<LeapfrogComposition>(parts, kWeights);

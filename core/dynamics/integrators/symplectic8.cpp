@@ -24,7 +24,7 @@ const Integrator kSymplectic8 = {
     .order = 8,
     .symplectic = true,
     .symmetric = true,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
       return std::make_unique<LeapfrogComposition>(parts, kWeights);

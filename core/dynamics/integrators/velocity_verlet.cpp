@@ -2,7 +2,7 @@
 //   v += dt/2 F/m, L += dt/2 tau;   x += dt v, R by free_rotation.h;   the same kick at the new positions
 // With dampers the second kick needs the velocity at its own end: one predictor and one corrector keep second order.
 #include "core/dynamics/integrators/integrator.h"
-#include "core/dynamics/wrench_columns.h"
+#include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {
 namespace {
@@ -79,7 +79,7 @@ const Integrator kVelocityVerlet = {
     .order = 2,
     .symplectic = true,
     .symmetric = true,
-    .velocity_lag = 0,
+    .leapfrog_stagger = 0,
     .default_orientation = "",
     .make = make_stepper<VelocityVerlet>,
 };

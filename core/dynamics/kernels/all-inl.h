@@ -17,14 +17,14 @@ inline constexpr std::size_t kFewBodies = 1, kFewSprings = 2;
 // and on these:
 #include "core/dynamics/kernels/body_kernels-inl.h"
 // and on these:
+#include "core/dynamics/kernels/contact_record_kernels-inl.h"
 #include "core/dynamics/kernels/moser_veselov_kernel-inl.h"
-#include "core/dynamics/kernels/pile_record_kernels-inl.h"
 #include "core/dynamics/kernels/sphere_kernels-inl.h"
 #include "core/dynamics/kernels/spring_kernel-inl.h"
 #include "core/dynamics/kernels/stage_kernels-inl.h"
 // and on these:
+#include "core/dynamics/kernels/contact_row_kernels-inl.h"
 #include "core/dynamics/kernels/multistep_kernels-inl.h"
-#include "core/dynamics/kernels/pile_kernels-inl.h"
 
 }  // namespace
 

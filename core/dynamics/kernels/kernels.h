@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/dynamics/kernels/pile.h"
+#include "core/dynamics/kernels/contact_rows.h"
 #include "core/engine/body_column.h"
 
 namespace rigor {

@@ -1,5 +1,5 @@
-// Vectors, matrices, quaternions and inertias whose components are lanes; core/math.h in other words. Included once by
-// each kernels_*.cpp, on purpose without a guard.
+// Vectors, matrices, quaternions and inertias whose components are lanes; core/base/math.h in other words. Included
+// once by each kernels_*.cpp, on purpose without a guard.
 
 template <class T>
 struct V3 {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/adapters/free_body_measures.h"
 
 using namespace rigor;

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "adapters/ode/ode_library.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/adapters/free_body_measures.h"
 
 using namespace rigor;

@@ -2,9 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "cases/case/suite.h"
 #include "cases/gates/gates.h"
-#include "cases/suite.h"
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/runner/faulty_engine.h"
 #include "tests/folder.h"

@@ -2,7 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "tests/cases/truth/contact_scenes.h"
+#include "tests/cases/truth/closed_form/contact/contact_scenes.h"
 
 using namespace rigor;
 

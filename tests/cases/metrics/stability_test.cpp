@@ -1,6 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
-#include "core/dynamics/energy.h"
+#include "core/dynamics/model/energy.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/scripted_engine.h"
 
@@ -15,7 +15,7 @@ Stability verdict_on(const Scene& scene, const std::string& method, double dt, d
   const double largest = largest_kinetic_energy(scene, truth.get(), duration);
   const Simulation run = simulate(core(), test::core_method(method), scene, dt, duration);
   const TruthSamples samples = test::sampled(*truth, run.trajectory, scene, largest);
-  const double lag = method_of(core().info(), test::core_method(method)).velocity_lag;
+  const double lag = method_of(core().info(), test::core_method(method)).leapfrog_stagger;
   return judge_stability(scene, run, largest, lag, &samples);
 }
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "cases/runner/results.h"
+#include "cases/results/results.h"
 #include "tests/cases/runner/faulty_engine.h"
 
 namespace rigor {

@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "adapters/engines.h"
-#include "cases/case.h"
+#include "cases/case/case.h"
 
 namespace rigor {
 
 class FaultyEngine : public Engine {
  public:
   using Fault = std::function<void(double& x)>;  // x: the first body's position along x, which goes wrong or not
-  FaultyEngine(std::string name, Fault fault, std::string complaint = "")
-      : name_(std::move(name)), fault_(std::move(fault)), complaint_(std::move(complaint)) {}
+  FaultyEngine(std::string name, Fault fault, std::string solver_warning = "")
+      : name_(std::move(name)), fault_(std::move(fault)), solver_warning_(std::move(solver_warning)) {}
 
   EngineInfo info() const override {
     EngineInfo info;
@@ -42,7 +42,7 @@ class FaultyEngine : public Engine {
       out.time = time_;
     }
     SettingsInForce settings_in_force() const override { return {{"fault", engine_.name_}}; }
-    std::string complaint() const override { return engine_.complaint_; }
+    std::string solver_warning() const override { return engine_.solver_warning_; }
 
    private:
     const FaultyEngine& engine_;
@@ -52,7 +52,7 @@ class FaultyEngine : public Engine {
 
   std::string name_;
   Fault fault_;
-  std::string complaint_;
+  std::string solver_warning_;
 };
 
 // One body adrift: a case that every engine of the table above supports.

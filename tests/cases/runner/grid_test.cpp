@@ -11,7 +11,7 @@
 #include <set>
 #include <thread>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/cases/runner/faulty_engine.h"
 
 using namespace rigor;

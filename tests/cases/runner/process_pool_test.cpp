@@ -10,7 +10,7 @@
 
 #include <unistd.h>
 
-#include "core/error.h"
+#include "core/base/error.h"
 
 using namespace rigor;
 

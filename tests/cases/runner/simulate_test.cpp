@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(every_step_is_recorded_from_the_start_on) {
   }
   BOOST_TEST((run.settings == SettingsInForce{{"scripted", "yes"}}));
   BOOST_TEST(!run.not_finite.has_value());
-  BOOST_TEST(run.complaint.empty());
+  BOOST_TEST(run.solver_warning.empty());
 }
 
 BOOST_AUTO_TEST_CASE(a_run_ends_before_the_first_number_that_is_not_finite) {
@@ -53,12 +53,12 @@ BOOST_AUTO_TEST_CASE(a_run_ends_before_the_first_number_that_is_not_finite) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_first_complaint_is_kept_with_its_time) {
+BOOST_AUTO_TEST_CASE(the_first_solver_warning_is_kept_with_its_time) {
   test::Script script;
-  script.complaint = [](int step) { return step < 3 ? "" : "gave up in step " + std::to_string(step); };
+  script.solver_warning = [](int step) { return step < 3 ? "" : "gave up in step " + std::to_string(step); };
   const Simulation run = simulate(test::ScriptedEngine(script), {}, test::tumbling_body(), 0.5, 10);
-  BOOST_TEST(run.complaint == "gave up in step 3");
-  BOOST_TEST(run.complaint_time == 1.5);
+  BOOST_TEST(run.solver_warning == "gave up in step 3");
+  BOOST_TEST(run.solver_warning_time == 1.5);
   BOOST_TEST(run.trajectory.samples.size() == 21);
 }
 

@@ -1,6 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
-#include "core/error.h"
+#include "core/base/error.h"
 #include "tests/cases/judged.h"
 
 using namespace rigor;

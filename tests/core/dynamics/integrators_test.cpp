@@ -6,8 +6,8 @@
 #include <complex>
 #include <utility>
 
-#include "core/dynamics/energy.h"
 #include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/model/energy.h"
 #include "tests/scenes.h"
 
 using namespace rigor;
@@ -42,18 +42,18 @@ class Run {
   void steps(double dt, int count) {
     for (int k = 0; k < count; ++k, ++n_) {
       stepper_->step(state_.columns(), n_ * dt, dt);
-      if (complaint_.empty()) complaint_ = stepper_->complaint();
+      if (solver_warning_.empty()) solver_warning_ = stepper_->solver_warning();
     }
   }
   BodyColumns bodies() const { return state_.columns(); }
-  const std::string& complaint() const { return complaint_; }
+  const std::string& solver_warning() const { return solver_warning_; }
 
  private:
   System system_;
   BodyTable state_;
   std::unique_ptr<Stepper> stepper_;
   int n_ = 0;
-  std::string complaint_;
+  std::string solver_warning_;
 };
 
 double distance(BodyColumns a, BodyColumns b) {
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(symmetric_methods_undo_their_own_step) {
       BOOST_TEST(distance(run.bodies(), start.columns()) > 1e-2, name);
       run.steps(-0.05, 1);
       BOOST_TEST(distance(run.bodies(), start.columns()) < 1e-13, name << ", damping " << damping);
-      BOOST_TEST(run.complaint() == "", name);
+      BOOST_TEST(run.solver_warning() == "", name);
     }
   }
 }
@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(symmetric_methods_undo_their_own_step) {
 BOOST_AUTO_TEST_CASE(implicit_midpoint_says_when_its_equations_are_not_solved) {
   Run too_coarse(test::fixed_spring(), {&integrator("implicit-midpoint"), nullptr});
   too_coarse.steps(0.5, 100);
-  BOOST_TEST(too_coarse.complaint().find("did not converge") != std::string::npos);
+  BOOST_TEST(too_coarse.solver_warning().find("did not converge") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(moser_veselov_turns_a_steady_spin_by_the_arcsine_and_says_when_there_is_none) {
@@ -209,13 +209,13 @@ BOOST_AUTO_TEST_CASE(moser_veselov_turns_a_steady_spin_by_the_arcsine_and_says_w
     scene.bodies[0].angular_velocity = w;
     Run run(scene, {&integrator("moser-veselov"), nullptr});
     run.steps(dt, 1);
-    return std::pair(angle_between(run.bodies().orientation(0), Quat::Identity()), run.complaint());
+    return std::pair(angle_between(run.bodies().orientation(0), Quat::Identity()), run.solver_warning());
   };
   for (int axis = 0; axis < 3; ++axis) {
     for (const double w : {0.1, 5.0, 9.5}) {
-      const auto [angle, complaint] = turned(w * Vec3::Unit(axis));
+      const auto [angle, solver_warning] = turned(w * Vec3::Unit(axis));
       BOOST_TEST(std::abs(angle - std::asin(w * dt)) < 1e-14);  // a few roundings of an angle up to 1.3
-      BOOST_TEST(complaint == "");
+      BOOST_TEST(solver_warning == "");
     }
     BOOST_TEST(turned(10.5 * Vec3::Unit(axis)).second.find("no solution") != std::string::npos, "axis " << axis);
   }
@@ -252,7 +252,7 @@ BOOST_AUTO_TEST_CASE(linearly_implicit_euler_is_stable_on_a_spring_and_a_damper_
       BOOST_TEST(now <= before * (1 + 1e-9));  // rounding of the stretch, 1e-16 of a metre against what is left of it
       before = now;
     }
-    BOOST_TEST(implicit.complaint() == "");
+    BOOST_TEST(implicit.solver_warning() == "");
     explicit_run.steps(1.0 / 30, 300);
     BOOST_TEST(!(energy(scene, explicit_run.bodies()) < 1e6 * start));
   }
@@ -327,7 +327,7 @@ BOOST_AUTO_TEST_CASE(an_adaptive_method_meets_its_tolerance_whatever_the_step_an
           const double error = distance(run.bodies(), truth.columns());
           BOOST_TEST(error < 100 * tolerance, method.name()
                                                   << " at " << tolerance << " in " << steps << " steps: " << error);
-          BOOST_TEST(run.complaint() == "");
+          BOOST_TEST(run.solver_warning() == "");
         }
       }
     }
@@ -335,7 +335,7 @@ BOOST_AUTO_TEST_CASE(an_adaptive_method_meets_its_tolerance_whatever_the_step_an
     too_stiff.springs[0].stiffness = 1e18;
     Run run(too_stiff, method);
     run.steps(1, 1);
-    BOOST_TEST(run.complaint().find("was not met") != std::string::npos);
+    BOOST_TEST(run.solver_warning().find("was not met") != std::string::npos);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "core/dynamics/free_rotation.h"
+#include "core/dynamics/integrators/free_rotation.h"
 
 namespace rigor::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/system.h"
+#include "core/dynamics/model/system.h"
 
 namespace rigor::test {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "core/scene/scene_reader.h"
-#include "core/scene/table_reader.h"
+#include "core/scene/toml/scene_reader.h"
+#include "core/scene/toml/table_reader.h"
 
 namespace rigor {
 

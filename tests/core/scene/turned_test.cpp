@@ -1,7 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
-#include "core/dynamics/energy.h"
-#include "core/dynamics/system.h"
+#include "core/dynamics/model/energy.h"
+#include "core/dynamics/model/system.h"
 #include "core/scene/turned.h"
 #include "tests/scenes.h"
 

@@ -159,7 +159,7 @@ export class Browser {
     return Buffer.from(data, "base64");
   }
   // What the page has complained of since the last call.
-  async complaints() {
+  async solver_warnings() {
     const log = await this.post("/se/log", { type: "browser" });
     return log
       .filter((entry) => entry.level === "SEVERE" || entry.level === "WARNING")

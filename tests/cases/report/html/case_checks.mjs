@@ -176,7 +176,7 @@ export async function oneCase(browser) {
   await check("nothing was complained of in a case", () => quiet(browser));
 }
 
-// Every case at its coarsest step, with all its engines, opens and plays without complaint.
+// Every case at its coarsest step, with all its engines, opens and plays without solver_warning.
 export async function everyCase(browser) {
   for (const one of results.cases.slice(0, 12)) {
     await check(`${one.id} opens with all engines`, async () => {

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "cases/report/html/playback.h"
-#include "cases/report/json_report.h"
+#include "cases/report/json/json_report.h"
 #include "cases/report/reports.h"
 #include "tests/cases/report/html/unpacking.h"
 #include "tests/cases/report/sample_results.h"
@@ -47,7 +47,7 @@ bool opens_well(const std::string& script, const Folder& folder, const std::stri
 
 bool is_valid(const std::string& results, const Folder& folder) {
   return succeeds("node " + kHere + "schema_test.mjs " + kModules + " " + RIGOR_SOURCE_DIR +
-                      "/cases/report/results.schema.json " + results,
+                      "/cases/report/json/results.schema.json " + results,
                   folder);
 }
 

@@ -74,14 +74,14 @@ BOOST_AUTO_TEST_CASE(a_thinned_motion_stays_close_and_keeps_its_impacts) {
 BOOST_AUTO_TEST_CASE(packings_go_from_fine_to_coarse_and_keep_the_impacts_as_long_as_there_is_a_motion) {
   const Scene scene = one_ball();
   const Trajectory run = bouncing(5, 1e-3);
-  NamedCourse aside{"creep", std::vector<double>(run.samples.size(), 1)};
+  NamedSeries aside{"creep", std::vector<double>(run.samples.size(), 1)};
   const Packings packings = packed_run(judged(scene, run), {aside}, 1, 300000);
   BOOST_TEST_REQUIRE(packings.size() > 5u);
   BOOST_TEST(packings.back().size() < 500u);
   for (std::size_t i = 0; i < packings.size(); ++i) {
     const UnpackedRun page = unpacked_run(packings[i]);
     if (i > 0) BOOST_TEST(packings[i].size() < packings[i - 1].size());
-    BOOST_TEST(page.courses.size() == (i == 0 ? 2u : 1u));
+    BOOST_TEST(page.series.size() == (i == 0 ? 2u : 1u));
     if (page.keys.size() < 12) continue;  // two for each impact, and the ends
     for (const double impact : {0.5, 1.5, 2.5, 3.5, 4.5}) BOOST_TEST(position_at(page, impact).y() < 0.05);
   }
@@ -90,13 +90,13 @@ BOOST_AUTO_TEST_CASE(packings_go_from_fine_to_coarse_and_keep_the_impacts_as_lon
 BOOST_AUTO_TEST_CASE(courses_keep_their_extremes_and_end_where_they_were_compared) {
   const Scene scene = one_ball();
   const Trajectory run = bouncing(5, 1e-3);
-  NamedCourse error{"position_error", {}};
+  NamedSeries error{"position_error", {}};
   for (int n = 0; n < 3000; ++n) error.values.push_back(1e-9 * std::exp(n / 150.0));
   error.values[1234] = 0.5;  // one sample alone
   const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {error}, 1, 300000).front());
-  BOOST_TEST_REQUIRE(page.courses.size() == 2u);
-  BOOST_TEST(course_names()[page.courses[0]] == kEnergyChange);
-  BOOST_TEST(course_names()[page.courses[1]] == "position_error");
+  BOOST_TEST_REQUIRE(page.series.size() == 2u);
+  BOOST_TEST(series_names()[page.series[0]] == kEnergyChange);
+  BOOST_TEST(series_names()[page.series[1]] == "position_error");
   double largest = 0;
   for (std::size_t p = 0; p < page.points.size(); ++p) {
     const double value = page.values[1][p];

@@ -7,7 +7,7 @@ using namespace rigor;
 
 namespace {
 
-// Of a course of values, in units of `seen`.
+// Of a series of values, in units of `seen`.
 Deviation deviation_of(const std::vector<double>& values, double seen) {
   return [&values, seen](std::size_t i, std::size_t a, std::size_t b) {
     const double share = static_cast<double>(i - a) / static_cast<double>(b - a);
@@ -15,7 +15,7 @@ Deviation deviation_of(const std::vector<double>& values, double seen) {
   };
 }
 
-// The largest distance between the course and straight lines through the kept samples, found sample by sample.
+// The largest distance between the series and straight lines through the kept samples, found sample by sample.
 double largest_gap(const std::vector<double>& values, const std::vector<std::size_t>& kept) {
   double largest = 0;
   for (std::size_t k = 0; k + 1 < kept.size(); ++k) {

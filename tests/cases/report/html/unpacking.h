@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/math.h"
+#include "core/base/math.h"
 
 namespace rigor {
 
@@ -88,8 +88,8 @@ struct UnpackedRun {
   std::vector<Vec3> positions;     // of the first body at each key
   std::vector<Quat> orientations;  // likewise
   std::vector<std::size_t> points;
-  std::vector<int> courses;                 // numbers of names
-  std::vector<std::vector<double>> values;  // of each course at each point
+  std::vector<int> series;                  // numbers of names
+  std::vector<std::vector<double>> values;  // of each series at each point
 };
 
 inline UnpackedRun unpacked_run(const std::string& text) {
@@ -113,10 +113,10 @@ inline UnpackedRun unpacked_run(const std::string& text) {
     }
   }
   run.points = in.samples();
-  run.courses.resize(in.u8());
-  for (int& course : run.courses) course = in.u8();
-  const auto packed = in.differences(run.courses.size() * run.points.size());
-  for (std::size_t c = 0; c < run.courses.size(); ++c) {
+  run.series.resize(in.u8());
+  for (int& series : run.series) series = in.u8();
+  const auto packed = in.differences(run.series.size() * run.points.size());
+  for (std::size_t c = 0; c < run.series.size(); ++c) {
     auto& values = run.values.emplace_back();
     for (std::size_t p = 0; p < run.points.size(); ++p) values.push_back(from_half(packed[c * run.points.size() + p]));
   }

@@ -25,7 +25,7 @@ class ContactRun {
   void step(double dt) {
     stepper_->step(state_.columns(), time_, dt);
     time_ = ++steps_ * dt;
-    if (complaint_.empty()) complaint_ = stepper_->complaint();
+    if (solver_warning_.empty()) solver_warning_ = stepper_->solver_warning();
   }
   void run(double dt, int steps) {
     for (int i = 0; i < steps; ++i) step(dt);
@@ -34,7 +34,7 @@ class ContactRun {
   BodyColumns state() const { return state_.columns(); }
   MutableBodyColumns state() { return state_.columns(); }
   double time() const { return time_; }
-  const std::string& complaint() const { return complaint_; }  // the first
+  const std::string& solver_warning() const { return solver_warning_; }  // the first
 
  private:
   System system_;
@@ -44,7 +44,7 @@ class ContactRun {
   std::unique_ptr<ContactStepper> stepper_;
   double time_ = 0;
   int steps_ = 0;
-  std::string complaint_;
+  std::string solver_warning_;
 };
 
 inline Body solid(const std::string& name, const Shape& shape, const Vec3& position, double mass = 1) {

@@ -1,4 +1,4 @@
-// One case: the truth, the runs in motion, their courses over time, and what the cells of all step sizes say together.
+// One case: the truth, the runs in motion, their series over time, and what the cells of all step sizes say together.
 import { cellOf, dtOf, judgement, hasNumbers } from "./data.js";
 import { el, replace } from "./dom.js";
 import { digits, quantity } from "./format.js";
@@ -27,7 +27,7 @@ export class CaseView {
     this.player = new Player(one.duration);
     this.chips = el("div.chips", { role: "group", "aria-label": "Engines shown" });
     this.stageBox = el("section.stage", { "aria-label": "Playback" });
-    this.plotsBox = el("section.plots", { "aria-label": "Courses over time" });
+    this.plotsBox = el("section.plots", { "aria-label": "Quantities over time" });
     (this.across = el("div.across")), (this.fan = el("div.fan"));
     this.steps = el("div.segments", { role: "group", "aria-label": "Step size" });
     replace(root, this.heading(), this.bar(), el("div.motion", {}, this.stageBox, this.plotsBox), this.across);

@@ -18,7 +18,7 @@ export async function loadResults() {
 function indexed(results, playback) {
   results.units = Object.fromEntries(results.metrics.map((m) => [m.name, m.unit]));
   results.summaries = Object.fromEntries(results.metrics.map((m) => [m.name, m.summary]));
-  results.courses = playback.courses;
+  results.series = playback.series;
   for (const engine of results.engines)
     Object.assign(engine, { core: engine.name.startsWith("core"), stock: engine.name.includes("@stock") });
   results.engines = inReadingOrder(results);

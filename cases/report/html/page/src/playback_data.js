@@ -1,4 +1,4 @@
-// A packed motion and its courses, as cases/report/html/playback.cpp lays them out.
+// A packed motion and its series, as cases/report/html/playback.cpp lays them out.
 import { unpacked } from "./data.js";
 
 class Reader {
@@ -136,23 +136,23 @@ export async function loadPlayback(text, courseNames) {
     count = points.length;
   const names = Array.from({ length: reader.u8() }, () => courseNames[reader.u8()]);
   const packed = reader.differences(names.length * count);
-  const courses = {};
+  const series = {};
   names.forEach((name, i) => {
     const values = Array.from({ length: count }, (_, k) => fromHalf(packed[i * count + k]));
     let length = count;
     while (length > 0 && Number.isNaN(values[length - 1])) --length;
-    courses[name] = { times: points.subarray(0, length), values: values.slice(0, length) };
+    series[name] = { times: points.subarray(0, length), values: values.slice(0, length) };
   });
-  return { isLikeTruth, motion: motion.times.length ? motion : null, courses, last, bodies };
+  return { isLikeTruth, motion: motion.times.length ? motion : null, series, last, bodies };
 }
 
 // All of one case at one step: the truth and each engine that ran.
 export async function loadCase(results, one, dtText) {
-  const truth = await loadPlayback(one.truthPlayback, results.courses);
+  const truth = await loadPlayback(one.truthPlayback, results.series);
   const runs = new Map();
   for (const cell of one.cells) {
     if (cell.dt !== dtText || !cell.playback) continue;
-    const run = await loadPlayback(cell.playback, results.courses);
+    const run = await loadPlayback(cell.playback, results.series);
     if (run.isLikeTruth) run.motion = truth?.motion ?? null;
     runs.set(cell.engine, run);
   }

@@ -1,4 +1,4 @@
-// Courses over time, one plot a quantity, all with one cursor, which is the playback's time, and one zoom.
+// Quantities over time, one plot a quantity, all with one cursor, which is the playback's time, and one zoom.
 import uPlot from "uplot";
 import { el, replace } from "./dom.js";
 import { percent, quantity, words } from "./format.js";
@@ -22,7 +22,7 @@ export class TimePlots {
     Object.assign(this, { results, one, data, player, root, plots: [], engines: [], more: false, dt: data.dt });
     const present = new Set(
       [...data.runs.values()].flatMap((run) =>
-        Object.entries(run.courses)
+        Object.entries(run.series)
           .filter(([, c]) => c.times.length > 1 && c.values.some((v) => Math.abs(v) > 1e-17))
           .map(([name]) => name),
       ),
@@ -100,7 +100,7 @@ export class TimePlots {
       };
       return { times: motion.times, values: Array.from(motion.times, (_, key) => at(key)) };
     };
-    const courses = this.engines.map((e) => [e, read(this.data.runs.get(e.name).motion)]).filter(([, c]) => c);
+    const series = this.engines.map((e) => [e, read(this.data.runs.get(e.name).motion)]).filter(([, c]) => c);
     const truth = read(this.data.truth?.motion);
     const choose = (options, value, pick) =>
       el(
@@ -119,14 +119,14 @@ export class TimePlots {
       ),
       choose(slots, this.component, (v) => (this.component = v)),
     );
-    return this.plot("coordinate", title, this.component < 3 ? "m" : "rad", courses, { log: false, truth });
+    return this.plot("coordinate", title, this.component < 3 ? "m" : "rad", series, { log: false, truth });
   }
 
   course(name) {
-    const courses = this.engines
-      .map((e) => [e, this.data.runs.get(e.name).courses[name]])
+    const series = this.engines
+      .map((e) => [e, this.data.runs.get(e.name).series[name]])
       .filter(([, c]) => c && c.times.length);
-    if (!courses.length) return null;
+    if (!series.length) return null;
     const isChange = name === "energy_change",
       unit = isChange ? "1" : (this.results.units[name] ?? "");
     const title = el(
@@ -138,16 +138,16 @@ export class TimePlots {
       },
       isChange ? "energy since the start" : words(name),
     );
-    return this.plot(name, title, unit, courses, {
+    return this.plot(name, title, unit, series, {
       log: state.log && !isChange,
-      truth: isChange ? this.data.truth?.courses[name] : null,
+      truth: isChange ? this.data.truth?.series[name] : null,
     });
   }
 
-  plot(name, title, unit, courses, { log, truth }) {
-    const lines = [...courses];
+  plot(name, title, unit, series, { log, truth }) {
+    const lines = [...series];
     if (truth?.times.length) lines.unshift([null, truth]);
-    const scale = log ? logarithmic(courses.map(([, c]) => c.values)) : linear(unit, this.tameRange(courses, truth));
+    const scale = log ? logarithmic(series.map(([, c]) => c.values)) : linear(unit, this.tameRange(series, truth));
     const tables = lines.map(([, c]) => [Array.from(c.times), Array.from(c.values, scale.put)]);
     const joined = uPlot.join(
       tables,
@@ -215,7 +215,7 @@ export class TimePlots {
   }
 
   // What the runs that did not blow up and the truth span: those that did would leave nothing of the others to be seen.
-  tameRange(courses, truth) {
+  tameRange(series, truth) {
     let low = Infinity,
       high = -Infinity;
     const include = ({ values }) =>
@@ -223,12 +223,12 @@ export class TimePlots {
         if (v < low) low = v;
         if (v > high) high = v;
       });
-    const tame = courses.filter(
+    const tame = series.filter(
       ([engine]) => this.one.cells.find((c) => c.engine === engine.name && c.dt === this.dt)?.status !== "diverged",
     );
     for (const [, course] of tame) include(course);
     if (truth) include(truth);
-    return tame.length === courses.length || !(low < high)
+    return tame.length === series.length || !(low < high)
       ? null
       : [low - 0.6 * (high - low), high + 0.6 * (high - low)];
   }

@@ -1,0 +1,19 @@
+// Sentences that say why a case's runs came out as they did, as far as its scene, the methods' stated facts and the
+// measured values show it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/results/results.h"
+
+namespace rigor {
+
+std::vector<std::string> explanations(const Results& results, const CaseResult& result);
+
+// The angular frequency [rad/s] of the stiffest small oscillation of a scene's springs at t = 0: the square root of the
+// largest eigenvalue of K^½ J M⁻¹ Jᵀ K^½, where a row of J takes the bodies' velocities to a spring's lengthening.
+// Springs as they stand: the stiffness that a stretched spring has across its line is left out.
+double stiffest_frequency(const Scene& scene);
+
+}  // namespace rigor

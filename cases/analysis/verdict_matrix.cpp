@@ -1,0 +1,97 @@
+#include "cases/analysis/verdict_matrix.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/analysis/findings.h"
+#include "cases/report/console/console_table.h"
+
+namespace rigor {
+namespace {
+
+// Not a number where there is none.
+double value_of(const Cell& cell, const std::string& name) {
+  const auto found = cell.metrics.find(name);
+  return found == cell.metrics.end() || !found->second.not_applicable.empty() ? std::nan("") : found->second.value;
+}
+
+double worst_of(const CaseResult& result, const std::string& name) {
+  double worst = 0;
+  for (const Cell& cell : result.cells) worst = std::max(worst, value_of(cell, name));  // not a number never wins
+  return worst;
+}
+
+std::string error_text(const Cell& cell, const std::string& metric) {
+  const double value = value_of(cell, metric);
+  if (std::isnan(value)) return "";
+  if (metric == "position_error") return " " + rounded(value) + " m";
+  return metric == "orientation_error" ? " " + rounded(value) + " rad" : " " + rounded(100 * value) + " %";
+}
+
+std::string cell_text(const Cell& cell, const std::string& metric) {
+  std::string word = word_of(cell.status);
+  if (cell.status == Status::diverged) return fmt::format("{} blown up {:.2f} s", sign_of(cell), cell.stability.time);
+  if (cell.status == Status::pass && !cell.metrics.empty()) word = word_of(cell.stability.verdict);
+  return fmt::format("{} {}{}", sign_of(cell), word, error_text(cell, metric));
+}
+
+}  // namespace
+
+std::string sign_of(const Cell& cell) {
+  switch (cell.status) {
+    case Status::pass:
+      return cell.stability.verdict == Verdict::drifting ? "≈" : "✓";
+    case Status::diverged:
+    case Status::fail:
+      return "✕";
+    case Status::unsupported:
+      return "–";
+    case Status::known_deviation:
+      return "◆";
+    case Status::unexpected_pass:
+      return "◇";
+    default:
+      return "!";
+  }
+}
+
+StepSize matrix_dt(const CaseResult& result, const StepSize& headline) {
+  const auto& steps = result.definition.dt;
+  const bool has_it =
+      std::any_of(steps.begin(), steps.end(), [&](const StepSize& dt) { return dt.text == headline.text; });
+  return has_it ? headline : coarsest_dt(result);
+}
+
+std::string main_error(const CaseResult& result) {
+  constexpr double kMoves = 1e-9;  // m and rad: less is rounding
+  for (const char* name : {"position_error", "orientation_error"}) {
+    if (worst_of(result, name) > kMoves) return name;
+  }
+  const bool has_truth = std::any_of(result.cells.begin(), result.cells.end(),
+                                     [](const Cell& cell) { return !std::isnan(value_of(cell, "position_error")); });
+  return has_truth && worst_of(result, "energy_drift") < kMoves ? "position_error" : "energy_drift_synchronised";
+}
+
+TextTable verdict_matrix(const Results& results) {
+  const StepSize headline = headline_dt(results);
+  TextTable matrix{fmt::format("dt = {} s: the verdict, and the largest error of the position [m]; of the orientation "
+                               "[rad] where nothing moves away; of the energy [%] where there is no truth",
+                               headline.text),
+                   {{"case"}}};
+  for (const RunName& run : results.runs) matrix.rows[0].push_back(run.text);
+  for (const CaseResult& result : results.cases) {
+    const StepSize dt = matrix_dt(result, headline);
+    std::vector<std::string> row(results.runs.size() + 1, "");
+    row[0] = result.definition.id + (dt.text == headline.text ? "" : fmt::format(" (dt {})", dt.text));
+    const std::string metric = main_error(result);
+    for (const Cell& cell : result.cells) {
+      if (cell.dt.text == dt.text) row[cell.run + 1] = cell_text(cell, metric);
+    }
+    matrix.rows.push_back(row);
+  }
+  return matrix;
+}
+
+}  // namespace rigor

@@ -1,0 +1,53 @@
+// Error against cost as dt shrinks: who is how wrong for the same CPU time. Each run's cells are points of a curve, in
+// logarithms; it is read where another run's cost crosses it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/analysis/observed_order.h"
+
+namespace rigor {
+
+// interpolated: between two of the run's own cells. extrapolated: cheaper than its cheapest cell, along its first two,
+// to a step at most four times as long and no longer than what it bears. at_most: dearer than its dearest cell, whose
+// error is the bound, for it could spend the rest on smaller steps.
+enum class Reach { interpolated, extrapolated, at_most };
+std::string word_of(Reach reach);
+
+struct AtCost {
+  double error = 0;
+  Reach reach = Reach::interpolated;
+};
+// `points` in any order. None where the curve does not reach so far.
+std::optional<AtCost> error_at_cost(std::vector<ErrorPoint> points, double cost, double largest_stable_dt);
+
+// A run beside one cell of a baseline.
+struct EqualCost {
+  std::size_t run = 0, baseline = 0;  // indices in Results::runs
+  ErrorPoint of_baseline;
+  std::optional<AtCost> of_run;
+  double times_less() const { return of_run ? of_baseline.error / of_run->error : 0; }
+};
+
+// Engines other than the in-house core, on the track `matched`.
+std::vector<std::size_t> baselines(const Results& results);
+
+// `run` beside each cell of `baseline` that has a result.
+std::vector<EqualCost> at_equal_cost(const CaseResult& result, std::size_t run, std::size_t baseline,
+                                     const std::string& metric);
+
+// The method of the core that can be compared with most cells of a baseline and, of those, gains most in the geometric
+// mean. One point a cell of the baseline, in their order.
+struct BestOfCore {
+  std::string metric;
+  std::vector<EqualCost> points;
+  std::size_t compared() const;  // points that have a value of the run's
+  double mean() const;           // of times_less, geometric, over those
+  double least() const;
+};
+std::optional<BestOfCore> best_of_core(const Results& results, const CaseResult& result, std::size_t baseline,
+                                       const std::string& metric);
+
+}  // namespace rigor

@@ -1,0 +1,181 @@
+#include "cases/case/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "cases/case/case_reader.h"
+#include "core/base/error.h"
+#include "core/base/near_match.h"
+
+namespace rigor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExtension = ".toml";
+
+// The case files below a folder, sorted. A folder that cannot be entered is passed over.
+std::vector<fs::path> case_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    std::error_code gone;
+    if (entry->path().extension() == kExtension && !entry->is_directory(gone)) files.push_back(entry->path());
+  }
+  if (error) throw InputError(fmt::format("{}: cannot be searched for cases: {}", folder.string(), error.message()));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Below `folder` and named from it; empty if it is not below.
+std::string named_from(const fs::path& folder, const fs::path& path) {
+  std::error_code error;
+  const fs::path base = fs::weakly_canonical(folder, error), whole = fs::weakly_canonical(path, error);
+  const fs::path relative = whole.lexically_relative(base);
+  return relative.empty() || *relative.begin() == ".." ? "" : relative.generic_string();
+}
+
+// Results say where a gate stands by a path from the current folder, which is what annotations of a repository need, or
+// from the suite: not where this machine keeps its files.
+void shorten_places(Case& definition, const std::string& path, const std::string& suite_dir) {
+  std::error_code error;
+  std::string shorter = named_from(fs::current_path(error), path);
+  if (shorter.empty()) shorter = named_from(suite_dir, path);
+  const auto shorten = [&](std::string& where) {
+    if (!shorter.empty() && where.starts_with(path)) where.replace(0, path.size(), shorter);
+  };
+  shorten(definition.truth_where);
+  for (Gate& gate : definition.gates) shorten(gate.where);
+}
+
+// A case's file, and the id by which it goes.
+struct Found {
+  std::string id, path;
+};
+
+// The suite as it lies on the disk.
+class Suite {
+ public:
+  explicit Suite(const std::string& dir) : dir_(dir) {
+    std::error_code error;
+    if (!fs::is_directory(dir_, error)) return;  // files elsewhere can still be run
+    for (const fs::path& file : case_files(dir_)) ids_.push_back(id_of(file));
+    std::sort(ids_.begin(), ids_.end());
+  }
+
+  const std::vector<std::string>& ids() const { return ids_; }
+  Found found(const std::string& id) const { return {id, (dir_ / (id + kExtension)).string()}; }
+
+  // The ids that a word names: itself, its family, or those that end with it.
+  std::vector<std::string> named(const std::string& word) const {
+    if (std::binary_search(ids_.begin(), ids_.end(), word)) return {word};
+    const std::string family = word.ends_with('/') ? word : word + "/";
+    auto ids = those([&](const std::string& id) { return id.starts_with(family); });
+    if (!ids.empty()) return ids;
+    ids = those([&](const std::string& id) { return last_part(id) == word; });
+    if (ids.size() > 1) {
+      throw InputError(fmt::format("'{}' is the name of several cases: {}; give one of these", word, listed(ids)));
+    }
+    return ids;
+  }
+
+  // Every word that names a case or a family.
+  std::vector<std::string> words() const {
+    std::set<std::string> words(ids_.begin(), ids_.end());
+    for (const std::string& id : ids_) {
+      words.insert(last_part(id));
+      for (auto slash = id.find('/'); slash != std::string::npos; slash = id.find('/', slash + 1)) {
+        words.insert(id.substr(0, slash));
+      }
+    }
+    return {words.begin(), words.end()};
+  }
+
+  // A file given by its path goes by that path, unless it is one of the suite's.
+  Found found_at(const fs::path& path) const {
+    std::error_code error;
+    const fs::path inside = fs::relative(path, dir_, error);
+    const std::string id = error || inside.empty() ? "" : fs::path(inside).replace_extension().generic_string();
+    const bool of_suite = std::binary_search(ids_.begin(), ids_.end(), id) && inside.extension() == kExtension;
+    return {of_suite ? id : path.string(), path.string()};
+  }
+
+ private:
+  static std::string last_part(const std::string& id) { return id.substr(id.rfind('/') + 1); }
+
+  std::string id_of(const fs::path& file) const {
+    return file.lexically_relative(dir_).replace_extension().generic_string();
+  }
+
+  template <typename Condition>
+  std::vector<std::string> those(const Condition& condition) const {
+    std::vector<std::string> ids;
+    std::copy_if(ids_.begin(), ids_.end(), std::back_inserter(ids), condition);
+    return ids;
+  }
+
+  fs::path dir_;
+  std::vector<std::string> ids_;
+};
+
+std::vector<Found> find_on_disk(const std::string& word, const Suite& suite) {
+  std::error_code error;
+  const fs::file_status status = fs::status(word, error);
+  if (fs::is_directory(status)) {
+    std::vector<Found> found;
+    for (const fs::path& file : case_files(word)) found.push_back(suite.found_at(file));
+    if (found.empty())
+      throw InputError(fmt::format("{}: there is no case, no {} file, in this folder", word, kExtension));
+    return found;
+  }
+  if (fs::exists(status)) {
+    if (fs::path(word).extension() != kExtension)
+      throw InputError(fmt::format("{}: is not a {} file", word, kExtension));
+    return {suite.found_at(word)};
+  }
+  throw InputError(fmt::format("there is no case, family, file or folder '{}'{}; 'rigor list cases' names the cases",
+                               word, did_you_mean(word, suite.words())));
+}
+
+std::vector<Found> find_cases(const std::string& word, const Suite& suite) {
+  if (word.empty()) throw InputError("an empty word names no case");
+  const auto ids = suite.named(word);
+  if (ids.empty()) return find_on_disk(word, suite);
+  std::vector<Found> found;
+  for (const std::string& id : ids) found.push_back(suite.found(id));
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> suite_ids(const std::string& suite_dir) { return Suite(suite_dir).ids(); }
+
+std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir) {
+  const Suite suite(suite_dir);
+  std::vector<Found> selected;
+  for (const std::string& id : suite.ids()) {
+    if (words.empty()) selected.push_back(suite.found(id));
+  }
+  for (const std::string& word : words) {
+    for (Found& found : find_cases(word, suite)) selected.push_back(std::move(found));
+  }
+  if (selected.empty()) throw InputError(fmt::format("{}: there is no case in the suite's folder", suite_dir));
+
+  std::vector<Case> cases;
+  std::set<std::string> seen;  // by file, however it was named
+  for (const Found& found : selected) {
+    std::error_code error;
+    if (!seen.insert(fs::weakly_canonical(found.path, error).string()).second) continue;
+    cases.push_back(read_case(found.path, found.id));
+    shorten_places(cases.back(), found.path, suite_dir);
+  }
+  return cases;
+}
+
+std::string default_suite_dir() { return RIGOR_SUITE_DIR; }
+
+}  // namespace rigor

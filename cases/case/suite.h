@@ -1,0 +1,21 @@
+// Finds cases: those of the suite by id or family, and files or folders anywhere.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/case/case.h"
+
+namespace rigor {
+
+// The ids of all cases below `suite_dir`, sorted: "springs/fixed-spring".
+std::vector<std::string> suite_ids(const std::string& suite_dir);
+
+// The cases that the words name, each once: a case's id, the last part of one if only one case has it, a family (its
+// folder), a .toml file, or a folder of them. No words: the whole suite. Throws InputError with a near match for a word
+// that names nothing, and for a folder without cases.
+std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir);
+
+std::string default_suite_dir();
+
+}  // namespace rigor

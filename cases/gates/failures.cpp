@@ -1,0 +1,95 @@
+#include "cases/gates/failures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/report/console/console_table.h"
+
+namespace rigor {
+namespace {
+
+std::string unit_of(const std::string& metric) {
+  const auto text = [](const auto& row) { return row.unit == "1" ? std::string() : " " + row.unit; };
+  for (const MetricRow& row : metrics()) {
+    if (row.name == metric) return text(row);
+  }
+  for (const CrossMetricRow& row : cross_metrics()) {
+    if (row.name == metric) return text(row);
+  }
+  return "";
+}
+
+std::string limit_of(const Gate& gate) {
+  const std::string unit = unit_of(gate.metric);
+  if (gate.at_least_order) return fmt::format("order at least {:g}", *gate.at_least_order);
+  if (gate.equals) return fmt::format("equal to {:.17g}{}", *gate.equals, unit);
+  if (!gate.better_than.empty()) return "better than " + gate.better_than;
+  std::string text;
+  if (gate.min) text = fmt::format("at least {:g}{}", *gate.min, unit);
+  if (gate.max) text += fmt::format("{}at most {:g}{}", text.empty() ? "" : ", ", *gate.max, unit);
+  return text;
+}
+
+std::string worst_text(const GateResult& answer, const Scene& scene) {
+  if (!answer.worst) return "";
+  const Instant& worst = *answer.worst;
+  return fmt::format("at {:.6g} s: {}, {}: found {:.9g}, expected {:.9g}", worst.time, scene.body_name(worst.body),
+                     worst.component, worst.found, worst.expected);
+}
+
+Shortfall of_gate(const CaseResult& result, const GateResult& answer) {
+  const Gate& gate = result.definition.gates[answer.gate];
+  Shortfall row{result.definition.id, answer.engine, answer.dt, gate.metric, "", limit_of(gate), "", "", gate.where};
+  const std::string unit = gate.at_least_order ? "" : unit_of(gate.metric);
+  row.found = answer.value ? fmt::format("{:.6g}{}", *answer.value, unit) : word_of(answer.answer);
+  row.worst = worst_text(answer, result.definition.scene);
+  row.because = answer.answer == GateAnswer::failed && answer.value ? gate.because : answer.text;
+  if (answer.answer == GateAnswer::unexpected_pass) row.what += ", unexpected pass";
+  return row;
+}
+
+bool came_to_nothing(Status status) {
+  return status == Status::crashed || status == Status::timed_out || status == Status::invalid;
+}
+
+}  // namespace
+
+std::vector<Shortfall> shortfalls(const Results& results) {
+  std::vector<Shortfall> rows;
+  for (const CaseResult& result : results.cases) {
+    const Case& definition = result.definition;
+    if (!result.error.empty())
+      rows.push_back({definition.id, "", "", "truth", "", "", "", result.error, definition.truth_where});
+    for (const Cell& cell : result.cells) {
+      if (came_to_nothing(cell.status) && result.error.empty())
+        rows.push_back({definition.id, results.runs[cell.run].text, cell.dt.text, word_of(cell.status), "", "", "",
+                        cell.reason, ""});
+    }
+    for (const GateResult& answer : result.gates) {
+      if (answer.answer != GateAnswer::held && answer.answer != GateAnswer::known_deviation)
+        rows.push_back(of_gate(result, answer));
+    }
+  }
+  return rows;
+}
+
+std::string shortfalls_text(const std::vector<Shortfall>& rows) {
+  if (rows.empty()) return "";
+  std::string text = fmt::format("what fell short: {}\n", rows.size());
+  for (const Shortfall& row : rows) {
+    std::string line = row.case_id;
+    if (!row.engine.empty()) line += fmt::format(", {}", row.engine);
+    if (!row.dt.empty()) line += fmt::format(", dt = {} s", row.dt);
+    line += fmt::format(": {}", row.what);
+    if (!row.found.empty()) line += fmt::format(" {}", row.found);
+    if (!row.limit.empty()) line += fmt::format("; wanted: {}", row.limit);
+    if (!row.worst.empty()) line += fmt::format("; worst {}", row.worst);
+    if (!row.because.empty()) line += fmt::format("; because: {}", row.because);
+    if (!row.where.empty()) line += fmt::format(" [{}]", row.where);
+    text += "  " + wrapped(line, 4) + "\n";
+  }
+  return text;
+}
+
+}  // namespace rigor

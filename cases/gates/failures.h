@@ -1,0 +1,26 @@
+// What fell short: one row for each thing that keeps `rigor gate` from exit code 0, with the worst instant. The
+// console, the job summary and the annotations show the same rows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/results/results.h"
+
+namespace rigor {
+
+struct Shortfall {
+  std::string case_id, engine, dt;  // the last two empty where it is not about one run or step
+  std::string what;                 // the metric, or the status of a cell: "crashed"
+  std::string found, limit;         // "0.0612 m", "at most 0.06 m"
+  std::string worst;                // "at 4.97 s: cube, position: found ..., expected ..."
+  std::string because;              // the gate's, or why there is no value
+  std::string where;                // "file:line:column" of the gate or the row that says so; may be empty
+};
+
+std::vector<Shortfall> shortfalls(const Results& results);
+
+// For the console: a paragraph each, worst things first.
+std::string shortfalls_text(const std::vector<Shortfall>& rows);
+
+}  // namespace rigor

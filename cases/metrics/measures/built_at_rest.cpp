@@ -1,0 +1,36 @@
+#include "cases/metrics/measures/built_at_rest.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "cases/metrics/measures/shape_gap.h"
+#include "core/dynamics/model/system.h"
+
+namespace rigor {
+
+std::string why_not_built_at_rest(const JudgedRun& run) {
+  const Scene& scene = run.scene;
+  if (run.trajectory.samples.empty()) return "the run has no finite sample";
+  if (!scene.forces.empty() || !scene.springs.empty() || !scene.joints.empty()) return "more than gravity acts";
+  if (run.truth) {
+    for (const BodyTable& table : run.truth->bodies) {
+      for (std::size_t i = 0; i < table.size(); ++i) {
+        if (!table.columns().velocity(i).isZero(0)) return "bodies move in truth";
+      }
+    }
+  }
+  BodyTable start(scene.bodies.size());
+  set_initial_state(scene, start.columns());
+  std::vector<bool> touches(scene.bodies.size());
+  constexpr double kTouch = 1e-3;  // m: a structure may be built with a little play
+  for_each_near_pair(scene, start.columns(), kTouch, [&](int a, int b, double) { touches[a] = touches[b] = true; });
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.fixed) continue;
+    if (!body.velocity.isZero(0) || !body.angular_velocity.isZero(0)) return "bodies move at the start";
+    if (!touches[i]) return "a body starts without touching another";
+  }
+  return "";
+}
+
+}  // namespace rigor

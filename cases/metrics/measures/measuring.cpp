@@ -1,0 +1,46 @@
+#include "cases/metrics/measures/measuring.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rigor {
+
+void TimeSeries::add(double value, const Instant& instant) {
+  if (measurement_.series.empty() || value > measurement_.value) {
+    measurement_.value = value;
+    measurement_.worst = instant;
+  }
+  measurement_.series.push_back(value);
+  measurement_.compared_until = instant.time;
+}
+
+Measurement TimeSeries::finish() && { return std::move(measurement_); }
+
+std::size_t samples_within(const JudgedRun& run, double needed) {
+  if (!run.truth) return 0;
+  std::size_t count = 0;
+  while (count < run.trajectory.samples.size() && run.truth->error[count] <= needed) ++count;
+  return count;
+}
+
+std::vector<double> motion_extents(const Trajectory& trajectory) {
+  std::vector<double> extents;
+  double extent = 0;
+  for (const Sample& sample : trajectory.samples) {
+    const BodyColumns bodies = sample.bodies.columns();
+    for (std::size_t i = 0; i < bodies.size(); ++i) extent = std::max(extent, bodies.position(i).norm());
+    extents.push_back(extent);
+  }
+  return extents;
+}
+
+std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& rounding,
+                              const std::vector<double>& scale, double needed_of_truth) {
+  std::size_t count = std::min(run.trajectory.samples.size(), rounding.size());
+  if (run.truth) count = std::min(count, samples_within(run, needed_of_truth));
+  std::size_t n = 0;
+  while (n < count && rounding[n] <= kRoundingShare * scale[n]) ++n;
+  return n;
+}
+
+}  // namespace rigor

@@ -1,0 +1,46 @@
+// What metrics share: keeping the worst of a series of values, and how far a truth can be compared with.
+#pragma once
+
+#include <cstddef>
+
+#include "cases/metrics/metric.h"
+
+namespace rigor {
+
+// Collects a metric's value at one sample after another; the worst instant is that of the largest.
+class TimeSeries {
+ public:
+  void add(double value, const Instant& instant);
+  Measurement finish() &&;
+
+ private:
+  Measurement measurement_;
+};
+
+// The truth must be this good at an instant to be compared with there. At the steps that are judged a scheme is off by
+// a micrometre or more within a few steps; below that, an angle or a length says nothing about the scheme.
+inline constexpr double kTruthNeededPosition = 1e-6;     // m
+inline constexpr double kTruthNeededOrientation = 1e-6;  // rad
+
+// The first samples of the run, all those at which the truth's own error stays within `needed`. No truth: none.
+std::size_t samples_within(const JudgedRun& run, double needed);
+
+// A run is held against its twin while the truth is good enough, if there is one, and while roundings alone cannot have
+// parted them by more than this share of their scale. Roundings grow with the motion's own sensitivity: past that
+// instant no distance between the two says anything of the engine.
+inline constexpr double kRoundingShare = 1e-10;
+
+// m: the farthest from W's origin that a body of the twin has come by each sample. Positions are rounded relative to
+// it.
+std::vector<double> motion_extents(const Trajectory& trajectory);
+
+// The first samples of the run, all those at which it can be held against its twin. `rounding` is the twin's, `scale`
+// what it is relative to at each sample.
+std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& rounding,
+                              const std::vector<double>& scale, double needed_of_truth);
+
+inline constexpr const char* kNoTwin = "the run has no twin: it is the core's own scheme, or bodies can touch";
+inline constexpr const char* kNoTruth = "the case has no truth";
+inline constexpr const char* kNoSamples = "there is no sample at which the truth is good enough";
+
+}  // namespace rigor

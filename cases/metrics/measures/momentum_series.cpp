@@ -1,0 +1,72 @@
+#include "cases/metrics/measures/momentum_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/metrics/measures/measuring.h"
+
+namespace rigor {
+namespace {
+
+bool holds_still(const Scene& scene, int body) { return body == kWorld || scene.bodies[body].fixed; }
+
+void compare(const Sample& sample, const std::string& symbol, const Vec3& found, const Vec3& expected,
+             TimeSeries& series) {
+  int axis = 0;
+  (found - expected).cwiseAbs().maxCoeff(&axis);
+  series.add((found - expected).norm(),
+             {sample.time, kWorld, fmt::format("{}.{}", symbol, "xyz"[axis]), found[axis], expected[axis]});
+}
+
+}  // namespace
+
+std::string why_held_from_outside(const Scene& scene) {
+  const auto held = [&](const auto& link, const char* what) -> std::string {
+    if (holds_still(scene, link.a) == holds_still(scene, link.b)) return "";
+    return fmt::format("a {} holds '{}' to '{}'", what, scene.body_name(link.a), scene.body_name(link.b));
+  };
+  for (const Spring& spring : scene.springs) {
+    if (const std::string why = held(spring, "spring"); !why.empty()) return why;
+  }
+  for (const Joint& joint : scene.joints) {
+    if (const std::string why = held(joint, "joint"); !why.empty()) return why;
+  }
+  const auto collides = [&](bool fixed) {
+    return std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                        [=](const Body& body) { return body.collides && body.fixed == fixed; });
+  };
+  const auto moving = collides(false), fixed = collides(true);
+  if (moving == scene.bodies.end() || fixed == scene.bodies.end()) return "";
+  return fmt::format("'{}' may touch '{}', which is fixed", moving->name, fixed->name);
+}
+
+double acting_time(const TimedForce& force, double t) {
+  return std::max(0.0, std::min(force.until, t) - std::max(force.from, 0.0));
+}
+
+MetricResult against_law(const JudgedRun& run, const std::string& symbol, const MomentumOf& momentum,
+                         const MomentumGained& gained) {
+  if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
+  const Vec3 start = momentum(run.trajectory.samples.front().bodies.columns());
+  TimeSeries series;
+  for (const Sample& sample : run.trajectory.samples) {
+    compare(sample, symbol, momentum(sample.bodies.columns()), start + gained(sample.time), series);
+  }
+  return {std::move(series).finish(), ""};
+}
+
+MetricResult against_truth(const JudgedRun& run, const std::string& symbol, const MomentumOf& momentum,
+                           const std::string& why) {
+  if (!run.truth) return {{}, fmt::format("{}, and the case has no truth", why)};
+  const std::size_t count = samples_within(run, kTruthNeededPosition);
+  if (count == 0) return {{}, kNoSamples};
+  TimeSeries series;
+  for (std::size_t n = 0; n < count; ++n) {
+    const Sample& sample = run.trajectory.samples[n];
+    compare(sample, symbol, momentum(sample.bodies.columns()), momentum(run.truth->bodies[n].columns()), series);
+  }
+  return {std::move(series).finish(), ""};
+}
+
+}  // namespace rigor

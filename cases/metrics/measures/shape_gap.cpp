@@ -1,0 +1,169 @@
+#include "cases/metrics/measures/shape_gap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace rigor {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A sphere is a capsule without length: both are the points within a radius of a segment.
+struct Rod {
+  Vec3 middle, half;  // m, in W: its ends are middle ± half
+  double radius;      // m
+};
+
+struct Cuboid {
+  Vec3 centre;
+  Mat3 axes;  // its columns, in W
+  Vec3 half;  // m, along them
+};
+
+Rod rod_of(const Sphere& s, const Pose& pose) { return {pose.position, Vec3::Zero(), s.radius}; }
+Rod rod_of(const Capsule& c, const Pose& pose) {
+  return {pose.position, pose.orientation * Vec3(0, 0, c.length / 2), c.radius};
+}
+Cuboid cuboid_of(const Box& b, const Pose& pose) {
+  return {pose.position, pose.orientation.toRotationMatrix(), b.size / 2};
+}
+
+double over_plane(const Plane& plane, const Rod& rod) {
+  return plane.normal.dot(rod.middle) - std::abs(plane.normal.dot(rod.half)) - plane.offset - rod.radius;
+}
+
+double over_plane(const Plane& plane, const Cuboid& box) {
+  return plane.normal.dot(box.centre) - (box.axes.transpose() * plane.normal).cwiseAbs().dot(box.half) - plane.offset;
+}
+
+double point_to_rod(const Vec3& p, const Rod& rod) {
+  const double square = rod.half.squaredNorm();
+  const double share = square > 0 ? std::clamp((p - rod.middle).dot(rod.half) / square, -1.0, 1.0) : 0;
+  return (p - rod.middle - share * rod.half).norm();
+}
+
+// The nearest points of two segments lie inside both, or one of them is an end.
+double between(const Rod& a, const Rod& b) {
+  double least = std::min({point_to_rod(a.middle + a.half, b), point_to_rod(a.middle - a.half, b),
+                           point_to_rod(b.middle + b.half, a), point_to_rod(b.middle - b.half, a)});
+  const double aa = a.half.squaredNorm(), bb = b.half.squaredNorm(), ab = a.half.dot(b.half), both = aa * bb - ab * ab;
+  if (both > 1e-14 * aa * bb) {  // else they are parallel, and an end is as near as any point
+    const Vec3 apart = b.middle - a.middle;
+    const double s = (bb * a.half.dot(apart) - ab * b.half.dot(apart)) / both,
+                 t = (ab * a.half.dot(apart) - aa * b.half.dot(apart)) / both;
+    if (std::abs(s) <= 1 && std::abs(t) <= 1) least = std::min(least, (apart + t * b.half - s * a.half).norm());
+  }
+  return least - a.radius - b.radius;
+}
+
+// The signed distance of a point from a box's surface, negative inside.
+double point_to_box(const Vec3& p, const Cuboid& box) {
+  const Vec3 beyond = (box.axes.transpose() * (p - box.centre)).cwiseAbs() - box.half;
+  return beyond.cwiseMax(0).norm() + std::min(beyond.maxCoeff(), 0.0);
+}
+
+// A signed distance from a convex body is a convex function of the point: along a segment a golden section finds its
+// least value.
+double between(const Rod& rod, const Cuboid& box) {
+  const auto at = [&](double share) { return point_to_box(rod.middle + share * rod.half, box); };
+  if (rod.half.isZero(0)) return at(0) - rod.radius;
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr int kRounds = 70;  // 0.618^70 is 2e-15
+  double low = -1, high = 1;
+  for (int n = 0; n < kRounds; ++n) {
+    const double width = kGolden * (high - low), one = high - width, other = low + width;
+    (at(one) <= at(other) ? high : low) = at(one) <= at(other) ? other : one;
+  }
+  return std::min({at(0.5 * (low + high)), at(-1), at(1)}) - rod.radius;
+}
+
+// Separating axes: the faces' normals and the edges' cross products (Gottschalk, Lin, Manocha, OBBTree, 1996). Of two
+// boxes that overlap the shortest way apart is along one of them.
+double between(const Cuboid& a, const Cuboid& b) {
+  const Vec3 apart = b.centre - a.centre;
+  double widest = -kInfinity;
+  const auto try_axis = [&](const Vec3& axis) {
+    const double length = axis.norm();
+    if (length < 1e-9) return;  // two edges along one line: the faces' axes say it
+    const double reach =
+        (a.axes.transpose() * axis).cwiseAbs().dot(a.half) + (b.axes.transpose() * axis).cwiseAbs().dot(b.half);
+    widest = std::max(widest, (std::abs(apart.dot(axis)) - reach) / length);
+  };
+  for (int i = 0; i < 3; ++i) {
+    try_axis(a.axes.col(i));
+    try_axis(b.axes.col(i));
+    for (int j = 0; j < 3; ++j) try_axis(a.axes.col(i).cross(b.axes.col(j)));
+  }
+  return widest;
+}
+
+double between(const Cuboid& box, const Rod& rod) { return between(rod, box); }
+
+struct Extent {
+  double low, high;  // m, along the axis of sorting
+  int body;
+};
+
+Pose pose_of(BodyColumns bodies, int i) { return {bodies.position(i), bodies.orientation(i).normalized()}; }
+
+bool is_plane(const Body& body) { return std::holds_alternative<Plane>(*body.shape); }
+
+}  // namespace
+
+double shape_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+  const auto with = [](const auto& shape, const Pose& pose, const auto& then) {
+    if (const auto* s = std::get_if<Sphere>(&shape)) return then(rod_of(*s, pose));
+    if (const auto* c = std::get_if<Capsule>(&shape)) return then(rod_of(*c, pose));
+    return then(cuboid_of(std::get<Box>(shape), pose));
+  };
+  const auto *plane_a = std::get_if<Plane>(&a), *plane_b = std::get_if<Plane>(&b);
+  if (plane_a && plane_b) return kInfinity;  // neither moves
+  if (plane_a) return with(b, pose_b, [&](const auto& solid) { return over_plane(*plane_a, solid); });
+  if (plane_b) return with(a, pose_a, [&](const auto& solid) { return over_plane(*plane_b, solid); });
+  return with(a, pose_a,
+              [&](const auto& one) { return with(b, pose_b, [&](const auto& other) { return between(one, other); }); });
+}
+
+double bounding_radius(const Shape& shape) {
+  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
+  if (const auto* c = std::get_if<Capsule>(&shape)) return c->radius + c->length / 2;
+  if (const auto* b = std::get_if<Box>(&shape)) return b->size.norm() / 2;
+  return kInfinity;
+}
+
+void for_each_near_pair(const Scene& scene, BodyColumns bodies, double reach,
+                        const std::function<void(int a, int b, double gap)>& visit) {
+  std::vector<Extent> extents;
+  std::vector<int> planes;
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    const Body& body = scene.bodies[i];
+    if (!body.collides) continue;
+    if (is_plane(body)) {
+      planes.push_back(i);
+      continue;
+    }
+    const double radius = bounding_radius(*body.shape), x = bodies.column(kPosition)[i];
+    extents.push_back({x - radius - reach, x + radius, i});
+  }
+  std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) { return a.low < b.low; });
+  const auto look = [&](int a, int b) {
+    const Body &one = scene.bodies[a], &other = scene.bodies[b];
+    if (one.fixed && other.fixed) return;
+    const double gap = shape_gap(*one.shape, pose_of(bodies, a), *other.shape, pose_of(bodies, b));
+    if (gap < reach) visit(a, b, gap);
+  };
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    for (const int plane : planes) look(extents[i].body, plane);
+    for (std::size_t j = i + 1; j < extents.size() && extents[j].low <= extents[i].high; ++j) {
+      const int a = extents[i].body, b = extents[j].body;
+      const double radii = bounding_radius(*scene.bodies[a].shape) + bounding_radius(*scene.bodies[b].shape) + reach;
+      if ((bodies.position(a) - bodies.position(b)).squaredNorm() <= radii * radii)
+        look(std::min(a, b), std::max(a, b));
+    }
+  }
+}
+
+}  // namespace rigor

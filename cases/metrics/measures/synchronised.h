@@ -1,0 +1,26 @@
+// Velocities brought to the time of the positions. The velocities of a semi-implicit step belong half a step before the
+// positions; taken as they are read, the energy oscillates by what lies between the two instants, which is sampling and
+// not loss (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed., section I.3.1: Störmer-Verlet).
+#pragma once
+
+#include "core/dynamics/model/system.h"
+#include "core/engine/body_table.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+class Synchroniser {
+ public:
+  // `lag`: steps by which the velocities are behind, see MethodInfo::leapfrog_stagger.
+  Synchroniser(const Scene& scene, double dt, double lag) : system_(scene), advance_(lag * dt) {}
+
+  // v + lag dt v' and w + lag dt w', with the scene's own accelerations at the bodies' positions and time.
+  void apply(double time, MutableBodyColumns bodies);
+
+ private:
+  System system_;
+  double advance_;  // s
+  Wrenches wrenches_;
+};
+
+}  // namespace rigor

@@ -1,0 +1,155 @@
+#include "cases/report/console/console_matrix.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "cases/analysis/findings.h"
+#include "cases/analysis/verdict_matrix.h"
+#include "cases/report/console/console_table.h"
+
+namespace rigor {
+namespace {
+
+constexpr std::size_t kCaseColumn = 23, kColumn = 11, kMostColumns = 7;  // 100 characters in all
+
+// In characters, of which one is several bytes of UTF-8.
+std::size_t width_of(const std::string& text) {
+  return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
+}
+
+std::string right_aligned(const std::string& text, std::size_t width) {
+  return std::string(width - std::min(width, width_of(text)), ' ') + text;
+}
+
+// 33.3mm, 1.6prad, 26.9%: eight characters at most.
+std::string short_quantity(double value, const std::string& metric) {
+  const double size = std::abs(value);
+  if (!std::isfinite(size)) return "inf";
+  if (metric.starts_with("energy")) return size < 1e-11 ? "0%" : rounded(100 * size) + "%";
+  const char* unit = metric.starts_with("orientation") ? "rad" : "m";
+  if (size < 1e-12) return std::string("0") + unit;  // rounding
+  if (size >= 1e4) return rounded(size) + unit;
+  for (const auto& [factor, prefix] : {std::pair{1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}) {
+    constexpr double kRoundsUp = 0.9995;  // to three digits
+    if (size >= kRoundsUp * factor) return fmt::format("{:.3g}{}{}", size / factor, prefix, unit);
+  }
+  return fmt::format("{:.3g}p{}", size / 1e-12, unit);
+}
+
+std::string cell_text(const Cell& cell, const std::string& metric) {
+  const std::string sign = sign_of(cell);
+  if (cell.status == Status::diverged) return fmt::format("{} {:.2f}s", sign, cell.stability.time);
+  const auto found = cell.metrics.find(metric);
+  const bool has_number = found != cell.metrics.end() && found->second.not_applicable.empty();
+  if (cell.status == Status::unsupported) return sign;
+  return sign + (has_number ? " " + short_quantity(found->second.value, metric) : word_of(cell.status));
+}
+
+// A run's name in lines of a column's width, broken behind ':' and before '@', at '-', ',' and '=', else anywhere.
+std::vector<std::string> head_lines(const std::string& name) {
+  constexpr std::size_t kWidth = kColumn - 1;
+  std::vector<std::string> parts = {""};
+  for (const char c : name) {
+    if (c == '@') parts.emplace_back();
+    parts.back() += c;
+    if (c == ':' || c == '-' || c == ',' || c == '=' || parts.back().size() == kWidth) parts.emplace_back();
+  }
+  std::vector<std::string> lines = {""};
+  for (const std::string& part : parts) {
+    const bool is_method = lines.back().ends_with(':');  // on lines of its own
+    if (!lines.back().empty() && (is_method || lines.back().size() + part.size() > kWidth)) lines.emplace_back();
+    lines.back() += part;
+  }
+  if (lines.back().empty()) lines.pop_back();
+  return lines;
+}
+
+std::string head(const Results& results, const std::vector<std::size_t>& runs) {
+  std::vector<std::vector<std::string>> columns;
+  std::size_t height = 0;
+  for (const std::size_t run : runs) {
+    columns.push_back(head_lines(results.runs[run].text));
+    height = std::max(height, columns.back().size());
+  }
+  std::string text;
+  for (std::size_t line = 0; line < height; ++line) {
+    std::string row = line + 1 == height ? fmt::format("{:<{}}", "case", kCaseColumn) : std::string(kCaseColumn, ' ');
+    for (const auto& column : columns) {
+      const std::size_t blank = height - column.size();  // names stand on the same lowest line
+      row += right_aligned(line < blank ? "" : column[line - blank], kColumn);
+    }
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + "\n";
+  }
+  return text;
+}
+
+std::string panel(const Results& results, const std::vector<std::size_t>& runs) {
+  const StepSize headline = headline_dt(results);
+  std::string text = head(results, runs), family;
+  for (const CaseResult& result : results.cases) {
+    const std::string& id = result.definition.id;
+    const std::size_t slash = id.rfind('/');
+    const std::string of = slash == std::string::npos ? "" : id.substr(0, slash);
+    if (of != family) text += of + "\n", family = of;
+    const StepSize dt = matrix_dt(result, headline);
+    const std::string name = (slash == std::string::npos ? id : " " + id.substr(slash + 1)) +
+                             (dt.text == headline.text ? "" : fmt::format(" {}", dt.text));
+    std::string row = fmt::format("{:<{}}", shortened(name, kCaseColumn), kCaseColumn);
+    const std::string metric = main_error(result);
+    for (const std::size_t run : runs) {
+      const auto cell = std::find_if(result.cells.begin(), result.cells.end(),
+                                     [&](const Cell& c) { return c.run == run && c.dt.text == dt.text; });
+      row += right_aligned(cell == result.cells.end() ? "" : cell_text(*cell, metric), kColumn);
+    }
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + "\n";
+  }
+  return text;
+}
+
+// Those of at least half of the cases; the others are asked for by single gates. Engines that are not ours first.
+std::vector<std::size_t> runs_to_show(const Results& results) {
+  std::vector<std::size_t> cases_of(results.runs.size());
+  for (const CaseResult& result : results.cases) {
+    std::vector<bool> is_there(results.runs.size());
+    for (const Cell& cell : result.cells) is_there[cell.run] = true;
+    for (std::size_t run = 0; run < is_there.size(); ++run) cases_of[run] += is_there[run];
+  }
+  std::vector<std::size_t> runs;
+  for (std::size_t run = 0; run < cases_of.size(); ++run) {
+    if (2 * cases_of[run] >= results.cases.size()) runs.push_back(run);
+  }
+  if (runs.empty()) runs.resize(results.runs.size()), std::iota(runs.begin(), runs.end(), std::size_t{0});
+  std::stable_partition(runs.begin(), runs.end(), [&](std::size_t run) { return results.runs[run].engine != "core"; });
+  return runs;
+}
+
+}  // namespace
+
+std::string console_matrix(const Results& results) {
+  const std::vector<std::size_t> runs = runs_to_show(results);
+  const std::size_t panels = (runs.size() + kMostColumns - 1) / kMostColumns,
+                    columns = (runs.size() + panels - 1) / panels;
+  std::string text =
+      wrapped(fmt::format("dt = {} s, or what stands behind a case: the largest error of the position "
+                          "[m]; of the orientation [rad] where nothing moves away; of the energy [%] "
+                          "where there is no truth.",
+                          headline_dt(results).text),
+              0) +
+      "\n" + "✓ stable  ≈ drifting  ✕ blown up at that time, or gate failed  ◆ known deviation  – unsupported\n";
+  for (std::size_t first = 0; first < runs.size(); first += columns) {
+    const auto begin = runs.begin() + static_cast<long>(first),
+               end = runs.begin() + static_cast<long>(std::min(first + columns, runs.size()));
+    text += "\n" + panel(results, {begin, end});
+  }
+  if (runs.size() < results.runs.size()) {
+    text += fmt::format("\n{} more runs, of single cases, stand in the reports.\n", results.runs.size() - runs.size());
+  }
+  return text;
+}
+
+}  // namespace rigor

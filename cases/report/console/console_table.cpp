@@ -1,0 +1,226 @@
+#include "cases/report/console/console_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/analysis/comparison.h"
+#include "cases/analysis/explained_error.h"
+#include "cases/analysis/explanation.h"
+#include "cases/analysis/findings.h"
+#include "cases/report/console/console_matrix.h"
+
+namespace rigor {
+namespace {
+
+constexpr std::size_t kWidth = 100;
+const std::string kNoValue = "-";
+
+std::string metric_text(const Cell& cell, const std::string& name, double MetricValue::*part) {
+  const auto found = cell.metrics.find(name);
+  if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return kNoValue;
+  return rounded(found->second.*part);
+}
+
+// A drift as per cent of what it is measured against, with its sign: lost energy is negative.
+std::string percent_text(const Cell& cell, const std::string& name) {
+  const auto found = cell.metrics.find(name);
+  if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return kNoValue;
+  const MetricValue& drift = found->second;
+  const double percent = 100 * std::copysign(drift.value, drift.worst.found - drift.worst.expected);
+  if (!std::isfinite(percent)) return "not finite";
+  if (std::abs(percent) < 1e-9) return "0";  // rounding
+  return fmt::format("{}{}", percent > 0 ? "+" : "", rounded(percent));
+}
+
+std::string stable_text(const StableStepResult& stable) {
+  if (stable.status != Status::pass) return stable.status == Status::unsupported ? kNoValue : word_of(stable.status);
+  return fmt::format("{}{}", stable.step.is_cap ? ">=" : stable.step.is_floor ? "<" : "", rounded(stable.step.dt));
+}
+
+std::string verdict_text(const Cell& cell, const Scene& scene) {
+  if (cell.stability.verdict == Verdict::blown_up) {
+    return fmt::format("blown up at {:.2f} s: {}", cell.stability.time, scene.body_name(cell.stability.body));
+  }
+  return cell.status == Status::pass ? word_of(cell.stability.verdict) : word_of(cell.status);
+}
+
+std::string table_line(const RowText& row) {
+  std::string line =
+      fmt::format("{} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {}", engine_column(row.engine), row.first_second, row.whole,
+                  row.orientation, row.energy, row.energy_synchronised, row.stable_dt, row.verdict);
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+// The verdict stands where the numbers of the whole run would, of which there are none.
+std::string blown_up_line(const RowText& row) {
+  constexpr std::size_t kFourColumns = 34;
+  return fmt::format("{} {:>8}  {:<34} {:>8}\n", engine_column(row.engine), row.first_second,
+                     shortened(row.verdict, kFourColumns), row.stable_dt);
+}
+
+std::string header(const StepSize& dt) {
+  RowText top{fmt::format("dt = {} s", dt.text), "position", "error", "orient.", "energy", "drift", "largest", ""};
+  RowText bottom{"engine", "1 s [m]", "all [m]", "[rad]", "raw [%]", "sync [%]", "dt [s]", "verdict"};
+  return table_line(top) + table_line(bottom);
+}
+
+std::string row_line(const RowText& row) {
+  if (row.is_blown_up) return blown_up_line(row);
+  if (row.has_numbers) return table_line(row);
+  return engine_column(row.engine) + " " + wrapped(row.verdict, 27) + "\n";
+}
+
+// The gates that did not hold; those that no cell met only where asked for.
+std::string gate_lines(const CaseResult& result, bool with_unchecked) {
+  std::string lines;
+  for (const GateResult& gate : result.gates) {
+    if (gate.answer == GateAnswer::held || gate.answer == GateAnswer::known_deviation) continue;
+    if (gate.answer == GateAnswer::not_checked && !with_unchecked) continue;
+    lines += "  " + wrapped(fmt::format("gate {}: {}", word_of(gate.answer), gate.text), 4) + "\n";
+  }
+  return lines;
+}
+
+// Of a case that has no block of its own.
+std::string what_is_wrong(const CaseResult& result) {
+  const std::string error = result.error.empty() ? "" : "  " + wrapped(result.error, 2) + "\n";
+  return error + gate_lines(result, false);
+}
+
+std::string block(const Results& results, const CaseResult& result) {
+  const StepSize dt = coarsest_dt(result);
+  std::string text = wrapped(fmt::format("{}: {}", result.definition.id, result.definition.title), 2) + "\n";
+  text += "  " + wrapped(truth_sentence(result), 2) + "\n" + header(dt);
+  for (const Cell& cell : result.cells) {
+    if (cell.dt.seconds == dt.seconds) text += row_line(row_text(results, result, cell));
+  }
+  text += explained_text(explained_rows(results, result, dt));
+  for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
+  for (const std::string& sentence : work_precision_sentences(results, result))
+    text += "  " + wrapped(sentence, 2) + "\n";
+  return text + gate_lines(result, true);
+}
+
+std::string count_line(const Results& results) {
+  std::map<Status, int> counts;
+  for (const CaseResult& result : results.cases) {
+    for (const Cell& cell : result.cells) ++counts[cell.status];
+  }
+  std::string text;
+  for (const auto& [status, count] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, word_of(status));
+  return fmt::format("cells: {}\n", text);
+}
+
+}  // namespace
+
+std::string wrapped(const std::string& text, std::size_t indent) {
+  const std::size_t width = kWidth - indent;
+  std::string out, rest = text;
+  while (rest.size() > width) {
+    std::size_t at = rest.rfind(' ', width);
+    if (at == std::string::npos || at == 0) at = rest.find(' ', width);
+    if (at == std::string::npos) break;
+    out += rest.substr(0, at) + "\n" + std::string(indent, ' ');
+    rest.erase(0, at + 1);
+  }
+  return out + rest;
+}
+
+std::string shortened(std::string text, std::size_t width) {
+  if (text.size() <= width) return text;
+  text.resize(width - 2);
+  while (!text.empty() && (text.back() & 0xc0) == 0x80) text.pop_back();
+  if (!text.empty() && (text.back() & 0x80)) text.pop_back();
+  return text + "..";
+}
+
+std::string rounded(double value) {
+  if (!std::isfinite(value)) return "not finite";
+  if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e4)) return fmt::format("{:.1e}", value);
+  return fmt::format("{:.3g}", value);
+}
+
+std::string engine_column(const std::string& name) {
+  constexpr std::size_t kColumn = 24;
+  if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
+  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a line of its own
+}
+
+StepSize coarsest_dt(const CaseResult& result) {
+  return *std::max_element(result.definition.dt.begin(), result.definition.dt.end(),
+                           [](const StepSize& a, const StepSize& b) { return a.seconds < b.seconds; });
+}
+
+std::string truth_sentence(const CaseResult& result) {
+  const Case& definition = result.definition;
+  if (!result.error.empty()) return result.error;
+  if (definition.truth == "none") return "truth: none; only stability and what is conserved are judged.";
+  if (!result.truth) return fmt::format("truth: {}, not found.", definition.truth);
+  const TruthFacts& facts = *result.truth;
+  if (facts.horizon >= definition.duration) {
+    return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s.", definition.truth,
+                       facts.error_at_end, definition.duration);
+  }
+  return fmt::format(
+      "truth: {}, known to {:g} µm until {:.1f} s of the {:g} s; beyond that the motion is too sensitive.",
+      definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration);
+}
+
+RowText row_text(const Results& results, const CaseResult& result, const Cell& cell) {
+  RowText row;
+  row.engine = results.runs[cell.run].text;
+  row.has_numbers = !cell.metrics.empty() && cell.status != Status::invalid;
+  row.stable_dt = stable_text(result.stable_steps[cell.run]);
+  if (!row.has_numbers) {
+    row.verdict = fmt::format("{}: {}", word_of(cell.status), cell.reason);
+    return row;
+  }
+  row.verdict = verdict_text(cell, result.definition.scene);
+  row.first_second = metric_text(cell, "position_error", &MetricValue::first_second);
+  row.whole = metric_text(cell, "position_error", &MetricValue::value);
+  row.orientation = metric_text(cell, "orientation_error", &MetricValue::value);
+  row.energy = percent_text(cell, "energy_drift");
+  row.energy_synchronised = percent_text(cell, "energy_drift_synchronised");
+  row.is_blown_up = cell.stability.verdict == Verdict::blown_up;
+  if (row.is_blown_up) {  // what was measured until it blew up would read like the error of a run
+    row.whole = row.orientation = row.energy = row.energy_synchronised = kNoValue;
+    if (cell.stability.time < 1) row.first_second = kNoValue;
+  }
+  return row;
+}
+
+std::string gate_summary(const Results& results) {
+  std::map<GateAnswer, int> counts;
+  for (const CaseResult& result : results.cases) {
+    for (const GateResult& gate : result.gates) ++counts[gate.answer];
+  }
+  std::string text = fmt::format("gates: {} held, {} failed, {} not checked", counts[GateAnswer::held],
+                                 counts[GateAnswer::failed], counts[GateAnswer::not_checked]);
+  for (const auto& [answer, words] : {std::pair{GateAnswer::known_deviation, "known deviations"},
+                                      {GateAnswer::unexpected_pass, "unexpected passes"}}) {
+    if (counts[answer] > 0) text += fmt::format(", {} {}", counts[answer], words);
+  }
+  return text + "\n";
+}
+
+std::string console_table(const Results& results) {
+  constexpr std::size_t kMostInFull = 6;  // cases: a few screens
+  const bool is_in_full = results.cases.size() <= kMostInFull;
+  std::string text = is_in_full ? "" : console_matrix(results) + "\n";
+  for (const CaseResult& result : results.cases) {
+    if (is_in_full) text += block(results, result) + "\n";
+    const std::string short_of = is_in_full ? "" : what_is_wrong(result);
+    if (!short_of.empty()) text += result.definition.id + "\n" + short_of;
+  }
+  if (!is_in_full) text += "each case in full: report.html, report.md, or `rigor run CASE`\n\n";
+  if (results.cases.size() > 1) {
+    for (const Finding& found : findings(results)) text += wrapped(found.topic + ": " + found.text, 2) + "\n";
+  }
+  return text + count_line(results);
+}
+
+}  // namespace rigor

@@ -1,0 +1,49 @@
+#include "cases/report/csv/trajectory_csv.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace rigor {
+
+std::string csv_header() {
+  std::string header = "time,body";
+  for (const char* name : kColumnNames) header += fmt::format(",{}", name);
+  return header;
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+void append_csv_rows(std::string& out, const Scene& scene, double time, BodyColumns bodies,
+                     const std::string& last_column) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    fmt::format_to(std::back_inserter(out), "{:.17g},{}", time, csv_field(scene.bodies[i].name));
+    for (std::size_t c = 0; c < kColumnNames.size(); ++c) {
+      fmt::format_to(std::back_inserter(out), ",{:.17g}", bodies.column(static_cast<int>(c))[i]);
+    }
+    out += last_column;
+    out += '\n';
+  }
+}
+
+void write_trajectory(const std::string& path, const Scene& scene, const Trajectory& trajectory) {
+  std::ofstream file(path, std::ios::binary);
+  std::string rows = csv_header() + "\n";
+  for (const Sample& sample : trajectory.samples) {
+    append_csv_rows(rows, scene, sample.time, sample.bodies.columns());
+    constexpr std::size_t kChunk = 1 << 20;
+    if (rows.size() > kChunk) file << rows, rows.clear();
+  }
+  file << rows;
+  file.close();
+  if (!file) throw std::runtime_error(fmt::format("the trajectory could not be written to '{}'", path));
+}
+
+}  // namespace rigor

@@ -1,0 +1,157 @@
+// results.json: everything that the other reports show, for programs. `schema` rises when a reader would have to
+// change.
+#include "cases/report/json/json_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "cases/analysis/explanation.h"
+#include "cases/analysis/findings.h"
+#include "cases/analysis/verdict_matrix.h"
+#include "cases/report/json/comparison_json.h"
+#include "cases/report/json/machine.h"
+#include "cases/report/json/scene_json.h"
+#include "cases/report/reports.h"
+#include "cases/results/result_json.h"
+
+namespace rigor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchema = 1;
+
+Json machine_json() {
+  const Machine machine = this_machine();
+  return {{"cpu", machine.cpu},
+          {"cores", machine.cores},
+          {"compiler", machine.compiler},
+          {"build_type", machine.build_type}};
+}
+
+Json run_json(const RunName& run, const std::vector<EngineInfo>& engines) {
+  for (const EngineInfo& engine : engines) {
+    if (engine.name != run.engine) continue;
+    const MethodInfo& method = method_of(engine, run.settings);
+    return {{"name", run.text},
+            {"engine", engine.name},
+            {"version", engine.version},
+            {"precision", engine.precision},
+            {"method", method.name},
+            {"order", method.order},
+            {"symplectic", method.symplectic},
+            {"leapfrog_stagger", method.leapfrog_stagger}};
+  }
+  return {{"name", run.text}};
+}
+
+Json bound(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json gates_json(const CaseResult& result) {
+  Json gates = Json::array();
+  for (std::size_t i = 0; i < result.definition.gates.size(); ++i) {
+    const Gate& gate = result.definition.gates[i];
+    Json answers = Json::array();
+    for (const GateResult& answer : result.gates) {
+      if (answer.gate != i) continue;
+      answers.push_back({{"engine", answer.engine},
+                         {"dt", answer.dt},
+                         {"answer", word_of(answer.answer)},
+                         {"text", answer.text},
+                         {"value", bound(answer.value)}});
+    }
+    gates.push_back({{"metric", gate.metric},
+                     {"max", bound(gate.max)},
+                     {"min", bound(gate.min)},
+                     {"equals", bound(gate.equals)},
+                     {"at_least_order", bound(gate.at_least_order)},
+                     {"better_than", gate.better_than.empty() ? Json(nullptr) : Json(gate.better_than)},
+                     {"because", gate.because},
+                     {"where", gate.where},
+                     {"answers", answers}});
+  }
+  return gates;
+}
+
+Json case_json(const Results& results, const CaseResult& result) {
+  const Case& definition = result.definition;
+  Json json = {{"id", definition.id},
+               {"title", definition.title},
+               {"source", definition.source},
+               {"file", definition.text},
+               {"scene", json_of(definition.scene)},
+               {"duration", definition.duration},
+               {"dt", Json::array()},
+               {"truth", {{"kind", definition.truth}}},
+               {"error", result.error.empty() ? Json(nullptr) : Json(result.error)}};
+  for (const StepSize& step : definition.dt) json["dt"].push_back({{"text", step.text}, {"seconds", step.seconds}});
+  if (result.truth && definition.truth != "none") {
+    json["truth"]["error_at_end"] = result.truth->error_at_end;
+    json["truth"]["horizon"] = result.truth->horizon;
+    json["truth"]["horizon_tolerance"] = kHorizonTolerance;
+  }
+  if (result.truth) json["largest_kinetic_energy"] = result.truth->largest_kinetic_energy;
+  json["main_error"] = main_error(result);
+  json["observed_order"] = observed_orders_json(results, result);
+  json["work_precision"] = work_precision_json(results, result);
+  json["spread"] = spreads_json(results, result);
+  json["gates"] = gates_json(result);
+  json["explanations"] = result.stable_steps.empty() ? Json::array() : Json(explanations(results, result));
+  return json;
+}
+
+Json findings_json(const Results& results) {
+  Json rows = Json::array();
+  for (const Finding& found : findings(results)) {
+    rows.push_back({{"topic", found.topic}, {"text", found.text}, {"more", found.more}});
+  }
+  return rows;
+}
+
+Json metrics_json() {
+  Json rows = Json::array();
+  for (const MetricRow& row : metrics())
+    rows.push_back({{"name", row.name}, {"unit", row.unit}, {"summary", row.summary}});
+  return rows;
+}
+
+Json cell_json(const Cell& cell, const CaseResult& result, const std::string& run) {
+  Json json = {{"case", result.definition.id}, {"engine", run}};
+  json.update(json_of(cell, result.definition.scene));
+  json["gates"] = Json::array();
+  for (const GateResult& answer : result.gates) {
+    if (answer.engine != run || answer.dt != cell.dt.text) continue;
+    json["gates"].push_back({{"gate", answer.gate}, {"answer", word_of(answer.answer)}, {"text", answer.text}});
+  }
+  return json;
+}
+
+}  // namespace
+
+Json results_json(const Results& results) {
+  Json json = {{"schema", kSchema},
+               {"program", {{"name", "rigor"}, {"version", this_machine().program_version}}},
+               {"machine", machine_json()},
+               {"wall_seconds", results.wall_seconds},
+               {"headline_dt", headline_dt(results).text},
+               {"findings", findings_json(results)},
+               {"metrics", metrics_json()},
+               {"engines", Json::array()},
+               {"cases", Json::array()},
+               {"cells", Json::array()},
+               {"stable_dt", Json::array()}};
+  for (const RunName& run : results.runs) json["engines"].push_back(run_json(run, results.engines));
+  for (const CaseResult& result : results.cases) {
+    json["cases"].push_back(case_json(results, result));
+    for (const Cell& cell : result.cells) json["cells"].push_back(cell_json(cell, result, results.runs[cell.run].text));
+    for (std::size_t run = 0; run < results.runs.size(); ++run) {
+      Json stable = {{"case", result.definition.id}, {"engine", results.runs[run].text}};
+      stable.update(json_of(result.stable_steps[run]));
+      json["stable_dt"].push_back(stable);
+    }
+  }
+  return json;
+}
+
+std::string json_report(const Results& results) { return text_of(results_json(results), 1) + "\n"; }
+
+}  // namespace rigor

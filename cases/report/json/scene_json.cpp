@@ -1,0 +1,82 @@
+#include "cases/report/json/scene_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace rigor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json json_of_shape(const Shape& shape) {
+  Json json = {{"type", shape_name(shape)}};
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) json["radius"] = sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) json["size"] = list(box->size);
+  if (const auto* capsule = std::get_if<Capsule>(&shape))
+    json["radius"] = capsule->radius, json["length"] = capsule->length;
+  if (const auto* plane = std::get_if<Plane>(&shape))
+    json["normal"] = list(plane->normal), json["offset"] = plane->offset;
+  return json;
+}
+
+Json json_of_body(const Body& body) {
+  const Quat& q = body.orientation;
+  const Mat3& m = body.inertia;
+  return {{"name", body.name},
+          {"mass", body.mass},
+          {"inertia", {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}},
+          {"position", list(body.position)},
+          {"orientation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+          {"shape", body.shape ? json_of_shape(*body.shape) : Json(nullptr)},
+          {"collides", body.collides},
+          {"fixed", body.fixed}};
+}
+
+Json json_of_joint(const Joint& joint, const Scene& scene) {
+  Json json = {{"a", scene.body_name(joint.a)}, {"b", scene.body_name(joint.b)}};
+  if (const auto* ball = std::get_if<BallJoint>(&joint.type))
+    json["type"] = "ball", json["anchor"] = list(ball->anchor);
+  if (const auto* hinge = std::get_if<HingeJoint>(&joint.type))
+    json["type"] = "hinge", json["anchor"] = list(hinge->anchor), json["axis"] = list(hinge->axis);
+  if (const auto* slider = std::get_if<SliderJoint>(&joint.type))
+    json["type"] = "slider", json["axis"] = list(slider->axis);
+  if (std::holds_alternative<FixedJoint>(joint.type)) json["type"] = "fixed";
+  if (const auto* distance = std::get_if<DistanceJoint>(&joint.type)) {
+    json["type"] = "distance";
+    json["point_a"] = list(distance->point_a), json["point_b"] = list(distance->point_b);
+  }
+  return json;
+}
+
+}  // namespace
+
+Json json_of(const Scene& scene) {
+  Json json = {{"gravity", list(scene.gravity)},
+               {"bodies", Json::array()},
+               {"springs", Json::array()},
+               {"joints", Json::array()},
+               {"forces", Json::array()}};
+  for (const Body& body : scene.bodies) json["bodies"].push_back(json_of_body(body));
+  for (const Spring& spring : scene.springs) {
+    json["springs"].push_back({{"a", scene.body_name(spring.a)},
+                               {"point_a", list(spring.point_a)},
+                               {"b", scene.body_name(spring.b)},
+                               {"point_b", list(spring.point_b)},
+                               {"stiffness", spring.stiffness},
+                               {"damping", spring.damping},
+                               {"rest_length", spring.rest_length}});
+  }
+  for (const Joint& joint : scene.joints) json["joints"].push_back(json_of_joint(joint, scene));
+  for (const TimedForce& force : scene.forces) {
+    json["forces"].push_back({{"body", scene.body_name(force.body)},
+                              {"force", list(force.force)},
+                              {"torque", list(force.torque)},
+                              {"point", list(force.point)},
+                              {"from", force.from},
+                              {"until", force.until}});  // null: to the end
+  }
+  return json;
+}
+
+}  // namespace rigor

@@ -1,0 +1,149 @@
+// junit.xml, in the form that Jenkins, GitLab and GitHub's readers share: a testsuite a case, a testcase a cell with
+// its wall time, and one for each gate over several cells. A gate that fails is a <failure>, a cell that came to
+// nothing an <error>, what an engine cannot do and what it is known not to meet are <skipped>.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cases/report/reports.h"
+#include "cases/results/result_json.h"
+
+namespace rigor {
+namespace {
+
+// Text of other people: bytes that are no UTF-8 and characters that XML 1.0 does not allow at all become U+FFFD or '?'.
+std::string escaped(const std::string& text) {
+  const auto clean = nlohmann::json::parse(text_of(text, -1)).get<std::string>();
+  std::string out;
+  for (std::size_t i = 0; i < clean.size(); ++i) {
+    const char c = clean[i];
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_forbidden = clean.compare(i, 3, "\xEF\xBF\xBE") == 0 || clean.compare(i, 3, "\xEF\xBF\xBF") == 0;
+    if (is_forbidden) {
+      out += '?', i += 2;
+    } else if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (c == '\n') {
+      out += "&#10;";
+    } else {
+      out += byte < 0x20 || byte == 0x7f ? '?' : c;
+    }
+  }
+  return out;
+}
+
+struct TestCase {
+  std::string name, classname;
+  double seconds = 0;
+  std::string kind;     // "", "failure", "error", "skipped"
+  std::string type;     // the metric that failed, or the cell's status
+  std::string message;  // the first line
+  std::string text;     // all of them
+};
+
+struct Suite {
+  std::string name;
+  std::vector<TestCase> cases;
+  long count(const std::string& kind) const {
+    return std::count_if(cases.begin(), cases.end(), [&](const TestCase& c) { return c.kind == kind; });
+  }
+  double seconds() const {
+    double sum = 0;
+    for (const TestCase& c : cases) sum += c.seconds;
+    return sum;
+  }
+};
+
+bool fell_short(GateAnswer answer) {
+  return answer == GateAnswer::failed || answer == GateAnswer::unexpected_pass || answer == GateAnswer::not_checked;
+}
+
+void add_line(TestCase& test, const std::string& line) {
+  if (test.message.empty()) test.message = line;
+  test.text += line + "\n";
+}
+
+TestCase of_cell(const Results& results, const CaseResult& result, const Cell& cell) {
+  const std::string& run = results.runs[cell.run].text;
+  TestCase test{fmt::format("{} dt={}", run, cell.dt.text), result.definition.id, cell.wall_seconds, "", "", "", ""};
+  if (cell.status == Status::unsupported) test.kind = "skipped", add_line(test, cell.reason);
+  if (cell.status == Status::crashed || cell.status == Status::timed_out || cell.status == Status::invalid)
+    test.kind = "error", test.type = word_of(cell.status), add_line(test, cell.reason);
+  for (const GateResult& answer : result.gates) {
+    if (answer.engine != run || answer.dt != cell.dt.text) continue;
+    const std::string& metric = result.definition.gates[answer.gate].metric;
+    if (fell_short(answer.answer)) {
+      if (test.kind != "error") test.kind = "failure";
+      if (test.type.empty()) test.type = metric;
+      add_line(test, answer.text);
+    } else if (answer.answer == GateAnswer::known_deviation && test.kind.empty()) {
+      test.kind = "skipped", add_line(test, "known deviation: " + answer.text);
+    }
+  }
+  return test;
+}
+
+// A gate over several cells, or one that met none.
+TestCase of_answer(const CaseResult& result, const GateResult& answer) {
+  const Gate& gate = result.definition.gates[answer.gate];
+  const std::string of = answer.engine.empty() ? "" : " " + answer.engine;
+  TestCase test{fmt::format("gate {}{}", answer.gate + 1, of), result.definition.id, 0, "", "", "", ""};
+  if (fell_short(answer.answer)) test.kind = "failure", test.type = gate.metric, add_line(test, answer.text);
+  if (answer.answer == GateAnswer::known_deviation) test.kind = "skipped", add_line(test, answer.text);
+  return test;
+}
+
+Suite suite_of(const Results& results, const CaseResult& result) {
+  Suite suite{result.definition.id, {}};
+  if (!result.error.empty())
+    suite.cases.push_back({"truth", result.definition.id, 0, "error", "truth", result.error, result.error + "\n"});
+  for (const Cell& cell : result.cells) suite.cases.push_back(of_cell(results, result, cell));
+  for (const GateResult& answer : result.gates) {
+    if (answer.dt.empty()) suite.cases.push_back(of_answer(result, answer));
+  }
+  return suite;
+}
+
+std::string xml_of(const TestCase& test) {
+  std::string xml = fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.6f}\"", escaped(test.name),
+                                escaped(test.classname), test.seconds);
+  if (test.kind.empty()) return xml + "/>\n";
+  xml += fmt::format(">\n      <{} message=\"{}\"", test.kind, escaped(test.message));
+  if (test.kind != "skipped") xml += fmt::format(" type=\"{}\"", escaped(test.type));
+  return xml + (test.kind == "skipped" ? "/>" : fmt::format(">{}</{}>", escaped(test.text), test.kind)) +
+         "\n    </testcase>\n";
+}
+
+std::string counts_of(long tests, long failures, long errors, long skipped, double seconds) {
+  return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.6f}\"", tests, failures,
+                     errors, skipped, seconds);
+}
+
+}  // namespace
+
+std::string junit_report(const Results& results) {
+  long tests = 0, failures = 0, errors = 0, skipped = 0;
+  std::string suites;
+  for (const CaseResult& result : results.cases) {
+    const Suite suite = suite_of(results, result);
+    const long all = static_cast<long>(suite.cases.size());
+    tests += all, failures += suite.count("failure"), errors += suite.count("error");
+    skipped += suite.count("skipped");
+    suites += fmt::format(
+        "  <testsuite name=\"{}\" {}>\n", escaped(suite.name),
+        counts_of(all, suite.count("failure"), suite.count("error"), suite.count("skipped"), suite.seconds()));
+    for (const TestCase& test : suite.cases) suites += xml_of(test);
+    suites += "  </testsuite>\n";
+  }
+  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"rigor\" {}>\n{}</testsuites>\n",
+                     counts_of(tests, failures, errors, skipped, results.wall_seconds), suites);
+}
+
+}  // namespace rigor

@@ -1,0 +1,161 @@
+#include "cases/results/changes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+namespace rigor {
+namespace {
+
+// "a\tb\tc" as "a, b, c"; what is empty is left out.
+std::string named(const std::string& key) {
+  std::string out;
+  std::size_t at = 0;
+  while (at <= key.size()) {
+    const std::size_t tab = std::min(key.find('\t', at), key.size());
+    if (tab > at) out += (out.empty() ? "" : ", ") + key.substr(at, tab - at);
+    at = tab + 1;
+  }
+  return out;
+}
+
+// 0: as it should be; 1: not run, for it cannot be; 2: something is wrong.
+int badness(const std::string& status) {
+  if (status == "pass" || status == "known-deviation") return 0;
+  return status == "unsupported" ? 1 : 2;
+}
+
+bool holds(const std::string& answer) { return answer == "held" || answer == "known deviation"; }
+
+// None where nobody measured it.
+std::optional<double> value_of(const Outcomes& outcomes, const Outcomes::Cell& cell, const std::string& metric) {
+  const auto found = cell.metrics.find(metric);
+  if (found != cell.metrics.end()) return found->second;
+  return outcomes.left_out.contains(metric) ? std::optional(0.0) : std::nullopt;
+}
+
+void compare_errors(const std::string& key, const Outcomes& before, const Outcomes& after, double factor,
+                    Changes& out) {
+  const Outcomes::Cell &old_cell = before.cells.at(key), &new_cell = after.cells.at(key);
+  std::set<std::string> names;
+  for (const auto* cell : {&old_cell, &new_cell}) {
+    for (const auto& [name, value] : cell->metrics) names.insert(name);
+  }
+  for (const std::string& name : names) {
+    const auto was = value_of(before, old_cell, name), is = value_of(after, new_cell, name);
+    if (!was || !is) continue;
+    const double low = std::max(kNoise, std::min(*was, *is)), high = std::max(*was, *is);
+    if (!(high > factor * low)) continue;
+    (*is > *was ? out.grown : out.shrunk)
+        .push_back(fmt::format("{}: {} is {:.4g}, was {:.4g}", named(key), name, *is, *was));
+  }
+}
+
+void compare_cells(const std::string& key, const Outcomes& before, const Outcomes& after, double factor, Changes& out) {
+  const std::string &was = before.cells.at(key).status, &is = after.cells.at(key).status;
+  if (badness(was) != badness(is)) {
+    (badness(is) > badness(was) ? out.newly_failing : out.newly_passing)
+        .push_back(fmt::format("{}: {}, was {}", named(key), is, was));
+  }
+  // Numbers of a run that failed mean little.
+  if (badness(was) == 0 && badness(is) == 0) compare_errors(key, before, after, factor, out);
+}
+
+std::set<std::string> cases_of(const Outcomes& outcomes) {
+  std::set<std::string> ids;
+  for (const auto& [key, cell] : outcomes.cells) ids.insert(key.substr(0, key.find('\t')));
+  return ids;
+}
+
+// What is in one and not in the other: whole cases by their name, else cells.
+std::vector<std::string> only_in(const Outcomes& one, const Outcomes& other) {
+  const auto of_other = cases_of(other);
+  std::vector<std::string> names;
+  for (const std::string& id : cases_of(one)) {
+    if (!of_other.contains(id)) names.push_back(id);
+  }
+  for (const auto& [key, cell] : one.cells) {
+    if (of_other.contains(key.substr(0, key.find('\t'))) && !other.cells.contains(key)) names.push_back(named(key));
+  }
+  return names;
+}
+
+// A gate that is not listed held, or is not there; its cell tells.
+void compare_gates(const Outcomes& before, const Outcomes& after, Changes& out) {
+  std::set<std::string> keys;
+  for (const auto* outcomes : {&before, &after}) {
+    for (const auto& [key, answer] : outcomes->gates) keys.insert(key);
+  }
+  const auto answer_of = [](const Outcomes& outcomes, const std::string& key) {
+    const auto found = outcomes.gates.find(key);
+    return found == outcomes.gates.end() ? std::string("held") : found->second;
+  };
+  for (const std::string& key : keys) {
+    const std::string was = answer_of(before, key), is = answer_of(after, key);
+    if (holds(was) == holds(is)) continue;
+    (holds(is) ? out.newly_passing : out.newly_failing)
+        .push_back(fmt::format("gate of {}: {}, was {}", named(key), is, was));
+  }
+}
+
+std::set<std::string> values_in(const std::string& listed) {
+  std::set<std::string> values;
+  std::size_t at = 0;
+  for (std::size_t bar; (bar = listed.find(kBetweenValues, at)) != std::string::npos;
+       at = bar + std::string(kBetweenValues).size())
+    values.insert(listed.substr(at, bar - at));
+  values.insert(listed.substr(at));
+  return values;
+}
+
+// A setting may have one value for each of several scenes, and not all scenes be in both: it differs if there is a
+// value now that was not there before.
+void compare_settings(const Outcomes& before, const Outcomes& after, Changes& out) {
+  for (const auto& [key, now] : after.settings) {
+    const auto was = before.settings.find(key);
+    if (was == before.settings.end()) continue;
+    const auto old_values = values_in(was->second), values = values_in(now);
+    if (!std::includes(old_values.begin(), old_values.end(), values.begin(), values.end()))
+      out.settings.push_back(fmt::format("{}: {}, was {}", named(key), now, was->second));
+  }
+}
+
+std::string section(const std::string& heading, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string text = fmt::format("{}: {}\n", heading, lines.size());
+  for (const std::string& line : lines) text += "  " + line + "\n";
+  return text;
+}
+
+}  // namespace
+
+Changes changes_between(const Outcomes& old_outcomes, const Outcomes& new_outcomes, double factor) {
+  Changes out;
+  for (const auto& [key, cell] : new_outcomes.cells) {
+    if (old_outcomes.cells.contains(key)) compare_cells(key, old_outcomes, new_outcomes, factor, out);
+  }
+  compare_gates(old_outcomes, new_outcomes, out);
+  for (const auto& [id, error] : new_outcomes.case_errors) {
+    if (!old_outcomes.case_errors.contains(id)) out.newly_failing.push_back(fmt::format("{}: {}", id, error));
+  }
+  for (const auto& [id, error] : old_outcomes.case_errors) {
+    if (!new_outcomes.case_errors.contains(id)) out.newly_passing.push_back(fmt::format("{}: was {}", id, error));
+  }
+  compare_settings(old_outcomes, new_outcomes, out);
+  out.added = only_in(new_outcomes, old_outcomes), out.gone = only_in(old_outcomes, new_outcomes);
+  return out;
+}
+
+std::string text_of(const Changes& changes, double factor) {
+  std::string text = section("newly failing", changes.newly_failing) + section("newly passing", changes.newly_passing);
+  text += section(fmt::format("errors grown by more than {:g} times", factor), changes.grown);
+  text += section(fmt::format("errors shrunk by more than {:g} times", factor), changes.shrunk);
+  text += section("settings that differ", changes.settings);
+  text += section("gone", changes.gone) + section("added", changes.added);
+  if (text.empty()) text = fmt::format("nothing changed by more than {:g} times\n", factor);
+  return text + (changes.is_worse() ? "worse\n" : "not worse\n");
+}
+
+}  // namespace rigor

@@ -1,0 +1,29 @@
+// What changed from one run's outcomes to another's, beyond noise.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/results/baseline.h"
+
+namespace rigor {
+
+// An error this small [m, rad, 1] is rounding, and its growth says nothing.
+inline constexpr double kNoise = 1e-9;
+// Errors repeat to the last bit on one machine; another compiler rounds otherwise, and a chaotic run shows it.
+inline constexpr double kDefaultFactor = 1.25;
+
+struct Changes {
+  // A sentence each, sorted.
+  std::vector<std::string> newly_failing, newly_passing;
+  std::vector<std::string> grown, shrunk;  // errors, by more than the factor
+  std::vector<std::string> settings;       // that differ
+  std::vector<std::string> added, gone;    // cases, and runs or steps of a case
+  bool is_worse() const { return !newly_failing.empty() || !grown.empty() || !gone.empty(); }
+};
+
+Changes changes_between(const Outcomes& old_outcomes, const Outcomes& new_outcomes, double factor = kDefaultFactor);
+
+std::string text_of(const Changes& changes, double factor);
+
+}  // namespace rigor

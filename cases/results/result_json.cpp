@@ -1,0 +1,217 @@
+#include "cases/results/result_json.h"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace rigor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string unit_of(const std::string& metric) {
+  for (const MetricRow& row : metrics()) {
+    if (row.name == metric) return row.unit;
+  }
+  return "";
+}
+
+double number(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+int body_index(const Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].name == name) return static_cast<int>(i);
+  }
+  return kWorld;
+}
+
+Json json_of(const MetricValue& metric, const std::string& name, const Scene& scene) {
+  if (!metric.not_applicable.empty()) return {{"not_applicable", metric.not_applicable}};
+  const Instant& worst = metric.worst;
+  return {{"value", metric.value},
+          {"unit", unit_of(name)},
+          {"first_second", metric.first_second},
+          {"worst",
+           {{"time", worst.time},
+            {"body", scene.body_name(worst.body)},
+            {"component", worst.component},
+            {"found", worst.found},
+            {"expected", worst.expected}}},
+          {"compared_until", metric.compared_until}};
+}
+
+MetricValue metric_from(const Json& json, const Scene& scene) {
+  MetricValue metric;
+  if (json.contains("not_applicable")) {
+    metric.not_applicable = json.at("not_applicable").get<std::string>();
+    return metric;
+  }
+  const Json& worst = json.at("worst");
+  metric.value = number(json.at("value"));
+  metric.first_second = number(json.at("first_second"));
+  metric.worst = {number(worst.at("time")), body_index(scene, worst.at("body").get<std::string>()),
+                  worst.at("component").get<std::string>(), number(worst.at("found")), number(worst.at("expected"))};
+  metric.compared_until = number(json.at("compared_until"));
+  return metric;
+}
+
+using Metrics = std::map<std::string, MetricValue>;
+
+Json json_of(const Metrics& metrics, const Scene& scene) {
+  Json json = Json::object();
+  for (const auto& [name, metric] : metrics) json[name] = json_of(metric, name, scene);
+  return json;
+}
+
+Metrics metrics_from(const Json& json, const Scene& scene) {
+  Metrics metrics;
+  for (const auto& [name, metric] : json.items()) metrics[name] = metric_from(metric, scene);
+  return metrics;
+}
+
+Json json_of(const SchemeFindings& scheme, const Scene& scene) {
+  if (scheme.twin.empty()) return nullptr;
+  return {{"twin", scheme.twin},
+          {"metrics", json_of(scheme.metrics, scene)},
+          {"without_gyroscopic_term", json_of(scheme.without_gyroscopic_term, scene)}};
+}
+
+SchemeFindings scheme_from(const Json& json, const Scene& scene) {
+  if (json.is_null()) return {};
+  return {json.at("twin").get<std::string>(), metrics_from(json.at("metrics"), scene),
+          metrics_from(json.at("without_gyroscopic_term"), scene)};
+}
+
+Verdict verdict_of(const std::string& word) {
+  for (Verdict verdict : {Verdict::stable, Verdict::drifting, Verdict::blown_up}) {
+    if (word_of(verdict) == word) return verdict;
+  }
+  throw std::runtime_error("no such verdict: " + word);
+}
+
+void fill_in(Cell& cell, const Json& json, const Scene& scene) {
+  cell.status = status_of(json.at("status").get<std::string>());
+  cell.reason = json.at("reason").get<std::string>();
+  cell.cpu_seconds = number(json.at("cpu_seconds"));
+  cell.wall_seconds = number(json.at("wall_seconds"));
+  cell.trajectory = json.at("trajectory").is_null() ? "" : json.at("trajectory").get<std::string>();
+  if (!json.at("verdict").is_null()) {
+    const Json& verdict = json.at("verdict");
+    cell.stability = {verdict_of(verdict.at("word").get<std::string>()), number(verdict.at("time")),
+                      body_index(scene, verdict.at("body").get<std::string>()), verdict.at("why").get<std::string>()};
+  }
+  cell.metrics = metrics_from(json.at("metrics"), scene);
+  cell.scheme = scheme_from(json.at("by_scheme"), scene);
+  for (const auto& [name, value] : json.at("settings").items())
+    cell.settings.emplace_back(name, value.get<std::string>());
+}
+
+Json json_of(const Furthest& furthest) { return {furthest.value, furthest.time, furthest.body}; }
+
+Furthest furthest_from(const Json& json) { return {number(json.at(0)), number(json.at(1)), json.at(2).get<int>()}; }
+
+Spread spread_from(const Json& json) {
+  Spread spread;
+  spread.first = json.at("first").get<std::size_t>(), spread.second = json.at("second").get<std::size_t>();
+  spread.dt = {json.at("dt_seconds").get<double>(), json.at("dt").get<std::string>()};
+  spread.distance = furthest_from(json.at("distance")), spread.angle = furthest_from(json.at("angle"));
+  if (!json.at("parted_at").is_null()) spread.parted_at = json.at("parted_at").get<double>();
+  spread.compared_until = json.at("compared_until").get<double>();
+  return spread;
+}
+
+void fill_in(StableStepResult& result, const Json& json) {
+  result.status = status_of(json.at("status").get<std::string>());
+  result.reason = json.at("reason").get<std::string>();
+  if (result.status != Status::pass) return;
+  result.step = {number(json.at("dt")), json.at("is_cap").get<bool>(), json.at("is_floor").get<bool>()};
+}
+
+}  // namespace
+
+Json json_of(const Cell& cell, const Scene& scene) {
+  Json json = {
+      {"dt", cell.dt.text}, {"dt_seconds", cell.dt.seconds}, {"status", word_of(cell.status)}, {"reason", cell.reason}};
+  const Stability& stability = cell.stability;
+  json["verdict"] = nullptr;
+  if (!cell.metrics.empty()) {
+    json["verdict"] = {{"word", word_of(stability.verdict)},
+                       {"time", stability.time},
+                       {"body", scene.body_name(stability.body)},
+                       {"why", stability.why}};
+  }
+  json["metrics"] = json_of(cell.metrics, scene);
+  json["by_scheme"] = json_of(cell.scheme, scene);
+  json["settings"] = Json::object();
+  for (const auto& [name, value] : cell.settings) json["settings"][name] = value;
+  json["cpu_seconds"] = cell.cpu_seconds;
+  json["wall_seconds"] = cell.wall_seconds;
+  json["trajectory"] = cell.trajectory.empty() ? Json(nullptr) : Json(cell.trajectory);
+  return json;
+}
+
+Json json_of(const StableStepResult& result) {
+  Json json = {{"status", word_of(result.status)}, {"reason", result.reason}, {"dt", nullptr}};
+  if (result.status != Status::pass) return json;
+  json["dt"] = result.step.dt, json["is_cap"] = result.step.is_cap, json["is_floor"] = result.step.is_floor;
+  return json;
+}
+
+std::string text_of(const Json& value, int indent) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string message_of_truth(const TruthFacts& facts) {
+  return text_of({{"truth",
+                   {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy, facts.largest_energy_change,
+                    facts.playback}}},
+                 -1);
+}
+
+std::string message_of_cell(std::size_t index, const Cell& cell, const Scene& scene) {
+  return text_of({{"cell", index}, {"result", json_of(cell, scene)}, {"playback", cell.playback}}, -1);
+}
+
+std::string message_of_stable_step(std::size_t run, const StableStepResult& result) {
+  return text_of({{"stable_step", run}, {"result", json_of(result)}}, -1);
+}
+
+std::string message_of_spreads(const std::vector<Spread>& spreads) {
+  Json all = Json::array();
+  for (const Spread& spread : spreads) {
+    all.push_back({{"first", spread.first},
+                   {"second", spread.second},
+                   {"dt", spread.dt.text},
+                   {"dt_seconds", spread.dt.seconds},
+                   {"distance", json_of(spread.distance)},
+                   {"angle", json_of(spread.angle)},
+                   {"parted_at", spread.parted_at ? Json(*spread.parted_at) : Json(nullptr)},
+                   {"compared_until", spread.compared_until}});
+  }
+  return text_of({{"spreads", all}}, -1);
+}
+
+bool apply_message(CaseResult& result, const std::string& message) {
+  const Json json = Json::parse(message);
+  if (json.contains("truth")) {
+    const Json& facts = json.at("truth");
+    result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2)), number(facts.at(3)),
+                    facts.at(4).get<std::vector<std::string>>()};
+    return false;
+  }
+  if (json.contains("spreads")) {
+    for (const Json& spread : json.at("spreads")) result.spreads.push_back(spread_from(spread));
+    return false;
+  }
+  if (json.contains("cell")) {
+    Cell& cell = result.cells.at(json.at("cell").get<std::size_t>());
+    fill_in(cell, json.at("result"), result.definition.scene);
+    cell.playback = json.at("playback").get<std::vector<std::string>>();
+  } else {
+    fill_in(result.stable_steps.at(json.at("stable_step").get<std::size_t>()), json.at("result"));
+  }
+  return true;
+}
+
+}  // namespace rigor

@@ -1,0 +1,107 @@
+// What a run of the grid found: plain data, which the gates judge and the reports print.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case/case.h"
+#include "cases/metrics/metric.h"
+#include "cases/metrics/stability.h"
+#include "cases/results/spread.h"
+#include "core/engine/run_name.h"
+
+namespace rigor {
+
+// The end of a cell. invalid: the engine refused the scene, or its method did not do what it promises (an iteration
+// that did not converge) in a run that did not blow up; one that did is `diverged`, whatever it complained of.
+enum class Status { pass, fail, known_deviation, unexpected_pass, unsupported, diverged, crashed, timed_out, invalid };
+std::string word_of(Status status);
+Status status_of(const std::string& word);
+
+// A metric of one cell, without its series over time.
+struct MetricValue {
+  double value = 0;
+  double first_second = 0;  // the largest, by magnitude, of its series up to t = 1 s; not a number if it has none
+  Instant worst;
+  double compared_until = 0;   // s
+  std::string not_applicable;  // why there is no value; empty if there is
+};
+
+// A result without its series over time. `trajectory` is the one it was measured on.
+MetricValue condensed(const MetricResult& result, const Trajectory& trajectory);
+
+// What a run's own scheme does by itself, as its twin in the core shows. `twin` is empty where there is none.
+struct SchemeFindings {
+  std::string twin;                                            // the name of the core's run
+  std::map<std::string, MetricValue> metrics;                  // of the twin, as of a run of its own
+  std::map<std::string, MetricValue> without_gyroscopic_term;  // of the twin with that term off, where it is on
+};
+
+// A gate's answer for one cell, or for an order fitted over several. known_deviation: it failed where the adapter's
+// known_deviations.toml says that it does; unexpected_pass: it held there.
+enum class GateAnswer { held, failed, not_checked, known_deviation, unexpected_pass };
+std::string word_of(GateAnswer answer);
+struct GateResult {
+  std::size_t gate = 0;  // index in Case::gates
+  std::string engine;    // a run's name; empty if the gate met no cell at all
+  std::string dt;        // as written; empty for an order
+  GateAnswer answer = GateAnswer::not_checked;
+  std::string text;                   // a sentence
+  std::optional<double> value = {};   // in the metric's unit; none where there was nothing to judge
+  std::optional<Instant> worst = {};  // where the metric has one
+};
+
+// case × engine × dt.
+struct Cell {
+  std::size_t run = 0;  // index in Results::runs
+  StepSize dt;
+  Status status = Status::crashed;
+  std::string reason = "it did not run";  // why, for all but `pass`
+  Stability stability;
+  std::map<std::string, MetricValue> metrics;  // by name; empty if the cell did not get so far
+  SchemeFindings scheme;
+  SettingsInForce settings;
+  double cpu_seconds = 0;
+  double wall_seconds = 0;            // of the whole cell: simulated, judged and written
+  std::string trajectory;             // file name in trajectories/; empty if there is none
+  std::vector<std::string> playback;  // its thinned motion and series, see cases/report/html/playback.h; may be empty
+};
+
+// The largest stable dt of a case and engine.
+struct StableStepResult {
+  Status status = Status::crashed;  // pass: `step` holds
+  std::string reason = "it did not run";
+  StableStep step;
+};
+
+// The truth of a case, in numbers.
+struct TruthFacts {
+  double error_at_end = 0;                 // of the truth itself: m and rad
+  double horizon = 0;                      // s, to which that error stays below kHorizonTolerance
+  double largest_kinetic_energy = 0;       // J
+  double largest_energy_change = 0;        // J, from its start
+  std::vector<std::string> playback = {};  // its thinned motion, as a cell's
+};
+inline constexpr double kHorizonTolerance = 1e-6;  // m and rad
+
+struct CaseResult {
+  Case definition;
+  std::optional<TruthFacts> truth;  // none if it could not be had; for a case without truth only the energy counts
+  std::string error;                // why the case could not be judged at all
+  bool error_is_input = false;      // the case file asks for what cannot be
+  std::vector<Cell> cells;          // by engine, then dt
+  std::vector<StableStepResult> stable_steps;  // one each of Results::runs
+  std::vector<Spread> spreads;                 // pairs of which one did not run are missing
+  std::vector<GateResult> gates;
+};
+
+struct Results {
+  std::vector<RunName> runs;
+  std::vector<EngineInfo> engines;
+  std::vector<CaseResult> cases;
+  double wall_seconds = 0;
+};
+
+}  // namespace rigor

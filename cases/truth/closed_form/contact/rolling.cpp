@@ -1,0 +1,144 @@
+// Spheres that roll or slip on a plane, level or sloping. With k = I/(m r²), gravity g_n into the plane and g_t along
+// it, and the slip u of the contact point: while it slips, friction is -mu g_n u/|u|, and the slip changes by g_t - mu
+// g_n (1 + 1/k) u/|u|; where it has ended, the sphere rolls with g_t/(1 + k) as long as that asks for no more friction
+// than there is, |g_t| <= mu g_n (1 + k)/k; else it slips on downhill. For a solid sphere k = 2/5: 5/7 g_t, up
+// to tan(slope) = 3.5 mu (Kleppner and Kolenkow, An Introduction to Mechanics, chapter 6).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "cases/truth/closed_form/contact/plane_contact.h"
+#include "cases/truth/closed_form/phased_motion.h"
+
+namespace rigor {
+namespace {
+
+constexpr const char* kName = "rolling";
+constexpr const char* kIsFor = "spheres that touch one plane and move along one line on it";
+
+// One sphere on the plane, phase by phase.
+class Roller {
+ public:
+  Roller(const Body& body, const Ground& ground, double friction)
+      : body_(body),
+        ground_(ground),
+        friction_(friction),
+        r_(check()),
+        k_(body.inertia(0, 0) / (body.mass * r_ * r_)) {}
+
+  std::vector<Phase> phases(double duration) {
+    Phase now{0,
+              {extended(body_.position), extended(body_.orientation), extended(body_.velocity),
+               extended(body_.angular_velocity)}};
+    std::vector<Phase> out;
+    bool slips = friction_ == 0 || slip(now.start).norm() > kNoSlip * (now.start.velocity.norm() + 1);
+    while (true) {
+      const auto end = slips ? slip_on(now) : roll_on(now);
+      out.push_back(now);
+      if (!end || *end > duration) return out;
+      now = {*end, now.at(*end)};
+      slips = false;
+    }
+  }
+
+ private:
+  static constexpr Extended kNoSlip = 1e-14L;  // of the speeds: roundings of the case file's numbers
+
+  double check() const {
+    if (!body_.collides || !std::holds_alternative<Sphere>(*body_.shape)) ground_.refuse(body_, "is no such sphere");
+    if (std::abs(ground_.gap_under(body_)) > kTouching)
+      ground_.refuse(body_, fmt::format("is {:.3g} m above the plane", ground_.gap_under(body_)));
+    const double I = body_.inertia(0, 0);
+    if ((body_.inertia - I * Mat3::Identity()).norm() > 4 * kEpsilon * I)
+      ground_.refuse(body_, "has an inertia that is not the same about every axis");
+    const ExtendedVec3 v = extended(body_.velocity), w = extended(body_.angular_velocity);
+    if (std::abs(ground_.normal().dot(v)) > 1e-12L * v.norm()) ground_.refuse(body_, "leaves or enters the plane");
+    if (std::abs(ground_.normal().dot(w)) > 1e-12L * w.norm()) ground_.refuse(body_, "spins about the plane's normal");
+    return std::get<Sphere>(*body_.shape).radius;
+  }
+
+  ExtendedVec3 slip(const ExtendedState& s) const {
+    return ground_.part_along(s.velocity - r_ * s.angular_velocity.cross(ground_.normal()));
+  }
+
+  ExtendedVec3 turned_by(const ExtendedVec3& friction) const {  // rad/s², by a friction in m/s²
+    return -ground_.normal().cross(friction) / (k_ * r_);
+  }
+
+  // Sets the accelerations of a phase that starts slipping, or about to; the instant at which the slip ends, if it
+  // does.
+  std::optional<Extended> slip_on(Phase& phase) const {
+    ExtendedVec3 u = slip(phase.start);
+    if (friction_ == kInfiniteFriction) ground_.refuse(body_, "slips, which infinite friction would end at once");
+    const bool starts = u.norm() == 0 || friction_ == 0;
+    const ExtendedVec3 direction = starts ? unit(ground_.along()) : u.normalized();
+    if (friction_ > 0 && (!are_along(u, ground_.along()) || !are_along(phase.start.velocity, direction)))
+      ground_.refuse(body_, "slips across its way or the slope, so that its path bends");
+    const ExtendedVec3 friction = -friction_ * ground_.pressing() * direction;
+    phase.acceleration = ground_.along() + friction;
+    phase.angular_acceleration = turned_by(friction);
+    if (friction_ == 0) return {};
+    const Extended rate = (ground_.along() + (1 + 1 / k_) * friction).dot(direction);
+    if (starts || rate >= 0) return {};
+    return phase.from + u.norm() / -rate;
+  }
+
+  std::optional<Extended> roll_on(Phase& phase) const {
+    const Extended needed = ground_.along().norm() * k_ / (1 + k_);
+    if (needed > friction_ * ground_.pressing()) {
+      phase.start.angular_velocity = rolling_with(phase.start.velocity);  // the slip is nothing but roundings
+      return slip_downhill(phase);
+    }
+    if (!are_along(phase.start.velocity, ground_.along()))
+      ground_.refuse(body_, "rolls across the slope, so that its path bends");
+    phase.start.angular_velocity = rolling_with(phase.start.velocity);
+    phase.acceleration = ground_.along() / (1 + k_);
+    phase.angular_acceleration = rolling_with(phase.acceleration);
+    return {};
+  }
+
+  std::optional<Extended> slip_downhill(Phase& phase) const {
+    const ExtendedVec3 friction = -friction_ * ground_.pressing() * unit(ground_.along());
+    if (!are_along(phase.start.velocity, ground_.along()))
+      ground_.refuse(body_, "slips across the slope, so that its path bends");
+    phase.acceleration = ground_.along() + friction;
+    phase.angular_acceleration = turned_by(friction);
+    return {};
+  }
+
+  ExtendedVec3 rolling_with(const ExtendedVec3& v) const { return ground_.normal().cross(v) / r_; }
+  static ExtendedVec3 unit(const ExtendedVec3& v) { return v.norm() > 0 ? ExtendedVec3(v.normalized()) : v; }
+
+  const Body& body_;
+  const Ground& ground_;
+  Extended friction_;
+  Extended r_;  // m
+  Extended k_;  // 1, I/(m r²)
+};
+
+std::unique_ptr<Truth> make(const Scene& scene, double duration) {
+  check_needs(scene, kName, kIsFor,
+              {"contact:plane-sphere", "contact:sphere-sphere", "friction:none", "friction:coulomb",
+               "friction:infinite", "restitution"});
+  const Ground ground(scene, kName, kIsFor);
+  std::vector<Sweep> sweeps;
+  const auto motion_of = [&](const Body& body) {
+    const int index = static_cast<int>(&body - scene.bodies.data());
+    Roller roller(body, ground, scene.contact_law(index, ground.body()).friction);
+    auto motion = std::make_unique<PhasedMotion>(roller.phases(duration), std::abs(ground.gap_under(body)));
+    sweeps.push_back({&body, motion->way(duration), std::get<Sphere>(*body.shape).radius});
+    return motion;
+  };
+  auto truth = closed_form(scene, motion_of);
+  check_apart(sweeps, ground);
+  return truth;
+}
+
+}  // namespace
+
+TruthRow rolling_truth() {
+  return {kName, "spheres slipping and rolling on a plane, level or sloping, in closed form", make};
+}
+
+}  // namespace rigor

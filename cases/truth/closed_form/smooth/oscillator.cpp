@@ -1,0 +1,185 @@
+// A body on one spring and damper through its centre of mass, moving along the spring's line:
+//   m r'' = -k (r - rest) - c r' + m g,   r the distance from the fixed end.
+// With s = r - rest - m g / k, decay = c / 2m, w0² = k / m and w² = |w0² - decay²|,
+//   s  = e^(-decay t) (s0 C + (v0 + decay s0) S),   s' = e^(-decay t) (v0 C - (decay v0 + w0² s0) S),
+// where C and S are cos wt and sin wt / w, 1 and t, or cosh wt and sinh wt / w: under-, critically and over-damped
+// (Landau and Lifshitz, Mechanics, 3rd ed., sections 21 and 25). The spring has no torque about the centre of mass.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/truth/closed_form/smooth/principal_spin.h"
+#include "core/base/error.h"
+
+namespace rigor {
+namespace {
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw InputError(
+      "the truth 'oscillator' is for one body on one spring through its centre of mass, moving along the spring: " +
+      why);
+}
+
+// What moves, and from where it is held.
+struct Hanging {
+  int body;
+  ExtendedVec3 anchor;  // m, in W
+  ExtendedVec3 line;    // unit, in W, from the anchor to the body
+  Extended misses = 0;  // rad, by which velocity and gravity miss the line
+};
+
+// The sine of the angle from the line.
+Extended miss(const ExtendedVec3& v, const ExtendedVec3& line) {
+  return v.isZero(0) ? 0 : v.cross(line).norm() / v.norm();
+}
+
+int the_moving_body(const Scene& scene) {
+  int moving = kWorld;
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    if (scene.bodies[i].fixed) continue;
+    if (moving != kWorld) refuse(fmt::format("body '{}' moves as well", scene.bodies[i].name));
+    moving = i;
+  }
+  if (moving == kWorld) refuse("no body moves");
+  return moving;
+}
+
+ExtendedVec3 place(const Scene& scene, int body, const Vec3& point) {
+  if (body == kWorld) return extended(point);
+  return extended(scene.bodies[body].position) + extended(scene.bodies[body].orientation) * extended(point);
+}
+
+Hanging find_hanging(const Scene& scene) {
+  const int moving = the_moving_body(scene);
+  if (scene.springs.size() != 1) refuse(fmt::format("there are {} springs", scene.springs.size()));
+  const Spring& spring = scene.springs[0];
+  if ((spring.a == moving) == (spring.b == moving)) refuse("the spring is not between it and what stands still");
+  const bool holds_a = spring.a == moving;
+  const Vec3& hook = holds_a ? spring.point_a : spring.point_b;
+  if (!hook.isZero(0)) refuse(fmt::format("the spring holds it at ({}, {}, {})", hook.x(), hook.y(), hook.z()));
+  if (spring.stiffness == 0) refuse("the spring has no stiffness");
+
+  const Body& body = scene.bodies[moving];
+  Hanging hanging{moving, {}, ExtendedVec3::UnitX()};
+  hanging.anchor = holds_a ? place(scene, spring.b, spring.point_b) : place(scene, spring.a, spring.point_a);
+  const ExtendedVec3 offset = extended(body.position) - hanging.anchor, velocity = extended(body.velocity),
+                     gravity = extended(scene.gravity);
+  for (const ExtendedVec3& along : {gravity, velocity, offset}) {  // the last that is not zero
+    if (!along.isZero(0)) hanging.line = along.normalized();
+  }
+  constexpr Extended kRoundings = 8 * static_cast<Extended>(kEpsilon);  // of the scene's numbers
+  if (miss(velocity, hanging.line) > kRoundings) refuse("its velocity is not along the spring");
+  if (miss(gravity, hanging.line) > kRoundings) refuse("gravity is not along the spring");
+  hanging.misses = std::max(miss(velocity, hanging.line), miss(gravity, hanging.line));
+  return hanging;
+}
+
+class Oscillator final : public BodyMotion {
+ public:
+  Oscillator(const Scene& scene, const Hanging& hanging, double duration)
+      : Oscillator(scene, scene.bodies[hanging.body], scene.springs[0], hanging) {
+    const Spring& spring = scene.springs[0];
+    const Extended least = nearest(duration);
+    if (spring.rest_length == 0) return;
+    if (least <= 0) refuse("it passes through the spring's other end, where the force jumps");
+    const Extended pressed = std::max<Extended>(0, spring.rest_length - least);
+    buckling_ = std::sqrt(square_ * pressed / least);
+  }
+
+  ExtendedState at(Extended t) const override {
+    const Along along = along_at(t);
+    return {hanging_.anchor + (middle_ + along.offset) * hanging_.line, spin_.orientation(w_.norm() * t),
+            along.velocity * hanging_.line, w_};
+  }
+
+  // The rounding to double of the farthest it can be, and a phase's. Where the scene's rounding misses the line, the
+  // body leaves it, and ever faster while the spring is pressed.
+  double error(double t) const override {
+    const Extended speed = std::abs(velocity_) + (decay_ + std::sqrt(square_)) * std::abs(start_);
+    const Extended swing = speed / std::sqrt(square_), phase = (std::sqrt(square_) + decay_) * t;
+    const Extended farthest = hanging_.anchor.norm() + std::abs(middle_) + swing;
+    const Extended beside =
+        hanging_.misses == 0 ? 0 : hanging_.misses * (farthest + speed * t) * std::cosh(buckling_ * t);
+    return kEpsilon * static_cast<double>(farthest) + 8 * kExtendedEpsilon * static_cast<double>(phase * swing) +
+           static_cast<double>(beside) + spin_.error(static_cast<double>(w_.norm()) * t);
+  }
+
+ private:
+  Oscillator(const Scene& scene, const Body& body, const Spring& spring, const Hanging& hanging)
+      : hanging_(hanging),
+        spin_(body, body.angular_velocity),
+        w_(extended(body.angular_velocity)),
+        decay_(spring.damping / (2 * extended_mass(body))),
+        square_(spring.stiffness / extended_mass(body)) {
+    if (!spin_.holds()) refuse(fmt::format("body '{}' would tumble", body.name));
+    middle_ = spring.rest_length + extended(scene.gravity).dot(hanging.line) / square_;
+    start_ = (extended(body.position) - hanging.anchor).dot(hanging.line) - middle_;
+    velocity_ = extended(body.velocity).dot(hanging.line);
+  }
+  static Extended extended_mass(const Body& body) { return body.mass; }
+
+  struct Along {
+    Extended offset;    // m, s
+    Extended velocity;  // m/s
+  };
+  struct Waves {
+    Extended C, S;  // times e^(-decay t)
+  };
+
+  Waves waves(Extended t) const {
+    const Extended difference = square_ - decay_ * decay_, w = std::sqrt(std::abs(difference));
+    if (difference == 0) return {std::exp(-decay_ * t), t * std::exp(-decay_ * t)};
+    if (difference > 0) return {std::exp(-decay_ * t) * std::cos(w * t), std::exp(-decay_ * t) * std::sin(w * t) / w};
+    // The slow decay, decay - w, without its cancellation.
+    const Extended slow = std::exp(-square_ / (decay_ + w) * t);
+    return {slow * (1 + std::exp(-2 * w * t)) / 2, -slow * std::expm1(-2 * w * t) / (2 * w)};
+  }
+
+  Along along_at(Extended t) const {
+    const Waves at = waves(t);
+    return {start_ * at.C + (velocity_ + decay_ * start_) * at.S,
+            velocity_ * at.C - (decay_ * velocity_ + square_ * start_) * at.S};
+  }
+
+  // The first instants at which it turns round: where C / S is (decay v0 + w0² s0) / v0. Later turns are less wide.
+  std::vector<Extended> turns() const {
+    const Extended difference = square_ - decay_ * decay_, w = std::sqrt(std::abs(difference));
+    const Extended pull = decay_ * velocity_ + square_ * start_;
+    if (difference == 0) return {velocity_ / pull};
+    if (difference < 0) return {std::atanh(velocity_ * w / pull) / w};
+    const Extended first = std::atan2(velocity_ * w, pull) / w, half_period = std::acos(-1.0L) / w;
+    return {first, first + half_period, first + 2 * half_period};
+  }
+
+  // The least distance [m] from the fixed end, in [0, duration].
+  Extended nearest(double duration) const {
+    Extended least = middle_ + std::min(start_, along_at(duration).offset);
+    for (const Extended t : turns()) {
+      if (t > 0 && t < duration) least = std::min(least, middle_ + along_at(t).offset);
+    }
+    return least;
+  }
+
+  Hanging hanging_;
+  PrincipalSpin spin_;
+  ExtendedVec3 w_;                     // rad/s, in W
+  Extended decay_, square_;            // 1/s; w0² in 1/s²
+  Extended middle_ = 0;                // m from the anchor: where it would rest
+  Extended start_ = 0, velocity_ = 0;  // m and m/s at t = 0, from there, away from the anchor
+  Extended buckling_ = 0;              // 1/s, the rate at which it leaves the line at most
+};
+
+}  // namespace
+
+TruthRow oscillator_truth() {
+  return {"oscillator", "a body on a spring and damper through its centre of mass, in closed form",
+          [](const Scene& scene, double duration) {
+            check_needs(scene, "oscillator", "a body on a spring", {"spring"});
+            const Hanging hanging = find_hanging(scene);
+            return closed_form(scene,
+                               [&](const Body&) { return std::make_unique<Oscillator>(scene, hanging, duration); });
+          }};
+}
+
+}  // namespace rigor

@@ -1,0 +1,79 @@
+// The motion of a scene with contacts for which there is no closed form, by the core's contact by events, solved in
+// several ways (events_solver.h): the finest is the truth, and how far the next is from it is its error. A solution is
+// computed once and kept (solution_cache.h).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "cases/truth/solved/events_solver.h"
+#include "cases/truth/solved/solution_cache.h"
+#include "cases/truth/truth.h"
+#include "core/base/error.h"
+#include "core/dynamics/contact/contact_method.h"
+#include "core/scene/contact_laws.h"
+
+namespace rigor {
+namespace {
+
+// m/s and rad/s: the greater of the two speeds below which its solutions let nothing rebound. What is slower lies
+// still.
+constexpr double kAtRest = 2e-7;
+
+ReferenceSolution solution_of(const Scene& scene, double duration) {
+  const std::string content = events_content(scene, duration);
+  if (auto kept = kept_solution(content)) return std::move(*kept);
+  ReferenceSolution solution = solve_events(scene, duration);
+  keep_solution(content, solution);
+  return solution;
+}
+
+class Events final : public Truth {
+ public:
+  Events(const Scene& scene, double duration) : scene_(scene), solution_(solution_of(scene, duration)) {}
+
+  void at(double t, MutableBodyColumns out) const override {
+    state_at(solution_, scene_, t, out);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (out.velocity(i).norm() > kAtRest || out.angular_velocity(i).norm() > kAtRest) continue;
+      out.set_velocity(i, Vec3::Zero());
+      out.set_angular_velocity(i, Vec3::Zero());
+    }
+  }
+
+  double error(double t) const override {
+    const auto next = std::lower_bound(solution_.error_times.begin(), solution_.error_times.end(), t);
+    if (next != solution_.error_times.end()) return solution_.errors[next - solution_.error_times.begin()];
+    // The last node is the duration but for the rounding of steps that are added up.
+    const bool is_end = t <= solution_.error_times.back() * (1 + 1e-12);
+    return is_end ? solution_.errors.back() : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  Scene scene_;
+  ReferenceSolution solution_;
+};
+
+std::unique_ptr<Truth> make_events(const Scene& scene, double duration) {
+  if (!anything_can_touch(scene))
+    throw InputError("the truth 'events' is for scenes with contacts; in this one nothing can touch: take 'reference'");
+  const Features& contacts = contact_method("event").features;
+  for (const Need& need : needs_of(scene)) {
+    if (need.feature == "fixed-body" || need.feature == "spring" || need.feature == "timed-force") continue;
+    if (contacts.contains(need.feature)) continue;
+    throw InputError(fmt::format("the truth 'events' is for what contact by events expresses; this scene has {}: {}",
+                                 need.feature, need.because));
+  }
+  return std::make_unique<Events>(scene, duration);
+}
+
+}  // namespace
+
+TruthRow events_truth() {
+  return {"events",
+          "a scene with contacts by the core's contact by events, in several ways: the difference is its error",
+          make_events};
+}
+
+}  // namespace rigor

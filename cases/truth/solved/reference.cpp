@@ -1,0 +1,61 @@
+// The motion of any smooth scene, solved twice in high precision (reference_solver.h): the first is the truth, and how
+// far the second is from it is its error. A solution is computed once and kept (solution_cache.h).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "cases/truth/solved/solution_cache.h"
+#include "cases/truth/truth.h"
+#include "core/base/error.h"
+#include "core/scene/features.h"
+
+namespace rigor {
+namespace {
+
+ReferenceSolution solution_of(const Scene& scene, double duration) {
+  const std::string content = reference_content(scene, duration);
+  if (auto kept = kept_solution(content)) return std::move(*kept);
+  ReferenceSolution solution = solve_reference(scene, duration);
+  keep_solution(content, solution);
+  return solution;
+}
+
+class Reference final : public Truth {
+ public:
+  Reference(const Scene& scene, double duration)
+      : motion_(scene, kReferenceForm), solution_(solution_of(scene, duration)) {}
+
+  void at(double t, MutableBodyColumns out) const override {
+    motion_.write(state_at(solution_, motion_, t).data(), out);
+  }
+
+  double error(double t) const override {
+    const auto next = std::lower_bound(solution_.error_times.begin(), solution_.error_times.end(), t);
+    if (next != solution_.error_times.end()) return solution_.errors[next - solution_.error_times.begin()];
+    return solution_.complete ? solution_.errors.back() : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  EquationsOfMotion<double> motion_;  // for the step from a node
+  ReferenceSolution solution_;
+};
+
+std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
+  for (const Need& need : needs_of(scene)) {
+    if (need.feature == "fixed-body" || need.feature == "spring" || need.feature == "timed-force") continue;
+    throw InputError(
+        fmt::format("the truth 'reference' is for smooth scenes, without contacts and joints; this one has {}: {}",
+                    need.feature, need.because));
+  }
+  return std::make_unique<Reference>(scene, duration);
+}
+
+}  // namespace
+
+TruthRow reference_truth() {
+  return {"reference", "any smooth scene, solved twice in high precision: the difference is its error", make_reference};
+}
+
+}  // namespace rigor

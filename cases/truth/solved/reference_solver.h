@@ -1,0 +1,34 @@
+// The numbers behind the truth 'reference': the motion of a smooth scene, solved twice, and how far the two are apart.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cases/truth/solved/equations_of_motion.h"
+
+namespace rigor {
+
+// To be raised whenever a number of a solution could come out otherwise: what an older solver found, and was kept, is
+// then computed again.
+inline constexpr std::uint64_t kReferenceVersion = 2;
+
+inline constexpr Formulation kReferenceForm = Formulation::body_rates;
+
+struct ReferenceSolution {
+  // Its accepted steps, rounded to double: `dimension` numbers each, as EquationsOfMotion lays out kReferenceForm.
+  std::size_t dimension = 0;
+  std::vector<long double> times;  // s
+  std::vector<double> states;
+
+  std::vector<double> error_times;  // s
+  std::vector<double> errors;       // as Truth::error, up to each of these times
+  bool complete = false;            // both solutions reach the end; if not, the motion is not smooth there
+};
+
+// The scene may have springs, dampers and timed forces, but neither contacts nor joints.
+ReferenceSolution solve_reference(const Scene& scene, double duration);
+
+// The state at t: one step of order 8 from the node before it, so that there is no interpolation error.
+std::vector<double> state_at(const ReferenceSolution& solution, const EquationsOfMotion<double>& motion, double t);
+
+}  // namespace rigor

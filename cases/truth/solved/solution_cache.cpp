@@ -1,0 +1,214 @@
+#include "cases/truth/solved/solution_cache.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "cases/truth/solved/events_solver.h"
+
+namespace rigor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMagic = "rigor reference solution 1\n";  // the layout of the file
+constexpr std::size_t kMostBytes = 128'000'000;                 // larger ones are not kept
+
+class Writer {
+ public:
+  void add(std::uint64_t number) {
+    for (int byte = 0; byte < 8; ++byte) bytes_.push_back(static_cast<char>(number >> (8 * byte)));
+  }
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  // As the double next to it and the rest.
+  void add(long double number) {
+    const auto next = static_cast<double>(number);
+    add(next);
+    add(static_cast<double>(number - next));
+  }
+  void add(int number) { add(static_cast<std::uint64_t>(number)); }
+  void add(bool flag) { add(std::uint64_t{flag}); }
+  void add(const Vec3& v) { add(v.x()), add(v.y()), add(v.z()); }
+  void add(const std::string& text) {
+    add(text.size());
+    bytes_ += text;
+  }
+  template <typename Number>
+  void add(const std::vector<Number>& numbers) {
+    add(numbers.size());
+    for (const Number number : numbers) add(number);
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+// Past the end it yields zeros, and says so.
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : left_(bytes) {}
+
+  std::uint64_t number() {
+    if (left_.size() < 8) return good_ = false, 0;
+    std::uint64_t value = 0;
+    for (int byte = 7; byte >= 0; --byte) value = value << 8 | static_cast<unsigned char>(left_[byte]);
+    left_.remove_prefix(8);
+    return value;
+  }
+  void read(double& number_read) { number_read = std::bit_cast<double>(number()); }
+  void read(long double& number_read) {
+    double next = 0, rest = 0;
+    read(next), read(rest);
+    number_read = static_cast<long double>(next) + rest;
+  }
+  template <typename Number>
+  void read(std::vector<Number>& numbers) {
+    const std::uint64_t size = number();
+    if (size > left_.size() / 8) good_ = false;
+    if (!good_) return;
+    numbers.resize(size);
+    for (Number& one : numbers) read(one);
+  }
+  bool at_end() const { return good_ && left_.empty(); }
+
+ private:
+  std::string_view left_;
+  bool good_ = true;
+};
+
+// Fowler, Noll and Vo's hash FNV-1a: it names files and notices damage, it does not guard against an attacker.
+std::uint64_t hash_of(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  return hash;
+}
+
+// Empty if there is none.
+fs::path cache_folder() {
+  if (const char* own = std::getenv("RIGOR_CACHE_DIR")) return own;
+  if (const char* shared = std::getenv("XDG_CACHE_HOME"); shared && *shared) return fs::path(shared) / "rigor";
+  if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "rigor";
+  return {};
+}
+
+fs::path file_for(const fs::path& folder, const std::string& content) {
+  return folder / fmt::format("reference-{:016x}", hash_of(content));
+}
+
+// Empty if it cannot be read.
+std::string bytes_of(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return {};
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+// The whole content stands at the head of the file, so that of two scenes with one hash none gets the other's.
+std::string head_of(const std::string& content) {
+  Writer writer;
+  writer.add(content);
+  return kMagic + writer.bytes();
+}
+
+// Whether state_at and the error may rely on it.
+bool is_sound(const ReferenceSolution& s) {
+  return !s.times.empty() && s.states.size() == s.times.size() * s.dimension && !s.errors.empty() &&
+         s.errors.size() == s.error_times.size();
+}
+
+void add_shape(Writer& content, const Sphere& sphere) { content.add(sphere.radius); }
+void add_shape(Writer& content, const Box& box) { content.add(box.size); }
+void add_shape(Writer& content, const Capsule& capsule) { content.add(capsule.radius), content.add(capsule.length); }
+void add_shape(Writer& content, const Plane& plane) { content.add(plane.normal), content.add(plane.offset); }
+
+}  // namespace
+
+std::string reference_content(const Scene& scene, double duration) {
+  Writer content;
+  content.add(kReferenceVersion), content.add(std::numeric_limits<long double>::digits);
+  content.add(duration), content.add(scene.gravity);
+  content.add(scene.bodies.size());
+  for (const Body& body : scene.bodies) {
+    content.add(body.fixed), content.add(body.mass);
+    for (int k = 0; k < 9; ++k) content.add(body.inertia(k / 3, k % 3));
+    content.add(body.position);
+    content.add(body.orientation.w()), content.add(Vec3(body.orientation.vec()));
+    content.add(body.velocity), content.add(body.angular_velocity);
+  }
+  content.add(scene.springs.size());
+  for (const Spring& spring : scene.springs) {
+    content.add(spring.a), content.add(spring.b), content.add(spring.point_a), content.add(spring.point_b);
+    content.add(spring.stiffness), content.add(spring.damping), content.add(spring.rest_length);
+  }
+  content.add(scene.forces.size());
+  for (const TimedForce& force : scene.forces) {
+    content.add(force.body), content.add(force.force), content.add(force.torque), content.add(force.point);
+    content.add(force.from), content.add(force.until);
+  }
+  return content.bytes();
+}
+
+std::string events_content(const Scene& scene, double duration) {
+  Writer content;
+  content.add(std::string("events")), content.add(kEventsVersion), content.add(reference_content(scene, duration));
+  for (const Body& body : scene.bodies) {
+    content.add(body.collides);
+    if (!body.collides) continue;
+    content.add(body.shape->index());
+    std::visit([&](const auto& shape) { add_shape(content, shape); }, *body.shape);
+  }
+  for (std::size_t a = 0; a < scene.bodies.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const ContactLaw law = scene.contact_law(static_cast<int>(a), static_cast<int>(b));
+      content.add(law.restitution), content.add(law.friction);
+    }
+  }
+  return content.bytes();
+}
+
+std::optional<ReferenceSolution> kept_solution(const std::string& content) {
+  const fs::path folder = cache_folder();
+  if (folder.empty()) return std::nullopt;
+  const std::string bytes = bytes_of(file_for(folder, content)), head = head_of(content);
+  if (bytes.size() < head.size() + 8 || !bytes.starts_with(head)) return std::nullopt;
+  const std::string_view all = bytes, sealed = all.substr(0, all.size() - 8);
+  if (Reader(all.substr(sealed.size())).number() != hash_of(sealed)) return std::nullopt;
+  Reader body(sealed.substr(head.size()));
+  ReferenceSolution solution;
+  solution.dimension = body.number(), solution.complete = body.number() != 0;
+  body.read(solution.times), body.read(solution.states), body.read(solution.error_times), body.read(solution.errors);
+  if (!body.at_end() || !is_sound(solution)) return std::nullopt;
+  return solution;
+}
+
+void keep_solution(const std::string& content, const ReferenceSolution& solution) {
+  const fs::path folder = cache_folder();
+  if (folder.empty() || solution.states.size() * sizeof(double) > kMostBytes) return;
+  Writer body, seal;
+  body.add(solution.dimension), body.add(solution.complete);
+  body.add(solution.times), body.add(solution.states), body.add(solution.error_times), body.add(solution.errors);
+  const std::string bytes = head_of(content) + body.bytes();
+  seal.add(hash_of(bytes));
+
+  // Under a name of its own first: another run never sees half a file.
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  const fs::path file = file_for(folder, content);
+  const fs::path draft = fmt::format("{}.{}.{:08x}", file.string(), getpid(), std::random_device()());
+  std::ofstream out(draft, std::ios::binary);
+  out << bytes << seal.bytes();
+  out.close();
+  if (out) fs::rename(draft, file, ignored);
+  if (!out || ignored) fs::remove(draft, ignored);
+}
+
+}  // namespace rigor

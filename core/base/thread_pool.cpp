@@ -1,0 +1,57 @@
+#include "core/base/thread_pool.h"
+
+namespace rigor {
+namespace {
+
+void pause() {
+#ifdef __x86_64__
+  __builtin_ia32_pause();
+#endif
+}
+
+// Looks for some hundred microseconds before it sleeps.
+void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+  constexpr int kLooks = 10000;
+  for (int k = 0; k < kLooks; ++k) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    pause();
+  }
+  value.wait(old, std::memory_order_acquire);
+}
+
+}  // namespace
+
+ThreadPool::ThreadPool(int members) {
+  for (int k = 1; k < members; ++k) helpers_.emplace_back([this, k] { help(static_cast<std::size_t>(k)); });
+}
+
+ThreadPool::~ThreadPool() {
+  task_ = nullptr;
+  begin();
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+void ThreadPool::run(const std::function<void(std::size_t)>& task) {
+  task_ = &task;
+  const auto all_ended = static_cast<std::uint32_t>(helpers_.size()) * begin();
+  task(0);
+  for (std::uint32_t ended = ended_; ended != all_ended; ended = ended_) wait_while(ended_, ended);
+}
+
+std::uint32_t ThreadPool::begin() {
+  const std::uint32_t task = begun_.fetch_add(1, std::memory_order_release) + 1;
+  begun_.notify_all();
+  return task;
+}
+
+void ThreadPool::help(std::size_t member) {
+  for (std::uint32_t seen = 0;; ++seen) {
+    wait_while(begun_, seen);
+    if (!task_) return;
+    (*task_)(member);
+    ended_.fetch_add(1, std::memory_order_release);
+    ended_.notify_one();
+  }
+}
+
+}  // namespace rigor

@@ -1,0 +1,34 @@
+// Threads that do the same work on different bodies. Which member does which changes no bit of the result: no member
+// reads what another writes. Between two tasks they stay awake for about as long as a step lasts: to wake a thread
+// takes longer than many a task, and puts it on the core that woke it where others are busy.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace rigor {
+
+class ThreadPool {
+ public:
+  explicit ThreadPool(int members);  // of which the thread that calls is one
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  std::size_t members() const { return helpers_.size() + 1; }
+  // Calls task(member) in each member's thread; returns when all have done.
+  void run(const std::function<void(std::size_t member)>& task);
+
+ private:
+  std::uint32_t begin();  // returns how many tasks there have been
+  void help(std::size_t member);
+
+  std::atomic<std::uint32_t> begun_ = 0, ended_ = 0;        // tasks; helpers' shares of them
+  const std::function<void(std::size_t)>* task_ = nullptr;  // null: the thread_pool is dismissed
+  std::vector<std::thread> helpers_;
+};
+
+}  // namespace rigor

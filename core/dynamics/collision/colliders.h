@@ -1,0 +1,32 @@
+// The bodies of a scene that take part in contact, with what their shapes say about size.
+#pragma once
+
+#include <vector>
+
+#include "core/dynamics/collision/narrow_phase.h"
+#include "core/engine/body_table.h"
+
+namespace rigor {
+
+// What a shape fills, along W's axes. A plane's is unbounded.
+struct Aabb {
+  Vec3 low, high;  // m
+};
+
+struct Collider {
+  int body;
+  Shape shape;
+  double reach;      // m, of the furthest point from the body's centre; infinite for a plane
+  double thickness;  // m, half the least width: a body that moves by less cannot pass through it; infinite for a plane
+  bool fixed;
+};
+
+std::vector<Collider> colliders_of(const Scene& scene);
+
+Pose pose_of(BodyColumns state, int body);
+// `margin` is added on all sides.
+Aabb aabb_of(const Shape& shape, const Pose& pose, double margin);
+// Whether a shape comes within `margin` of a plane.
+bool reaches_plane(const Shape& shape, const Pose& pose, const Plane& plane, double margin);
+
+}  // namespace rigor

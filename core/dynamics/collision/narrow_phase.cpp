@@ -1,0 +1,140 @@
+#include "core/dynamics/collision/narrow_phase.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rigor {
+namespace {
+
+// Two balls; every pair of round shapes comes down to them. Where the centres meet there is no direction: any will do.
+void add_balls(const Vec3& a, double radius_a, const Vec3& b, double radius_b, std::uint32_t feature, Manifold& out) {
+  const Vec3 line = a - b;
+  const double distance = line.norm();
+  const Vec3 n = distance > 0 ? Vec3(line / distance) : Vec3::UnitZ();
+  const double gap = distance - radius_a - radius_b;
+  out.add(n, b + (radius_b + 0.5 * gap) * n, gap, feature);
+}
+
+void add_ball_on_plane(const Vec3& centre, double radius, const Plane& plane, std::uint32_t feature, Manifold& out) {
+  const double gap = plane.normal.dot(centre) - plane.offset - radius;
+  out.add(plane.normal, centre - (radius + 0.5 * gap) * plane.normal, gap, feature);
+}
+
+Vec3 axis_of(const Pose& pose) { return pose.R.col(2); }
+
+double nearest_on_axis(const Vec3& point, const Capsule& capsule, const Pose& pose) {
+  return std::clamp(axis_of(pose).dot(point - pose.p), -0.5 * capsule.length, 0.5 * capsule.length);
+}
+
+// The nearest points of two capsules' axes, as distances from their centres. Not for parallel axes.
+std::pair<double, double> nearest_on_axes(const Capsule& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b) {
+  const Vec3 u = axis_of(pose_a), v = axis_of(pose_b), line = pose_b.p - pose_a.p;
+  const double cosine = u.dot(v), sine2 = u.cross(v).squaredNorm();
+  const double half_a = 0.5 * a.length, half_b = 0.5 * b.length;
+  double s = std::clamp((u.dot(line) - cosine * v.dot(line)) / sine2, -half_a, half_a);
+  double t = s * cosine - v.dot(line);
+  if (std::abs(t) > half_b) {
+    t = std::clamp(t, -half_b, half_b);
+    s = std::clamp(t * cosine + u.dot(line), -half_a, half_a);
+  }
+  return {s, t};
+}
+
+// Alphabetical pairs; the normal points from the second to the first.
+struct Collide {
+  const Pose& a;
+  const Pose& b;
+  Manifold& out;
+
+  void operator()(const Sphere& sphere, const Sphere& other) const {
+    add_balls(a.p, sphere.radius, b.p, other.radius, 0, out);
+  }
+
+  void operator()(const Plane& plane, const Sphere& sphere) const {
+    add_ball_on_plane(b.p, sphere.radius, plane, 0, out);
+    out[0].normal *= -1;
+  }
+
+  void operator()(const Capsule& capsule, const Sphere& sphere) const {
+    const Vec3 nearest = a.p + nearest_on_axis(b.p, capsule, a) * axis_of(a);
+    add_balls(nearest, capsule.radius, b.p, sphere.radius, 0, out);
+  }
+
+  void operator()(const Capsule& capsule, const Plane& plane) const {
+    for (const std::uint32_t end : {0u, 1u}) {
+      const Vec3 centre = a.p + (end ? 0.5 : -0.5) * capsule.length * axis_of(a);
+      add_ball_on_plane(centre, capsule.radius, plane, end, out);
+    }
+  }
+
+  // Side by side they touch along a line, which its two ends stand for.
+  void operator()(const Capsule& capsule, const Capsule& other) const {
+    constexpr double kParallel = 1e-4;  // the sine squared: within 0.6 degrees
+    const Vec3 u = axis_of(a), v = axis_of(b);
+    if (u.cross(v).squaredNorm() > kParallel) {
+      const auto [s, t] = nearest_on_axes(capsule, a, other, b);
+      add_balls(a.p + s * u, capsule.radius, b.p + t * v, other.radius, 2, out);
+      return;
+    }
+    const double centre = u.dot(b.p - a.p), reach = 0.5 * other.length * std::abs(u.dot(v));
+    const double low = std::max(-0.5 * capsule.length, centre - reach),
+                 high = std::min(0.5 * capsule.length, centre + reach);
+    const auto add = [&](double s, std::uint32_t feature) {
+      const Vec3 point = a.p + s * u;
+      add_balls(point, capsule.radius, b.p + nearest_on_axis(point, other, b) * v, other.radius, feature, out);
+    };
+    if (low < high) {
+      add(low, 0);
+      add(high, 1);
+    } else {
+      add(std::clamp(0.5 * (low + high), -0.5 * capsule.length, 0.5 * capsule.length), 2);
+    }
+  }
+
+  void operator()(const Box& box, const Plane& plane) const {
+    const Vec3 half = 0.5 * box.size;
+    for (std::uint32_t corner = 0; corner < 8; ++corner) {
+      const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+      add_ball_on_plane(a.p + a.R * sign.cwiseProduct(half), 0, plane, corner, out);
+    }
+  }
+
+  void operator()(const Box& box, const Sphere& sphere) const {
+    const Vec3 half = 0.5 * box.size, centre = a.R.transpose() * (b.p - a.p);
+    const Vec3 nearest = centre.cwiseMax(-half).cwiseMin(half), line = nearest - centre;
+    const double distance = line.norm();
+    Vec3 n_B;
+    double depth;  // of the centre below the box's surface
+    if (distance > 0) {
+      n_B = line / distance, depth = -distance;
+    } else {
+      int axis = 0;
+      depth = (half - centre.cwiseAbs()).minCoeff(&axis);
+      n_B = (centre[axis] < 0 ? 1.0 : -1.0) * Vec3::Unit(axis);
+    }
+    const double gap = -depth - sphere.radius;
+    const Vec3 n = a.R * n_B;
+    out.add(n, b.p + (sphere.radius + 0.5 * gap) * n, gap, 0);
+  }
+
+  void operator()(const Box& box, const Box& other) const { collide_boxes(box, a, other, b, out); }
+  void operator()(const Box& box, const Capsule& capsule) const { collide_box_capsule(box, a, capsule, b, out); }
+
+  void operator()(const Plane&, const Plane&) const {}
+
+  // The pairs in the other order.
+  template <typename A, typename B>
+  void operator()(const A& first, const B& second) const {
+    Collide{b, a, out}(second, first);
+    for (ContactPoint& point : out) point.normal *= -1;
+  }
+};
+
+}  // namespace
+
+void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out) {
+  out.clear();
+  std::visit(Collide{pose_a, pose_b, out}, a, b);
+}
+
+}  // namespace rigor

@@ -1,0 +1,59 @@
+// The contact laws of cone_solver.h by Newton's method, in the velocities of the bodies: each impulse is what its
+// point's velocity u asks for,
+//   p_n = max(0, c_n - r (u_n - wanted)),   p_t = c_t - r u_t, put onto the disc of radius mu p_n,
+// about centres c, which are the impulses of the round before (the augmented Lagrangian of Alart and Curnier, 1991). At
+// the end of the rounds p = c and the laws hold, whatever r is. It ends in a few steps where Gauss–Seidel creeps:
+// several points on a stiff body, or one on the verge of sliding. Where the points are more than the motion can tell
+// apart, what it cannot tell stays as it was, for nothing there is ever divided by what is nearly zero.
+#pragma once
+
+#include "core/dynamics/contact/event/cone_solver.h"
+
+namespace rigor {
+
+class ConeNewton {
+ public:
+  // Bodies at the points beyond which it is not worth it: its cost grows as their cube.
+  static constexpr int kMostBodies = 64;
+
+  ConeNewton(const System& system, const std::vector<Mat3>& inverse_inertia_W)
+      : system_(system), inverse_inertia_W_(inverse_inertia_W) {}
+
+  // Changes the points' impulses until none would change a velocity by more than `tolerance` [m/s], or it gets no
+  // further. The velocities are the caller's to change. False if the bodies are too many.
+  bool solve(BodyColumns state, std::vector<ConePoint>& points, double tolerance);
+
+ private:
+  using Side = Eigen::Matrix<double, 3, 6>;  // of a point's velocity, to one body's six speeds
+  struct Row {
+    int a = -1, b = -1;  // of the moving bodies; -1 for a fixed one
+    Side by_a = Side::Zero(), by_b = Side::Zero();
+    Eigen::Matrix<double, 6, 3> to_a, to_b;  // what an impulse makes of the speeds
+    Vec3 start, known, centre, impulse;      // m/s at first; N s: that `start` knows, of this round, now
+    double mass;                             // kg, the point's own
+    Mat3 slope = Mat3::Zero();               // kg, of the impulse, to minus the velocity
+  };
+
+  struct Fit {
+    double energy = 0;    // J; falls along every step while friction is not coupled
+    double residual = 0;  // m/s
+  };
+
+  bool set_up(BodyColumns state, const std::vector<ConePoint>& points);
+  Fit assess(const std::vector<ConePoint>& points, const Eigen::VectorXd& change);
+  double take_impulse(const ConePoint& point, const Vec3& u, Row& row) const;
+  Fit take_step(const std::vector<ConePoint>& points);
+  Vec3 velocity_of(const Row& row, const Eigen::VectorXd& speeds) const;
+
+  const System& system_;
+  const std::vector<Mat3>& inverse_inertia_W_;
+  std::vector<Row> rows_;
+  std::vector<int> bodies_;  // those that move
+  std::vector<Mat3> inertia_W_;
+  double steepness_ = 0;               // r, in units of a point's mass
+  bool is_coupled_ = false;            // friction is bounded by this step's normal impulse, not by the round's
+  Eigen::VectorXd change_, residual_;  // of the moving bodies' speeds, six each
+  Eigen::MatrixXd derivative_;
+};
+
+}  // namespace rigor

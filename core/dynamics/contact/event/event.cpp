@@ -1,0 +1,257 @@
+// Contact by events. Inside a step the instants are found at which bodies meet and at which sliding ends, as roots of
+// gaps and of sliding speeds along the integrator's own sub-steps from the last such instant; there impacts are
+// resolved (impacts.h), and between them what touches is held (held_motion.h). A sequence of bounces ends by the rule
+// of kRestSpeed. Bodies that overlap at the start are moved apart at once, without velocity. After kMostEvents in one
+// step the rest of that step has no rebounds, after twice as many no events, and the run says so. Where bodies are not
+// sure to stay apart (clearance.h) the time is halved, so that nothing passes through and no graze is missed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/dynamics/collision/conservative_advancement.h"
+#include "core/dynamics/contact/contact_method.h"
+#include "core/dynamics/contact/event/persistent_contact.h"
+#include "core/engine/option_values.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTouching = 1e-10;  // m: gaps this small are closed; at 1 m/s it is 1e-10 s
+constexpr int kMostEvents = 1000;
+constexpr int kMostPieces = 10000;  // of the time to the next event, while bodies are not seen to stay apart
+
+bool is_finite(BodyColumns state) {
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    if (!state.position(i).allFinite() || !state.orientation(i).coeffs().allFinite()) return false;
+    if (!state.velocity(i).allFinite() || !state.angular_velocity(i).allFinite()) return false;
+  }
+  return true;
+}
+
+class EventStepper : public ContactStepper {
+ public:
+  EventStepper(const Scene& scene, const ContactParts& parts)
+      : touches_(scene),
+        motion_(scene, parts.integrator, parts.orientation, parts.settings, touches_),
+        impacts_(motion_.system(), number_option(parts.settings, "rest-speed", kRestSpeed)) {}
+
+  void step(MutableBodyColumns state, double t, double dt) override {
+    solver_warning_.clear();
+    is_smooth_ = true;
+    if (!(dt > 0)) return step_without_contact(state, t, dt);
+    pairs_ = touches_.candidates(state, state, 0);
+    motion_.close_gaps(state, pairs_, HeldMotion::Closing::overlaps);
+    double done = 0;
+    for (int events = 0; done < dt; ++events) {
+      if (!is_finite(state)) return note("the state of a body is no longer finite");
+      if (events == kMostEvents) note(fmt::format("more than {} events in a step: no rebounds in its rest", events));
+      begin_part(state, events >= kMostEvents);
+      const double end = motion_.system().loads.next_switch(t + done, t + dt);
+      is_smooth_ = is_smooth_ && end == t + dt;
+      part_ = {t, done, end == t + dt ? dt : end - t};
+      done = events < 2 * kMostEvents ? advance(state) : finish(state);
+    }
+  }
+
+  std::string solver_warning() const override { return solver_warning_; }
+  bool was_smooth() const override { return is_smooth_; }
+  long work() const override { return motion_.passes(); }
+
+  SettingsInForce settings_in_force() const override {
+    return {{"impacts", "at their own instants, simultaneous ones together"},
+            {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.rest_speed())},
+            {"most events in a step", fmt::format("{}", kMostEvents)}};
+  }
+
+ private:
+  // What is being advanced over: the time since the step's start t goes from `from` to `to`.
+  struct Part {
+    double t = 0, from = 0, to = 0;  // s
+    double length() const { return to - from; }
+  };
+
+  void note(const std::string& solver_warning) {
+    if (solver_warning_.empty()) solver_warning_ = solver_warning;
+  }
+
+  void step_without_contact(MutableBodyColumns state, double t, double dt) {
+    motion_.hold(state, {});
+    start_ = BodyColumns(state);
+    motion_.advance(start_.columns(), state, t, dt);
+  }
+
+  // Impacts now, and what is held until the next event.
+  void begin_part(MutableBodyColumns state, bool inelastic) {
+    pairs_ = touches_.candidates(state, state, 0);
+    touching_.clear();
+    touches_.find(state, pairs_, kTouching, touching_);
+    if (impacts_.resolve(state, touching_, inelastic)) is_smooth_ = false;
+    note(impacts_.solver_warning());
+    motion_.hold(state, touching_);
+  }
+
+  // As far as the next event, or to the part's end. Returns how far, in the time of the step.
+  double advance(MutableBodyColumns state) {
+    start_ = BodyColumns(state);
+    end_ = BodyColumns(state);
+    pairs_.clear();
+    part_.to = std::min(part_.to, part_.from + longest_);
+    attempt(part_.length());
+    shorten_until_settled();
+    pairs_ = touches_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length());
+    clear_ = std::as_const(start_).columns();
+    double clear = 0;
+    ahead_ = {part_.length()};
+    for (int pieces = 0; !ahead_.empty(); ++pieces) {
+      const double h = ahead_.back(), distance = pieces == 0 ? distance_from_event() : attempt(h);
+      if (distance < 0) return locate(state, clear, h, distance);
+      if (pieces > kMostPieces) note("two bodies passed too near each other to tell whether they touched");
+      if (pieces <= kMostPieces && !all_stay_apart(h - clear)) {
+        ahead_.push_back(0.5 * (clear + h));
+        continue;
+      }
+      clear = h, clear_ = std::as_const(end_).columns();
+      ahead_.pop_back();
+    }
+    return commit(state, part_.to);
+  }
+
+  // Whether no pair can have touched between clear_ and end_, h after it. Points that are held are no news, and what
+  // they let their bodies do shows at the end.
+  bool all_stay_apart(double h) {
+    const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
+    return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
+      const auto [a, b] = pair;
+      const auto is_of_pair = [&](const HeldPoint& held) { return held.at_end.a == a && held.at_end.b == b; };
+      if (std::any_of(motion_.points().begin(), motion_.points().end(), is_of_pair)) return true;
+      return stay_apart(touches_.colliders()[a], touches_.colliders()[b], {from, touches_.parting(from, a, b)},
+                        {to, touches_.parting(to, a, b)}, h);
+    });
+  }
+
+  // The forces of what is held turn with it; in long steps they may find no end to that.
+  void shorten_until_settled() {
+    constexpr int kMostTimes = 20;
+    longest_ = kInfinity;
+    for (int k = 0; k < kMostTimes && !has_settled_; ++k) {
+      part_.to = part_.from + 0.5 * part_.length();
+      attempt(part_.length());
+      longest_ = 2 * part_.length();  // of the next part
+    }
+  }
+
+  // The state after h into end_. Positive before the first event, negative after it.
+  double attempt(double h) {
+    has_settled_ = motion_.advance(start_.columns(), end_.columns(), part_.t + part_.from, h);
+    return distance_from_event();
+  }
+
+  double distance_from_event() { return std::min(motion_.distance_from_sticking(), least_free_gap()); }
+
+  double commit(MutableBodyColumns state, double done) {
+    copy_columns(std::as_const(end_).columns(), state);
+    note(motion_.solver_warning());
+    pairs_ = touches_.candidates(state, state, 0);
+    if (motion_.close_gaps(state, pairs_, HeldMotion::Closing::all)) motion_.stop_carrying_points(state);
+    return done;
+  }
+
+  // Without looking for events: what touches is held, whatever its velocity.
+  double finish(MutableBodyColumns state) {
+    note("too many events in a step: its rest was taken in one");
+    start_ = BodyColumns(state);
+    end_ = BodyColumns(state);
+    motion_.advance(start_.columns(), end_.columns(), part_.t + part_.from, part_.length());
+    return commit(state, part_.to);
+  }
+
+  // The first event lies between `low`, where all is clear, and `high`.
+  double locate(MutableBodyColumns state, double low, double high, double distance_high) {
+    double distance_low = 1;
+    if (low == 0) {
+      // Bodies that have just parted have no gap at the start yet: halved until it is seen.
+      constexpr int kMostHalvings = 60;
+      int halvings = 0;
+      for (; halvings < kMostHalvings; ++halvings) {
+        const double middle = 0.5 * high, distance = attempt(middle);
+        if (distance >= 0) {
+          low = middle, distance_low = distance;
+          break;
+        }
+        high = middle, distance_high = distance;
+      }
+      if (halvings == kMostHalvings) return hold_slow_ones(state);
+    } else {
+      distance_low = attempt(low);
+    }
+    if (distance_low > 0) low = root(low, high, distance_low, distance_high);
+    attempt(low);
+    is_smooth_ = false;
+    return commit(state, part_.from + low);
+  }
+
+  double root(double low, double high, double distance_low, double distance_high) {
+    std::uintmax_t most = 200;
+    // A step's own rounding: its share of dt, and that of a gap at the speed of sound.
+    const double width = 1e-14 * part_.length();
+    return boost::math::tools::toms748_solve([this](double h) { return attempt(h); }, low, high, distance_low,
+                                             distance_high, [=](double a, double b) { return b - a <= width; }, most)
+        .first;
+  }
+
+  // What parts so slowly that rounding hides its gap is held after all; if it is, the rest of the part goes without
+  // looking for events.
+  double hold_slow_ones(MutableBodyColumns state) {
+    if (motion_.hold_slower_than(10 * impacts_.rest_speed(), state, touching_)) return advance(state);
+    return finish(state);
+  }
+
+  // The least gap of points that are not held. Where others of the pair are, what these drift is allowed to them too.
+  double least_free_gap() {
+    double least = kInfinity;
+    for (const auto& [a, b] : pairs_) {
+      double drift = 0;
+      for (const HeldPoint& held : motion_.points()) {
+        if (held.at_end.a == a && held.at_end.b == b) drift = std::max(drift, 4 * std::abs(held.at_end.gap));
+      }
+      for (const ContactPoint& point : touches_.manifold(end_.columns(), a, b)) {
+        const bool is_held = std::any_of(motion_.points().begin(), motion_.points().end(), [&](const auto& h) {
+          return h.at_end.a == a && h.at_end.b == b && h.at_end.feature == point.feature;
+        });
+        if (!is_held) least = std::min(least, point.gap + drift);
+      }
+    }
+    return least;
+  }
+
+  Touches touches_;
+  HeldMotion motion_;
+  Impacts impacts_;
+  Part part_;
+  double longest_ = kInfinity;  // s, of the next part
+  bool has_settled_ = true, is_smooth_ = true;
+  BodyTable start_, end_, clear_;
+  std::vector<double> ahead_;  // s, ends of the stretches still to be looked at, the next one last
+  std::vector<Touch> touching_;
+  std::vector<std::pair<int, int>> pairs_;
+  std::string solver_warning_;
+};
+
+}  // namespace
+
+extern const ContactMethod kEventContact;
+const ContactMethod kEventContact = {
+    .name = "event",
+    .summary = "impacts at their own instants, what touches held by exact forces; for few bodies",
+    .features =
+        joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none", "restitution"}),
+    .options = {{"rest-speed", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1}},
+    .make = make_contact_stepper<EventStepper>,
+};
+
+}  // namespace rigor

@@ -1,0 +1,44 @@
+// Simultaneous impacts, for the method `event`. Points that approach each other now are resolved together, with
+// Newton's restitution and Coulomb's cone, and with them the touching points whose restitution is 0; what they push
+// into a neighbour is resolved in the next round, and so on until nothing approaches. Thus a cradle passes its impulse
+// through, and a box lands on its four corners at once. Where Newton's law would create energy (Kane's paradox: an
+// oblique blow on a corner with friction), the restitution of that round is lowered until it does not.
+#pragma once
+
+#include "core/dynamics/contact/event/contact_points.h"
+
+namespace rigor {
+
+// Approaching more slowly than this leaves no rebound: a sequence of bounces ends here, 2 u / (g (1 - e)) before its
+// own end, which for e = 0.9 on Earth is 2e-7 s.
+inline constexpr double kRestSpeed = 1e-7;  // m/s, unless a run names another
+// What the roundings of an impact leave of a velocity that should be zero.
+inline constexpr double kStillSpeed = 1e-10;  // m/s
+
+class Impacts {
+ public:
+  Impacts(const System& system, double rest_speed) : system_(system), solver_(system), rest_speed_(rest_speed) {}
+
+  double rest_speed() const { return rest_speed_; }  // m/s
+
+  // Changes the velocities so that no touching points approach. Returns whether there were impacts above the rest
+  // speed. `inelastic`: no rebounds.
+  bool resolve(MutableBodyColumns state, std::vector<Touch>& touches, bool inelastic);
+  // Empty if every round came to its end.
+  const std::string& solver_warning() const { return solver_warning_; }
+
+ private:
+  bool choose(BodyColumns state, const std::vector<Touch>& touches, bool inelastic, bool all);
+  void solve_round(MutableBodyColumns state);
+  double kinetic_energy(BodyColumns state) const;
+
+  const System& system_;
+  ConeSolver solver_;
+  double rest_speed_;
+  std::vector<ConePoint> points_, chosen_;
+  BodyTable before_;
+  bool rebound_ = false;
+  std::string solver_warning_;
+};
+
+}  // namespace rigor

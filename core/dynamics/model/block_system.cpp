@@ -1,0 +1,55 @@
+#include "core/dynamics/model/block_system.h"
+
+namespace rigor {
+
+BlockSystem::BlockSystem(std::size_t bodies) : size_(6 * static_cast<Eigen::Index>(bodies)) {
+  if (is_dense()) dense_.resize(size_, size_);
+}
+
+// Up to ten bodies a dense factorisation takes less time than a sparse one needs to order its unknowns.
+bool BlockSystem::is_dense() const { return size_ <= 60; }
+
+void BlockSystem::clear() {
+  dense_.setZero();
+  triplets_.clear();
+  blocks_.clear();
+}
+
+void BlockSystem::add(std::size_t row, std::size_t column, const Mat6& block) {
+  const Eigen::Index r = 6 * static_cast<Eigen::Index>(row), c = 6 * static_cast<Eigen::Index>(column);
+  if (is_dense()) {
+    dense_.block<6, 6>(r, c) += block;
+    return;
+  }
+  blocks_.emplace_back(row, column);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      triplets_.emplace_back(static_cast<int>(r + i), static_cast<int>(c + j), block(i, j));
+    }
+  }
+}
+
+bool BlockSystem::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
+  if (is_dense()) {
+    dense_lu_.compute(dense_);
+    solution = dense_lu_.solve(right_side);
+    return solution.allFinite();
+  }
+  if (!factorise_sparse()) return false;
+  solution = sparse_lu_.solve(right_side);
+  return solution.allFinite();
+}
+
+// The order of elimination depends on which blocks there are, not on what is in them: it is found once.
+bool BlockSystem::factorise_sparse() {
+  sparse_.resize(size_, size_);
+  sparse_.setFromTriplets(triplets_.begin(), triplets_.end());
+  if (blocks_ != ordered_blocks_) {
+    sparse_lu_.analyzePattern(sparse_);
+    ordered_blocks_ = blocks_;
+  }
+  sparse_lu_.factorize(sparse_);
+  return sparse_lu_.info() == Eigen::Success;
+}
+
+}  // namespace rigor

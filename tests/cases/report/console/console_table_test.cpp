@@ -1,0 +1,107 @@
+#include "cases/report/console/console_table.h"
+
+#include <boost/test/unit_test.hpp>
+#include <sstream>
+
+#include "tests/cases/report/sample_results.h"
+
+using namespace rigor;
+
+namespace {
+
+std::string line_with(const std::string& text, const std::string& start) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(start)) return line;
+  }
+  return "";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_report_console_console_table)
+
+BOOST_AUTO_TEST_CASE(a_row_shows_errors_signed_drift_and_the_largest_step) {
+  const std::string line = line_with(console_table(sample_results()), "  good ");
+  for (const char* part : {" 0.125 ", " 0.25 ", " -50 ", " 0.0678 ", " stable"}) {
+    BOOST_TEST(line.find(part) != std::string::npos, part << " in " << line);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_blew_up_shows_when_and_what_and_no_errors) {
+  const std::string line = line_with(console_table(sample_results()), "  wild ");
+  BOOST_TEST(line.find("blown up at 0.40 s: st|one") != std::string::npos, line);
+  BOOST_TEST(line.find("0.125") == std::string::npos, line);
+  BOOST_TEST(line.find("timed-out") != std::string::npos, line);  // of its largest stable step
+}
+
+BOOST_AUTO_TEST_CASE(a_cell_without_numbers_says_why) {
+  Results results = sample_results();
+  results.cases.front().definition.dt = {{0.05, "1/20"}};  // where the second engine crashed
+  const std::string line = line_with(console_table(results), "  wild ");
+  BOOST_TEST(line.find("crashed: killed by SIGSEGV") != std::string::npos, line);
+}
+
+BOOST_AUTO_TEST_CASE(every_line_fits_a_hundred_columns) {
+  Results results = sample_results();
+  std::string reason = "crashed because";
+  for (int i = 0; i < 60; ++i) reason += " of one thing after another";
+  results.cases.front().cells[2].metrics.clear();
+  results.cases.front().cells[2].reason = reason;
+  results.cases.front().cells[0].stability = {Verdict::blown_up, 123.4, 0, ""};
+  results.cases.front().definition.scene.bodies.front().name = "a body of a name that no table was made for";
+  results.runs[0].text = "core:explicit-euler,orientation=matrix-rodrigues";
+  results.cases.front().definition.title = reason;
+  results.cases.front().gates.push_back({0, "good", "1/10", GateAnswer::failed, reason});
+  std::istringstream lines(console_table(results));
+  for (std::string line; std::getline(lines, line);) BOOST_TEST(line.size() <= 100u, line);
+}
+
+BOOST_AUTO_TEST_CASE(many_cases_stand_in_a_matrix_of_a_hundred_columns) {
+  Results results = sample_results();
+  const CaseResult one = results.cases.front();
+  for (const char* id : {"family/other", "family/of-a-name-longer-than-any-column", "second/case", "second/more",
+                         "second/last", "none"}) {
+    results.cases.push_back(one);
+    results.cases.back().definition.id = id;
+  }
+  results.cases[3].cells[0].metrics["position_error"].value = 0.9999e-3;
+  results.cases[4].cells[0].status = Status::known_deviation;
+  results.cases[5].gates.push_back({0, "good", "1/10", GateAnswer::failed, "too far"});
+  results.cases[5].gates.push_back({0, "", "", GateAnswer::not_checked, "no cell"});
+  while (results.runs.size() < 9) results.runs.push_back(results.runs.front());
+  for (CaseResult& result : results.cases) {
+    for (std::size_t run = 2; run < results.runs.size(); ++run) {
+      result.stable_steps.push_back(result.stable_steps.front());
+      result.cells.push_back(result.cells.front()), result.cells.back().run = run;
+    }
+  }
+  results.runs[8].text = "core:semi-implicit-euler,orientation=matrix-additive@stock";
+  const std::string text = console_table(results);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    BOOST_TEST(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }) <= 100, line);
+  }
+  BOOST_TEST(line_with(text, " other").find("✓ 250mm    ✕ 0.40s    ✓ 250mm") != std::string::npos, text);
+  BOOST_TEST(line_with(text, " case").find("✓ 250mm") != std::string::npos, text);
+  const std::string second = text.substr(text.find("\nsecond\n") + 1);
+  BOOST_TEST(line_with(second, " case").find("✓ 1mm") != std::string::npos, text);  // 0.9999 mm
+  BOOST_TEST(line_with(text, " more").find("◆ 250mm") != std::string::npos, text);
+  BOOST_TEST(line_with(text, "  gate failed").find("too far") != std::string::npos, text);
+  BOOST_TEST(text.find("not checked") == std::string::npos, text);
+  BOOST_TEST(text.find("st|one") == std::string::npos, text);  // no block
+}
+
+BOOST_AUTO_TEST_CASE(a_truth_says_how_far_it_can_be_trusted) {
+  Results results = sample_results();
+  CaseResult& result = results.cases.front();
+  result.definition.truth = "reference", result.definition.duration = 30;
+  result.truth->horizon = 17.81;
+  BOOST_TEST(truth_sentence(result).find("until 17.8 s of the 30 s") != std::string::npos, truth_sentence(result));
+  result.truth->horizon = 30;
+  BOOST_TEST(truth_sentence(result).find("over the whole 30 s") != std::string::npos, truth_sentence(result));
+  result.definition.truth = "none";
+  BOOST_TEST(truth_sentence(result).find("none") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,67 @@
+#include <boost/test/unit_test.hpp>
+#include <cstdlib>
+#include <regex>
+
+#include "cases/gates/gates.h"
+#include "cases/report/reports.h"
+#include "tests/cases/report/sample_results.h"
+#include "tests/folder.h"
+
+using namespace rigor;
+
+namespace {
+
+// The sample's grid, with a gate that one cell holds, one breaks by having blown up and one has crashed under, a second
+// that is known not to hold, and a third that meets no cell.
+Results gated_results() {
+  Results grid = sample_results();
+  CaseResult& result = grid.cases.front();
+  Gate limit, known, unmet;
+  limit.metric = "position_error", limit.max = 0.5, limit.because = "half a metre, \x01 & no more",
+  limit.where = "c:7:1";
+  known.metric = "energy_drift", known.max = 0.1, known.engines = {"good"};
+  unmet.metric = "orientation_error", unmet.max = 1, unmet.engines = {"good"};
+  result.definition.gates = {limit, known, unmet};
+  check_gates(result, grid);
+  for (GateResult& answer : result.gates) {
+    if (answer.gate == 1) answer.answer = GateAnswer::known_deviation;
+  }
+  for (Cell& cell : result.cells) cell.wall_seconds = 0.25;
+  return grid;
+}
+
+long count(const std::string& text, const std::string& pattern) {
+  const std::regex wanted(pattern);
+  return std::distance(std::sregex_iterator(text.begin(), text.end(), wanted), std::sregex_iterator());
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_report_junit_junit_report)
+
+BOOST_AUTO_TEST_CASE(it_is_what_the_schema_says) {
+  const Folder folder;
+  const std::string file = folder.write("junit.xml", junit_report(gated_results()));
+  const std::string command =
+      "xmllint --noout --schema " RIGOR_SOURCE_DIR "/tests/cases/report/junit/junit.xsd " + file + " 2>&1";
+  BOOST_TEST(std::system(command.c_str()) == 0, junit_report(gated_results()));
+}
+
+BOOST_AUTO_TEST_CASE(each_cell_is_a_test_case_with_its_outcome_and_time) {
+  const std::string text = junit_report(gated_results());
+  BOOST_TEST(count(text, "<testcase name=\"(good|wild) dt=1/[12]0\" classname=\"family/case\" time=\"0.250000\"") == 4);
+  BOOST_TEST(count(text, "<failure ") == 1 + 1);  // blown up; the gate that met no cell
+  BOOST_TEST(count(text, "<error ") == 1);        // crashed
+  BOOST_TEST(count(text, "<skipped message=\"known deviation: ") == 2);
+  // As many as the suite and the whole say.
+  BOOST_TEST(count(text, "tests=\"5\" failures=\"2\" errors=\"1\" skipped=\"2\"") == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_failure_says_what_the_gate_says) {
+  const std::string text = junit_report(gated_results());
+  BOOST_TEST(text.find("type=\"position_error\"") != std::string::npos);
+  BOOST_TEST(text.find("half a metre, ? &amp; no more") != std::string::npos);
+  BOOST_TEST(text.find("st|one &quot;1&quot;, &lt;i&gt;") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,150 @@
+#include "cases/results/changes.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "cases/gates/gates.h"
+#include "cases/report/reports.h"
+#include "core/base/error.h"
+#include "tests/cases/judged.h"
+#include "tests/cases/report/sample_results.h"
+#include "tests/folder.h"
+
+using namespace rigor;
+using rigor::test::says;
+
+namespace {
+
+Results gated_results(double limit = 1) {
+  Results grid = sample_results();
+  Gate gate;
+  gate.metric = "position_error", gate.max = limit, gate.engines = {"good"}, gate.because = "a reason";
+  grid.cases.front().definition.gates = {gate};
+  check_gates(grid.cases.front(), grid);
+  return grid;
+}
+
+Outcomes outcomes_of(const Results& grid) {
+  const Folder folder;
+  return read_outcomes(folder.write("results.json", json_report(grid)));
+}
+
+Outcomes by_way_of_a_baseline(const Outcomes& outcomes) {
+  const Folder folder;
+  return read_outcomes(folder.write("baseline.txt", baseline_text(outcomes)));
+}
+
+Cell& good_cell(Results& grid) { return grid.cases.front().cells.front(); }
+
+// Both by results.json alone and with a baseline for the old one.
+template <typename Check>
+void both_ways(const Results& before, const Results& after, const Check& check) {
+  const Outcomes was = outcomes_of(before), is = outcomes_of(after);
+  check(changes_between(was, is));
+  check(changes_between(by_way_of_a_baseline(was), is));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_results_changes)
+
+BOOST_AUTO_TEST_CASE(nothing_has_changed_from_a_result_to_itself) {
+  both_ways(gated_results(), gated_results(), [](const Changes& changes) {
+    BOOST_TEST(text_of(changes, 1.25) == "nothing changed by more than 1.25 times\nnot worse\n");
+    BOOST_TEST(!changes.is_worse());
+  });
+}
+
+BOOST_AUTO_TEST_CASE(an_error_that_grows_beyond_the_factor_is_worse_and_one_that_shrinks_is_told) {
+  struct Row {
+    double times;
+    std::size_t grown, shrunk;
+  };
+  for (const Row& row : {Row{1.2, 0, 0}, {1.3, 1, 0}, {0.83, 0, 0}, {0.5, 0, 1}}) {
+    Results after = gated_results();
+    good_cell(after).metrics["position_error"].value *= row.times;
+    both_ways(gated_results(), after, [&](const Changes& changes) {
+      BOOST_TEST(changes.grown.size() == row.grown);
+      BOOST_TEST(changes.shrunk.size() == row.shrunk);
+      BOOST_TEST(changes.is_worse() == (row.grown > 0));
+    });
+  }
+}
+
+BOOST_AUTO_TEST_CASE(roundings_are_noise_however_they_grow) {
+  Results before = gated_results(), after = gated_results();
+  good_cell(before).metrics["position_error"].value = 1e-15;
+  good_cell(after).metrics["position_error"].value = 9e-10;
+  both_ways(before, after, [](const Changes& changes) { BOOST_TEST(!changes.is_worse()); });
+  good_cell(after).metrics["position_error"].value = 2e-9;
+  both_ways(before, after, [](const Changes& changes) { BOOST_TEST(changes.grown.size() == 1u); });
+}
+
+BOOST_AUTO_TEST_CASE(what_nobody_measured_has_not_changed) {
+  Results after = gated_results();
+  good_cell(after).metrics["position_error"].not_applicable = "not measured";
+  both_ways(gated_results(), after, [](const Changes& changes) { BOOST_TEST(changes.shrunk.empty()); });
+}
+
+BOOST_AUTO_TEST_CASE(a_gate_and_its_cell_that_fail_now_are_worse_and_the_other_way_better) {
+  both_ways(gated_results(), gated_results(0.1), [](const Changes& changes) {
+    BOOST_TEST(changes.newly_failing.size() == 4u);  // two cells and their gates
+    BOOST_TEST(changes.is_worse());
+  });
+  both_ways(gated_results(0.1), gated_results(), [](const Changes& changes) {
+    BOOST_TEST(changes.newly_passing.size() == 4u);
+    BOOST_TEST(!changes.is_worse());
+  });
+}
+
+BOOST_AUTO_TEST_CASE(a_cell_that_crashes_or_can_no_longer_run_is_worse) {
+  for (const Status status : {Status::crashed, Status::timed_out, Status::diverged, Status::unsupported}) {
+    Results after = gated_results();
+    good_cell(after).status = status;
+    both_ways(gated_results(), after, [](const Changes& changes) { BOOST_TEST(changes.newly_failing.size() == 1u); });
+  }
+}
+
+BOOST_AUTO_TEST_CASE(settings_that_differ_are_told_and_are_not_worse) {
+  Results after = gated_results();
+  for (Cell& cell : after.cases.front().cells) cell.settings = {{"solver", "rough"}};
+  both_ways(gated_results(), after, [](const Changes& changes) {
+    BOOST_TEST(changes.settings.size() == 2u);  // of each engine
+    BOOST_TEST(changes.settings.front() == "good, solver: rough, was exact");
+    BOOST_TEST(!changes.is_worse());
+  });
+}
+
+BOOST_AUTO_TEST_CASE(a_case_that_is_gone_is_worse_and_one_that_is_new_is_not) {
+  Results two = gated_results();
+  two.cases.push_back(two.cases.front());
+  two.cases.back().definition.id = "family/other";
+  both_ways(two, gated_results(), [](const Changes& changes) {
+    BOOST_TEST(changes.gone == std::vector<std::string>{"family/other"});
+    BOOST_TEST(changes.is_worse());
+  });
+  both_ways(gated_results(), two, [](const Changes& changes) {
+    BOOST_TEST(changes.added == std::vector<std::string>{"family/other"});
+    BOOST_TEST(!changes.is_worse());
+  });
+}
+
+BOOST_AUTO_TEST_CASE(a_baseline_is_text_and_says_the_same_when_written_again) {
+  const std::string text = baseline_text(outcomes_of(gated_results()));
+  BOOST_TEST(text.find("cell\tfamily/case\tgood\t1/10\tpass\tenergy_drift=0.5\tposition_error=0.25") !=
+             std::string::npos);
+  const Folder folder;
+  BOOST_TEST(baseline_text(read_outcomes(folder.write("b", text))) == text);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_neither_is_refused_with_its_name) {
+  const Folder folder;
+  const auto read = [&](const std::string& text) { return read_outcomes(folder.write("file", text)); };
+  BOOST_CHECK_EXCEPTION(read_outcomes((folder.path / "none").string()), InputError, says("cannot be read"));
+  for (const char* text : {"", "{}", "[1]", "not json", "{\"schema\": 1}", "{\"schema\": \"1\"}"})
+    BOOST_CHECK_EXCEPTION(read(text), InputError, says("neither"));
+  BOOST_CHECK_EXCEPTION(read("{\"schema\": 99}"), InputError, says("99"));
+  BOOST_CHECK_EXCEPTION(read("# Rigor baseline 1\ncell\ta\n"), InputError, says("line 2"));
+  BOOST_CHECK_EXCEPTION(read("# Rigor baseline 1\ncell\ta\tb\tc\tpass\tx=y\n"), InputError, says("'y'"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,35 @@
+// The suite's own files: enough smooth cases, each with a source, each with the truth it asks for.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+
+#include "core/scene/features.h"
+#include "tests/cases/suite/suite_checks.h"
+
+using namespace rigor;
+
+namespace {
+
+// Nothing in it happens at an instant: neither contacts nor joints.
+bool is_smooth(const Case& c) {
+  const std::vector<Need> needs = needs_of(c.scene);
+  return std::none_of(needs.begin(), needs.end(), [](const Need& need) {
+    return need.feature.starts_with("contact:") || need.feature.starts_with("joint:");
+  });
+}
+
+std::vector<Case> smooth_cases() { return test::suite_cases(is_smooth); }
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_suite_smooth_suite)
+
+BOOST_AUTO_TEST_CASE(there_are_at_least_twenty_five_smooth_cases_each_with_a_source_and_gates) {
+  test::check_sources_and_gates(smooth_cases(), 25);
+}
+
+BOOST_AUTO_TEST_CASE(every_closed_form_that_a_case_cites_holds_for_its_scene) {
+  test::check_closed_forms(smooth_cases(), 1e-9, 1);  // near a separatrix; a thousandth of what metrics need of it
+}
+
+BOOST_AUTO_TEST_SUITE_END()

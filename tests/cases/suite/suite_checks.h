@@ -1,0 +1,55 @@
+// What the suite promises of each of its families.
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+#include <functional>
+
+#include "cases/case/suite.h"
+#include "cases/truth/truth.h"
+
+namespace rigor::test {
+
+inline std::vector<Case> suite_cases(const std::function<bool(const Case&)>& is_one) {
+  std::vector<Case> cases = select_cases({}, default_suite_dir());
+  std::erase_if(cases, [&](const Case& c) { return !is_one(c); });
+  return cases;
+}
+
+inline void check_sources_and_gates(const std::vector<Case>& cases, std::size_t at_least) {
+  BOOST_TEST(cases.size() >= at_least);
+  for (const Case& c : cases) {
+    BOOST_TEST_CONTEXT(c.id) {
+      BOOST_TEST(!c.source.empty());
+      BOOST_TEST(!c.gates.empty());
+    }
+  }
+}
+
+// Each closed form that a case cites can be made, begins where the scene does, to its own error there (it computes that
+// instant as it does any other) and the velocities to roundings, and ends with no more of an error than `at_the_end`.
+inline void check_closed_forms(const std::vector<Case>& cases, double at_the_end, int at_least) {
+  int cited = 0;
+  for (const Case& c : cases) {
+    if (c.truth == "none" || c.truth == "reference" || c.truth == "events") continue;
+    BOOST_TEST_CONTEXT(c.id) {
+      BOOST_REQUIRE_NO_THROW(make_truth(c.truth, c.scene, c.duration));
+      const auto truth = make_truth(c.truth, c.scene, c.duration);
+      BodyTable start(c.scene.bodies.size());
+      truth->at(0, start.columns());
+      for (std::size_t i = 0; i < c.scene.bodies.size(); ++i) {
+        const BodyState found = start.columns().body(i);
+        const Body& body = c.scene.bodies[i];
+        BOOST_TEST((found.position - body.position).norm() <= truth->error(0));
+        BOOST_TEST(angle_between(found.orientation, body.orientation) <= truth->error(0));
+        BOOST_TEST((found.velocity - body.velocity).norm() <= 1e-12 * (1 + body.velocity.norm()));
+        BOOST_TEST((found.angular_velocity - body.angular_velocity).norm() <=
+                   1e-12 * (1 + body.angular_velocity.norm()));
+      }
+      BOOST_TEST(truth->error(c.duration) < at_the_end);
+    }
+    ++cited;
+  }
+  BOOST_TEST(cited >= at_least);
+}
+
+}  // namespace rigor::test

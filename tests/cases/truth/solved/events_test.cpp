@@ -1,0 +1,103 @@
+// The truth by events against every closed form of the contact family, and what it refuses.
+#include <algorithm>
+
+#include "core/base/error.h"
+#include "core/scene/contact_laws.h"
+#include "tests/cases/judged.h"
+#include "tests/cases/suite/suite_checks.h"
+#include "tests/cases/truth/closed_form/contact/contact_scenes.h"
+
+using namespace rigor;
+
+namespace {
+
+constexpr double kShort = 1;  // s: enough for impacts, stops and the end of slipping; many bodies roll on slowly
+
+bool has_closed_form(const Case& c) {
+  return anything_can_touch(c.scene) && c.truth != "none" && c.truth != "events" && c.truth != "reference";
+}
+
+double distance(BodyColumns a, BodyColumns b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest =
+        std::max({largest, (a.position(i) - b.position(i)).norm(), angle_between(a.orientation(i), b.orientation(i))});
+  }
+  return largest;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_events)
+
+BOOST_AUTO_TEST_CASE(its_error_bounds_the_distance_from_every_closed_form) {
+  const std::vector<Case> cases = test::suite_cases(has_closed_form);
+  BOOST_TEST(cases.size() >= 25);
+  for (const Case& c : cases) {
+    BOOST_TEST_CONTEXT(c.id) {
+      const double duration = c.scene.bodies.size() > 20 ? std::min(c.duration, kShort) : c.duration;
+      const auto events = make_truth("events", c.scene, duration), form = make_truth(c.truth, c.scene, duration);
+      BOOST_TEST(events->error(duration) < 1e-6);  // what metrics ask for
+      constexpr int kInstants = 101;
+      for (int k = 0; k <= kInstants; ++k) {
+        const double t = duration * k / kInstants;
+        const BodyTable found = test::truth_at(*events, t, c.scene.bodies.size()),
+                        expected = test::truth_at(*form, t, c.scene.bodies.size());
+        const double off = distance(found.columns(), expected.columns());
+        BOOST_TEST(off <= events->error(t) + form->error(t), "at " << t << " s it is off by " << off);
+      }
+    }
+  }
+}
+
+// Between two nodes it is a cubic, or a step where something happens: neither leaves the path.
+BOOST_AUTO_TEST_CASE(its_velocities_are_those_of_its_path) {
+  const Case c = select_cases({"contact/bounce-backspin"}, default_suite_dir()).at(0);
+  const auto truth = make_truth("events", c.scene, c.duration);
+  constexpr double kStep = 1e-5;  // s; a second difference of 10 m/s² leaves 1e-9 m/s of the middle's velocity
+  int compared = 0;
+  for (double t = 0.013; t < c.duration - kStep; t += 0.031) {
+    const BodyTable low = test::truth_at(*truth, t - kStep, 2), middle = test::truth_at(*truth, t, 2),
+                    high = test::truth_at(*truth, t + kStep, 2);
+    const Vec3 rate = (high.columns().position(0) - low.columns().position(0)) / (2 * kStep);
+    const double jump = (high.columns().velocity(0) - low.columns().velocity(0)).norm();
+    if (jump > 1e-3) continue;  // an impact lies between
+    BOOST_TEST((rate - middle.columns().velocity(0)).norm() < 1e-6);
+    ++compared;
+  }
+  BOOST_TEST(compared > 50);
+}
+
+// Where the motion magnifies what the solutions differ by, it ends: a ball among pins forgets where it came from.
+BOOST_AUTO_TEST_CASE(its_horizon_ends_where_the_solutions_part) {
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  scene.contact_default = {1, 0};
+  for (int i = 0; i < 3; ++i) {
+    Body pin = test::body("pin", 1, 0.1 * Vec3::Ones(), Vec3(std::cos(2.1 * i), std::sin(2.1 * i), 0) * 1.2);
+    pin.name += std::to_string(i), pin.shape = Sphere{1}, pin.fixed = pin.collides = true;
+    scene.bodies.push_back(pin);
+  }
+  Body ball = test::body("ball", 1, 0.001 * Vec3::Ones(), {0.03, 0.05, 0});
+  ball.shape = Sphere{0.05}, ball.collides = true, ball.velocity = {1, 0.3, 0};
+  scene.bodies.push_back(ball);
+  const auto truth = make_truth("events", scene, 20);
+  const double end = horizon(*truth, 1e-6, 20);
+  BOOST_TEST(end > 0.5);
+  BOOST_TEST(end < 20);
+  for (double t = 0.1; t < 20; t += 0.1) BOOST_TEST(truth->error(t) >= truth->error(t - 0.1));
+}
+
+BOOST_AUTO_TEST_CASE(what_it_is_not_for_it_refuses_in_words) {
+  BOOST_CHECK_EXCEPTION(make_truth("events", test::fixed_spring(), 1), InputError,
+                        test::says("nothing can touch: take 'reference'"));
+  Scene jointed = test::fixed_spring();
+  jointed.bodies[0].shape = Sphere{0.1}, jointed.bodies[0].collides = true;
+  Body floor = test::body("floor", 1, Vec3::Ones(), Vec3::Zero());
+  floor.shape = Plane{Vec3::UnitY(), -5}, floor.fixed = floor.collides = true;
+  jointed.bodies.push_back(floor);
+  jointed.joints.push_back({.a = kWorld, .b = 0, .type = BallJoint{Vec3::Zero()}});
+  BOOST_CHECK_EXCEPTION(make_truth("events", jointed, 1), InputError, test::says("joint:ball"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,67 @@
+#include "core/dynamics/model/block_system.h"
+
+#include <boost/test/unit_test.hpp>
+#include <vector>
+
+using namespace rigor;
+
+namespace {
+
+struct Block {
+  std::size_t row, column;
+  Mat6 values;
+};
+
+Eigen::VectorXd times(const std::vector<Block>& blocks, const Eigen::VectorXd& x) {
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(x.size());
+  for (const Block& b : blocks) {
+    product.segment<6>(6 * static_cast<Eigen::Index>(b.row)) +=
+        b.values * x.segment<6>(6 * static_cast<Eigen::Index>(b.column));
+  }
+  return product;
+}
+
+// A chain of bodies, each joined to the one `reach` further on.
+std::vector<Block> chain(std::size_t bodies, std::size_t reach, double coupling) {
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < bodies; ++i) {
+    blocks.push_back({i, i, (3.0 + static_cast<double>(i)) * Mat6::Identity()});
+    if (i + reach < bodies) {
+      blocks.push_back({i, i + reach, Mat6::Constant(coupling)});
+      blocks.push_back({i + reach, i, Mat6::Constant(-2 * coupling)});
+    }
+  }
+  return blocks;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(core_dynamics_model_block_system)
+
+BOOST_AUTO_TEST_CASE(one_system_is_solved_again_and_again_with_other_numbers_and_other_blocks) {
+  for (const std::size_t bodies : {2, 10, 11, 30}) {  // dense up to ten, sparse beyond
+    BlockSystem system(bodies);
+    for (const auto& [reach, coupling] : {std::pair(1, 0.1), std::pair(1, 0.3), std::pair(5, 0.2), std::pair(1, 0.1)}) {
+      const std::vector<Block> blocks = chain(bodies, reach, coupling);
+      const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(6 * static_cast<Eigen::Index>(bodies), -1, 2);
+      Eigen::VectorXd solution;
+      system.clear();
+      for (const Block& b : blocks) system.add(b.row, b.column, b.values);
+      BOOST_TEST(system.solve(right, solution));
+      BOOST_TEST((times(blocks, solution) - right).norm() < 1e-12);  // some hundred roundings of numbers up to 30
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_singular_system_is_said_to_be_so) {
+  for (const std::size_t bodies : {2, 30}) {
+    BlockSystem system(bodies);
+    system.clear();
+    for (std::size_t i = 1; i < bodies; ++i) system.add(i, i, Mat6::Identity());
+    system.add(0, 0, Mat6::Zero());
+    Eigen::VectorXd solution;
+    BOOST_TEST(!system.solve(Eigen::VectorXd::Ones(6 * static_cast<Eigen::Index>(bodies)), solution));
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
