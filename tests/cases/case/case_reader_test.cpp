@@ -101,7 +101,7 @@ const std::vector<Refusal> kBadJudgements = {
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(cases_case_reader, Folder)
+BOOST_FIXTURE_TEST_SUITE(cases_case_case_reader, Folder)
 
 BOOST_AUTO_TEST_CASE(each_case_that_cannot_be_is_refused) {
   const auto check = [&](const Refusal& row, const std::string& before) {

@@ -40,7 +40,7 @@ const std::string kAll = "contact/deep/three contact/two springs/one springs/one
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(cases_suite, TwoFolders)
+BOOST_FIXTURE_TEST_SUITE(cases_case_suite, TwoFolders)
 
 BOOST_AUTO_TEST_CASE(the_ids_are_the_sorted_paths_of_the_case_files) {
   std::string ids;

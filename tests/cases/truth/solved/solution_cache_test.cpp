@@ -52,7 +52,7 @@ const std::string kContent = reference_content(kScene, 1);
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(cases_truth_solution_cache, CacheFolder)
+BOOST_FIXTURE_TEST_SUITE(cases_truth_solved_solution_cache, CacheFolder)
 
 BOOST_AUTO_TEST_CASE(a_solution_comes_back_bit_by_bit) {
   const ReferenceSolution solution = solve_reference(kScene, 1);

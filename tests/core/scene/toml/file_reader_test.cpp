@@ -18,7 +18,7 @@ void check(const std::string& path, const std::string& complaint) {
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(core_scene_file_reader, Folder)
+BOOST_FIXTURE_TEST_SUITE(core_scene_toml_file_reader, Folder)
 
 BOOST_AUTO_TEST_CASE(a_file_is_read_byte_by_byte) {
   const std::string text("a\r\n\0\xff", 5);
