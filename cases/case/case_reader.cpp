@@ -4,9 +4,6 @@
 
 #include <algorithm>
 
-#include "adapters/engines.h"
-#include "cases/metrics/metric.h"
-#include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 #include "core/engine/run_name.h"
@@ -15,13 +12,6 @@
 
 namespace rigor {
 namespace {
-
-template <typename Rows>
-Keys names_of(const Rows& rows) {
-  Keys names;
-  for (const auto& row : rows) names.push_back(row.name);
-  return names;
-}
 
 // A number of seconds, or a fraction of one in quotes.
 StepSize read_seconds(const TomlValue& value) {
@@ -42,38 +32,37 @@ void read_run(const TableReader& table, Case& out) {
   }
 }
 
-void read_truth(const TableReader& table, Case& out) {
-  Keys known = names_of(truths());
+void read_truth(const TableReader& table, const Vocabulary& words, Case& out) {
+  Keys known = words.truths;
   known.push_back("none");
   const TomlValue kind = table.at("kind");
   out.truth = kind.choice(known);
   out.truth_where = kind.where();
 }
 
-RunName read_run_name(const TomlValue& value) {
-  static const std::vector<EngineInfo> infos = infos_of(engines());
+RunName read_run_name(const TomlValue& value, const Vocabulary& words) {
   try {
-    return parse_run_name(value.text(), infos);
+    return parse_run_name(value.text(), words.engines);
   } catch (const InputError& error) {
     value.refuse(error.what());
   }
 }
 
-std::vector<std::string> read_engines(const TomlValue& value) {
+std::vector<std::string> read_engines(const TomlValue& value, const Vocabulary& words) {
   std::vector<std::string> names;
-  for (const TomlValue& item : value.items()) names.push_back(read_run_name(item).text);
+  for (const TomlValue& item : value.items()) names.push_back(read_run_name(item, words).text);
   return names;
 }
 
-bool is_cross_metric(const std::string& name) {
-  return std::any_of(cross_metrics().begin(), cross_metrics().end(), [&](const auto& row) { return row.name == name; });
+bool is_cross_metric(const std::string& name, const Vocabulary& words) {
+  return std::find(words.cross_metrics.begin(), words.cross_metrics.end(), name) != words.cross_metrics.end();
 }
 
 // A ranking: the metric of every run the gate names must be better than this one's.
-void read_better_than(const TomlValue& value, Gate& gate) {
-  if (is_cross_metric(gate.metric))
+void read_better_than(const TomlValue& value, const Vocabulary& words, Gate& gate) {
+  if (is_cross_metric(gate.metric, words))
     value.refuse(fmt::format("{} does not rank runs; give max, min or equals", gate.metric));
-  gate.better_than = read_run_name(value).text;
+  gate.better_than = read_run_name(value, words).text;
   if (gate.engines.empty()) value.refuse("a ranking names the runs that are better; give engines");
   if (std::find(gate.engines.begin(), gate.engines.end(), gate.better_than) != gate.engines.end())
     value.refuse(fmt::format("found {}, which is among engines; no run is better than itself", gate.better_than));
@@ -101,18 +90,18 @@ std::optional<double> number_if_given(const TableReader& table, const char* key)
   return value ? std::optional(value->number()) : std::nullopt;
 }
 
-void read_bounds(const TableReader& table, const Case& of, Gate& gate) {
+void read_bounds(const TableReader& table, const Case& of, const Vocabulary& words, Gate& gate) {
   gate.max = number_if_given(table, "max");
   gate.min = number_if_given(table, "min");
   gate.equals = number_if_given(table, "equals");
   if (const auto order = table.find("at_least_order")) {
     gate.at_least_order = order->positive();
-    if (is_cross_metric(gate.metric))
+    if (is_cross_metric(gate.metric, words))
       order->refuse(fmt::format("{} has no order; give max, min or equals", gate.metric));
     if ((gate.dt.empty() ? of.dt : gate.dt).size() < 2)
       order->refuse("an order is observed over two step sizes or more");
   }
-  if (const auto other = table.find("better_than")) read_better_than(*other, gate);
+  if (const auto other = table.find("better_than")) read_better_than(*other, words, gate);
   const int bounds =
       (gate.max || gate.min) + gate.equals.has_value() + gate.at_least_order.has_value() + !gate.better_than.empty();
   if (bounds != 1) {
@@ -126,22 +115,22 @@ void read_bounds(const TableReader& table, const Case& of, Gate& gate) {
   }
 }
 
-Gate read_gate(const TableReader& table, const Case& of) {
+Gate read_gate(const TableReader& table, const Case& of, const Vocabulary& words) {
   Gate gate;
   gate.where = table.self().where();
-  Keys known = names_of(metrics());
-  for (const CrossMetricRow& row : cross_metrics()) known.push_back(row.name);
+  Keys known = words.metrics;
+  known.insert(known.end(), words.cross_metrics.begin(), words.cross_metrics.end());
   gate.metric = table.at("metric").choice(known);
-  if (const auto value = table.find("engines")) gate.engines = read_engines(*value);
+  if (const auto value = table.find("engines")) gate.engines = read_engines(*value, words);
   if (const auto value = table.find("dt")) gate.dt = read_gate_dt(*value, of.dt);
-  read_bounds(table, of, gate);
+  read_bounds(table, of, words, gate);
   gate.because = table.at("because").text();
   return gate;
 }
 
 }  // namespace
 
-Case read_case(const std::string& path, const std::string& id) {
+Case read_case(const std::string& path, const std::string& id, const Vocabulary& words) {
   const TomlFile file = TomlFile::read(path);
   const TableReader root = file.root({"title", "source", "scene", "run", "truth", "gate"});
   Case out;
@@ -151,11 +140,11 @@ Case read_case(const std::string& path, const std::string& id) {
   if (const auto source = root.find("source")) out.source = source->text();
   out.scene = read_scene(root.at("scene"));
   read_run(root.at("run").table({"duration", "dt"}), out);
-  if (const auto truth = root.find("truth")) read_truth(truth->table({"kind"}), out);
+  if (const auto truth = root.find("truth")) read_truth(truth->table({"kind"}), words, out);
   if (const auto gates = root.find("gate")) {
     for (const TableReader& gate : gates->tables(
              {"metric", "engines", "dt", "max", "min", "at_least_order", "equals", "better_than", "because"})) {
-      out.gates.push_back(read_gate(gate, out));
+      out.gates.push_back(read_gate(gate, out, words));
     }
   }
   return out;

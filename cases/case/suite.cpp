@@ -154,7 +154,8 @@ std::vector<Found> find_cases(const std::string& word, const Suite& suite) {
 
 std::vector<std::string> suite_ids(const std::string& suite_dir) { return Suite(suite_dir).ids(); }
 
-std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir) {
+std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir,
+                               const Vocabulary& vocabulary) {
   const Suite suite(suite_dir);
   std::vector<Found> selected;
   for (const std::string& id : suite.ids()) {
@@ -170,7 +171,7 @@ std::vector<Case> select_cases(const std::vector<std::string>& words, const std:
   for (const Found& found : selected) {
     std::error_code error;
     if (!seen.insert(fs::weakly_canonical(found.path, error).string()).second) continue;
-    cases.push_back(read_case(found.path, found.id));
+    cases.push_back(read_case(found.path, found.id, vocabulary));
     shorten_places(cases.back(), found.path, suite_dir);
   }
   return cases;

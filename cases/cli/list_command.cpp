@@ -7,6 +7,7 @@
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/vocabulary.h"
 #include "cases/metrics/metric.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
@@ -19,7 +20,8 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 
 Rows case_rows(const CommandLine& line) {
   Rows rows;
-  for (const Case& definition : select_cases({}, line.suite_dir)) rows.emplace_back(definition.id, definition.title);
+  for (const Case& definition : select_cases({}, line.suite_dir, vocabulary_of(infos_of(engines()))))
+    rows.emplace_back(definition.id, definition.title);
   return rows;
 }
 

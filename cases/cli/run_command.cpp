@@ -10,6 +10,7 @@
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress.h"
+#include "cases/cli/vocabulary.h"
 #include "cases/gates/deviations.h"
 #include "cases/gates/gates.h"
 #include "cases/gates/quick.h"
@@ -40,7 +41,7 @@ std::vector<RunName> runs_asked_for(const CommandLine& line) {
 bool is_gate(const CommandLine& line) { return line.command == "gate"; }
 
 Results planned(const CommandLine& line, const std::vector<KnownDeviation>& deviations) {
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir);
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(infos_of(engines())));
   if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, infos_of(engines()));
   for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
   if (line.quick) cases = quick_selection(cases, infos_of(engines()));

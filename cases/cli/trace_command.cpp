@@ -7,6 +7,7 @@
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/vocabulary.h"
 #include "cases/report/csv/trajectory_csv.h"
 #include "cases/runner/grid.h"
 #include "cases/runner/process_pool.h"
@@ -83,7 +84,7 @@ std::vector<double> times_of_run(const Case& definition) {
 
 Case the_case(const CommandLine& line) {
   if (line.words.empty()) throw InputError(fmt::format("rigor {}: which case? see rigor list cases", line.command));
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir);
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(infos_of(engines())));
   if (cases.size() == 1) return cases.front();
   throw InputError(
       fmt::format("rigor {}: takes one case, and {} names {} of them", line.command, line.words.front(), cases.size()));

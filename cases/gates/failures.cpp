@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "cases/report/console/console_table.h"
-
 namespace rigor {
 namespace {
 
@@ -72,24 +70,6 @@ std::vector<Shortfall> shortfalls(const Results& results) {
     }
   }
   return rows;
-}
-
-std::string shortfalls_text(const std::vector<Shortfall>& rows) {
-  if (rows.empty()) return "";
-  std::string text = fmt::format("what fell short: {}\n", rows.size());
-  for (const Shortfall& row : rows) {
-    std::string line = row.case_id;
-    if (!row.engine.empty()) line += fmt::format(", {}", row.engine);
-    if (!row.dt.empty()) line += fmt::format(", dt = {} s", row.dt);
-    line += fmt::format(": {}", row.what);
-    if (!row.found.empty()) line += fmt::format(" {}", row.found);
-    if (!row.limit.empty()) line += fmt::format("; wanted: {}", row.limit);
-    if (!row.worst.empty()) line += fmt::format("; worst {}", row.worst);
-    if (!row.because.empty()) line += fmt::format("; because: {}", row.because);
-    if (!row.where.empty()) line += fmt::format(" [{}]", row.where);
-    text += "  " + wrapped(line, 4) + "\n";
-  }
-  return text;
 }
 
 }  // namespace rigor

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/analysis/observed_order.h"
 #include "cases/case/selection.h"
+#include "cases/results/observed_order.h"
 
 namespace rigor {
 namespace {

@@ -1,12 +1,12 @@
-// The verdict on a run's stability, and the largest step at which it is not lost.
+// The verdict on a run's stability.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "cases/metrics/metric.h"
-#include "cases/runner/simulate.h"
 #include "cases/truth/truth.h"
+#include "core/engine/simulation.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
@@ -36,16 +36,8 @@ double largest_kinetic_energy(const Scene& scene, const Truth* truth, double dur
 // J, the largest |E - E0| of the truth over [0, duration]; 0 without a truth.
 double largest_energy_change(const Scene& scene, const Truth* truth, double duration);
 
-// The largest step at which `engine` does not blow up over `horizon` seconds, to 1 % by bisection in log dt. The limit
-// is ragged: steps above the first bad one may hold again by luck. So it is the largest below which none tried is bad,
-// steps being tried 3 % apart, or 20 % among bodies that touch and have no springs, over at least a factor of two below
-// it.
-struct StableStep {
-  double dt = 0;          // s
-  bool is_cap = false;    // still stable at the largest step tried: dt is that one
-  bool is_floor = false;  // blows up at the smallest step tried: dt is that one
-};
-StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
-                             double energy_in_play);
+// Whether the energy's change from its start [J] is what a run that has not blown up may show. Friction and impacts may
+// take any amount, as on a long slope: there only a rise is bounded. False, too, where the energy is not a number.
+bool is_bounded(double change, double energy_in_play, bool may_lose);
 
 }  // namespace rigor

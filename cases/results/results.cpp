@@ -37,4 +37,9 @@ MetricValue condensed(const MetricResult& result, const Trajectory& trajectory) 
 
 std::string word_of(GateAnswer answer) { return kAnswerWords[static_cast<int>(answer)]; }
 
+StepSize coarsest_dt(const CaseResult& result) {
+  return *std::max_element(result.definition.dt.begin(), result.definition.dt.end(),
+                           [](const StepSize& a, const StepSize& b) { return a.seconds < b.seconds; });
+}
+
 }  // namespace rigor

@@ -69,6 +69,12 @@ struct Cell {
   std::vector<std::string> playback;  // its thinned motion and series, see cases/report/html/playback.h; may be empty
 };
 
+struct StableStep {
+  double dt = 0;          // s
+  bool is_cap = false;    // still stable at the largest step tried: dt is that one
+  bool is_floor = false;  // blows up at the smallest step tried: dt is that one
+};
+
 // The largest stable dt of a case and engine.
 struct StableStepResult {
   Status status = Status::crashed;  // pass: `step` holds
@@ -96,6 +102,9 @@ struct CaseResult {
   std::vector<Spread> spreads;                 // pairs of which one did not run are missing
   std::vector<GateResult> gates;
 };
+
+// The coarsest step of a case's run: the headline.
+StepSize coarsest_dt(const CaseResult& result);
 
 struct Results {
   std::vector<RunName> runs;

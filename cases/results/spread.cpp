@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "cases/runner/simulate.h"
+#include "core/engine/simulation.h"
 
 namespace rigor {
 namespace {

@@ -15,6 +15,7 @@
 #include "cases/results/result_json.h"
 #include "cases/runner/journal.h"
 #include "cases/runner/simulate.h"
+#include "cases/runner/stable_step.h"
 #include "cases/runner/twin_run.h"
 #include "core/base/error.h"
 

@@ -50,11 +50,6 @@ long steps_per_sample(long steps, BodyColumns bodies) {
 
 }  // namespace
 
-long steps_in(double duration, double dt) {
-  constexpr double kRounding = 1e-9, kMost = 9e18;
-  return static_cast<long>(std::min(std::floor(duration / dt + kRounding), kMost));
-}
-
 Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
                     std::optional<long> steps_per_sample_told, bool is_timed) {
   const std::unique_ptr<World> world = engine.load(scene, settings);

@@ -15,6 +15,7 @@
 #include "cases/gates/quick.h"
 #include "cases/runner/grid.h"
 #include "core/base/error.h"
+#include "tests/cases/vocabulary.h"
 
 using namespace rigor;
 using rigor::test::BrokenEngine;
@@ -81,7 +82,7 @@ std::vector<std::pair<std::string, GateResult>> failures(const std::vector<Case>
 }
 
 Case case_called(const std::string& id, const std::string& engine) {
-  return of_engine(select_cases({id}, default_suite_dir()).front(), engine);
+  return of_engine(select_cases({id}, default_suite_dir(), test::words()).front(), engine);
 }
 
 // Empty if no gate finds the fault; else the message of the first that points at it. The quick gates are asked first.

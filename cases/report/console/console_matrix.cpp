@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "cases/analysis/findings.h"
-#include "cases/analysis/verdict_matrix.h"
-#include "cases/report/console/console_table.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/verdict_matrix.h"
+#include "cases/report/wording/wording.h"
 
 namespace rigor {
 namespace {

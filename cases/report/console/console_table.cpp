@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/analysis/comparison.h"
-#include "cases/analysis/explained_error.h"
-#include "cases/analysis/explanation.h"
-#include "cases/analysis/findings.h"
 #include "cases/report/console/console_matrix.h"
+#include "cases/report/wording/comparison.h"
+#include "cases/report/wording/explained_error.h"
+#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/wording.h"
 
 namespace rigor {
 namespace {
 
-constexpr std::size_t kWidth = 100;
 const std::string kNoValue = "-";
 
 std::string metric_text(const Cell& cell, const std::string& name, double MetricValue::*part) {
@@ -44,6 +44,27 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
     return fmt::format("blown up at {:.2f} s: {}", cell.stability.time, scene.body_name(cell.stability.body));
   }
   return cell.status == Status::pass ? word_of(cell.stability.verdict) : word_of(cell.status);
+}
+
+// The first column of a table; a long name gets a line of its own.
+std::string engine_column(const std::string& name) {
+  constexpr std::size_t kColumn = 24;
+  if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
+  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a line of its own
+}
+
+std::string explained_text(const std::vector<ExplainedRow>& rows) {
+  if (rows.empty()) return "";
+  std::vector<ExplainedRow> lines = {
+      {"error explained", "all [m]", "scheme", "rest", "[rad]", "scheme", "rest", "until [s]"}};
+  lines.insert(lines.end(), rows.begin(), rows.end());
+  std::string text;
+  for (const ExplainedRow& row : lines) {
+    text += fmt::format("{} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {:>9}\n", engine_column(row.engine), row.total,
+                        row.by_scheme, row.unexplained, row.rotation, row.rotation_by_scheme, row.rotation_unexplained,
+                        row.until);
+  }
+  return text;
 }
 
 std::string table_line(const RowText& row) {
@@ -117,44 +138,6 @@ std::string count_line(const Results& results) {
 
 }  // namespace
 
-std::string wrapped(const std::string& text, std::size_t indent) {
-  const std::size_t width = kWidth - indent;
-  std::string out, rest = text;
-  while (rest.size() > width) {
-    std::size_t at = rest.rfind(' ', width);
-    if (at == std::string::npos || at == 0) at = rest.find(' ', width);
-    if (at == std::string::npos) break;
-    out += rest.substr(0, at) + "\n" + std::string(indent, ' ');
-    rest.erase(0, at + 1);
-  }
-  return out + rest;
-}
-
-std::string shortened(std::string text, std::size_t width) {
-  if (text.size() <= width) return text;
-  text.resize(width - 2);
-  while (!text.empty() && (text.back() & 0xc0) == 0x80) text.pop_back();
-  if (!text.empty() && (text.back() & 0x80)) text.pop_back();
-  return text + "..";
-}
-
-std::string rounded(double value) {
-  if (!std::isfinite(value)) return "not finite";
-  if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e4)) return fmt::format("{:.1e}", value);
-  return fmt::format("{:.3g}", value);
-}
-
-std::string engine_column(const std::string& name) {
-  constexpr std::size_t kColumn = 24;
-  if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
-  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a line of its own
-}
-
-StepSize coarsest_dt(const CaseResult& result) {
-  return *std::max_element(result.definition.dt.begin(), result.definition.dt.end(),
-                           [](const StepSize& a, const StepSize& b) { return a.seconds < b.seconds; });
-}
-
 std::string truth_sentence(const CaseResult& result) {
   const Case& definition = result.definition;
   if (!result.error.empty()) return result.error;
@@ -221,6 +204,24 @@ std::string console_table(const Results& results) {
     for (const Finding& found : findings(results)) text += wrapped(found.topic + ": " + found.text, 2) + "\n";
   }
   return text + count_line(results);
+}
+
+std::string shortfalls_text(const std::vector<Shortfall>& rows) {
+  if (rows.empty()) return "";
+  std::string text = fmt::format("what fell short: {}\n", rows.size());
+  for (const Shortfall& row : rows) {
+    std::string line = row.case_id;
+    if (!row.engine.empty()) line += fmt::format(", {}", row.engine);
+    if (!row.dt.empty()) line += fmt::format(", dt = {} s", row.dt);
+    line += fmt::format(": {}", row.what);
+    if (!row.found.empty()) line += fmt::format(" {}", row.found);
+    if (!row.limit.empty()) line += fmt::format("; wanted: {}", row.limit);
+    if (!row.worst.empty()) line += fmt::format("; worst {}", row.worst);
+    if (!row.because.empty()) line += fmt::format("; because: {}", row.because);
+    if (!row.where.empty()) line += fmt::format(" [{}]", row.where);
+    text += "  " + wrapped(line, 4) + "\n";
+  }
+  return text;
 }
 
 }  // namespace rigor

@@ -4,13 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cases/analysis/explanation.h"
-#include "cases/analysis/findings.h"
-#include "cases/analysis/verdict_matrix.h"
 #include "cases/report/json/comparison_json.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/json/scene_json.h"
 #include "cases/report/reports.h"
+#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/verdict_matrix.h"
 #include "cases/results/result_json.h"
 
 namespace rigor {

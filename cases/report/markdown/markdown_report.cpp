@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
-#include "cases/analysis/comparison.h"
-#include "cases/analysis/explained_error.h"
-#include "cases/analysis/explanation.h"
-#include "cases/analysis/findings.h"
-#include "cases/analysis/verdict_matrix.h"
 #include "cases/report/console/console_table.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/markdown/markdown_text.h"
 #include "cases/report/reports.h"
+#include "cases/report/wording/comparison.h"
+#include "cases/report/wording/explained_error.h"
+#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/verdict_matrix.h"
 
 namespace rigor {
 namespace {

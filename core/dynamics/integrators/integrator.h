@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/contact/velocity_correction.h"
 #include "core/dynamics/integrators/orientation_updates.h"
+#include "core/dynamics/integrators/velocity_correction.h"
 #include "core/dynamics/model/system.h"
 #include "core/engine/engine.h"
 

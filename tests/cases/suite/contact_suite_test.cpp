@@ -8,6 +8,7 @@
 #include "core/engine/run_name.h"
 #include "core/scene/contact_laws.h"
 #include "tests/cases/suite/suite_checks.h"
+#include "tests/cases/vocabulary.h"
 
 using namespace rigor;
 
@@ -19,7 +20,7 @@ std::vector<Case> contact_cases() {
 
 // Steps, of the first `seconds` of a case, of which the engine says that they failed.
 int solver_warnings_of(const std::string& run_name, const std::string& id, double dt, double seconds) {
-  const Case c = select_cases({id}, default_suite_dir()).at(0);
+  const Case c = select_cases({id}, default_suite_dir(), test::words()).at(0);
   const RunName run = parse_run_name(run_name, infos_of(engines()));
   const auto world = find_engine(engines(), run.engine).load(c.scene, run.settings);
   int solver_warnings = 0;

@@ -6,11 +6,12 @@
 
 #include "cases/case/suite.h"
 #include "cases/truth/truth.h"
+#include "tests/cases/vocabulary.h"
 
 namespace rigor::test {
 
 inline std::vector<Case> suite_cases(const std::function<bool(const Case&)>& is_one) {
-  std::vector<Case> cases = select_cases({}, default_suite_dir());
+  std::vector<Case> cases = select_cases({}, default_suite_dir(), test::words());
   std::erase_if(cases, [&](const Case& c) { return !is_one(c); });
   return cases;
 }

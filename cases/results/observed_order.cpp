@@ -1,4 +1,4 @@
-#include "cases/analysis/observed_order.h"
+#include "cases/results/observed_order.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/dynamics/integrators/free_rotation.h"
+#include "core/dynamics/model/free_rotation.h"
 
 namespace rigor {
 

@@ -1,4 +1,4 @@
-#include "cases/analysis/observed_order.h"
+#include "cases/results/observed_order.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -24,7 +24,7 @@ double order_of(const Results& results, std::size_t run = 0) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(cases_analysis_observed_order)
+BOOST_AUTO_TEST_SUITE(cases_results_observed_order)
 
 BOOST_AUTO_TEST_CASE(the_order_is_the_power_of_dt_at_any_number_of_steps) {
   for (const double p : {1.0, 2.0, 4.0}) {

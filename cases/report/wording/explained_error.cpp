@@ -1,8 +1,8 @@
-#include "cases/analysis/explained_error.h"
+#include "cases/report/wording/explained_error.h"
 
 #include <fmt/format.h>
 
-#include "cases/report/console/console_table.h"
+#include "cases/report/wording/wording.h"
 
 namespace rigor {
 namespace {
@@ -33,20 +33,6 @@ std::vector<ExplainedRow> explained_rows(const Results& results, const CaseResul
     rows.push_back(row_of(results.runs[cell.run].text, cell));
   }
   return rows;
-}
-
-std::string explained_text(const std::vector<ExplainedRow>& rows) {
-  if (rows.empty()) return "";
-  std::vector<ExplainedRow> lines = {
-      {"error explained", "all [m]", "scheme", "rest", "[rad]", "scheme", "rest", "until [s]"}};
-  lines.insert(lines.end(), rows.begin(), rows.end());
-  std::string text;
-  for (const ExplainedRow& row : lines) {
-    text += fmt::format("{} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {:>9}\n", engine_column(row.engine), row.total,
-                        row.by_scheme, row.unexplained, row.rotation, row.rotation_by_scheme, row.rotation_unexplained,
-                        row.until);
-  }
-  return text;
 }
 
 }  // namespace rigor

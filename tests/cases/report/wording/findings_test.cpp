@@ -1,8 +1,8 @@
-#include "cases/analysis/findings.h"
+#include "cases/report/wording/findings.h"
 
 #include <boost/test/unit_test.hpp>
 
-#include "cases/analysis/verdict_matrix.h"
+#include "cases/report/wording/verdict_matrix.h"
 #include "tests/cases/priced_results.h"
 #include "tests/cases/report/sample_results.h"
 
@@ -35,7 +35,7 @@ Results drifting_results(double by_scheme, double without_gyroscopic_term) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(cases_analysis_findings)
+BOOST_AUTO_TEST_SUITE(cases_report_wording_findings)
 
 BOOST_AUTO_TEST_CASE(who_blows_up_is_named_with_its_cases) {
   const auto sentences = findings(sample_results());

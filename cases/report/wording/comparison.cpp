@@ -1,4 +1,4 @@
-#include "cases/analysis/comparison.h"
+#include "cases/report/wording/comparison.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "cases/analysis/work_precision.h"
-#include "cases/report/console/console_table.h"
 
 namespace rigor {
 namespace {

@@ -1,5 +1,5 @@
 // What is said of contacts that come out wrong, and that nothing is said of those that do not.
-#include "cases/analysis/contact_explanation.h"
+#include "cases/report/wording/contact_explanation.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -28,7 +28,7 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(cases_analysis_contact_explanation)
+BOOST_AUTO_TEST_SUITE(cases_report_wording_contact_explanation)
 
 BOOST_AUTO_TEST_CASE(restitution_that_gets_worse_with_dt_does_not_converge) {
   const Instant bounce{0.5, 0, "restitution", 0.5, 1};

@@ -1,10 +1,10 @@
-#include "cases/analysis/impacts_finding.h"
+#include "cases/report/wording/impacts_finding.h"
 
 #include <fmt/format.h>
 
 #include <map>
 
-#include "cases/analysis/contact_explanation.h"
+#include "cases/report/wording/contact_explanation.h"
 
 namespace rigor {
 namespace {

@@ -20,6 +20,4 @@ struct ExplainedRow {
 // Of the cells at this step size; none where no run has a twin.
 std::vector<ExplainedRow> explained_rows(const Results& results, const CaseResult& result, const StepSize& dt);
 
-std::string explained_text(const std::vector<ExplainedRow>& rows);  // for the console; "" without rows
-
 }  // namespace rigor

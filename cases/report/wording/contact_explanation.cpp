@@ -1,4 +1,4 @@
-#include "cases/analysis/contact_explanation.h"
+#include "cases/report/wording/contact_explanation.h"
 
 #include <fmt/format.h>
 

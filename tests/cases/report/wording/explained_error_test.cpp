@@ -1,11 +1,11 @@
 #include <boost/test/unit_test.hpp>
 
-#include "cases/analysis/explained_error.h"
+#include "cases/report/wording/explained_error.h"
 #include "tests/cases/report/sample_results.h"
 
 using namespace rigor;
 
-BOOST_AUTO_TEST_SUITE(cases_analysis_explained_error)
+BOOST_AUTO_TEST_SUITE(cases_report_wording_explained_error)
 
 BOOST_AUTO_TEST_CASE(a_row_reads_total_by_the_scheme_and_unexplained) {
   const Results results = sample_results();
@@ -22,9 +22,7 @@ BOOST_AUTO_TEST_CASE(a_row_reads_total_by_the_scheme_and_unexplained) {
 BOOST_AUTO_TEST_CASE(without_a_twin_there_is_no_table) {
   Results results = sample_results();
   for (Cell& cell : results.cases[0].cells) cell.scheme = {};
-  const auto rows = explained_rows(results, results.cases[0], results.cases[0].definition.dt[0]);
-  BOOST_TEST(rows.empty());
-  BOOST_TEST(explained_text(rows) == "");
+  BOOST_TEST(explained_rows(results, results.cases[0], results.cases[0].definition.dt[0]).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,12 +1,12 @@
-#include "cases/analysis/verdict_matrix.h"
+#include "cases/report/wording/verdict_matrix.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "cases/analysis/findings.h"
-#include "cases/report/console/console_table.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/wording.h"
 
 namespace rigor {
 namespace {

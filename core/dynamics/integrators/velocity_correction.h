@@ -1,5 +1,5 @@
 // A velocity-level correction of contacts that an integrator calls once a step, at the place in its step that it names.
-// The methods of contact are in contact/; contact_methods.cpp there is the table.
+// The methods of contact are in dynamics/contact/; contact_methods.cpp there is the table.
 #pragma once
 
 #include <memory>

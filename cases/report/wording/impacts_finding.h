@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "cases/analysis/findings.h"
+#include "cases/report/wording/findings.h"
 
 namespace rigor {
 

@@ -1,4 +1,4 @@
-// Lists of names and what is said of them, for sentences.
+// Numbers, lists of names and what is said of them, for tables and sentences.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,16 @@
 #include <vector>
 
 namespace rigor {
+
+// Two or three significant digits: 0.0312, 1.3e-05, 490.
+std::string rounded(double value);
+
+// At most `width` bytes, cut between characters.
+std::string shortened(std::string text, std::size_t width);
+
+// Broken at spaces to a table's width; each line stands behind `indent` columns, the first behind whatever of that
+// width the caller has written already.
+std::string wrapped(const std::string& text, std::size_t indent);
 
 // Names in a sentence, the first few of them.
 std::string listed_names(const std::vector<std::string>& names, std::size_t most);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cases/analysis/comparison.h"
+#include "cases/report/wording/comparison.h"
 #include "cases/results/results.h"
 
 namespace rigor {

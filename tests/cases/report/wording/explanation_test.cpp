@@ -1,4 +1,4 @@
-#include "cases/analysis/explanation.h"
+#include "cases/report/wording/explanation.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -22,7 +22,7 @@ constexpr double kRounding = 1e-9;  // of a power method that has settled
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(cases_analysis_explanation)
+BOOST_AUTO_TEST_SUITE(cases_report_wording_explanation)
 
 BOOST_AUTO_TEST_CASE(a_mass_on_a_spring_swings_at_root_k_over_m) {
   Scene scene;

@@ -1,4 +1,4 @@
-#include "cases/analysis/explanation.h"
+#include "cases/report/wording/explanation.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "cases/analysis/contact_explanation.h"
+#include "cases/report/wording/contact_explanation.h"
 
 namespace rigor {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/velocity_correction.h"
+#include "core/dynamics/integrators/velocity_correction.h"
 
 namespace rigor {
 namespace {

@@ -1,4 +1,4 @@
-#include "cases/analysis/findings.h"
+#include "cases/report/wording/findings.h"
 
 #include <fmt/format.h>
 
@@ -8,14 +8,13 @@
 #include <numeric>
 #include <optional>
 
-#include "cases/analysis/explanation.h"
-#include "cases/analysis/impacts_finding.h"
 #include "cases/analysis/step_needed.h"
-#include "cases/analysis/verdict_matrix.h"
 #include "cases/analysis/work_precision.h"
 #include "cases/metrics/measures/energy_series.h"
-#include "cases/report/console/console_table.h"
-#include "cases/report/wording.h"
+#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/impacts_finding.h"
+#include "cases/report/wording/verdict_matrix.h"
+#include "cases/report/wording/wording.h"
 
 namespace rigor {
 namespace {

@@ -1,4 +1,4 @@
-#include "cases/analysis/comparison.h"
+#include "cases/report/wording/comparison.h"
 
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
@@ -26,7 +26,7 @@ Results compared() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(cases_analysis_comparison)
+BOOST_AUTO_TEST_SUITE(cases_report_wording_comparison)
 
 BOOST_AUTO_TEST_CASE(the_tables_show_order_error_cost_gain_and_spread) {
   const Results results = compared();
