@@ -100,9 +100,7 @@ std::string arrows_back(const std::vector<Include>& includes, const Chain& chain
   return wrong_ones(includes, [&](const Include& one) {
     const auto from = room_of(one.file, chain), to = room_of(one.what, chain);
     const bool is_ours = to && (!chain.folder.empty() || fs::exists(kTop / one.what));
-    const bool is_known =
-        one.file == "cases/runner/case_process.cpp" && *to == "report";  // until it records by an interface
-    return from && is_ours && !is_known && !is_allowed(*from, *to, chain);
+    return from && is_ours && !is_allowed(*from, *to, chain);
   });
 }
 

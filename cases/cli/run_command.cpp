@@ -61,7 +61,8 @@ Results simulated_and_written(const CommandLine& line) {
   try {
     Progress progress;
     run_grid(grid, engines(),
-             {line.jobs, line.limit, folder.trajectories(), !is_gate(line), !is_gate(line), folder.journals()},
+             {line.jobs, line.limit, recorders_for(grid, folder.trajectories()), !is_gate(line), !is_gate(line),
+              folder.journals()},
              [&](std::size_t done, std::size_t all) { progress.show(done, all); });
   } catch (const Interrupted&) {
     folder.keep();

@@ -165,12 +165,12 @@ std::string text_of(const Json& value, int indent) {
 std::string message_of_truth(const TruthFacts& facts) {
   return text_of({{"truth",
                    {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy, facts.largest_energy_change,
-                    facts.playback}}},
+                    facts.recordings}}},
                  -1);
 }
 
 std::string message_of_cell(std::size_t index, const Cell& cell, const Scene& scene) {
-  return text_of({{"cell", index}, {"result", json_of(cell, scene)}, {"playback", cell.playback}}, -1);
+  return text_of({{"cell", index}, {"result", json_of(cell, scene)}, {"recordings", cell.recordings}}, -1);
 }
 
 std::string message_of_stable_step(std::size_t run, const StableStepResult& result) {
@@ -197,7 +197,7 @@ bool apply_message(CaseResult& result, const std::string& message) {
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
     result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2)), number(facts.at(3)),
-                    facts.at(4).get<std::vector<std::string>>()};
+                    facts.at(4).get<Recordings>()};
     return false;
   }
   if (json.contains("spreads")) {
@@ -207,7 +207,7 @@ bool apply_message(CaseResult& result, const std::string& message) {
   if (json.contains("cell")) {
     Cell& cell = result.cells.at(json.at("cell").get<std::size_t>());
     fill_in(cell, json.at("result"), result.definition.scene);
-    cell.playback = json.at("playback").get<std::vector<std::string>>();
+    cell.recordings = json.at("recordings").get<Recordings>();
   } else {
     fill_in(result.stable_steps.at(json.at("stable_step").get<std::size_t>()), json.at("result"));
   }

@@ -53,6 +53,10 @@ struct GateResult {
   std::optional<Instant> worst = {};  // where the metric has one
 };
 
+// What a recorder kept (runner/recorder.h): texts that only the report it belongs to reads.
+using Recording = std::vector<std::string>;
+using Recordings = std::map<std::string, Recording>;  // by the recorder's name
+
 // case × engine × dt.
 struct Cell {
   std::size_t run = 0;  // index in Results::runs
@@ -64,9 +68,9 @@ struct Cell {
   SchemeFindings scheme;
   SettingsInForce settings;
   double cpu_seconds = 0;
-  double wall_seconds = 0;            // of the whole cell: simulated, judged and written
-  std::string trajectory;             // file name in trajectories/; empty if there is none
-  std::vector<std::string> playback;  // its thinned motion and series, see cases/report/html/playback.h; may be empty
+  double wall_seconds = 0;  // of the whole cell: simulated, judged and written
+  std::string trajectory;   // file name in trajectories/; empty if there is none
+  Recordings recordings;
 };
 
 struct StableStep {
@@ -84,11 +88,11 @@ struct StableStepResult {
 
 // The truth of a case, in numbers.
 struct TruthFacts {
-  double error_at_end = 0;                 // of the truth itself: m and rad
-  double horizon = 0;                      // s, to which that error stays below kHorizonTolerance
-  double largest_kinetic_energy = 0;       // J
-  double largest_energy_change = 0;        // J, from its start
-  std::vector<std::string> playback = {};  // its thinned motion, as a cell's
+  double error_at_end = 0;            // of the truth itself: m and rad
+  double horizon = 0;                 // s, to which that error stays below kHorizonTolerance
+  double largest_kinetic_energy = 0;  // J
+  double largest_energy_change = 0;   // J, from its start
+  Recordings recordings = {};
 };
 inline constexpr double kHorizonTolerance = 1e-6;  // m and rad
 

@@ -10,8 +10,6 @@
 #include <map>
 #include <set>
 
-#include "cases/report/csv/trajectory_csv.h"
-#include "cases/report/html/playback.h"
 #include "cases/results/result_json.h"
 #include "cases/runner/journal.h"
 #include "cases/runner/simulate.h"
@@ -106,13 +104,7 @@ class CaseJobs {
  public:
   CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
            const Truth* truth, const TruthFacts& facts)
-      : grid_(grid),
-        planned_(planned),
-        engines_(engines),
-        options_(options),
-        truth_(truth),
-        facts_(facts),
-        limit_(grid) {
+      : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), facts_(facts) {
     const Case& definition = planned.definition;
     if (searches_steps(planned, options) && truth) {
       const double horizon = stability_horizon(definition);
@@ -198,18 +190,14 @@ class CaseJobs {
     cell_of_job_[jobs_.size()] = index;
     const Cell& cell = planned_.cells[index];
     jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const std::size_t limit = options_.folder.empty() ? 0 : limit_.of(planned_, &cell.dt);
-                       const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
-                                                          facts_, options_, limit);
+                       const JudgedCell judged =
+                           run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_);
                        channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
                        channel.send(packed(judged.path));
                      },
                      options_.limit});
     on_failure_.push_back([this, index, &cell](const JobEnd& end) {
-      if (!options_.folder.empty()) {
-        std::error_code no_matter;
-        std::filesystem::remove(std::filesystem::path(options_.folder) / cell.trajectory, no_matter);
-      }
+      for (const auto& recorder : options_.recorders) recorder->discard(cell);
       return message_of_cell(index, cell_that_ended(cell, end, options_.limit), planned_.definition.scene);
     });
   }
@@ -220,7 +208,6 @@ class CaseJobs {
   const GridOptions& options_;
   const Truth* truth_;
   TruthFacts facts_;
-  PlaybackLimit limit_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<Job> jobs_;
   std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
@@ -248,6 +235,7 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const GridOp
   std::string plan =
       fmt::format("{} {}\n{}\n{}\n{:.17g} {} {} {}\n", program.string(), written, definition.id, definition.text,
                   definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
+  for (const auto& recorder : options.recorders) plan += recorder->name() + "\n";
   for (const RunName& run : grid.runs) plan += run.text + "\n";
   for (const Cell& cell : planned.cells)
     plan += fmt::format("{} {:.17g} {} {}\n", cell.run, cell.dt.seconds, word_of(cell.status), cell.trajectory);
@@ -258,8 +246,7 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const GridOp
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
-                    std::size_t limit_of_playback) {
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
@@ -284,13 +271,11 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   std::vector<NamedSeries> series;
   cell.metrics = measured(judged, definition, options, series);
-  if (limit_of_playback > 0) {
-    cell.playback = packed_run(judged, series, facts.largest_kinetic_energy, limit_of_playback);
-  }
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
-  if (!options.folder.empty()) {
-    write_trajectory((std::filesystem::path(options.folder) / cell.trajectory).string(), scene, run.trajectory);
+  for (const auto& recorder : options.recorders) {
+    Recording kept = recorder->of_run(definition, cell, judged, series, facts);
+    if (!kept.empty()) cell.recordings[recorder->name()] = std::move(kept);
   }
   cell.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
@@ -309,9 +294,9 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const double seconds = searches_steps(planned, options) ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
-  if (truth && !options.folder.empty()) {
-    facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy,
-                                  PlaybackLimit(grid).of(planned, nullptr));
+  for (const auto& recorder : options.recorders) {
+    Recording kept = truth ? recorder->of_truth(definition, *truth, facts) : Recording();
+    if (!kept.empty()) facts.recordings[recorder->name()] = std::move(kept);
   }
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts);
   const std::string message = message_of_truth(facts);

@@ -67,7 +67,7 @@ std::vector<std::pair<std::string, GateResult>> failures(const std::vector<Case>
   const auto named = runs_of(engine, runs_of_gates(cases, default_runs(infos), infos));
   if (fault.step) std::erase_if(runs, remembers);
   Results grid = plan_grid(cases, runs, table, {false, true}, named);
-  run_grid(grid, table, {2, 60, "", false, false}, [](std::size_t, std::size_t) {});
+  run_grid(grid, table, {2, 60, {}, false, false}, [](std::size_t, std::size_t) {});
   const auto known = read_known_deviations(default_adapters_dir(), infos);
   std::vector<std::pair<std::string, GateResult>> found;
   for (CaseResult& result : grid.cases) {

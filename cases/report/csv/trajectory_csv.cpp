@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -44,6 +45,17 @@ void write_trajectory(const std::string& path, const Scene& scene, const Traject
   file << rows;
   file.close();
   if (!file) throw std::runtime_error(fmt::format("the trajectory could not be written to '{}'", path));
+}
+
+Recording TrajectoryRecorder::of_run(const Case& definition, const Cell& cell, const JudgedRun& run,
+                                     const std::vector<NamedSeries>&, const TruthFacts&) const {
+  write_trajectory(folder_ + "/" + cell.trajectory, definition.scene, run.trajectory);
+  return {};
+}
+
+void TrajectoryRecorder::discard(const Cell& cell) const {
+  std::error_code no_matter;
+  std::filesystem::remove(std::filesystem::path(folder_) / cell.trajectory, no_matter);
 }
 
 }  // namespace rigor

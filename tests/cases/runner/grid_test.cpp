@@ -1,4 +1,5 @@
 #include "cases/runner/grid.h"
+#include "cases/report/csv/trajectory_csv.h"
 
 #include <unistd.h>
 
@@ -59,7 +60,7 @@ BOOST_AUTO_TEST_SUITE(cases_runner_grid)
 
 BOOST_AUTO_TEST_CASE(a_broken_engine_costs_its_own_cells_and_says_how) {
   const EngineTable table = faulty_engines();
-  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {2, 0.5, "", false});
+  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {2, 0.5, {}, false});
   const std::map<std::string, std::pair<Status, std::string>> expected = {
       {"aborts", {Status::crashed, "SIGABRT"}},
       {"complains", {Status::invalid, "Newton's iteration did not converge"}},
@@ -102,8 +103,8 @@ BOOST_AUTO_TEST_CASE(results_do_not_depend_on_how_many_run_at_once) {
   };
   EngineTable table = faulty_engines();
   std::erase_if(table, [](const auto& engine) { return engine->info().name == "hangs"; });
-  const std::string one = no_time(run({drifting_body("a")}, table, {1, 60, "", false}));
-  BOOST_TEST(one == no_time(run({drifting_body("a")}, table, {5, 60, "", false})));
+  const std::string one = no_time(run({drifting_body("a")}, table, {1, 60, {}, false}));
+  BOOST_TEST(one == no_time(run({drifting_body("a")}, table, {5, 60, {}, false})));
 }
 
 BOOST_AUTO_TEST_CASE(each_pair_that_ran_has_its_spread_at_each_step) {
@@ -112,7 +113,7 @@ BOOST_AUTO_TEST_CASE(each_pair_that_ran_has_its_spread_at_each_step) {
   add("breaks", [](double&) { std::abort(); });
   add("creeps", [](double& x) { x += 0.25e-3; });
   add("stays", sit_still);
-  const Results grid = run({drifting_body("a")}, table, {2, 60, "", false});
+  const Results grid = run({drifting_body("a")}, table, {2, 60, {}, false});
   const auto& spreads = grid.cases.front().spreads;
   BOOST_TEST_REQUIRE(spreads.size() == 2u);  // one pair, two step sizes
   for (const Spread& spread : spreads) {
@@ -136,7 +137,7 @@ BOOST_AUTO_TEST_CASE(a_truth_that_does_not_fit_costs_one_case) {
   Results grid = plan_grid({wrong, drifting_body("right")}, runs_of(table), table, {false});
   for (Cell& cell : grid.cases.front().cells)
     cell.status = Status::crashed, cell.reason = Cell().reason;  // springs and all
-  run_grid(grid, table, {2, 60, "", false}, [](std::size_t, std::size_t) {});
+  run_grid(grid, table, {2, 60, {}, false}, [](std::size_t, std::size_t) {});
   BOOST_TEST(grid.cases[0].error_is_input);
   BOOST_TEST(grid.cases[0].error.starts_with("wrong.toml:9:1: "), grid.cases[0].error);
   for (const Cell& cell : grid.cases[0].cells) BOOST_TEST((cell.status == Status::invalid));
@@ -192,7 +193,8 @@ BOOST_AUTO_TEST_CASE(only_cells_with_a_result_leave_a_trajectory) {
   const fs::path folder = fs::temp_directory_path() / ("rigor_grid_test_" + std::to_string(getpid()));
   fs::create_directories(folder);
   const EngineTable table = faulty_engines();
-  const Results grid = run({drifting_body("a")}, table, {2, 0.5, folder.string(), false});
+  const Results grid =
+      run({drifting_body("a")}, table, {2, 0.5, {std::make_shared<TrajectoryRecorder>(folder.string())}, false});
   std::set<std::string> written, named;
   for (const auto& entry : fs::directory_iterator(folder)) written.insert(entry.path().filename().string());
   for (const Cell& cell : grid.cases.front().cells) {
