@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "adapters/option_values.h"
@@ -18,9 +19,9 @@ constexpr const char* kDefault = "dormand-prince";  // right whatever the step
 
 class CoreWorld : public World {
  public:
-  CoreWorld(const Scene& scene, const Settings& settings)
+  CoreWorld(const Scene& scene, const Integrator& integrator, const Settings& settings)
       : system_(scene),
-        integrator_(integrator(settings.method)),
+        integrator_(integrator),
         tolerance_(number_option(settings, "tolerance", kDefaultTolerance)),
         contact_method_(settings.options.contains("contact") ? contact_method(settings.options.at("contact"))
                                                              : contact_method_for(scene)) {
@@ -63,7 +64,7 @@ class CoreWorld : public World {
 
  private:
   System system_;
-  const Integrator& integrator_;
+  const Integrator integrator_;
   double tolerance_;  // of an adaptive method
   const ContactMethod& contact_method_;
   const OrientationUpdate* orientation_ = nullptr;
@@ -123,13 +124,18 @@ MethodInfo method_info(const Integrator& integrator) {
 
 }  // namespace
 
+CoreEngine::CoreEngine(std::vector<Integrator> twins) : integrators_(integrators()) {
+  integrators_.insert(integrators_.end(), twins.begin(), twins.end());
+}
+
 EngineInfo CoreEngine::info() const {
   EngineInfo info{.name = "core", .version = kVersion, .precision = "double"};
+  info.is_in_house = true;
   info.features = {"spring", "timed-force", "fixed-body"};
   for (const ContactMethod& method : contact_methods()) {
     info.features.insert(method.features.begin(), method.features.end());
   }
-  for (const Integrator& row : integrators()) info.methods.push_back(method_info(row));
+  for (const Integrator& row : integrators_) info.methods.push_back(method_info(row));
   // The first is what a run named "core" gets. Twins last.
   std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.twin_of.empty(); });
   std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.name == kDefault; });
@@ -138,7 +144,10 @@ EngineInfo CoreEngine::info() const {
 
 std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& settings) const {
   refuse_unsupported(info(), settings, scene);
-  return std::make_unique<CoreWorld>(scene, settings);
+  const auto row = std::find_if(integrators_.begin(), integrators_.end(),
+                                [&](const Integrator& own) { return own.name == settings.method; });
+  assert(row != integrators_.end() && "methods are checked when the run is named");
+  return std::make_unique<CoreWorld>(scene, *row, settings);
 }
 
 }  // namespace rigor

@@ -8,7 +8,7 @@
 
 namespace rigor {
 
-int compare_command(const CommandLine& line) {
+int compare_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 2) {
     throw InputError(
         fmt::format("rigor compare: takes two files, OLD and NEW, and found {}; each is a results.json or a "
@@ -21,7 +21,7 @@ int compare_command(const CommandLine& line) {
   return changes.is_worse() ? kGateFailed : kGood;
 }
 
-int baseline_command(const CommandLine& line) {
+int baseline_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 1) throw InputError("rigor baseline: takes one file, a results.json");
   print(baseline_text(read_outcomes(line.words[0])));
   return kGood;

@@ -17,7 +17,7 @@ int answer(int argc, const char* const* argv) {
   const rigor::CommandLine line = rigor::parse_command_line(argc, argv);
   if (!line.printed.empty()) return rigor::print(line.printed), rigor::kGood;
   for (const rigor::CommandRow& row : rigor::commands()) {
-    if (row.name == line.command) return row.run(line);
+    if (row.name == line.command) return row.run(line, rigor::built_in_engines());
   }
   throw std::logic_error("a command that is not in the table");
 }

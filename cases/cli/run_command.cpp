@@ -25,8 +25,7 @@
 namespace rigor {
 namespace {
 
-std::vector<RunName> runs_asked_for(const CommandLine& line) {
-  const auto infos = infos_of(engines());
+std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<EngineInfo>& infos) {
   if (line.engines.empty()) return default_runs(infos);
   std::vector<RunName> runs;
   for (const std::string& name : line.engines) {
@@ -40,27 +39,27 @@ std::vector<RunName> runs_asked_for(const CommandLine& line) {
 // A gate wants what its gates judge, and no more than that unless engines or steps are named.
 bool is_gate(const CommandLine& line) { return line.command == "gate"; }
 
-Results planned(const CommandLine& line, const std::vector<KnownDeviation>& deviations) {
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(infos_of(engines())));
-  if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, infos_of(engines()));
+Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
+  if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
   for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
-  if (line.quick) cases = quick_selection(cases, infos_of(engines()));
-  const std::vector<RunName> runs = runs_asked_for(line);
+  if (line.quick) cases = quick_selection(cases, engines.infos());
+  const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
   // Who names engines wants these and no others.
-  const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, infos_of(engines())) : std::vector<RunName>();
+  const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, engines.infos()) : std::vector<RunName>();
   const Scope scope{!is_gate(line), is_gate(line) && line.engines.empty() && line.dt.empty()};
-  return plan_grid(cases, runs, engines(), scope, of_gates);
+  return plan_grid(cases, runs, engines, scope, of_gates);
 }
 
-Results simulated_and_written(const CommandLine& line) {
-  const auto deviations = read_known_deviations(line.adapters_dir, infos_of(engines()));
-  Results grid = planned(line, deviations);
+Results simulated_and_written(const CommandLine& line, const EngineTable& engines) {
+  const auto deviations = read_known_deviations(line.adapters_dir, engines.infos());
+  Results grid = planned(line, engines, deviations);
   std::vector<std::string> file_names;
   for (const ReportRow& report : reports()) file_names.push_back(report.file_name);
   OutputFolder folder(line.out, file_names, line.resume);
   try {
     Progress progress;
-    run_grid(grid, engines(),
+    run_grid(grid, engines,
              {line.jobs, line.limit, recorders_for(grid, folder.trajectories()), !is_gate(line), !is_gate(line),
               folder.journals()},
              [&](std::size_t done, std::size_t all) { progress.show(done, all); });
@@ -112,15 +111,15 @@ void tell_the_runner(const Results& grid, const std::vector<Shortfall>& rows) {
 
 }  // namespace
 
-int run_command(const CommandLine& line) {
-  const Results grid = simulated_and_written(line);
+int run_command(const CommandLine& line, const EngineTable& engines) {
+  const Results grid = simulated_and_written(line, engines);
   const int ending = ending_of(grid);
   print(console_table(grid));
   return ending;
 }
 
-int gate_command(const CommandLine& line) {
-  const Results grid = simulated_and_written(line);
+int gate_command(const CommandLine& line, const EngineTable& engines) {
+  const Results grid = simulated_and_written(line, engines);
   const int ending = ending_of(grid);
   const std::vector<Shortfall> rows = shortfalls(grid);
   print(console_table(grid) + gate_summary(grid) + shortfalls_text(rows));

@@ -82,23 +82,23 @@ std::vector<double> times_of_run(const Case& definition) {
 
 }  // namespace
 
-Case the_case(const CommandLine& line) {
+Case the_case(const CommandLine& line, const EngineTable& engines) {
   if (line.words.empty()) throw InputError(fmt::format("rigor {}: which case? see rigor list cases", line.command));
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(infos_of(engines())));
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
   if (cases.size() == 1) return cases.front();
   throw InputError(
       fmt::format("rigor {}: takes one case, and {} names {} of them", line.command, line.words.front(), cases.size()));
 }
 
-int trace_command(const CommandLine& line) {
-  Case definition = the_case(line);
+int trace_command(const CommandLine& line, const EngineTable& engines) {
+  Case definition = the_case(line, engines);
   if (line.engines.size() != 1) throw InputError("rigor trace: takes exactly one --engine; see rigor list engines");
   if (line.dt.size() != 1) throw InputError("rigor trace: takes exactly one --dt");
   override_run(definition, {line.dt, line.duration});
-  const RunName run = parse_run_name(line.engines.front(), infos_of(engines()));
-  const Engine& engine = find_engine(engines(), run.engine);
+  const RunName run = parse_run_name(line.engines.front(), engines.infos());
+  const Engine& engine = engines.find(run.engine);
   const double dt = line.dt.front().seconds;
-  const std::string why = why_unsupported(engine.info(), run.settings, definition.scene, dt);
+  const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt);
   if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
   return print_from_child(run.text, line.limit, [&](const Channel& channel) {
     send_trajectory(simulate(engine, run.settings, definition.scene, dt, definition.duration), definition.scene,
@@ -106,8 +106,8 @@ int trace_command(const CommandLine& line) {
   });
 }
 
-int truth_command(const CommandLine& line) {
-  Case definition = the_case(line);
+int truth_command(const CommandLine& line, const EngineTable& engines) {
+  Case definition = the_case(line, engines);
   if (definition.truth == "none")
     throw InputError(fmt::format("{}: the case states no truth (truth.kind is \"none\")", definition.id));
   if (line.duration) definition.duration = *line.duration;

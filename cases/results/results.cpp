@@ -42,4 +42,10 @@ StepSize coarsest_dt(const CaseResult& result) {
                            [](const StepSize& a, const StepSize& b) { return a.seconds < b.seconds; });
 }
 
+bool is_in_house(const Results& results, std::size_t run) {
+  return std::any_of(results.engines.begin(), results.engines.end(), [&](const EngineInfo& engine) {
+    return engine.name == results.runs[run].engine && engine.is_in_house;
+  });
+}
+
 }  // namespace rigor

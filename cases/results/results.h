@@ -117,4 +117,6 @@ struct Results {
   double wall_seconds = 0;
 };
 
+bool is_in_house(const Results& results, std::size_t run);  // see EngineInfo
+
 }  // namespace rigor

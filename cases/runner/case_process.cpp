@@ -251,7 +251,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   Cell cell = planned;
   const Scene& scene = definition.scene;
   const Engine& engine = find_engine(engines, run_name.engine);
-  const double leapfrog_stagger = method_of(engine.info(), run_name.settings).leapfrog_stagger;
+  const double leapfrog_stagger = method_of(engines.info_of(run_name.engine), run_name.settings).leapfrog_stagger;
   const bool is_timed = options.is_thorough || has_gate_on(definition, {"cost"});
   const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed);
   cell.settings = run.settings;

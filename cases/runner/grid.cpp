@@ -82,7 +82,7 @@ CaseResult plan_case(const Case& definition, const Results& grid, std::size_t as
       result.stable_steps.push_back({Status::unsupported, "not asked for", {}});
       continue;
     }
-    const EngineInfo info = find_engine(engines, grid.runs[run].engine).info();
+    const EngineInfo& info = engines.info_of(grid.runs[run].engine);
     double shortest = definition.duration;
     for (const StepSize& dt : definition.dt) {
       if (only_judged && !is_judged(definition, grid.runs[run], dt, grid.engines)) continue;
@@ -154,7 +154,7 @@ void override_run(Case& definition, const Overrides& overrides) {
 std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines) {
   std::vector<RunName> runs;
   for (const EngineInfo& engine : engines) {
-    if (engine.name == "core") {
+    if (engine.is_in_house) {
       for (const MethodInfo& method : engine.methods) {
         if (method.twin_of.empty()) runs.push_back(parse_run_name(engine.name + ":" + method.name, engines));
       }

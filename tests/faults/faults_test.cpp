@@ -29,7 +29,7 @@ EngineTable broken_table(const std::string& name, const Fault& fault) {
   // Each is wrapped, so that the table owns no engine of the shipped one; all but one by a fault that is none.
   EngineTable table;
   for (const auto& engine : engines())
-    table.push_back(std::make_unique<BrokenEngine>(*engine, engine->info().name == name ? fault : Fault{}));
+    table.add(std::make_unique<BrokenEngine>(*engine, engine->info().name == name ? fault : Fault{}));
   return table;
 }
 

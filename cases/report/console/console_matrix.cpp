@@ -124,7 +124,7 @@ std::vector<std::size_t> runs_to_show(const Results& results) {
     if (2 * cases_of[run] >= results.cases.size()) runs.push_back(run);
   }
   if (runs.empty()) runs.resize(results.runs.size()), std::iota(runs.begin(), runs.end(), std::size_t{0});
-  std::stable_partition(runs.begin(), runs.end(), [&](std::size_t run) { return results.runs[run].engine != "core"; });
+  std::stable_partition(runs.begin(), runs.end(), [&](std::size_t run) { return !is_in_house(results, run); });
   return runs;
 }
 

@@ -61,7 +61,7 @@ class Finder {
     found_.push_back({topic, text, more});
   }
 
-  bool is_ours(std::size_t run) const { return results_.runs[run].engine == "core"; }
+  bool is_ours(std::size_t run) const { return is_in_house(results_, run); }
   const std::string& name_of(std::size_t run) const { return results_.runs[run].text; }
 
   // Whether it is more than a run that a case or two ask for.

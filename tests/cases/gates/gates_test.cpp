@@ -18,7 +18,7 @@ struct Fixture {
 
   explicit Fixture(double order = 2) {
     EngineTable table;
-    for (const char* name : {"a", "b"}) table.push_back(std::make_unique<FaultyEngine>(name, [](double&) {}));
+    for (const char* name : {"a", "b"}) table.add(std::make_unique<FaultyEngine>(name, [](double&) {}));
     grid.engines = infos_of(table);
     for (const char* name : {"a", "b"}) grid.runs.push_back(parse_run_name(name, grid.engines));
     CaseResult result;

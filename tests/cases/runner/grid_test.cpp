@@ -27,14 +27,14 @@ void spin() {
   }
 }
 
-EngineTable faulty_engines() {
+EngineTable faulty_engines(bool with_one_that_hangs = true) {
   EngineTable table;
-  const auto add = [&](auto&&... parts) { table.push_back(std::make_unique<FaultyEngine>(parts...)); };
+  const auto add = [&](auto&&... parts) { table.add(std::make_unique<FaultyEngine>(parts...)); };
   add("aborts", [](double&) { std::fputs("solver: matrix is singular\n", stderr), std::abort(); });
   add("complains", sit_still, "Newton's iteration did not converge");
   add("exits", [](double&) { std::exit(0); });
   add("good", sit_still);
-  add("hangs", [](double&) { spin(); });
+  if (with_one_that_hangs) add("hangs", [](double&) { spin(); });
   add("loses-numbers", [](double& x) { x = std::numeric_limits<double>::quiet_NaN(); });
   add("refuses", [](double&) { throw InputError("this scene is too small for me"); });
   add("segfaults", [](double&) { std::raise(SIGSEGV); });
@@ -101,15 +101,14 @@ BOOST_AUTO_TEST_CASE(results_do_not_depend_on_how_many_run_at_once) {
     }
     return text;
   };
-  EngineTable table = faulty_engines();
-  std::erase_if(table, [](const auto& engine) { return engine->info().name == "hangs"; });
+  const EngineTable table = faulty_engines(false);
   const std::string one = no_time(run({drifting_body("a")}, table, {1, 60, {}, false}));
   BOOST_TEST(one == no_time(run({drifting_body("a")}, table, {5, 60, {}, false})));
 }
 
 BOOST_AUTO_TEST_CASE(each_pair_that_ran_has_its_spread_at_each_step) {
   EngineTable table;
-  const auto add = [&](auto&&... parts) { table.push_back(std::make_unique<FaultyEngine>(parts...)); };
+  const auto add = [&](auto&&... parts) { table.add(std::make_unique<FaultyEngine>(parts...)); };
   add("breaks", [](double&) { std::abort(); });
   add("creeps", [](double& x) { x += 0.25e-3; });
   add("stays", sit_still);
@@ -130,7 +129,7 @@ BOOST_AUTO_TEST_CASE(each_pair_that_ran_has_its_spread_at_each_step) {
 
 BOOST_AUTO_TEST_CASE(a_truth_that_does_not_fit_costs_one_case) {
   EngineTable table;
-  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
   Case wrong = drifting_body("wrong");
   wrong.truth = "projectile", wrong.truth_where = "wrong.toml:9:1";
   wrong.scene.springs.push_back({kWorld, 0, Vec3::Zero(), Vec3(1, 0, 0), 10, 0, 1});
@@ -170,7 +169,7 @@ BOOST_AUTO_TEST_CASE(an_empty_selection_is_an_error) {
 
 BOOST_AUTO_TEST_CASE(trajectories_have_names_of_their_own) {
   EngineTable table;
-  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
   const std::vector<Case> alike = {drifting_body("a/b"),
                                    drifting_body("a-b"),
                                    drifting_body("a:b"),

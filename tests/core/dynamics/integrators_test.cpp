@@ -1,4 +1,4 @@
-// Every method of the core is held to the facts that its own row states.
+// Every method of the core, and every twin of another engine's, is held to the facts that its own row states.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +6,8 @@
 #include <complex>
 #include <utility>
 
+#include "adapters/bullet/bullet_twin.h"
+#include "adapters/ode/ode_twin.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/model/energy.h"
 #include "tests/scenes.h"
@@ -21,7 +23,7 @@ struct Method {
 };
 
 std::vector<Method> every_method() {
-  std::vector<Method> methods;
+  std::vector<Method> methods = {{&kBulletTwin, nullptr}, {&kOdeTwin, nullptr}};
   for (const Integrator& row : integrators()) {
     if (row.default_orientation.empty()) {
       methods.push_back({&row, nullptr});

@@ -4,9 +4,10 @@
 //   (I - dt [L0]x) w* = I w0,   w1 = w* + dt I⁻¹ tau,   v1 = v0 + dt F/m,   x1 = x0 + dt v1
 // and then a turn by dt w1: exact ("finite"), or q <- (q + dt/2 (0, w1) q) / |...| ("infinitesimal"), as
 // dBodySetFiniteRotationMode says. Loads are constant over the step. Nothing is damped unless it is asked for.
+#include "adapters/ode/ode_twin.h"
+
 #include <Eigen/LU>
 
-#include "core/dynamics/integrators/integrator.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
@@ -55,7 +56,6 @@ class OdeTwin : public Stepper {
 
 }  // namespace
 
-extern const Integrator kOdeTwin;
 const Integrator kOdeTwin = {
     .name = "ode-twin",
     .summary = "repeats ODE's own smooth step, to explain its error",

@@ -14,12 +14,13 @@
 // Not repeated, for it is no part of the scheme: as shipped Bullet takes a body out of the simulation, its velocity
 // still standing, once the box around it and where it will be a step later is 1e6 m across
 // (btCollisionWorld::updateSingleAabb).
+#include "adapters/bullet/bullet_twin.h"
+
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "core/dynamics/integrators/integrator.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
@@ -142,7 +143,6 @@ class BulletTwin : public Stepper {
 
 }  // namespace
 
-extern const Integrator kBulletTwin;
 const Integrator kBulletTwin = {
     .name = "bullet-twin",
     .summary = "repeats Bullet's own smooth step, to explain its error",
