@@ -11,6 +11,7 @@
 #include <set>
 
 #include "cases/results/result_json.h"
+#include "cases/runner/executor.h"
 #include "cases/runner/journal.h"
 #include "cases/runner/simulate.h"
 #include "cases/runner/stable_step.h"
@@ -113,18 +114,22 @@ class CaseJobs {
     } else if (searches_steps(planned, options)) {
       stable_energy_ = largest_kinetic_energy(definition.scene, nullptr, stability_horizon(definition));
     }
-    for (std::size_t i = 0; i < planned.stable_steps.size(); ++i) {
-      if (planned.stable_steps[i].status != Status::unsupported) add_stable_step(i);
+    const std::size_t of_case = static_cast<std::size_t>(&planned - grid.cases.data());
+    for (std::size_t run = 0; run < planned.stable_steps.size(); ++run) {
+      if (planned.stable_steps[run].status != Status::unsupported)
+        jobs_.push_back({JobSpec::Kind::stable_step, of_case, options.limit, run, grid.runs[run].text});
     }
     for (std::size_t i = 0; i < planned.cells.size(); ++i) {
-      if (planned.cells[i].status != Status::unsupported) add_cell(i);
+      const Cell& cell = planned.cells[i];
+      if (cell.status != Status::unsupported)
+        jobs_.push_back({JobSpec::Kind::cell, of_case, options.limit, i, grid.runs[cell.run].text, cell.dt});
     }
   }
 
   // Those in the journal have run already.
   void run(const Channel& channel, Journal& journal) {
     std::vector<std::size_t> left;
-    std::vector<Job> jobs;
+    std::vector<JobSpec> jobs;
     for (std::size_t job = 0; job < jobs_.size(); ++job) {
       const auto kept = journal.found().find(job);
       if (kept == journal.found().end()) {
@@ -140,36 +145,50 @@ class CaseJobs {
       const bool is_path = !answers[job].empty();
       if (is_path) keep_path(job, message);
       if (!is_path) answers[job] = message, channel.send(message);
-      if (is_path || !cell_of_job_.contains(job)) journal.add(job, {answers[job], is_path ? message : ""});
+      if (is_path || !is_cell(jobs_[job])) journal.add(job, {answers[job], is_path ? message : ""});
     };
     const auto on_end = [&](std::size_t index, const JobEnd& end) {
-      if (answers[left[index]].empty()) channel.send(on_failure_[left[index]](end));
+      if (answers[left[index]].empty()) channel.send(message_of_failure(jobs_[left[index]], end));
     };
-    run_jobs(jobs, options_.jobs, on_message, on_end);
+    const auto work = [&](const JobSpec& job, const Channel& to) {
+      is_cell(job) ? do_cell(job, to) : do_stable_step(job, to);
+    };
+    ProcessExecutor(options_.jobs).run(jobs, work, on_message, on_end);
     channel.send(message_of_spreads(spreads()));
   }
 
  private:
   const RunName& run_of(std::size_t index) const { return grid_.runs[index]; }
 
-  void add_stable_step(std::size_t run) {
-    jobs_.push_back({[this, run](const Channel& channel) {
-                       const Case& definition = planned_.definition;
-                       StableStepResult found;
-                       found.step = largest_stable_dt(find_engine(engines_, run_of(run).engine), run_of(run).settings,
-                                                      definition.scene, stability_horizon(definition), stable_energy_);
-                       found.status = Status::pass, found.reason.clear();
-                       channel.send(message_of_stable_step(run, found));
-                     },
-                     options_.limit});
-    on_failure_.push_back([this, run](const JobEnd& end) {
-      const Cell failed = cell_that_ended({}, end, options_.limit);
-      return message_of_stable_step(run, {failed.status, failed.reason, {}});
-    });
+  static bool is_cell(const JobSpec& job) { return job.kind == JobSpec::Kind::cell; }
+
+  void do_stable_step(const JobSpec& job, const Channel& channel) const {
+    const Case& definition = planned_.definition;
+    const RunName& run = run_of(job.part);
+    StableStepResult found;
+    found.step = largest_stable_dt(find_engine(engines_, run.engine), run.settings, definition.scene,
+                                   stability_horizon(definition), stable_energy_);
+    found.status = Status::pass, found.reason.clear();
+    channel.send(message_of_stable_step(job.part, found));
+  }
+
+  void do_cell(const JobSpec& job, const Channel& channel) const {
+    const Cell& cell = planned_.cells[job.part];
+    const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_);
+    channel.send(message_of_cell(job.part, judged.cell, planned_.definition.scene));
+    channel.send(packed(judged.path));
+  }
+
+  std::string message_of_failure(const JobSpec& job, const JobEnd& end) const {
+    const Cell planned = is_cell(job) ? planned_.cells[job.part] : Cell();
+    const Cell failed = cell_that_ended(planned, end, job.limit);
+    if (!is_cell(job)) return message_of_stable_step(job.part, {failed.status, failed.reason, {}});
+    for (const auto& recorder : options_.recorders) recorder->discard(planned);
+    return message_of_cell(job.part, failed, planned_.definition.scene);
   }
 
   // A cell's second and last message; a stable step has only one.
-  void keep_path(std::size_t job, const std::string& message) { paths_[cell_of_job_.at(job)] = unpacked(message); }
+  void keep_path(std::size_t job, const std::string& message) { paths_[jobs_[job].part] = unpacked(message); }
 
   // Every pair of runs at the same dt that both left a path.
   std::vector<Spread> spreads() const {
@@ -186,22 +205,6 @@ class CaseJobs {
     return found;
   }
 
-  void add_cell(std::size_t index) {
-    cell_of_job_[jobs_.size()] = index;
-    const Cell& cell = planned_.cells[index];
-    jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const JudgedCell judged =
-                           run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_);
-                       channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
-                       channel.send(packed(judged.path));
-                     },
-                     options_.limit});
-    on_failure_.push_back([this, index, &cell](const JobEnd& end) {
-      for (const auto& recorder : options_.recorders) recorder->discard(cell);
-      return message_of_cell(index, cell_that_ended(cell, end, options_.limit), planned_.definition.scene);
-    });
-  }
-
   const Results& grid_;
   const CaseResult& planned_;
   const EngineTable& engines_;
@@ -209,9 +212,7 @@ class CaseJobs {
   const Truth* truth_;
   TruthFacts facts_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
-  std::vector<Job> jobs_;
-  std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
-  std::map<std::size_t, std::size_t> cell_of_job_;
+  std::vector<JobSpec> jobs_;
   std::map<std::size_t, Path> paths_;  // by index of the cell
 };
 

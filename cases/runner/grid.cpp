@@ -10,7 +10,6 @@
 #include "cases/case/selection.h"
 #include "cases/results/result_json.h"
 #include "cases/runner/case_process.h"
-#include "cases/runner/process_pool.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -209,20 +208,20 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   const int at_once = std::min<int>(options.jobs, static_cast<int>(order.size()));
   GridOptions of_case = options;
   of_case.jobs = options.jobs / std::max(1, at_once);
-  std::vector<Job> jobs;
-  for (const std::size_t index : order) {
-    jobs.push_back({[&grid, &engines, &of_case, index](const Channel& channel) {
-                      run_case(grid, grid.cases[index], engines, of_case, channel);
-                    },
-                    options.limit});
-  }
+  std::vector<JobSpec> jobs;
+  for (const std::size_t index : order) jobs.push_back({JobSpec::Kind::whole_case, index, options.limit});
+  const auto work = [&](const JobSpec& job, const Channel& channel) {
+    run_case(grid, grid.cases[job.of_case], engines, of_case, channel);
+  };
   const auto on_message = [&](std::size_t job, const std::string& message) {
     if (apply_message(grid.cases[order[job]], message)) on_progress(++done, all);
   };
   const auto on_end = [&](std::size_t job, const JobEnd& end) {
     note_case_end(grid.cases[order[job]], end, options.limit);
   };
-  run_jobs(jobs, at_once, on_message, on_end);
+  const ProcessExecutor processes(at_once);
+  const Executor& executor = options.executor ? *options.executor : processes;
+  executor.run(jobs, work, on_message, on_end);
   grid.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -8,6 +8,7 @@
 
 #include "adapters/engines.h"
 #include "cases/results/results.h"
+#include "cases/runner/executor.h"
 #include "cases/runner/recorder.h"
 
 namespace rigor {
@@ -25,12 +26,13 @@ void override_run(Case& definition, const Overrides& overrides);
 std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines);
 
 struct GridOptions {
-  int jobs = 1;               // children at once
-  double limit = 60;          // s of CPU time, for each cell, each stable step and each truth
-  Recorders recorders;        // of every run
-  bool stable_steps = true;   // find the largest stable dt as well
-  bool is_thorough = true;    // times each run and repeats it by its twin, also where no gate asks for it
-  std::string journals = {};  // folder of what cases have come to so far (journal.h); empty: it is not kept
+  int jobs = 1;                        // children at once
+  double limit = 60;                   // s of CPU time, for each cell, each stable step and each truth
+  Recorders recorders;                 // of every run
+  bool stable_steps = true;            // find the largest stable dt as well
+  bool is_thorough = true;             // times each run and repeats it by its twin, also where no gate asks for it
+  std::string journals = {};           // folder of what cases have come to so far (journal.h); empty: it is not kept
+  const Executor* executor = nullptr;  // of the cases; null: processes of this machine
 };
 
 // Which of all cells are in the grid.

@@ -231,4 +231,29 @@ BOOST_AUTO_TEST_CASE(the_default_runs_are_all_core_methods_and_each_other_engine
   for (const std::string& name : names) BOOST_TEST(name.find("twin") == std::string::npos, name);
 }
 
+BOOST_AUTO_TEST_CASE(any_executor_can_run_the_cases_and_is_told_each_as_data) {
+  class Recording : public ProcessExecutor {
+   public:
+    Recording() : ProcessExecutor(1) {}
+    void run(const std::vector<JobSpec>& jobs, const Work& work, const OnMessage& on_message,
+             const OnEnd& on_end) const override {
+      told = jobs;
+      ProcessExecutor::run(jobs, work, on_message, on_end);
+    }
+    mutable std::vector<JobSpec> told;
+  };
+  EngineTable table;
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
+  const Recording executor;
+  GridOptions options{1, 60, {}, false};
+  options.executor = &executor;
+  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, options);
+  BOOST_TEST_REQUIRE(executor.told.size() == 2u);
+  for (const JobSpec& job : executor.told) BOOST_TEST((job.kind == JobSpec::Kind::whole_case));
+  BOOST_TEST(executor.told[0].of_case + executor.told[1].of_case == 1u);  // each once
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) BOOST_TEST((cell.status == Status::pass));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
