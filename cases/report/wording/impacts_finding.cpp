@@ -9,48 +9,51 @@
 namespace rigor {
 namespace {
 
-// What is said of these runs for one reason.
+// What is said of runs for one cause.
 struct Seen {
   std::vector<std::string> names;
-  ContactFault worst;
-  std::string where;
+  Diagnosis worst;
 };
 
-template <typename F>
-std::map<std::string, Seen> seen(const Results& results, const std::vector<std::size_t>& runs, const F& fault_of) {
+// By cause; of these runs, in this order.
+std::map<std::string, Seen> seen(const std::vector<Diagnosis>& all, const char* topic, const Results& results,
+                                 const std::vector<std::size_t>& runs) {
   constexpr double kMostBelieved = 1;  // more than all of the speed is no matter of restitution
-  std::map<std::string, Seen> by_reason;
+  std::map<std::string, Seen> by_cause;
   for (const std::size_t run : runs) {
-    for (const CaseResult& result : results.cases) {
-      const std::optional<ContactFault> fault = fault_of(result, run);
-      if (!fault || fault->size > kMostBelieved) continue;
-      Seen& one = by_reason[fault->reason];
+    for (const Diagnosis& found : all) {
+      if (found.topic != topic || found.runs.front() != run || found.value > kMostBelieved) continue;
+      Seen& one = by_cause[found.cause];
       const std::string& name = results.runs[run].text;
       if (one.names.empty() || one.names.back() != name) one.names.push_back(name);
-      if (fault->size > one.worst.size) one.worst = *fault, one.where = result.definition.id;
+      if (found.value > one.worst.value) one.worst = found;
     }
   }
-  return by_reason;
+  return by_cause;
 }
 
 }  // namespace
 
 std::optional<Finding> impacts_finding(const Results& results, const std::vector<std::size_t>& runs) {
+  std::vector<Diagnosis> all;
+  for (const CaseResult& result : results.cases) {
+    for (Diagnosis& found : contact_diagnoses(result)) all.push_back(std::move(found));
+  }
   Finding finding{"impacts", "", ""};
-  const auto add = [&](const std::string& what, const std::map<std::string, Seen>& by_reason, const auto& worst_of) {
+  const auto add = [&](const std::string& what, const char* topic, const auto& worst_of) {
     std::string said;
-    for (const auto& [reason, one] : by_reason) {
-      said += fmt::format("{}{} ({}: {})", said.empty() ? "" : "; ", fmt::join(one.names, ", "), one.where,
+    for (const auto& [cause, one] : seen(all, topic, results, runs)) {
+      said += fmt::format("{}{} ({}: {})", said.empty() ? "" : "; ", fmt::join(one.names, ", "), one.worst.of_case,
                           worst_of(one.worst));
-      if (!reason.empty())
-        finding.more += fmt::format("{}{}: {}", finding.more.empty() ? "" : " ", fmt::join(one.names, ", "), reason);
+      if (!cause.empty())
+        finding.more += fmt::format("{}{}: {}", finding.more.empty() ? "" : " ", fmt::join(one.names, ", "), cause);
     }
     if (!said.empty()) finding.text += (finding.text.empty() ? "" : " ") + what + ": " + said + ".";
   };
-  add("Bounces that do not converge as dt falls", seen(results, runs, unconverged_restitution),
-      [](const ContactFault& worst) { return "restitution off by " + worst.series; });
-  add("Overlaps pushed out as speed, so that bodies pop apart", seen(results, runs, overlap_given_back),
-      [](const ContactFault& worst) { return fmt::format("{:.2g} of the speed they met with", worst.size); });
+  add("Bounces that do not converge as dt falls", kUnconverged,
+      [](const Diagnosis& worst) { return "restitution off by " + text_over_steps(worst) + " s"; });
+  add("Overlaps pushed out as speed, so that bodies pop apart", kOverlapGivenBack,
+      [](const Diagnosis& worst) { return fmt::format("{:.2g} of the speed they met with", worst.value); });
   if (finding.text.empty()) return std::nullopt;
   return finding;
 }
