@@ -27,7 +27,7 @@ class ThreadPool {
   void help(std::size_t member);
 
   std::atomic<std::uint32_t> begun_ = 0, ended_ = 0;        // tasks; helpers' shares of them
-  const std::function<void(std::size_t)>* task_ = nullptr;  // null: the thread_pool is dismissed
+  const std::function<void(std::size_t)>* task_ = nullptr;  // null: the members are to end
   std::vector<std::thread> helpers_;
 };
 

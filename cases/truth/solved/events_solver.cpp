@@ -17,7 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Way {
   const char* integrator;
-  const char* rest_speed;  // m/s
+  const char* restitution_threshold;  // m/s
 };
 constexpr Way kWays[] = {{"rkmk4", "2e-7"}, {"rk4", "1e-7"}};
 
@@ -39,7 +39,7 @@ class Stepping {
     if (!integrator_.default_orientation.empty()) orientation_ = &orientation_update(integrator_.default_orientation);
     Settings settings;
     settings.method = way.integrator;
-    settings.options["rest-speed"] = way.rest_speed;
+    settings.options["restitution-threshold"] = way.restitution_threshold;
     stepper_ = contact_method("event").make(scene, {system_, integrator_, orientation_, settings});
   }
 

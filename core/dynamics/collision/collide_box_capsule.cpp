@@ -1,7 +1,7 @@
 // A box and a capsule. The square of the distance from the box to a point that runs along the capsule's axis is convex
 // and piecewise quadratic, with pieces that end where the point passes a face's plane: its least value is found
-// exactly. An axis that itself lies inside the box is pushed out along the best of the box's normals and their products
-// with the axis. Where the capsule lies along a face, both ends of the common stretch carry it.
+// exactly. An axis that itself lies inside the box is pushed out along the axis of least overlap, of the box's normals
+// and their products with it. Where the capsule lies along a face, both ends of the part over the face carry it.
 #include <algorithm>
 #include <limits>
 
@@ -52,24 +52,24 @@ double nearest_on_segment(const Segment& segment, const Vec3& half) {
   return low;
 }
 
-struct Way {
+struct Axis {
   double separation = -std::numeric_limits<double>::infinity();
   Vec3 n = Vec3::Zero();  // from the box to the axis, in the box's frame
 };
 
-void try_way(const Vec3& direction, const Segment& segment, const Vec3& half, Way& best) {
+void try_axis(const Vec3& direction, const Segment& segment, const Vec3& half, Axis& best) {
   const Vec3 n = direction.dot(segment.c) < 0 ? Vec3(-direction) : direction;
   const double separation = n.dot(segment.c) - segment.half * std::abs(n.dot(segment.u)) - n.cwiseAbs().dot(half);
   if (separation > best.separation) best = {separation, n};
 }
 
 // For an axis that passes through the box.
-Way way_out(const Segment& segment, const Vec3& half) {
-  Way best;
-  for (int k = 0; k < 3; ++k) try_way(Vec3::Unit(k), segment, half, best);
+Axis axis_of_least_overlap(const Segment& segment, const Vec3& half) {
+  Axis best;
+  for (int k = 0; k < 3; ++k) try_axis(Vec3::Unit(k), segment, half, best);
   for (int k = 0; k < 3; ++k) {
     const Vec3 n = Vec3::Unit(k).cross(segment.u);
-    if (n.squaredNorm() > 1e-6) try_way(n.normalized(), segment, half, best);
+    if (n.squaredNorm() > 1e-6) try_axis(n.normalized(), segment, half, best);
   }
   return best;
 }
@@ -81,8 +81,8 @@ int face_of(const Vec3& n) {
   return n.cwiseAbs().maxCoeff(&axis) > kStraight ? axis : -1;
 }
 
-// The stretch of the segment that lies over the face across `axis`; empty if low >= high.
-std::pair<double, double> stretch_over(const Segment& segment, const Vec3& half, int axis) {
+// The part of the segment that lies over the face across `axis`; empty if low >= high.
+std::pair<double, double> part_over(const Segment& segment, const Vec3& half, int axis) {
   double low = -segment.half, high = segment.half;
   for (int k = 0; k < 3; ++k) {
     if (k == axis) continue;
@@ -106,19 +106,20 @@ void collide_box_capsule(const Box& box, const Pose& pose_a, const Capsule& caps
   const double s = nearest_on_segment(segment, half);
   const Vec3 p = segment.at(s), line = p - nearest_in_box(p, half);
   const double distance = line.norm();
-  const Way way = distance > 1e-12 * half.maxCoeff() ? Way{distance, line / distance} : way_out(segment, half);
+  const Axis best =
+      distance > 1e-12 * half.maxCoeff() ? Axis{distance, line / distance} : axis_of_least_overlap(segment, half);
 
   const auto add = [&](const Vec3& axis_point, double height, std::uint32_t feature) {
     const double gap = height - capsule.radius;
-    const Vec3 point = axis_point - (capsule.radius + 0.5 * gap) * way.n;
-    out.add(-(pose_a.R * way.n), pose_a.p + pose_a.R * point, gap, feature);
+    const Vec3 point = axis_point - (capsule.radius + 0.5 * gap) * best.n;
+    out.add(-(pose_a.R * best.n), pose_a.p + pose_a.R * point, gap, feature);
   };
-  const int axis = face_of(way.n);
+  const int axis = face_of(best.n);
   constexpr double kAlong = 0.1;  // the sine of the angle to the face: steeper, and the nearest point is alone
   if (axis >= 0 && std::abs(segment.u[axis]) < kAlong) {
-    const auto [low, high] = stretch_over(segment, half, axis);
+    const auto [low, high] = part_over(segment, half, axis);
     if (low < high) {
-      const double sign = way.n[axis] < 0 ? -1 : 1;
+      const double sign = best.n[axis] < 0 ? -1 : 1;
       for (const std::uint32_t end : {0u, 1u}) {
         const Vec3 at = segment.at(end ? high : low);
         add(at, sign * at[axis] - half[axis], end);
@@ -126,10 +127,10 @@ void collide_box_capsule(const Box& box, const Pose& pose_a, const Capsule& caps
       return;
     }
   }
-  // Inside, the end that is deepest along the way out stands for the axis.
+  // Inside, the end that is deepest along the normal stands for the axis.
   const Vec3 deepest =
-      distance > 1e-12 * half.maxCoeff() ? p : segment.at(segment.u.dot(way.n) > 0 ? -segment.half : segment.half);
-  add(deepest, way.separation, 2);
+      distance > 1e-12 * half.maxCoeff() ? p : segment.at(segment.u.dot(best.n) > 0 ? -segment.half : segment.half);
+  add(deepest, best.separation, 2);
 }
 
 }  // namespace rigor

@@ -7,14 +7,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Reach {
+struct BoundingRadius {
   double operator()(const Sphere& s) const { return s.radius; }
   double operator()(const Box& b) const { return 0.5 * b.size.norm(); }
   double operator()(const Capsule& c) const { return c.radius + 0.5 * c.length; }
   double operator()(const Plane&) const { return kInfinity; }
 };
 
-struct Thickness {
+struct Inradius {
   double operator()(const Sphere& s) const { return s.radius; }
   double operator()(const Box& b) const { return 0.5 * b.size.minCoeff(); }
   double operator()(const Capsule& c) const { return c.radius; }
@@ -46,7 +46,7 @@ std::vector<Collider> colliders_of(const Scene& scene) {
     const Body& body = scene.bodies[i];
     if (!body.collides) continue;
     colliders.push_back(
-        {i, *body.shape, std::visit(Reach{}, *body.shape), std::visit(Thickness{}, *body.shape), body.fixed});
+        {i, *body.shape, std::visit(BoundingRadius{}, *body.shape), std::visit(Inradius{}, *body.shape), body.fixed});
   }
   return colliders;
 }

@@ -16,8 +16,8 @@ struct Aabb {
 struct Collider {
   int body;
   Shape shape;
-  double reach;      // m, of the furthest point from the body's centre; infinite for a plane
-  double thickness;  // m, half the least width: a body that moves by less cannot pass through it; infinite for a plane
+  double bounding_radius;  // m, about the body's centre of mass; infinite for a plane
+  double inradius;         // m, half the least width: what moves by less cannot pass through; infinite for a plane
   bool fixed;
 };
 

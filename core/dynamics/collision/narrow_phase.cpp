@@ -76,9 +76,9 @@ struct Collide {
       add_balls(a.p + s * u, capsule.radius, b.p + t * v, other.radius, 2, out);
       return;
     }
-    const double centre = u.dot(b.p - a.p), reach = 0.5 * other.length * std::abs(u.dot(v));
-    const double low = std::max(-0.5 * capsule.length, centre - reach),
-                 high = std::min(0.5 * capsule.length, centre + reach);
+    const double centre = u.dot(b.p - a.p), half = 0.5 * other.length * std::abs(u.dot(v));
+    const double low = std::max(-0.5 * capsule.length, centre - half),
+                 high = std::min(0.5 * capsule.length, centre + half);
     const auto add = [&](double s, std::uint32_t feature) {
       const Vec3 point = a.p + s * u;
       add_balls(point, capsule.radius, b.p + nearest_on_axis(point, other, b) * v, other.radius, feature, out);
@@ -126,7 +126,7 @@ struct Collide {
   template <typename A, typename B>
   void operator()(const A& first, const B& second) const {
     Collide{b, a, out}(second, first);
-    for (ContactPoint& point : out) point.normal *= -1;
+    for (ManifoldPoint& point : out) point.normal *= -1;
   }
 };
 

@@ -16,7 +16,7 @@ struct Pose {
   Mat3 R = Mat3::Identity();  // B to W
 };
 
-struct ContactPoint {
+struct ManifoldPoint {
   Vec3 normal;            // unit, in W, from b to a
   Vec3 point;             // m, in W, midway between the two surfaces
   double gap;             // m, negative where they overlap
@@ -32,15 +32,15 @@ class Manifold {
   }
   void keep(int first) { count_ = first; }
   int size() const { return count_; }
-  ContactPoint& operator[](int i) { return points_[i]; }
-  const ContactPoint& operator[](int i) const { return points_[i]; }
-  ContactPoint* begin() { return points_.data(); }
-  ContactPoint* end() { return points_.data() + count_; }
-  const ContactPoint* begin() const { return points_.data(); }
-  const ContactPoint* end() const { return points_.data() + count_; }
+  ManifoldPoint& operator[](int i) { return points_[i]; }
+  const ManifoldPoint& operator[](int i) const { return points_[i]; }
+  ManifoldPoint* begin() { return points_.data(); }
+  ManifoldPoint* end() { return points_.data() + count_; }
+  const ManifoldPoint* begin() const { return points_.data(); }
+  const ManifoldPoint* end() const { return points_.data() + count_; }
 
  private:
-  std::array<ContactPoint, kMost> points_;
+  std::array<ManifoldPoint, kMost> points_;
   int count_ = 0;
 };
 

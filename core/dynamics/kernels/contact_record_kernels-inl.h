@@ -1,5 +1,5 @@
-// Records of bodies (pile.h), and between them and the state; kernels.h says what comes out. Included once by each
-// kernels_*.cpp, on purpose without a guard.
+// Records of bodies (contact_rows.h), and between them and the state; kernels.h says what comes out. Included once by
+// each kernels_*.cpp, on purpose without a guard.
 
 // Eight columns of as many bodies as T has lanes.
 template <class T>
@@ -47,61 +47,61 @@ RIGOR_INLINE Twist<T> twist_of(const Record<T>& r) {
   return {{r.c[0], r.c[1], r.c[2]}, {r.c[3], r.c[4], r.c[5]}};
 }
 template <class T>
-RIGOR_INLINE Record<T> record_of(const Twist<T>& m) {
-  return {{m.v.x, m.v.y, m.v.z, m.w.x, m.w.y, m.w.z, T{}, T{}}};
+RIGOR_INLINE Record<T> record_of(const Twist<T>& u) {
+  return {{u.v.x, u.v.y, u.v.z, u.w.x, u.w.y, u.w.z, T{}, T{}}};
 }
 
-void read_motions(const Bodies& b, const double* state, double* motions) {
+void gather_velocities(const Bodies& b, const double* state, double* velocities) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
-    put_records(motions, i,
+    put_records(velocities, i,
                 record_of(Twist<T>{get3(T(), state, b, kVelocity, i), get3(T(), state, b, kAngularVelocity, i)}));
   });
 }
 
-void write_motions(const Bodies& b, const double* motions, double* state) {
+void scatter_velocities(const Bodies& b, const double* velocities, double* state) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
-    const Twist<T> m = twist_of(get_records(T(), motions, i));
-    put3(state, b, kVelocity, i, m.v), put3(state, b, kAngularVelocity, i, m.w);
+    const Twist<T> u = twist_of(get_records(T(), velocities, i));
+    put3(state, b, kVelocity, i, u.v), put3(state, b, kAngularVelocity, i, u.w);
   });
 }
 
-void read_inertias(const Bodies& b, const double* state, double* inertias) {
+void gather_inverse_inertias(const Bodies& b, const double* state, double* inverse_inertias) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
     const T mass = get(T(), b.constants, b, kInverseMass, i);
     const Symmetric<T> I = symmetric(T(), b, kInverseInertia, i);
     if (b.round) {
-      put_records(inertias, i, Record<T>{{I.xx, I.yy, I.zz, T{}, T{}, T{}, mass, T{}}});
+      put_records(inverse_inertias, i, Record<T>{{I.xx, I.yy, I.zz, T{}, T{}, T{}, mass, T{}}});
       return;
     }
     const M3<T> R = matrix_of(get4(T(), state, b, kOrientation, i));
     const V3<T> x = I * R.x, y = I * R.y, z = I * R.z;  // columns of I Rᵀ
-    put_records(inertias, i,
+    put_records(inverse_inertias, i,
                 Record<T>{{dot(R.x, x), dot(R.y, y), dot(R.z, z), dot(R.x, y), dot(R.x, z), dot(R.y, z), mass, T{}}});
   });
 }
 
-void measure_changes(const Bodies& b, const double* state, const double* start, double* changes) {
+void measure_displacements(const Bodies& b, const double* state, const double* start, double* displacements) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
     const Q4<T> q0 = get4(T(), start, b, kOrientation, i);
     const Q4<T> turn = get4(T(), state, b, kOrientation, i) * Q4<T>{q0.w, T{} - q0.x, T{} - q0.y, T{} - q0.z};
     const T two = if_at_most(turn.w, T{}, broadcast(T(), -2), broadcast(T(), 2));
-    put_records(changes, i,
+    put_records(displacements, i,
                 record_of(Twist<T>{get3(T(), state, b, kPosition, i) - get3(T(), start, b, kPosition, i),
                                    two * V3<T>{turn.x, turn.y, turn.z}}));
   });
 }
 
-void follow(const Bodies& b, const double* motions, double* state, double h) {
+void integrate_corrections(const Bodies& b, const double* velocities, double* state, double h) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
-    const Twist<T> m = twist_of(get_records(T(), motions, i));
-    const V3<T> way = broadcast(T(), h) * (m.v - get3(T(), state, b, kVelocity, i));
-    const V3<T> half_turn = broadcast(T(), 0.5 * h) * (m.w - get3(T(), state, b, kAngularVelocity, i));
-    put3(state, b, kPosition, i, get3(T(), state, b, kPosition, i) + way);
+    const Twist<T> u = twist_of(get_records(T(), velocities, i));
+    const V3<T> moved = broadcast(T(), h) * (u.v - get3(T(), state, b, kVelocity, i));
+    const V3<T> half_turn = broadcast(T(), 0.5 * h) * (u.w - get3(T(), state, b, kAngularVelocity, i));
+    put3(state, b, kPosition, i, get3(T(), state, b, kPosition, i) + moved);
     const Q4<T> q = get4(T(), state, b, kOrientation, i);
     const Q4<T> to = nearly_unit_normalised(rotation_by_twice(half_turn) * q);
     const T size = dot(half_turn, half_turn);  // what is not turned keeps its every bit

@@ -1,6 +1,6 @@
-// What the kernels of piles work on (contact/pile_solver.h): rows, of which each is a point of two bodies, eight to a
-// block, and records of eight doubles a body, so that a row finds a body in one cache line. The rows of a block share
-// no body that moves.
+// What the contact kernels work on (contact/impulse/impulse.cpp is the method): rows, each a contact constraint of two
+// bodies, eight to a block, and records of eight doubles a body, so that a row finds a body in one cache line. The rows
+// of a block share no moving body.
 #pragma once
 
 #include <cstddef>
@@ -14,49 +14,49 @@ inline constexpr std::size_t kRowsPerBlock = 8, kRecord = 8;
 enum RowColumn {
   kNormal = 0,
   kTangent = 3,  // one of two
-  kArmA = 6,     // m, from the centre of mass to the point of a
+  kArmA = 6,     // m, from the centre of mass to a's point
   kArmB = 9,
-  kSpinA = 12,         // what unit impulses along the normal and the two tangents add to w; until then first the
-                       // impulse of friction, in W
-  kSpinB = 21,         // and take from it
+  kAngularA = 12,      // I⁻¹ (arm x d), what unit impulses along d = normal and the two tangents add to w; before
+                       // prepare_rows() the first holds the impulse of friction, in W
+  kAngularB = 21,      // and take from it
   kInverseMassA = 30,  // 1/kg
   kInverseMassB = 31,
-  kPaceNormal = 32,  // kg, 1 / what a unit impulse gives
-  kPaceStick = 33,   // kg: tt, ss, ts of the inverse of the tangential give
-  kPaceSlip = 36,    // kg, 1 / the larger eigenvalue of that give
+  kNormalMass = 32,   // kg, effective mass along the normal
+  kTangentMass = 33,  // kg: tt, ss, ts of the inverse of the tangential inverse effective mass K_t
+  kSlipMass = 36,     // kg, 1 / the larger eigenvalue of K_t
   kFriction = 37,
   kRestitution = 38,
-  kGap = 39,       // m, at the stretch's start
-  kGapNow = 40,    // m, before the sub-step
-  kApproach = 41,  // m/s, before the sub-step
-  kBias = 42,      // m/s
-  kImpulse = 43,   // N s of one sub-step: along the normal, the two tangents
+  kInitialGap = 39,     // m, when contacts were last updated
+  kGap = 40,            // m, before the sub-step
+  kApproachSpeed = 41,  // m/s, before the sub-step
+  kBias = 42,           // m/s
+  kImpulse = 43,        // N s of one sub-step: along the normal, the two tangents
   kRowColumns = 46
 };
 
 struct alignas(64) RowBlock {
   double columns[kRowColumns][kRowsPerBlock];
   std::int32_t a[kRowsPerBlock], b[kRowsPerBlock];        // whose records are read
-  std::int32_t to_a[kRowsPerBlock], to_b[kRowsPerBlock];  // and written: those of bodies that do not move are not
+  std::int32_t to_a[kRowsPerBlock], to_b[kRowsPerBlock];  // and written: those of fixed bodies are not
 };
 
-// Records by body, and after them two that mean nothing: rows that fill a block read the first, of a body at rest, and
-// write the second.
-struct PileRecords {
-  double* motions;         // v, w
-  double* changes;         // m and rad since the stretch's start
-  std::int32_t* stirred;   // the last turn over the hits in which one changed it
-  const double* inertias;  // the inverse inertia in W, xx, yy, zz, xy, xz, yz, 1/(kg m²), at its start; 1/kg
+// Records by body, and after them two idle ones: rows that fill a block read the first, of a body at rest, and write
+// the second.
+struct SolverBodies {
+  double* velocities;              // v, w
+  double* displacements;           // m and rad since contacts were last updated
+  std::int32_t* last_active;       // the last sweep over the impacts in which one changed it
+  const double* inverse_inertias;  // in W, xx, yy, zz, xy, xz, yz, 1/(kg m²), when contacts were updated; 1/kg
 };
 
-struct PileLaw {
+struct SolverParameters {
   double h;                                     // s, of a sub-step
-  double share;                                 // see PileSolver
-  double push_rate, mass_share, impulse_share;  // of the spring and damper that push overlapping bodies apart
-  double fastest_push;                          // m/s
-  double rest_speed;                            // m/s: points that come together slower do not hit
-  double settled;                               // m/s: hits are solved until they change by less, but at most
-  int most_turns;                               // so many times over
+  double theta;                                 // x' = x + h (theta u' + (1 - theta) u) over a sub-step
+  double bias_rate, mass_scale, impulse_scale;  // of the soft constraint: 1/s, 1, 1
+  double max_push_speed;                        // m/s, at which overlapping bodies are pushed apart
+  double restitution_threshold;                 // m/s: a slower approach is no impact
+  double tolerance;                             // m/s: impacts are solved until they change by less, in at most
+  int max_sweeps;                               // so many sweeps
 };
 
 }  // namespace rigor

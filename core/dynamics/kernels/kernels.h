@@ -148,25 +148,28 @@ struct Kernels {
   // Which spheres overlap a plane {normal, offset}, to `rows`, which has room for all: their number.
   std::size_t (*below_plane)(const Bodies&, const double* state, const double* spheres, const double* plane,
                              std::int32_t* rows);
-  // Piles (pile.h). Velocities from the state to records and back; inverse inertias and masses to records; how
-  // bodies have moved since `start`; positions and orientations go on by what the records' velocities have more than
-  // the state's, for h.
-  void (*read_motions)(const Bodies&, const double* state, double* motions);
-  void (*write_motions)(const Bodies&, const double* motions, double* state);
-  void (*read_inertias)(const Bodies&, const double* state, double* inertias);
-  void (*measure_changes)(const Bodies&, const double* state, const double* start, double* changes);
-  void (*follow)(const Bodies&, const double* motions, double* state, double h);
-  // What is fixed about rows over a stretch; gaps, approaches and biases of a sub-step, with the rows that meet in it
-  // faster than rest_speed to `hits`, their number returned.
-  void (*prepare_rows)(RowBlock*, std::size_t count, const PileRecords&);
-  std::size_t (*measure_gaps)(RowBlock*, std::size_t count, const PileRecords&, const PileLaw&, std::int32_t* hits);
-  // Each row's impulse; both passes over all rows, and over hits alone the first and what bounces.
-  void (*push_rows)(RowBlock*, std::size_t count, const PileRecords&);
-  void (*solve_rows_with_bias)(RowBlock*, std::size_t count, const PileRecords&, const PileLaw&);
-  void (*settle_hits_with_bias)(RowBlock*, const std::int32_t* hits, std::size_t count, const PileRecords&,
-                                const PileLaw&);
-  void (*solve_rows)(RowBlock*, std::size_t count, const PileRecords&);
-  void (*settle_rebounds)(RowBlock*, const std::int32_t* hits, std::size_t count, const PileRecords&, const PileLaw&);
+  // Contact by sequential impulses (contact_rows.h). Velocities from the state to records and back; inverse inertias
+  // and masses to records; how bodies have moved since `start`; positions and orientations integrated over h with what
+  // the records' velocities differ by from the state's.
+  void (*gather_velocities)(const Bodies&, const double* state, double* velocities);
+  void (*scatter_velocities)(const Bodies&, const double* velocities, double* state);
+  void (*gather_inverse_inertias)(const Bodies&, const double* state, double* inverse_inertias);
+  void (*measure_displacements)(const Bodies&, const double* state, const double* start, double* displacements);
+  void (*integrate_corrections)(const Bodies&, const double* velocities, double* state, double h);
+  // Effective masses; gaps, approach speeds and biases of a sub-step, with the rows that meet in it faster than the
+  // restitution threshold to `impacts`, their number returned.
+  void (*prepare_rows)(RowBlock*, std::size_t count, const SolverBodies&);
+  std::size_t (*prepare_bias)(RowBlock*, std::size_t count, const SolverBodies&, const SolverParameters&,
+                              std::int32_t* impacts);
+  // Each row's impulse as it is; the biased solve over all rows, and over impacts until they agree; the solve without
+  // bias over all rows; restitution of the impacts.
+  void (*warm_start)(RowBlock*, std::size_t count, const SolverBodies&);
+  void (*solve_with_bias)(RowBlock*, std::size_t count, const SolverBodies&, const SolverParameters&);
+  void (*solve_impacts_with_bias)(RowBlock*, const std::int32_t* impacts, std::size_t count, const SolverBodies&,
+                                  const SolverParameters&);
+  void (*relax)(RowBlock*, std::size_t count, const SolverBodies&);
+  void (*apply_restitution)(RowBlock*, const std::int32_t* impacts, std::size_t count, const SolverBodies&,
+                            const SolverParameters&);
 };
 
 // The table in use.

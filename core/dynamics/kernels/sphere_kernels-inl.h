@@ -5,11 +5,11 @@ bool have_stayed(const Bodies& b, const double* state, const double* spheres, co
   bool stayed = true;
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
-    const V3<T> way = get3(T(), state, b, kPosition, i) - get3(T(), spheres, b, kFoundAt, i);
+    const V3<T> moved = get3(T(), state, b, kPosition, i) - get3(T(), spheres, b, kFoundAt, i);
     const T radius = get(T(), spheres, b, kRadius, i);
     const auto within = [&](T d, double most)
                             RIGOR_LAMBDA { return all_at_most(if_at_most(radius, T{}, T{}, d * d), most * most); };
-    stayed = stayed && within(way.x, slack[0]) && within(way.y, slack[1]) && within(way.z, slack[2]);
+    stayed = stayed && within(moved.x, slack[0]) && within(moved.y, slack[1]) && within(moved.z, slack[2]);
   });
   return stayed;
 }

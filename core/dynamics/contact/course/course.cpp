@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/dynamics/collision/broad_phase.h"
+#include "core/dynamics/collision/sphere_broad_phase.h"
 #include "core/dynamics/contact/contact_method.h"
 #include "core/scene/contact_laws.h"
 
@@ -92,8 +92,8 @@ class CourseContact : public Contact {
     const Mat3 turning_a = inverse_inertia_in_world(a.body, state), turning_b = inverse_inertia_in_world(b.body, state);
     const Mat3 K = inverse_effective_mass(a, turning_a) + inverse_effective_mass(b, turning_b);
     if (K.isZero(0)) return;  // two fixed bodies
-    const Vec3 wanted = -laws_.of(a.body, b.body).restitution * speed * n;
-    const Vec3 impulse = K.inverse() * (wanted - u);
+    const Vec3 target_velocity = -laws_.of(a.body, b.body).restitution * speed * n;
+    const Vec3 impulse = K.inverse() * (target_velocity - u);
     push(a, turning_a, impulse, state);
     push(b, turning_b, -impulse, state);
   }
@@ -130,7 +130,7 @@ class CourseContact : public Contact {
   std::vector<Ball> balls_;
   Columns spheres_;                  // columns of SphereColumn, by body
   std::vector<std::int32_t> below_;  // the plane
-  BroadPhase broad_phase_;
+  SphereBroadPhase broad_phase_;
 };
 
 class CourseStepper : public ContactStepper {

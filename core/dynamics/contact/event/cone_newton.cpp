@@ -21,7 +21,7 @@ constexpr double kNear = 1e-4;  // of the speeds: from here on friction follows 
 }  // namespace
 
 // False if they are too many.
-bool ConeNewton::set_up(BodyColumns state, const std::vector<ConePoint>& points) {
+bool ConeNewton::set_up(BodyColumns state, const std::vector<ConeConstraint>& points) {
   std::vector<int> place(system_.size(), -1);
   int count = 0;
   const auto place_of = [&](int body) {
@@ -34,7 +34,7 @@ bool ConeNewton::set_up(BodyColumns state, const std::vector<ConePoint>& points)
     return place[body];
   };
   rows_.clear(), bodies_.clear(), inertia_W_.clear();
-  for (const ConePoint& point : points) {
+  for (const ConeConstraint& point : points) {
     Row row;
     const auto add = [&](int body, const Vec3& arm, double sign, int& index, Side& by, auto& to) {
       index = place_of(body);
@@ -61,9 +61,9 @@ Vec3 ConeNewton::velocity_of(const Row& row, const Eigen::VectorXd& speeds) cons
 }
 
 // Returns the energy whose slope by the velocity is minus the impulse.
-double ConeNewton::take_impulse(const ConePoint& point, const Vec3& u, Row& row) const {
+double ConeNewton::take_impulse(const ConeConstraint& point, const Vec3& u, Row& row) const {
   const double r = steepness_ * row.mass;
-  const Vec3 z = row.centre - r * (u - Vec3(point.wanted, 0, 0));
+  const Vec3 z = row.centre - r * (u - Vec3(point.target_velocity, 0, 0));
   row.slope.setZero();
   row.impulse.setZero();
   const double normal = std::max(0.0, z.x());
@@ -87,7 +87,7 @@ double ConeNewton::take_impulse(const ConePoint& point, const Vec3& u, Row& row)
 
 // The impulses that a change of the bodies' speeds asks for, and into residual_ what it differs by from the one they
 // make.
-ConeNewton::Fit ConeNewton::assess(const std::vector<ConePoint>& points, const Eigen::VectorXd& change) {
+ConeNewton::Fit ConeNewton::assess(const std::vector<ConeConstraint>& points, const Eigen::VectorXd& change) {
   residual_ = change;
   Fit fit;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -105,7 +105,7 @@ ConeNewton::Fit ConeNewton::assess(const std::vector<ConePoint>& points, const E
   return fit;
 }
 
-ConeNewton::Fit ConeNewton::take_step(const std::vector<ConePoint>& points) {
+ConeNewton::Fit ConeNewton::take_step(const std::vector<ConeConstraint>& points) {
   const Fit before = assess(points, change_);
   derivative_ = Eigen::MatrixXd::Identity(change_.size(), change_.size());
   for (const Row& row : rows_) {
@@ -132,7 +132,7 @@ ConeNewton::Fit ConeNewton::take_step(const std::vector<ConePoint>& points) {
   }
 }
 
-bool ConeNewton::solve(BodyColumns state, std::vector<ConePoint>& points, double tolerance) {
+bool ConeNewton::solve(BodyColumns state, std::vector<ConeConstraint>& points, double tolerance) {
   if (!set_up(state, points)) return false;
   const double near = kNear / 1e-13 * tolerance;
   double moved = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // The contact laws of cone_solver.h by Newton's method, in the velocities of the bodies: each impulse is what its
 // point's velocity u asks for,
-//   p_n = max(0, c_n - r (u_n - wanted)),   p_t = c_t - r u_t, put onto the disc of radius mu p_n,
+//   p_n = max(0, c_n - r (u_n - target)),   p_t = c_t - r u_t, put onto the disc of radius mu p_n,
 // about centres c, which are the impulses of the round before (the augmented Lagrangian of Alart and Curnier, 1991). At
 // the end of the rounds p = c and the laws hold, whatever r is. It ends in a few steps where Gauss–Seidel creeps:
 // several points on a stiff body, or one on the verge of sliding. Where the points are more than the motion can tell
@@ -21,7 +21,7 @@ class ConeNewton {
 
   // Changes the points' impulses until none would change a velocity by more than `tolerance` [m/s], or it gets no
   // further. The velocities are the caller's to change. False if the bodies are too many.
-  bool solve(BodyColumns state, std::vector<ConePoint>& points, double tolerance);
+  bool solve(BodyColumns state, std::vector<ConeConstraint>& points, double tolerance);
 
  private:
   using Side = Eigen::Matrix<double, 3, 6>;  // of a point's velocity, to one body's six speeds
@@ -39,10 +39,10 @@ class ConeNewton {
     double residual = 0;  // m/s
   };
 
-  bool set_up(BodyColumns state, const std::vector<ConePoint>& points);
-  Fit assess(const std::vector<ConePoint>& points, const Eigen::VectorXd& change);
-  double take_impulse(const ConePoint& point, const Vec3& u, Row& row) const;
-  Fit take_step(const std::vector<ConePoint>& points);
+  bool set_up(BodyColumns state, const std::vector<ConeConstraint>& points);
+  Fit assess(const std::vector<ConeConstraint>& points, const Eigen::VectorXd& change);
+  double take_impulse(const ConeConstraint& point, const Vec3& u, Row& row) const;
+  Fit take_step(const std::vector<ConeConstraint>& points);
   Vec3 velocity_of(const Row& row, const Eigen::VectorXd& speeds) const;
 
   const System& system_;

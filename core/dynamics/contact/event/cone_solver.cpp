@@ -44,52 +44,52 @@ Mat3 contact_frame(const Vec3& n) {
   return frame;
 }
 
-Vec3 impulse_at(const ConePoint& point, const Vec3& u) {
+Vec3 impulse_at(const ConeConstraint& point, const Vec3& u) {
   const Mat3& W = point.inverse_mass;
   const Vec3 free = u - W * point.impulse;  // the velocity there would be without this point's impulse
-  if (free.x() >= point.wanted) return Vec3::Zero();
+  if (free.x() >= point.target_velocity) return Vec3::Zero();
   // Sticking, if the cone allows it.
-  const Vec3 stick = W.inverse() * (Vec3(point.wanted, 0, 0) - free);
+  const Vec3 stick = W.inverse() * (Vec3(point.target_velocity, 0, 0) - free);
   if (stick.x() > 0 && stick.tail<2>().norm() <= disc(point.friction, stick.x())) return stick;
-  if (point.friction == 0) return {(point.wanted - free.x()) / W(0, 0), 0, 0};
+  if (point.friction == 0) return {(point.target_velocity - free.x()) / W(0, 0), 0, 0};
   // Sliding: normal and tangential parts in turn; from one sweep to the next they settle together.
   constexpr int kTurns = 8;
   Vec3 p = point.impulse;
   for (int turn = 0; turn < kTurns; ++turn) {
     const Vec3 before = p;
-    p.x() = std::max(0.0, (point.wanted - free.x() - W(0, 1) * p.y() - W(0, 2) * p.z()) / W(0, 0));
+    p.x() = std::max(0.0, (point.target_velocity - free.x() - W(0, 1) * p.y() - W(0, 2) * p.z()) / W(0, 0));
     const Vec3 slip = free + W * p;
-    p.tail<2>() = onto_disc(p.tail<2>() - point.tangent_pace * slip.tail<2>(), disc(point.friction, p.x()));
+    p.tail<2>() = onto_disc(p.tail<2>() - point.tangent_effective_mass * slip.tail<2>(), disc(point.friction, p.x()));
     if (p == before) break;
   }
   return p;
 }
 
-void ConeSolver::prepare(BodyColumns state, std::vector<ConePoint>& points) {
+void ConeSolver::prepare(BodyColumns state, std::vector<ConeConstraint>& points) {
   inverse_inertia_W_.resize(system_.size());
-  for (const ConePoint& point : points) {
+  for (const ConeConstraint& point : points) {
     for (const int body : {point.a, point.b}) {
       const Mat3 R = state.rotation(body);
       inverse_inertia_W_[body] = R * system_.bodies[body].inverse_inertia_B * R.transpose();
     }
   }
-  for (ConePoint& point : points) {
+  for (ConeConstraint& point : points) {
     const Mat3 a = cross_matrix(point.arm_a), b = cross_matrix(point.arm_b);
     const Mat3 in_world =
         (system_.bodies[point.a].inverse_mass + system_.bodies[point.b].inverse_mass) * Mat3::Identity() -
         a * inverse_inertia_W_[point.a] * a - b * inverse_inertia_W_[point.b] * b;
     point.inverse_mass = point.frame.transpose() * in_world * point.frame;
-    point.tangent_pace = 1 / larger_eigenvalue(point.inverse_mass.bottomRightCorner<2, 2>());
+    point.tangent_effective_mass = 1 / larger_eigenvalue(point.inverse_mass.bottomRightCorner<2, 2>());
   }
 }
 
-Vec3 ConeSolver::velocity_at(const ConePoint& point, BodyColumns state) {
+Vec3 ConeSolver::velocity_at(const ConeConstraint& point, BodyColumns state) {
   const Vec3 a = state.velocity(point.a) + state.angular_velocity(point.a).cross(point.arm_a);
   const Vec3 b = state.velocity(point.b) + state.angular_velocity(point.b).cross(point.arm_b);
   return point.frame.transpose() * (a - b);
 }
 
-void ConeSolver::push(const ConePoint& point, const Vec3& impulse, MutableBodyColumns state) const {
+void ConeSolver::push(const ConeConstraint& point, const Vec3& impulse, MutableBodyColumns state) const {
   const Vec3 in_world = point.frame * impulse;
   const auto change = [&](int body, const Vec3& arm, double sign) {
     if (system_.bodies[body].fixed) return;
@@ -102,9 +102,9 @@ void ConeSolver::push(const ConePoint& point, const Vec3& impulse, MutableBodyCo
 }
 
 // Returns the largest change of a point's velocity.
-double ConeSolver::sweep(MutableBodyColumns state, std::vector<ConePoint>& points) const {
+double ConeSolver::sweep(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
   double largest = 0;
-  for (ConePoint& point : points) {
+  for (ConeConstraint& point : points) {
     const Vec3 impulse = impulse_at(point, velocity_at(point, state));
     const Vec3 change = impulse - point.impulse;
     if (change.isZero(0)) continue;
@@ -115,28 +115,29 @@ double ConeSolver::sweep(MutableBodyColumns state, std::vector<ConePoint>& point
   return largest;
 }
 
-bool ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConePoint>& points, double tolerance) const {
-  const std::vector<ConePoint> before = points;
+bool ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points,
+                                   double tolerance) const {
+  const std::vector<ConeConstraint> before = points;
   if (!ConeNewton(system_, inverse_inertia_W_).solve(state, points, tolerance)) return false;
   for (std::size_t i = 0; i < points.size(); ++i) push(points[i], points[i].impulse - before[i].impulse, state);
   return true;
 }
 
 // What roundings are relative to: the bodies' speeds at the points, and what the impulses make of them.
-double ConeSolver::size_of(BodyColumns state, const std::vector<ConePoint>& points) const {
+double ConeSolver::size_of(BodyColumns state, const std::vector<ConeConstraint>& points) const {
   const auto speed = [&](int body, const Vec3& arm) {
     if (system_.bodies[body].fixed) return 0.0;
     return state.velocity(body).norm() + state.angular_velocity(body).norm() * arm.norm();
   };
   double size = 0;
-  for (const ConePoint& point : points) {
+  for (const ConeConstraint& point : points) {
     size = std::max(
         {size, speed(point.a, point.arm_a), speed(point.b, point.arm_b), (point.inverse_mass * point.impulse).norm()});
   }
   return size;
 }
 
-bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConePoint>& points) const {
+bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
   double size = 0, last = 0, ratio = kCreeping;
   for (int turn = 0; turn < kMostTurns; ++turn) {
     for (int k = 0; k < kSweepsAtATime; ++k) {

@@ -1,6 +1,6 @@
-// Newton's law of restitution and Coulomb's law of friction at several points at once: impulses p >= 0 along the
-// normals and inside the friction discs such that, with u' the relative velocities they leave,
-//   0 <= u'_n - wanted  ⊥  p_n >= 0,    |p_t| <= mu p_n,  with p_t against u'_t on the disc's rim where u'_t is not
+// Contact constraints with Newton's law of restitution and Coulomb's law of friction at several points: impulses p >= 0
+// along the normals and inside the friction discs such that, with u' the relative velocities they leave,
+//   0 <= u'_n - target  ⊥  p_n >= 0,    |p_t| <= mu p_n,  with p_t against u'_t on the disc's rim where u'_t is not
 //   zero
 // (Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; Jean, The non-smooth contact dynamics
 // method, 1999). Solved by block Gauss–Seidel, one point after another, and by Newton's method (cone_newton.h) where
@@ -13,16 +13,16 @@
 
 namespace rigor {
 
-struct ConePoint {
+struct ConeConstraint {
   int a = 0, b = 0;                                 // bodies; the impulse acts on a, its opposite on b
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  // m, from the centres of mass to the point, in W
   Mat3 frame = Mat3::Identity();                    // columns: the normal from b to a and two tangents, in W
   double friction = 0;                              // may be kInfiniteFriction
-  double wanted = 0;                                // m/s, the least normal velocity allowed afterwards
+  double target_velocity = 0;                       // m/s, normal, the least allowed afterwards
   Vec3 impulse = Vec3::Zero();  // N s, in the frame; what it is before solving, the velocities know already
 
-  Mat3 inverse_mass = Mat3::Zero();  // 1/kg, of the point, in the frame; from prepare()
-  double tangent_pace = 0;           // kg, 1 / the larger eigenvalue of its tangential part
+  Mat3 inverse_mass = Mat3::Zero();   // 1/kg, of the point, in the frame; from prepare()
+  double tangent_effective_mass = 0;  // kg, 1 / the larger eigenvalue of its tangential part
 };
 
 // Two unit vectors across n and each other.
@@ -33,24 +33,24 @@ class ConeSolver {
   explicit ConeSolver(const System& system) : system_(system) {}
 
   // Takes the inertias from `state`.
-  void prepare(BodyColumns state, std::vector<ConePoint>& points);
+  void prepare(BodyColumns state, std::vector<ConeConstraint>& points);
   // Changes impulses and, with them, the velocities of `state`. Returns false if it did not come to rest.
-  bool solve(MutableBodyColumns state, std::vector<ConePoint>& points) const;
+  bool solve(MutableBodyColumns state, std::vector<ConeConstraint>& points) const;
   // The relative velocity at the point, in its frame.
-  static Vec3 velocity_at(const ConePoint& point, BodyColumns state);
+  static Vec3 velocity_at(const ConeConstraint& point, BodyColumns state);
   // Adds an impulse, in the frame, to the velocities.
-  void push(const ConePoint& point, const Vec3& impulse, MutableBodyColumns state) const;
+  void push(const ConeConstraint& point, const Vec3& impulse, MutableBodyColumns state) const;
 
  private:
-  double size_of(BodyColumns state, const std::vector<ConePoint>& points) const;
-  bool take_newton_steps(MutableBodyColumns state, std::vector<ConePoint>& points, double tolerance) const;
-  double sweep(MutableBodyColumns state, std::vector<ConePoint>& points) const;
+  double size_of(BodyColumns state, const std::vector<ConeConstraint>& points) const;
+  bool take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points, double tolerance) const;
+  double sweep(MutableBodyColumns state, std::vector<ConeConstraint>& points) const;
 
   const System& system_;
   std::vector<Mat3> inverse_inertia_W_;  // 1/(kg m²)
 };
 
 // The impulse at one point that meets the laws, given the velocity u that is there with `impulse` acting.
-Vec3 impulse_at(const ConePoint& point, const Vec3& u);
+Vec3 impulse_at(const ConeConstraint& point, const Vec3& u);
 
 }  // namespace rigor

@@ -14,7 +14,7 @@ Aabb joined(const Aabb& a, const Aabb& b) { return {a.low.cwiseMin(b.low), a.hig
 
 }  // namespace
 
-const std::vector<std::pair<int, int>>& Touches::candidates(BodyColumns from, BodyColumns to, double dt) {
+const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns from, BodyColumns to, double dt) {
   boxes_.clear();
   for (const Collider& collider : colliders_) {
     // A path bends away from its chord by at most dt |dv| / 8 where the acceleration is even; twice that is allowed.
@@ -22,8 +22,8 @@ const std::vector<std::pair<int, int>>& Touches::candidates(BodyColumns from, Bo
     // A body that turns on its way may reach as far as its furthest point.
     const double turn =
         dt * std::max(from.angular_velocity(collider.body).norm(), to.angular_velocity(collider.body).norm());
-    if (turn > 0 && std::isfinite(collider.reach))
-      margin += std::min(1.0, turn) * (collider.reach - collider.thickness);
+    if (turn > 0 && std::isfinite(collider.bounding_radius))
+      margin += std::min(1.0, turn) * (collider.bounding_radius - collider.inradius);
     boxes_.push_back(joined(aabb_of(collider.shape, pose_of(from, collider.body), margin),
                             aabb_of(collider.shape, pose_of(to, collider.body), margin)));
   }
@@ -34,63 +34,64 @@ const std::vector<std::pair<int, int>>& Touches::candidates(BodyColumns from, Bo
   return pairs_;
 }
 
-const Manifold& Touches::manifold(BodyColumns state, int a, int b) {
+const Manifold& ContactPoints::manifold(BodyColumns state, int a, int b) {
   const Collider &first = colliders_[a], &second = colliders_[b];
   collide(first.shape, pose_of(state, first.body), second.shape, pose_of(state, second.body), manifold_);
   return manifold_;
 }
 
-Vec3 Touches::parting(BodyColumns state, int a, int b) {
+Vec3 ContactPoints::separating_axis(BodyColumns state, int a, int b) {
   const Manifold& points = manifold(state, a, b);
   assert(points.size() > 0 && "only two planes have none");
   return points[0].normal;
 }
 
-void Touches::place(BodyColumns state, const ContactPoint& point, Touch& touch) const {
-  touch.gap = point.gap;
-  touch.cone.arm_a = point.point - state.position(touch.cone.a);
-  touch.cone.arm_b = point.point - state.position(touch.cone.b);
+void ContactPoints::place(BodyColumns state, const ManifoldPoint& point, ContactPoint& contact) const {
+  contact.gap = point.gap;
+  contact.cone.arm_a = point.point - state.position(contact.cone.a);
+  contact.cone.arm_b = point.point - state.position(contact.cone.b);
 }
 
-void Touches::find(BodyColumns state, const std::vector<std::pair<int, int>>& pairs, double gap,
-                   std::vector<Touch>& out) {
+void ContactPoints::find(BodyColumns state, const std::vector<std::pair<int, int>>& pairs, double gap,
+                         std::vector<ContactPoint>& out) {
   for (const auto& [a, b] : pairs) {
-    for (const ContactPoint& point : manifold(state, a, b)) {
+    for (const ManifoldPoint& point : manifold(state, a, b)) {
       if (!(point.gap <= gap)) continue;
-      Touch touch{.a = a, .b = b, .feature = point.feature, .gap = point.gap, .restitution = 0, .cone = {}};
-      touch.cone.a = colliders_[a].body, touch.cone.b = colliders_[b].body;
-      const ContactLaw& law = laws_.of(touch.cone.a, touch.cone.b);
-      touch.restitution = law.restitution;
-      touch.cone.friction = law.friction;
-      touch.cone.frame = contact_frame(point.normal);
-      place(state, point, touch);
-      out.push_back(touch);
+      ContactPoint contact{.a = a, .b = b, .feature = point.feature, .gap = point.gap, .restitution = 0, .cone = {}};
+      contact.cone.a = colliders_[a].body, contact.cone.b = colliders_[b].body;
+      const ContactLaw& law = laws_.of(contact.cone.a, contact.cone.b);
+      contact.restitution = law.restitution;
+      contact.cone.friction = law.friction;
+      contact.cone.frame = contact_frame(point.normal);
+      place(state, point, contact);
+      out.push_back(contact);
     }
   }
 }
 
-void Touches::least_gaps(BodyColumns state, const std::vector<std::pair<int, int>>& pairs, std::vector<double>& out) {
+void ContactPoints::least_gaps(BodyColumns state, const std::vector<std::pair<int, int>>& pairs,
+                               std::vector<double>& out) {
   out.clear();
   for (const auto& [a, b] : pairs) {
     double least = std::numeric_limits<double>::infinity();
-    for (const ContactPoint& point : manifold(state, a, b)) least = std::min(least, point.gap);
+    for (const ManifoldPoint& point : manifold(state, a, b)) least = std::min(least, point.gap);
     out.push_back(least);
   }
 }
 
-bool Touches::follow(BodyColumns state, Touch& touch) {
-  const Manifold& points = manifold(state, touch.a, touch.b);
+bool ContactPoints::follow(BodyColumns state, ContactPoint& contact) {
+  const Manifold& points = manifold(state, contact.a, contact.b);
   if (points.size() == 0) return false;
-  const Vec3 before = state.position(touch.cone.a) + touch.cone.arm_a;
-  const ContactPoint* nearest = nullptr;
+  const Vec3 before = state.position(contact.cone.a) + contact.cone.arm_a;
+  const ManifoldPoint* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (const ContactPoint& point : points) {
-    const double distance = point.feature == touch.feature ? -1 : (point.point - before).norm();
+  for (const ManifoldPoint& point : points) {
+    const double distance = point.feature == contact.feature ? -1 : (point.point - before).norm();
     if (distance < least) least = distance, nearest = &point;
   }
   if (!nearest) return false;
-  place(state, *nearest, touch);
-  Mat3& frame = touch.cone.frame;
+  place(state, *nearest, contact);
+  Mat3& frame = contact.cone.frame;
   const Vec3 n = nearest->normal, t = frame.col(1) - n * n.dot(frame.col(1));
   if (t.norm() > 0.1)
     frame << n, t.normalized(), n.cross(t.normalized());

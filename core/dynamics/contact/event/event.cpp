@@ -1,9 +1,10 @@
 // Contact by events. Inside a step the instants are found at which bodies meet and at which sliding ends, as roots of
 // gaps and of sliding speeds along the integrator's own sub-steps from the last such instant; there impacts are
-// resolved (impacts.h), and between them what touches is held (held_motion.h). A sequence of bounces ends by the rule
-// of kRestSpeed. Bodies that overlap at the start are moved apart at once, without velocity. After kMostEvents in one
-// step the rest of that step has no rebounds, after twice as many no events, and the run says so. Where bodies are not
-// sure to stay apart (clearance.h) the time is halved, so that nothing passes through and no graze is missed.
+// resolved (impacts.h), and between them what touches stays in contact (persistent_contact.h). A sequence of bounces
+// ends by the rule of kRestitutionThreshold. Bodies that overlap at the start are moved apart at once, without
+// velocity. After kMostEvents in one step the rest of that step has no rebounds, after twice as many no events, and the
+// run says so. Where bodies are not sure to stay apart (conservative_advancement.h) the time is halved, so that nothing
+// passes through and no graze is missed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,22 +37,23 @@ bool is_finite(BodyColumns state) {
 class EventStepper : public ContactStepper {
  public:
   EventStepper(const Scene& scene, const ContactParts& parts)
-      : touches_(scene),
-        motion_(scene, parts.integrator, parts.orientation, parts.settings, touches_),
-        impacts_(motion_.system(), number_option(parts.settings, "rest-speed", kRestSpeed)) {}
+      : contact_points_(scene),
+        persistent_contact_(scene, parts.integrator, parts.orientation, parts.settings, contact_points_),
+        impacts_(persistent_contact_.system(),
+                 number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     solver_warning_.clear();
     is_smooth_ = true;
     if (!(dt > 0)) return step_without_contact(state, t, dt);
-    pairs_ = touches_.candidates(state, state, 0);
-    motion_.close_gaps(state, pairs_, HeldMotion::Closing::overlaps);
+    pairs_ = contact_points_.candidates(state, state, 0);
+    persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
     double done = 0;
     for (int events = 0; done < dt; ++events) {
       if (!is_finite(state)) return note("the state of a body is no longer finite");
       if (events == kMostEvents) note(fmt::format("more than {} events in a step: no rebounds in its rest", events));
       begin_part(state, events >= kMostEvents);
-      const double end = motion_.system().loads.next_switch(t + done, t + dt);
+      const double end = persistent_contact_.system().loads.next_switch(t + done, t + dt);
       is_smooth_ = is_smooth_ && end == t + dt;
       part_ = {t, done, end == t + dt ? dt : end - t};
       done = events < 2 * kMostEvents ? advance(state) : finish(state);
@@ -60,12 +62,13 @@ class EventStepper : public ContactStepper {
 
   std::string solver_warning() const override { return solver_warning_; }
   bool was_smooth() const override { return is_smooth_; }
-  long work() const override { return motion_.passes(); }
+  long work() const override { return persistent_contact_.passes(); }
 
   SettingsInForce settings_in_force() const override {
-    return {{"impacts", "at their own instants, simultaneous ones together"},
-            {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.rest_speed())},
-            {"most events in a step", fmt::format("{}", kMostEvents)}};
+    return {
+        {"impacts", "at their own instants, simultaneous ones together"},
+        {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.restitution_threshold())},
+        {"most events in a step", fmt::format("{}", kMostEvents)}};
   }
 
  private:
@@ -80,19 +83,19 @@ class EventStepper : public ContactStepper {
   }
 
   void step_without_contact(MutableBodyColumns state, double t, double dt) {
-    motion_.hold(state, {});
+    persistent_contact_.select(state, {});
     start_ = BodyColumns(state);
-    motion_.advance(start_.columns(), state, t, dt);
+    persistent_contact_.advance(start_.columns(), state, t, dt);
   }
 
-  // Impacts now, and what is held until the next event.
+  // Impacts now, and what stays in contact until the next event.
   void begin_part(MutableBodyColumns state, bool inelastic) {
-    pairs_ = touches_.candidates(state, state, 0);
+    pairs_ = contact_points_.candidates(state, state, 0);
     touching_.clear();
-    touches_.find(state, pairs_, kTouching, touching_);
+    contact_points_.find(state, pairs_, kTouching, touching_);
     if (impacts_.resolve(state, touching_, inelastic)) is_smooth_ = false;
     note(impacts_.solver_warning());
-    motion_.hold(state, touching_);
+    persistent_contact_.select(state, touching_);
   }
 
   // As far as the next event, or to the part's end. Returns how far, in the time of the step.
@@ -103,7 +106,7 @@ class EventStepper : public ContactStepper {
     part_.to = std::min(part_.to, part_.from + longest_);
     attempt(part_.length());
     shorten_until_settled();
-    pairs_ = touches_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length());
+    pairs_ = contact_points_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length());
     clear_ = std::as_const(start_).columns();
     double clear = 0;
     ahead_ = {part_.length()};
@@ -121,20 +124,24 @@ class EventStepper : public ContactStepper {
     return commit(state, part_.to);
   }
 
-  // Whether no pair can have touched between clear_ and end_, h after it. Points that are held are no news, and what
-  // they let their bodies do shows at the end.
+  // Whether no pair can have touched between clear_ and end_, h after it. Points in persistent contact are no
+  // event, and what they let their bodies do shows at the end.
   bool all_stay_apart(double h) {
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
     return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
       const auto [a, b] = pair;
-      const auto is_of_pair = [&](const HeldPoint& held) { return held.at_end.a == a && held.at_end.b == b; };
-      if (std::any_of(motion_.points().begin(), motion_.points().end(), is_of_pair)) return true;
-      return stay_apart(touches_.colliders()[a], touches_.colliders()[b], {from, touches_.parting(from, a, b)},
-                        {to, touches_.parting(to, a, b)}, h);
+      const auto is_of_pair = [&](const PersistentPoint& persistent) {
+        return persistent.at_end.a == a && persistent.at_end.b == b;
+      };
+      if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair))
+        return true;
+      return stay_apart(contact_points_.colliders()[a], contact_points_.colliders()[b],
+                        {from, contact_points_.separating_axis(from, a, b)},
+                        {to, contact_points_.separating_axis(to, a, b)}, h);
     });
   }
 
-  // The forces of what is held turn with it; in long steps they may find no end to that.
+  // The forces in persistent contact turn with the bodies; in long steps they may not converge.
   void shorten_until_settled() {
     constexpr int kMostTimes = 20;
     longest_ = kInfinity;
@@ -147,26 +154,27 @@ class EventStepper : public ContactStepper {
 
   // The state after h into end_. Positive before the first event, negative after it.
   double attempt(double h) {
-    has_settled_ = motion_.advance(start_.columns(), end_.columns(), part_.t + part_.from, h);
+    has_settled_ = persistent_contact_.advance(start_.columns(), end_.columns(), part_.t + part_.from, h);
     return distance_from_event();
   }
 
-  double distance_from_event() { return std::min(motion_.distance_from_sticking(), least_free_gap()); }
+  double distance_from_event() { return std::min(persistent_contact_.distance_from_sticking(), least_free_gap()); }
 
   double commit(MutableBodyColumns state, double done) {
     copy_columns(std::as_const(end_).columns(), state);
-    note(motion_.solver_warning());
-    pairs_ = touches_.candidates(state, state, 0);
-    if (motion_.close_gaps(state, pairs_, HeldMotion::Closing::all)) motion_.stop_carrying_points(state);
+    note(persistent_contact_.solver_warning());
+    pairs_ = contact_points_.candidates(state, state, 0);
+    if (persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all))
+      persistent_contact_.stop_carrying_points(state);
     return done;
   }
 
-  // Without looking for events: what touches is held, whatever its velocity.
+  // Without looking for events: what touches stays in contact, whatever its velocity.
   double finish(MutableBodyColumns state) {
     note("too many events in a step: its rest was taken in one");
     start_ = BodyColumns(state);
     end_ = BodyColumns(state);
-    motion_.advance(start_.columns(), end_.columns(), part_.t + part_.from, part_.length());
+    persistent_contact_.advance(start_.columns(), end_.columns(), part_.t + part_.from, part_.length());
     return commit(state, part_.to);
   }
 
@@ -185,7 +193,7 @@ class EventStepper : public ContactStepper {
         }
         high = middle, distance_high = distance;
       }
-      if (halvings == kMostHalvings) return hold_slow_ones(state);
+      if (halvings == kMostHalvings) return keep_slow_ones(state);
     } else {
       distance_low = attempt(low);
     }
@@ -204,40 +212,43 @@ class EventStepper : public ContactStepper {
         .first;
   }
 
-  // What parts so slowly that rounding hides its gap is held after all; if it is, the rest of the part goes without
-  // looking for events.
-  double hold_slow_ones(MutableBodyColumns state) {
-    if (motion_.hold_slower_than(10 * impacts_.rest_speed(), state, touching_)) return advance(state);
+  // What separates so slowly that rounding hides its gap stays in contact after all; where nothing does, the rest of
+  // the part goes without looking for events.
+  double keep_slow_ones(MutableBodyColumns state) {
+    if (persistent_contact_.add_slower_than(10 * impacts_.restitution_threshold(), state, touching_))
+      return advance(state);
     return finish(state);
   }
 
-  // The least gap of points that are not held. Where others of the pair are, what these drift is allowed to them too.
+  // The least gap of points not in persistent contact. Where others of the pair are, what these drift is allowed to
+  // them too.
   double least_free_gap() {
     double least = kInfinity;
     for (const auto& [a, b] : pairs_) {
       double drift = 0;
-      for (const HeldPoint& held : motion_.points()) {
-        if (held.at_end.a == a && held.at_end.b == b) drift = std::max(drift, 4 * std::abs(held.at_end.gap));
+      for (const PersistentPoint& persistent : persistent_contact_.points()) {
+        if (persistent.at_end.a == a && persistent.at_end.b == b)
+          drift = std::max(drift, 4 * std::abs(persistent.at_end.gap));
       }
-      for (const ContactPoint& point : touches_.manifold(end_.columns(), a, b)) {
-        const bool is_held = std::any_of(motion_.points().begin(), motion_.points().end(), [&](const auto& h) {
-          return h.at_end.a == a && h.at_end.b == b && h.at_end.feature == point.feature;
-        });
-        if (!is_held) least = std::min(least, point.gap + drift);
+      for (const ManifoldPoint& point : contact_points_.manifold(end_.columns(), a, b)) {
+        const bool is_persistent = std::any_of(
+            persistent_contact_.points().begin(), persistent_contact_.points().end(),
+            [&](const auto& h) { return h.at_end.a == a && h.at_end.b == b && h.at_end.feature == point.feature; });
+        if (!is_persistent) least = std::min(least, point.gap + drift);
       }
     }
     return least;
   }
 
-  Touches touches_;
-  HeldMotion motion_;
+  ContactPoints contact_points_;
+  PersistentContact persistent_contact_;
   Impacts impacts_;
   Part part_;
   double longest_ = kInfinity;  // s, of the next part
   bool has_settled_ = true, is_smooth_ = true;
   BodyTable start_, end_, clear_;
-  std::vector<double> ahead_;  // s, ends of the stretches still to be looked at, the next one last
-  std::vector<Touch> touching_;
+  std::vector<double> ahead_;  // s, ends of the intervals still to be looked at, the next one last
+  std::vector<ContactPoint> touching_;
   std::vector<std::pair<int, int>> pairs_;
   std::string solver_warning_;
 };
@@ -247,10 +258,10 @@ class EventStepper : public ContactStepper {
 extern const ContactMethod kEventContact;
 const ContactMethod kEventContact = {
     .name = "event",
-    .summary = "impacts at their own instants, what touches held by exact forces; for few bodies",
+    .summary = "impacts at their own instants, persistent contact by exact forces; for few bodies",
     .features =
         joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none", "restitution"}),
-    .options = {{"rest-speed", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1}},
+    .options = {{"restitution-threshold", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1}},
     .make = make_contact_stepper<EventStepper>,
 };
 

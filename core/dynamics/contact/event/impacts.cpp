@@ -17,15 +17,15 @@ void copy_velocities(BodyColumns from, MutableBodyColumns to) {
 
 }  // namespace
 
-bool Impacts::resolve(MutableBodyColumns state, std::vector<Touch>& touches, bool inelastic) {
+bool Impacts::resolve(MutableBodyColumns state, std::vector<ContactPoint>& contact_points, bool inelastic) {
   solver_warning_.clear();
   rebound_ = false;
   points_.clear();
-  for (const Touch& touch : touches) points_.push_back(touch.cone);
-  for (ConePoint& point : points_) point.impulse.setZero();
+  for (const ContactPoint& contact : contact_points) points_.push_back(contact.cone);
+  for (ConeConstraint& point : points_) point.impulse.setZero();
   solver_.prepare(state, points_);
   int round = 0;
-  while (choose(state, touches, inelastic, round >= kMostRounds)) {
+  while (choose(state, contact_points, inelastic, round >= kMostRounds)) {
     solve_round(state);
     if (round++ > kMostRounds) {
       solver_warning_ = "an impact of several bodies did not come to an end; what was left of it was dropped";
@@ -36,18 +36,18 @@ bool Impacts::resolve(MutableBodyColumns state, std::vector<Touch>& touches, boo
 }
 
 // Fills chosen_ with this round's points; false if none approaches.
-bool Impacts::choose(BodyColumns state, const std::vector<Touch>& touches, bool inelastic, bool all) {
+bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool inelastic, bool all) {
   chosen_.clear();
   bool hit = false;
-  for (std::size_t i = 0; i < touches.size(); ++i) {
-    ConePoint& point = points_[i];
+  for (std::size_t i = 0; i < contact_points.size(); ++i) {
+    ConeConstraint& point = points_[i];
     const double approach = -ConeSolver::velocity_at(point, state).x();
     const bool hits = approach > kStillSpeed;
     hit = hit || hits;
-    const bool rebounds = approach > rest_speed_ && !inelastic && !all && touches[i].restitution > 0;
-    rebound_ = rebound_ || (hits && approach > rest_speed_);
-    point.wanted = rebounds ? touches[i].restitution * approach : 0;
-    if (hits || all || touches[i].restitution == 0) chosen_.push_back(point);
+    const bool rebounds = approach > restitution_threshold_ && !inelastic && !all && contact_points[i].restitution > 0;
+    rebound_ = rebound_ || (hits && approach > restitution_threshold_);
+    point.target_velocity = rebounds ? contact_points[i].restitution * approach : 0;
+    if (hits || all || contact_points[i].restitution == 0) chosen_.push_back(point);
   }
   return hit;
 }
@@ -57,8 +57,8 @@ void Impacts::solve_round(MutableBodyColumns state) {
   const double energy = kinetic_energy(state);
   const auto attempt = [&](double share) {
     copy_velocities(std::as_const(before_).columns(), state);
-    std::vector<ConePoint> points = chosen_;
-    for (ConePoint& point : points) point.wanted *= share;
+    std::vector<ConeConstraint> points = chosen_;
+    for (ConeConstraint& point : points) point.target_velocity *= share;
     if (!solver_.solve(state, points)) solver_warning_ = "the impulses of an impact did not settle";
     return kinetic_energy(state) <= energy * (1 + kNewEnergy);
   };

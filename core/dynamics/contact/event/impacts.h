@@ -11,31 +11,32 @@ namespace rigor {
 
 // Approaching more slowly than this leaves no rebound: a sequence of bounces ends here, 2 u / (g (1 - e)) before its
 // own end, which for e = 0.9 on Earth is 2e-7 s.
-inline constexpr double kRestSpeed = 1e-7;  // m/s, unless a run names another
+inline constexpr double kRestitutionThreshold = 1e-7;  // m/s, unless a run names another
 // What the roundings of an impact leave of a velocity that should be zero.
 inline constexpr double kStillSpeed = 1e-10;  // m/s
 
 class Impacts {
  public:
-  Impacts(const System& system, double rest_speed) : system_(system), solver_(system), rest_speed_(rest_speed) {}
+  Impacts(const System& system, double restitution_threshold)
+      : system_(system), solver_(system), restitution_threshold_(restitution_threshold) {}
 
-  double rest_speed() const { return rest_speed_; }  // m/s
+  double restitution_threshold() const { return restitution_threshold_; }  // m/s
 
-  // Changes the velocities so that no touching points approach. Returns whether there were impacts above the rest
-  // speed. `inelastic`: no rebounds.
-  bool resolve(MutableBodyColumns state, std::vector<Touch>& touches, bool inelastic);
+  // Changes the velocities so that no touching points approach. Returns whether there were impacts above the
+  // restitution threshold. `inelastic`: no rebounds.
+  bool resolve(MutableBodyColumns state, std::vector<ContactPoint>& contact_points, bool inelastic);
   // Empty if every round came to its end.
   const std::string& solver_warning() const { return solver_warning_; }
 
  private:
-  bool choose(BodyColumns state, const std::vector<Touch>& touches, bool inelastic, bool all);
+  bool choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool inelastic, bool all);
   void solve_round(MutableBodyColumns state);
   double kinetic_energy(BodyColumns state) const;
 
   const System& system_;
   ConeSolver solver_;
-  double rest_speed_;
-  std::vector<ConePoint> points_, chosen_;
+  double restitution_threshold_;
+  std::vector<ConeConstraint> points_, chosen_;
   BodyTable before_;
   bool rebound_ = false;
   std::string solver_warning_;

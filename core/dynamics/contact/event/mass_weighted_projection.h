@@ -1,5 +1,8 @@
-// The least motion of the bodies, weighed by mass, that changes given speeds or distances at points by given amounts:
-// that by which pushes at those points would move them. It closes gaps, and takes away what is left of a speed.
+// The mass-weighted least-norm projection onto constraints at points: of all motions dx of the bodies with J dx = b,
+// the one of least dx·M dx,
+//   dx = M⁻¹ Jᵀ lambda,   (J M⁻¹ Jᵀ) lambda = b,
+// with J M⁻¹ Jᵀ the Delassus matrix; unilateral targets keep lambda >= 0. It closes gaps, and takes away what is left
+// of a speed.
 #pragma once
 
 #include <vector>
@@ -8,30 +11,30 @@
 
 namespace rigor {
 
-struct Demand {
+struct ProjectionTarget {
   int a = 0, b = 0;       // bodies
   Vec3 arm_a, arm_b;      // m, to the point, in W
   Vec3 direction;         // unit, in W, of a against b
-  double amount = 0;      // m or m/s, of the motion of a against b along it
-  bool both_ways = true;  // false: b may push a along the direction, but not pull it
+  double amount = 0;      // b: m or m/s, of the motion of a against b along it
+  bool bilateral = true;  // false: unilateral, b may push a along the direction but not pull it
 };
 
 // Three of a body's speeds along and three about W's axes, or what these make of its pose.
 using PoseStep = Eigen::Matrix<double, 6, 1>;
 
-class LeastMotion {
+class MassWeightedProjection {
  public:
-  explicit LeastMotion(const System& system) : system_(system) {}
-  // One step for each body of the system.
-  const std::vector<PoseStep>& meet(BodyColumns state, const std::vector<Demand>& demands);
+  explicit MassWeightedProjection(const System& system) : system_(system) {}
+  // One step for each body of the system. Redundant targets are met in the least-squares sense.
+  const std::vector<PoseStep>& project(BodyColumns state, const std::vector<ProjectionTarget>& targets);
 
  private:
   struct Side {
     int body;
-    PoseStep by, to;  // of the amount, by the body's motion; of the motion, by a push
+    PoseStep by, to;  // the row of J; the column of M⁻¹ Jᵀ
   };
   Side side_of(BodyColumns state, int body, const Vec3& arm, const Vec3& direction) const;
-  Eigen::VectorXd pushes(const std::vector<Demand>& demands, const std::vector<bool>& is_used) const;
+  Eigen::VectorXd multipliers(const std::vector<ProjectionTarget>& targets, const std::vector<bool>& is_used) const;
 
   const System& system_;
   std::vector<std::array<Side, 2>> sides_;

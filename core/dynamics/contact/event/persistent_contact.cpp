@@ -17,7 +17,7 @@ constexpr double kNearlySettled = 1e-10;  // likewise, where roundings leave no 
 constexpr double kClosed = 1e-13;         // m: a few roundings of a position of one metre
 constexpr int kMostMoves = 20;
 constexpr double kSliding = 1e-9;   // m/s: ten times what an impact or a stop may leave
-constexpr double kTouching = 1e-3;  // m: a held point that drifted further than this is not held any more
+constexpr double kTouching = 1e-3;  // m: a point that drifted further than this is not in contact any more
 
 Scene with_contact_forces(Scene scene) {
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
@@ -42,82 +42,85 @@ void move(MutableBodyColumns state, std::size_t i, const PoseStep& motion) {
 
 }  // namespace
 
-HeldMotion::HeldMotion(const Scene& scene, const Integrator& integrator, const OrientationUpdate* orientation,
-                       const Settings& settings, Touches& touches)
+PersistentContact::PersistentContact(const Scene& scene, const Integrator& integrator,
+                                     const OrientationUpdate* orientation, const Settings& settings,
+                                     ContactPoints& contact_points)
     : system_(with_contact_forces(scene)),
       force_of_body_(scene.bodies.size(), kNone),
       stepper_(integrator.make({system_, nullptr, orientation, settings})),
       solver_(system_),
-      least_motion_(system_),
-      touches_(touches),
+      projection_(system_),
+      contact_points_(contact_points),
       wrenches_(scene.bodies.size()),
       old_wrenches_(scene.bodies.size()) {
   const auto& forces = system_.loads.forces();
   for (std::size_t k = scene.forces.size(); k < forces.size(); ++k) force_of_body_[forces[k].body] = k;
 }
 
-void HeldMotion::hold(BodyColumns state, const std::vector<Touch>& touches) {
+void PersistentContact::select(BodyColumns state, const std::vector<ContactPoint>& contact_points) {
   old_points_.swap(points_);
   points_.clear();
-  for (const Touch& touch : touches) {
-    const Vec3 u = ConeSolver::velocity_at(touch.cone, state);
-    constexpr double kParting = 1e-9;  // m/s: ten times what an impact may leave, a hundredth of the least rebound
-    if (u.x() > kParting) continue;
-    HeldPoint point{touch, touch, u.tail<2>().norm(), 0, Vec3::Zero()};
+  for (const ContactPoint& contact : contact_points) {
+    const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
+    constexpr double kSeparating = 1e-9;  // m/s: ten times what an impact may leave, a hundredth of the least rebound
+    if (u.x() > kSeparating) continue;
+    PersistentPoint point{contact, contact, u.tail<2>().norm(), 0, Vec3::Zero()};
     const auto old = std::find_if(old_points_.begin(), old_points_.end(),
-                                  [&](const HeldPoint& p) { return p.at_start.same_place(touch); });
+                                  [&](const PersistentPoint& p) { return p.at_start.same_place(contact); });
     if (old != old_points_.end()) {
-      point.force = touch.cone.frame.transpose() * (old->at_start.cone.frame * old->force);
+      point.force = contact.cone.frame.transpose() * (old->at_start.cone.frame * old->force);
     }
     points_.push_back(point);
   }
 }
 
-bool HeldMotion::hold_slower_than(double speed, BodyColumns state, const std::vector<Touch>& touches) {
+bool PersistentContact::add_slower_than(double speed, BodyColumns state,
+                                        const std::vector<ContactPoint>& contact_points) {
   const std::size_t before = points_.size();
-  for (const Touch& touch : touches) {
-    const bool is_held = std::any_of(points_.begin(), points_.end(),
-                                     [&](const HeldPoint& point) { return point.at_start.same_place(touch); });
-    const Vec3 u = ConeSolver::velocity_at(touch.cone, state);
-    if (!is_held && u.x() < speed) points_.push_back({touch, touch, u.tail<2>().norm(), 0, Vec3::Zero()});
+  for (const ContactPoint& contact : contact_points) {
+    const bool is_persistent = std::any_of(points_.begin(), points_.end(), [&](const PersistentPoint& point) {
+      return point.at_start.same_place(contact);
+    });
+    const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
+    if (!is_persistent && u.x() < speed) points_.push_back({contact, contact, u.tail<2>().norm(), 0, Vec3::Zero()});
   }
   return points_.size() > before;
 }
 
-// The held points' forces as loads on the bodies. Returns by how much a step of dt moves a surface's velocity otherwise
+// The points' forces as loads on the bodies. Returns by how much a step of dt moves a surface's velocity otherwise
 // than it would have before [m/s].
-double HeldMotion::apply_forces(double dt) {
+double PersistentContact::apply_forces(double dt) {
   old_wrenches_.swap(wrenches_);
   wrenches_.assign(system_.size(), Wrench{});
-  push_size_ = 0;
-  for (const HeldPoint& point : points_) {
-    const ConePoint &start = point.at_start.cone, &end = point.at_end.cone;
+  velocity_scale_ = 0;
+  for (const PersistentPoint& point : points_) {
+    const ConeConstraint &start = point.at_start.cone, &end = point.at_end.cone;
     const Vec3 force = 0.5 * (start.frame + end.frame) * point.force;
     wrenches_[start.a].force += force;
     wrenches_[start.a].torque += (0.5 * (start.arm_a + end.arm_a)).cross(force);
     wrenches_[start.b].force -= force;
     wrenches_[start.b].torque -= (0.5 * (start.arm_b + end.arm_b)).cross(force);
     const double inverse_mass = std::max(system_.bodies[start.a].inverse_mass, system_.bodies[start.b].inverse_mass);
-    push_size_ = std::max(push_size_, dt * inverse_mass * force.norm());
+    velocity_scale_ = std::max(velocity_scale_, dt * inverse_mass * force.norm());
   }
   double largest = 0;
-  for (const Collider& collider : touches_.colliders()) {
+  for (const Collider& collider : contact_points_.colliders()) {
     if (collider.fixed) continue;
     const int i = collider.body;
     system_.loads.set_force(force_of_body_[i], wrenches_[i].force, wrenches_[i].torque);
     const Inertia& body = system_.bodies[i];
     const Vec3 push = body.inverse_mass * (wrenches_[i].force - old_wrenches_[i].force);
     const double turn = body.inverse_inertia_B.norm() * (wrenches_[i].torque - old_wrenches_[i].torque).norm();
-    largest = std::max(largest, dt * (push.norm() + turn * collider.reach));
+    largest = std::max(largest, dt * (push.norm() + turn * collider.bounding_radius));
   }
   return largest;
 }
 
 // Brings the end's velocities in line with the laws, and the forces with them.
-void HeldMotion::correct(MutableBodyColumns end, double dt) {
+void PersistentContact::correct(MutableBodyColumns end, double dt) {
   cones_.clear();
-  for (HeldPoint& point : points_) {
-    touches_.follow(end, point.at_end);
+  for (PersistentPoint& point : points_) {
+    contact_points_.follow(end, point.at_end);
     cones_.push_back(point.at_end.cone);
     cones_.back().impulse = dt * point.force;
   }
@@ -129,9 +132,9 @@ void HeldMotion::correct(MutableBodyColumns end, double dt) {
   }
 }
 
-bool HeldMotion::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
+bool PersistentContact::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
   solver_warning_.clear();
-  for (HeldPoint& point : points_) point.at_end = point.at_start;
+  for (PersistentPoint& point : points_) point.at_end = point.at_start;
   apply_forces(dt);
   const double speed = speed_of(start);
   double last = kInfinity;
@@ -143,7 +146,7 @@ bool HeldMotion::advance(BodyColumns start, MutableBodyColumns end, double t, do
     solver_warning_.clear();  // only of the last pass
     correct(end, dt);
     const double change = apply_forces(dt);
-    const double size = 1 + speed + push_size_;
+    const double size = 1 + speed + velocity_scale_;
     if (change <= kSettled * size) return true;
     if (pass % kFewestPasses != 0) continue;
     if (!(change < last) && change <= kNearlySettled * size) return true;
@@ -154,39 +157,41 @@ bool HeldMotion::advance(BodyColumns start, MutableBodyColumns end, double t, do
   return false;
 }
 
-double HeldMotion::distance_from_sticking() const {
+double PersistentContact::distance_from_sticking() const {
   double least = kInfinity;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const ConePoint& cone = cones_[i];
+    const ConeConstraint& cone = cones_[i];
     if (points_[i].slip_at_start <= kSliding || cone.impulse.x() <= 0) continue;
     if (cone.friction == 0 || std::isinf(cone.friction)) continue;
     const double spare = cone.friction * cone.impulse.x() - cone.impulse.tail<2>().norm();
-    least = std::min(least, points_[i].slip_at_end - std::max(0.0, spare) / cone.tangent_pace);
+    least = std::min(least, points_[i].slip_at_end - std::max(0.0, spare) / cone.tangent_effective_mass);
   }
   return least;
 }
 
-bool HeldMotion::carries(const Touch& touch) const {
-  return std::any_of(points_.begin(), points_.end(),
-                     [&](const HeldPoint& point) { return point.at_end.same_place(touch) && point.force.x() > 0; });
+bool PersistentContact::carries(const ContactPoint& contact) const {
+  return std::any_of(points_.begin(), points_.end(), [&](const PersistentPoint& point) {
+    return point.at_end.same_place(contact) && point.force.x() > 0;
+  });
 }
 
-bool HeldMotion::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs, Closing which) {
+bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,
+                                   Closing which) {
   double before = kInfinity;
   for (int k = 0; k < kMostMoves; ++k) {
-    open_.clear(), demands_.clear();
-    touches_.find(state, pairs, kTouching, open_);
+    open_.clear(), targets_.clear();
+    contact_points_.find(state, pairs, kTouching, open_);
     double widest = 0;
-    for (const Touch& touch : open_) {
-      const bool is_carrying = which == Closing::all && carries(touch);
-      if (!(touch.gap < 0 || is_carrying)) continue;
-      widest = std::max(widest, std::abs(touch.gap));
-      demand(touch.cone, 0, -touch.gap, is_carrying);
+    for (const ContactPoint& contact : open_) {
+      const bool is_carrying = which == Closing::all && carries(contact);
+      if (!(contact.gap < 0 || is_carrying)) continue;
+      widest = std::max(widest, std::abs(contact.gap));
+      add_target(contact.cone, 0, -contact.gap, is_carrying);
     }
     // Where it does not fall by much any more, it is rounding, or there is no place for all bodies.
     if (!(widest > kClosed) || widest > 0.5 * before) return k > 0;
     before = widest;
-    const std::vector<PoseStep>& motion = least_motion_.meet(state, demands_);
+    const std::vector<PoseStep>& motion = projection_.project(state, targets_);
     for (std::size_t i = 0; i < motion.size(); ++i) {
       if (!motion[i].isZero(0)) move(state, i, motion[i]);
     }
@@ -194,18 +199,18 @@ bool HeldMotion::close_gaps(MutableBodyColumns state, const std::vector<std::pai
   return true;
 }
 
-void HeldMotion::stop_carrying_points(MutableBodyColumns state) {
-  demands_.clear();
-  for (const HeldPoint& point : points_) {
-    Touch now = point.at_end;
-    if (!(point.force.x() > 0) || !touches_.follow(state, now) || now.gap > kTouching) continue;
+void PersistentContact::stop_carrying_points(MutableBodyColumns state) {
+  targets_.clear();
+  for (const PersistentPoint& point : points_) {
+    ContactPoint now = point.at_end;
+    if (!(point.force.x() > 0) || !contact_points_.follow(state, now) || now.gap > kTouching) continue;
     const Vec3 u = ConeSolver::velocity_at(now.cone, state);
-    demand(now.cone, 0, -u.x(), true);
+    add_target(now.cone, 0, -u.x(), true);
     if (point.slip_at_end > kSliding || now.cone.friction == 0) continue;
-    demand(now.cone, 1, -u.y(), true);
-    demand(now.cone, 2, -u.z(), true);
+    add_target(now.cone, 1, -u.y(), true);
+    add_target(now.cone, 2, -u.z(), true);
   }
-  const std::vector<PoseStep>& motion = least_motion_.meet(state, demands_);
+  const std::vector<PoseStep>& motion = projection_.project(state, targets_);
   for (std::size_t i = 0; i < motion.size(); ++i) {
     if (motion[i].isZero(0)) continue;
     state.set_velocity(i, state.velocity(i) + motion[i].head<3>());
@@ -213,14 +218,14 @@ void HeldMotion::stop_carrying_points(MutableBodyColumns state) {
   }
 }
 
-void HeldMotion::demand(const ConePoint& cone, int axis, double amount, bool both_ways) {
-  demands_.push_back({.a = cone.a,
+void PersistentContact::add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral) {
+  targets_.push_back({.a = cone.a,
                       .b = cone.b,
                       .arm_a = cone.arm_a,
                       .arm_b = cone.arm_b,
                       .direction = cone.frame.col(axis),
                       .amount = amount,
-                      .both_ways = both_ways});
+                      .bilateral = bilateral});
 }
 
 }  // namespace rigor

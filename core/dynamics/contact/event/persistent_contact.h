@@ -1,4 +1,4 @@
-// Motion with points held in contact, for the method `event`: the forces at those points, constant over a sub-step,
+// Motion in persistent contact, for the method `event`: the forces at the points in contact, constant over a sub-step,
 // that leave velocities which obey the contact laws at its end. They enter the integrator's step as any other load, so
 // that its scheme carries the motion; they act at the mean of the points' places and directions at both ends, which
 // makes a sub-step second order where the contact turns, and exact where the forces are constant.
@@ -10,23 +10,23 @@
 
 namespace rigor {
 
-struct HeldPoint {
-  Touch at_start, at_end;
+struct PersistentPoint {
+  ContactPoint at_start, at_end;
   double slip_at_start = 0, slip_at_end = 0;  // m/s
   Vec3 force = Vec3::Zero();                  // N, in the frames
 };
 
-class HeldMotion {
+class PersistentContact {
  public:
-  HeldMotion(const Scene& scene, const Integrator& integrator, const OrientationUpdate* orientation,
-             const Settings& settings, Touches& touches);
+  PersistentContact(const Scene& scene, const Integrator& integrator, const OrientationUpdate* orientation,
+                    const Settings& settings, ContactPoints& contact_points);
 
   const System& system() const { return system_; }
-  std::vector<HeldPoint>& points() { return points_; }
-  // Holds the touching points that do not part; forces of points held before are where the next search starts.
-  void hold(BodyColumns state, const std::vector<Touch>& touches);
-  // Holds those that part more slowly than `speed`, too. Returns whether there were any.
-  bool hold_slower_than(double speed, BodyColumns state, const std::vector<Touch>& touches);
+  std::vector<PersistentPoint>& points() { return points_; }
+  // Takes the touching points that do not separate; forces of points that persist are where the next solve starts.
+  void select(BodyColumns state, const std::vector<ContactPoint>& contact_points);
+  // Takes those that separate more slowly than `speed`, too. Returns whether there were any.
+  bool add_slower_than(double speed, BodyColumns state, const std::vector<ContactPoint>& contact_points);
   // From `start` at t to `end` at t + dt. False if the forces did not settle, as they do in a shorter step.
   bool advance(BodyColumns start, MutableBodyColumns end, double t, double dt);
   // How far the first of the sliding points is from sticking [m/s]: its speed while it slides; once it sticks, minus
@@ -45,21 +45,21 @@ class HeldMotion {
  private:
   double apply_forces(double dt);
   void correct(MutableBodyColumns end, double dt);
-  bool carries(const Touch& touch) const;
-  void demand(const ConePoint& cone, int axis, double amount, bool both_ways);
+  bool carries(const ContactPoint& contact) const;
+  void add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral);
 
   System system_;  // the scene's, with one more force on each colliding body
   std::vector<std::size_t> force_of_body_;
   std::unique_ptr<Stepper> stepper_;
   ConeSolver solver_;
-  LeastMotion least_motion_;
-  Touches& touches_;
-  std::vector<HeldPoint> points_, old_points_;
-  std::vector<ConePoint> cones_;
-  std::vector<Touch> open_;
-  std::vector<Demand> demands_;
+  MassWeightedProjection projection_;
+  ContactPoints& contact_points_;
+  std::vector<PersistentPoint> points_, old_points_;
+  std::vector<ConeConstraint> cones_;
+  std::vector<ContactPoint> open_;
+  std::vector<ProjectionTarget> targets_;
   Wrenches wrenches_, old_wrenches_;
-  double push_size_ = 0;  // m/s, the most that one point's force alone would make of a body's speed in a step
+  double velocity_scale_ = 0;  // m/s, the most that one point's force alone would make of a body's speed in a step
   long passes_ = 0;
   std::string solver_warning_;
 };

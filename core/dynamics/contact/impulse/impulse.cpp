@@ -1,29 +1,48 @@
-// Contact by impulses, for piles: the step is divided into small sub-steps of the integrator, and within
-// each the bodies move freely by its scheme and are then corrected (pile_solver.h). Contacts are found once a step, and
-// in long ones once every kLongestStretch (manifolds.h). What is fast and far enough to meet something by the next time
-// is seen before it does, so that it cannot pass through.
+// Contact by sequential impulses (projected Gauss-Seidel) in small sub-steps with soft constraints, for piles (Macklin
+// et al., Small steps in physics simulation, 2019; Catto, Soft constraints, 2011; Catto, Solver2D, 2024: "soft step").
+// A sub-step of length h: the bodies move freely by the integrator's scheme; the impulses of the sub-step before are
+// applied (warm start); then each constraint in turn gets, with its relative velocity u and inverse effective masses k,
+//   p_n <- max(0, p_n - mass_scale (u_n + bias) / k_n - impulse_scale p_n),
+//   p_t <- onto the disc of radius mu p_n (p_t - u_t / k_t),
+// where the bias lets a gap close within h, or pushes an overlap out as a damped spring of contact_hertz does; the
+// positions are integrated with that; then the constraints are relaxed, which is the same without bias, so that what
+// pushed bodies out leaves them no speed; and what came together fast gets its restitution,
+//   u_n' = -e u_n.
+// The row arithmetic is in kernels/contact_row_kernels-inl.h, several rows at a time.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/dynamics/contact/contact_method.h"
-#include "core/dynamics/contact/impulse/sequential_impulses.h"
+#include "core/dynamics/contact/impulse/contact_row_layout.h"
+#include "core/dynamics/contact/impulse/manifolds.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
 namespace {
 
 // So short that what a spring as stiff as a sub-step allows gives way under ten bodies is a fraction of a millimetre.
-// Who takes steps longer than kCoarse wants their number small, and can do with more work in each; and what weighs many
-// times as much as another needs it: of boxes in a pyramid on sub-steps of 1/480 s, a top of thirty or a hundred times
-// the others' mass moves them by 5 mm at most, one of three hundred by up to 10 cm.
-constexpr double kCoarse = 1.0 / 50, kLongestSubStep = 1.0 / 480, kShorter = 1.0 / 960;  // s
-constexpr double kUneven = 30;                                                           // to one
+// Steps longer than kCoarse are chosen for their small number, and leave time for more work in each; and bodies that
+// weigh many times as much as others need it: of boxes in a pyramid on sub-steps of 1/480 s, a top of thirty or a
+// hundred times the others' mass moves them by 5 mm at most, one of three hundred by up to 10 cm.
+constexpr double kCoarse = 1.0 / 50, kLongestSubStep = 1.0 / 480, kShorterSubStep = 1.0 / 960;  // s
+constexpr double kUnevenMassRatio = 30;
 constexpr int kFewestSubSteps = 4;
 
-constexpr double kLongestStretch = 1.0 / 120;  // s, over which contacts keep their normals
+// Contacts keep their normals for so long.
+constexpr double kContactUpdateInterval = 1.0 / 120;  // s
+
+constexpr double kDampingRatio = 10;              // zeta of the soft constraint
+constexpr double kContactHertzPerSubStep = 0.25;  // its frequency, of that of the sub-steps
+constexpr double kMaxPushSpeed = 3;               // m/s
+
+// What comes together faster than gravity brings it in so many sub-steps is an impact.
+constexpr double kSubStepsOfFall = 4;
+constexpr int kMaxImpactSweeps = 30;       // over the points of an impact, of which few bodies have more than four
+constexpr double kImpactTolerance = 1e-3;  // of the restitution threshold
 
 // What is a whole number but for rounding is not made one more.
 int rounded_up(double count) { return static_cast<int>(std::ceil(count - 1e-9)); }
@@ -33,58 +52,158 @@ bool has_uneven_masses(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (!body.fixed && body.collides) least = std::min(least, body.mass), most = std::max(most, body.mass);
   }
-  return most > kUneven * least;
+  return most > kUnevenMassRatio * least;
+}
+
+// What integrate_corrections() does to the orientations of an integrator that keeps matrices.
+void turn_matrices(const AlignedDoubles& velocities, double h, MutableBodyColumns state) {
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vec3 w = Eigen::Map<const Vec3>(velocities.data() + kRecord * i + 3);
+    const Vec3 turn = h * (w - state.angular_velocity(i));
+    if (!turn.isZero(0)) state.set_rotation(i, rotation_by(turn).toRotationMatrix() * state.rotation(i));
+  }
 }
 
 class ImpulseStepper : public ContactStepper {
  public:
   ImpulseStepper(const Scene& scene, const ContactParts& parts)
-      : sub_steps_(static_cast<int>(number_option(parts.settings, "substeps", 0))),
-        longest_(has_uneven_masses(scene) ? kShorter : kLongestSubStep),
+      : system_(parts.system),
+        sub_steps_(static_cast<int>(number_option(parts.settings, "substeps", 0))),
+        longest_sub_step_(has_uneven_masses(scene) ? kShorterSubStep : kLongestSubStep),
         manifolds_(scene),
-        solver_(parts.system, parts.integrator.leapfrog_stagger > 0 ? 1 : 0.5),
-        stepper_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {}
+        rows_(parts.system),
+        positions_(kVelocity, parts.system.size()),
+        integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
+    // A semi-implicit method moves by the velocity after the sub-step, the others by the mean of both.
+    parameters_.theta = parts.integrator.leapfrog_stagger > 0 ? 1 : 0.5;
+    parameters_.max_push_speed = kMaxPushSpeed;
+    parameters_.max_sweeps = kMaxImpactSweeps;
+    const std::size_t idle = rows_.idle_body();
+    for (AlignedDoubles* records : {&velocities_, &displacements_, &inverse_inertias_})
+      records->assign(kRecord * (idle + 2), 0.0);
+    last_active_.assign(idle + 2, 0);
+    inverse_inertias_[kRecord * idle + 6] = 1;  // 1/kg, of which rows divide by the sum
+  }
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    if (!(dt > 0)) return stepper_->step(state, t, dt);
-    const int count = sub_steps_of(dt), stretches = std::min(count, rounded_up(dt / kLongestStretch));
+    if (!(dt > 0)) return integrator_->step(state, t, dt);
+    const int count = sub_steps_of(dt), updates = std::min(count, rounded_up(dt / kContactUpdateInterval));
     const double h = dt / count;
-    for (int stretch = 0, k = 0; stretch < stretches; ++stretch) {
-      const int end = (stretch + 1) * count / stretches;
-      solver_.begin_stretch(state, manifolds_.find(state, (end - k) * h), h);
+    for (int update = 0, k = 0; update < updates; ++update) {
+      const int end = (update + 1) * count / updates;
+      std::vector<ContactConstraint>& constraints = manifolds_.find(state, (end - k) * h);
+      prepare(state, constraints, h);
       for (; k < end; ++k) {
-        solver_.begin_sub_step(state);
-        stepper_->step(state, t + k * h, h);
-        solver_.first_pass(state);
-        solver_.second_pass(state);
+        prepare_sub_step(state);
+        integrator_->step(state, t + k * h, h);
+        warm_start(state);
+        solve_with_bias();
+        integrate_corrections(state);
+        relax();
+        apply_restitution();
+        store_velocities(state);
       }
-      solver_.end_stretch();
+      rows_.store_impulses(constraints);
     }
   }
 
-  std::string solver_warning() const override { return stepper_->solver_warning(); }
+  std::string solver_warning() const override { return integrator_->solver_warning(); }
 
   SettingsInForce settings_in_force() const override {
     return {{"contact solver", "sequential impulses, two passes a sub-step, warm start"},
-            {"contacts", fmt::format("found once a step and every 1/{:.0f} s", 1 / kLongestStretch)},
+            {"contacts", fmt::format("found once a step and every 1/{:.0f} s", 1 / kContactUpdateInterval)},
             {"sub-steps",
              sub_steps_ > 0
                  ? fmt::format("{} a step", sub_steps_)
                  : fmt::format("at least {} a step, none longer than 1/{:.0f} s (1/{:.0f} s in steps over 1/50 s)",
-                               kFewestSubSteps, 1 / longest_, 1 / kShorter)}};
+                               kFewestSubSteps, 1 / longest_sub_step_, 1 / kShorterSubStep)}};
   }
 
  private:
   int sub_steps_of(double dt) const {
     if (sub_steps_ > 0) return sub_steps_;
-    return std::max(kFewestSubSteps, rounded_up(dt / (dt > kCoarse ? kShorter : longest_)));
+    return std::max(kFewestSubSteps, rounded_up(dt / (dt > kCoarse ? kShorterSubStep : longest_sub_step_)));
   }
 
-  int sub_steps_;   // 0: as dt asks
-  double longest_;  // s
+  // The soft constraint of frequency f and damping ratio zeta, omega = 2 pi f, integrated implicitly over h:
+  //   bias_rate = omega / (2 zeta + h omega),  mass_scale = a / (1 + a),  impulse_scale = 1 / (1 + a),
+  // with a = h omega (2 zeta + h omega).
+  void soften(double h) {
+    const double h_omega = 2 * std::numbers::pi * kContactHertzPerSubStep;
+    const double a1 = 2 * kDampingRatio + h_omega, a2 = h_omega * a1;
+    parameters_.h = h;
+    parameters_.bias_rate = h_omega / (h * a1);
+    parameters_.mass_scale = a2 / (1 + a2), parameters_.impulse_scale = 1 / (1 + a2);
+    parameters_.restitution_threshold = kSubStepsOfFall * h * system_.scene_gravity.norm();
+    parameters_.tolerance = kImpactTolerance * parameters_.restitution_threshold;
+  }
+
+  // For sub-steps of h with these contacts: effective masses, and the last impulses, scaled to h.
+  void prepare(BodyColumns state, const std::vector<ContactConstraint>& constraints, double h) {
+    const double impulse_scale = parameters_.h > 0 ? h / parameters_.h : 1;
+    soften(h);
+    for (int c = 0; c < kVelocity; ++c) std::copy_n(state.column(c), state.size(), positions_.column(c));
+    kernels().gather_velocities(all_bodies(), state.column(0), velocities_.data());
+    kernels().gather_inverse_inertias(all_bodies(), state.column(0), inverse_inertias_.data());
+    rows_.assign(constraints, impulse_scale);
+    impacts_.resize(kRowsPerBlock * rows_.size());
+    kernels().prepare_rows(rows_.blocks(), rows_.size(), solver_bodies());
+  }
+
+  // Gaps and the speeds at which they close, before the bodies move, and with them the biases. The velocities are those
+  // that the last sub-step has left.
+  void prepare_sub_step(BodyColumns state) {
+    kernels().measure_displacements(all_bodies(), state.column(0), positions_.column(0), displacements_.data());
+    impact_count_ = kernels().prepare_bias(rows_.blocks(), rows_.size(), solver_bodies(), parameters_, impacts_.data());
+  }
+
+  void warm_start(BodyColumns state) {
+    kernels().gather_velocities(all_bodies(), state.column(0), velocities_.data());
+    kernels().warm_start(rows_.blocks(), rows_.size(), solver_bodies());
+  }
+
+  // What comes down flat must not be set turning by which of its corners is taken first: impacts are solved until they
+  // agree.
+  void solve_with_bias() {
+    kernels().solve_with_bias(rows_.blocks(), rows_.size(), solver_bodies(), parameters_);
+    kernels().solve_impacts_with_bias(rows_.blocks(), impacts_.data(), impact_count_, solver_bodies(), parameters_);
+  }
+
+  // The integrator has moved the bodies; what the impulses changed of the velocities moves them further.
+  void integrate_corrections(MutableBodyColumns state) {
+    const double h = parameters_.theta * parameters_.h;
+    if (state.has_rotation()) turn_matrices(velocities_, h, state);
+    kernels().integrate_corrections(all_bodies(), velocities_.data(), state.column(0), h);
+  }
+
+  void relax() { kernels().relax(rows_.blocks(), rows_.size(), solver_bodies()); }
+
+  void apply_restitution() {
+    if (!rows_.has_restitution()) return;
+    kernels().apply_restitution(rows_.blocks(), impacts_.data(), impact_count_, solver_bodies(), parameters_);
+  }
+
+  void store_velocities(MutableBodyColumns state) {
+    kernels().scatter_velocities(all_bodies(), velocities_.data(), state.column(0));
+  }
+
+  Bodies all_bodies() const { return system_.constants.all(); }
+  SolverBodies solver_bodies() {
+    return {velocities_.data(), displacements_.data(), last_active_.data(), inverse_inertias_.data()};
+  }
+
+  const System& system_;
+  int sub_steps_;            // 0: as dt asks
+  double longest_sub_step_;  // s
   Manifolds manifolds_;
-  PileSolver solver_;
-  std::unique_ptr<Stepper> stepper_;
+  ContactRowLayout rows_;
+  SolverParameters parameters_{};
+  AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies
+  std::vector<std::int32_t> last_active_;
+  Columns positions_;                  // the state's poses when contacts were last updated
+  std::vector<std::int32_t> impacts_;  // rows whose points meet in this sub-step, faster than gravity brings them
+  std::size_t impact_count_ = 0;
+  std::unique_ptr<Stepper> integrator_;
 };
 
 }  // namespace

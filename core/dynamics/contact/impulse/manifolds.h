@@ -1,19 +1,20 @@
-// The contacts of many bodies from one time they are found to the next, for the method `impulse`: pairs that may meet
-// until then, the points of each, and which of them were there the last time. A body's pairs are searched for anew only
-// when it has left the box, wider than itself, in which it was searched for last; a pile at rest needs no search.
+// The contact constraints of many bodies from one update to the next, for the method `impulse`: pairs that may meet
+// until then (speculative contacts), the points of each, and the impulses of those that persist. A body's pairs are
+// searched for anew only when it has left its fat box, in which it was searched for last; a pile at rest needs no
+// search.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "core/dynamics/collision/pair_finder.h"
+#include "core/dynamics/collision/aabb_broad_phase.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
 
-// A point of two bodies that touch or may meet within dt, in which case it is the one at which they will.
-// Impulses are those of one sub-step.
-struct PilePoint {
+// A contact point of two bodies that touch, or may meet before the next update; then it is where they will. Impulses
+// are those of one sub-step.
+struct ContactConstraint {
   int a, b;  // bodies
   std::uint32_t feature;
   Vec3 normal;        // unit, in W, from b to a
@@ -31,29 +32,29 @@ class Manifolds {
         laws_(scene),
         poses_(colliders_.size()),
         boxes_(colliders_.size()),
-        bounds_(colliders_.size()) {}
+        bounding_radii_(colliders_.size()) {}
 
-  // The points for the next dt, sorted by pair, with the impulses of the points of last time.
-  std::vector<PilePoint>& find(BodyColumns state, double dt);
+  // The constraints for the next dt, sorted by pair, with the impulses of those that persist from the last update.
+  std::vector<ContactConstraint>& find(BodyColumns state, double dt);
 
  private:
   void place_bodies(BodyColumns state, double dt);
   bool stay_apart(int a, int b) const;
   void update_pairs(BodyColumns state, double dt);
   void add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b);
-  void remember(std::size_t first, std::size_t& old);
+  void match_impulses(std::size_t first, std::size_t& old);
 
   std::vector<Collider> colliders_;
   ContactLaws laws_;
-  PairFinder finder_;
+  AabbBroadPhase broad_phase_;
   std::vector<Pose> poses_;
-  std::vector<Aabb> boxes_, wide_boxes_;
-  std::vector<double> bounds_;  // m: how far from its pose a body can be met within dt
-  std::vector<int> left_;       // colliders
+  std::vector<Aabb> boxes_, fat_boxes_;
+  std::vector<double> bounding_radii_;  // m: of all that a body can reach within dt
+  std::vector<int> moved_;              // colliders that left their fat boxes
   const std::vector<std::pair<int, int>>* pairs_ = nullptr;
   Manifold manifold_;
-  double same_within_ = 0;  // m
-  std::vector<PilePoint> points_, old_points_;
+  double match_radius_ = 0;  // m
+  std::vector<ContactConstraint> constraints_, old_constraints_;
 };
 
 }  // namespace rigor

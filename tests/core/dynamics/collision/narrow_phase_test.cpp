@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "core/dynamics/collision/pair_finder.h"
+#include "core/dynamics/collision/aabb_broad_phase.h"
 
 using namespace rigor;
 
@@ -50,7 +50,7 @@ Pose random_pose(std::mt19937& random, double spread) {
 
 double least_gap(const Manifold& points) {
   double least = 1e9;
-  for (const ContactPoint& point : points) least = std::min(least, point.gap);
+  for (const ManifoldPoint& point : points) least = std::min(least, point.gap);
   return least;
 }
 
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(flat_contacts_have_their_corners) {
   const Pose low, high{{0.2, 0.1, 1}, Mat3::Identity()};
   collide(Box{{1, 1, 1}}, high, Box{{1, 1, 1}}, low, points);
   BOOST_TEST(points.size() == 4);
-  for (const ContactPoint& point : points) {
+  for (const ManifoldPoint& point : points) {
     BOOST_TEST((point.normal - Vec3(0, 0, 1)).norm() < 1e-12);
     BOOST_TEST(std::abs(point.gap) < 1e-12);
     BOOST_TEST(std::abs(std::abs(point.point.x() - 0.1) - 0.4) < 1e-5);  // the sides are cut a touch further out
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(flat_contacts_have_their_corners) {
   BOOST_TEST(points.size() == 2);
   collide(Capsule{0.2, 0.6}, lying, Plane{Vec3::UnitZ(), 0.5}, low, points);
   BOOST_TEST(points.size() == 2);
-  for (const ContactPoint& point : points) BOOST_TEST(std::abs(point.gap) < 1e-12);
+  for (const ManifoldPoint& point : points) BOOST_TEST(std::abs(point.gap) < 1e-12);
 }
 
 namespace {
@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(the_pair_finder_finds_what_a_search_of_all_pairs_finds) {
     const Vec3 low(coordinate(random), coordinate(random), coordinate(random));
     return Aabb{low, low + scale * Vec3(size(random), size(random), size(random))};
   };
-  PairFinder finder;
+  AabbBroadPhase finder;
   for (int round = 0; round < 20; ++round) {
     std::vector<Aabb> boxes;
     for (int i = 0; i < 150; ++i) boxes.push_back(random_box(i % 50 == 0 ? 20 : 1));  // a few large ones

@@ -227,7 +227,7 @@ export class CaseView {
         ? part(
             "scheme",
             "Scheme or engine?",
-            "The core repeats an engine's published scheme at the same step. What that twin is off from the truth is the scheme's; only what the engine is off from its twin is unexplained.",
+            "The core runs a scheme replica (twin) of an engine: its published scheme at the same step. What the twin is off from the truth is the scheme's; only what the engine is off from its twin is unexplained.",
             split,
           )
         : null,

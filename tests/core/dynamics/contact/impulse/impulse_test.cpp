@@ -18,7 +18,7 @@ namespace {
 constexpr double kG = 9.81;
 
 double deepest(const Scene& scene, BodyColumns state) {
-  Touches touches(scene);
+  ContactPoints touches(scene);
   const auto pairs = touches.candidates(state, state, 0);
   std::vector<double> gaps;
   touches.least_gaps(state, pairs, gaps);

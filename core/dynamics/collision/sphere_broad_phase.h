@@ -18,9 +18,9 @@ struct Ball {
   double radius;  // m
 };
 
-class BroadPhase {
+class SphereBroadPhase {
  public:
-  explicit BroadPhase(std::vector<Ball> balls);
+  explicit SphereBroadPhase(std::vector<Ball> balls);
 
   // Each pair (first < second by their place among the balls) that overlaps, in ascending order. Meant to be called
   // once a step. `spheres`: columns of SphereColumn, of which kFoundAt is kept here.

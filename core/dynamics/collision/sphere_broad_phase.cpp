@@ -1,4 +1,4 @@
-#include "core/dynamics/collision/broad_phase.h"
+#include "core/dynamics/collision/sphere_broad_phase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +28,12 @@ constexpr std::uint64_t cells_away(std::int64_t x, std::int64_t y, std::int64_t 
 
 }  // namespace
 
-BroadPhase::BroadPhase(std::vector<Ball> balls) : balls_(std::move(balls)) {
+SphereBroadPhase::SphereBroadPhase(std::vector<Ball> balls) : balls_(std::move(balls)) {
   for (const Ball& ball : balls_) largest_radius_ = std::max(largest_radius_, ball.radius);
 }
 
-const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const Bodies& bodies, BodyColumns state,
-                                                             Columns& spheres) {
+const std::vector<std::pair<int, int>>& SphereBroadPhase::overlaps(const Bodies& bodies, BodyColumns state,
+                                                                   Columns& spheres) {
   if (steps_held_ == 0 || !kernels().have_stayed(bodies, state.column(0), spheres.data(), slack_.data())) {
     choose_slack(state, spheres);
     search(state);
@@ -49,14 +49,14 @@ const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const Bodies& bodie
   return pairs_;
 }
 
-bool BroadPhase::overlap(int a, int b, BodyColumns state) const {
-  const double reach = balls_[a].radius + balls_[b].radius;
-  return (state.position(balls_[a].body) - state.position(balls_[b].body)).squaredNorm() < reach * reach;
+bool SphereBroadPhase::overlap(int a, int b, BodyColumns state) const {
+  const double distance = balls_[a].radius + balls_[b].radius;
+  return (state.position(balls_[a].body) - state.position(balls_[b].body)).squaredNorm() < distance * distance;
 }
 
 // From what the balls moved in a step since the last search; the first knows nothing but how large they are. Fewer
 // steps if a search found many pairs, for each costs a look in every step.
-void BroadPhase::choose_slack(BodyColumns state, const Columns& spheres) {
+void SphereBroadPhase::choose_slack(BodyColumns state, const Columns& spheres) {
   constexpr double kMostSteps = 256;
   constexpr std::size_t kMostPairsOfBall = 4;
   if (steps_held_ == 0) {
@@ -76,7 +76,7 @@ void BroadPhase::choose_slack(BodyColumns state, const Columns& spheres) {
 
 // Cells are as wide as the largest ball and twice the slack, so that balls that may meet lie in the same cell or in
 // neighbouring ones.
-void BroadPhase::sort_by_cell(BodyColumns state) {
+void SphereBroadPhase::sort_by_cell(BodyColumns state) {
   constexpr double kRounding = 1 + 1e-9;  // of an index
   const Vec3 per_metre = (kRounding * 2 * (Vec3::Constant(largest_radius_) + slack_)).cwiseInverse();
   entries_.clear();
@@ -95,7 +95,7 @@ void BroadPhase::sort_by_cell(BodyColumns state) {
 // Of the twenty-six cells round a ball's, thirteen come after it: one in its own row along z, three in each of four
 // other rows. The other thirteen are searched from the other balls. Where a slack, which the fastest ball makes, brings
 // too many pairs, half of it has to do.
-void BroadPhase::search(BodyColumns state) {
+void SphereBroadPhase::search(BodyColumns state) {
   constexpr std::size_t kMostPairsOfBall = 16;
   for (;; slack_ *= 0.5, steps_to_hold_ = std::max(1.0, steps_to_hold_ / 2)) {
     const bool is_least = slack_.maxCoeff() <= kLeast * largest_radius_;
@@ -112,8 +112,8 @@ void BroadPhase::search(BodyColumns state) {
 
 // The cells from `to_low` to `to_high` away from each ball's own; as the balls are in order, so are these. False if
 // there are more than so many pairs.
-bool BroadPhase::search_cells(BodyColumns state, std::uint64_t to_low, std::uint64_t to_high, bool own,
-                              std::size_t most) {
+bool SphereBroadPhase::search_cells(BodyColumns state, std::uint64_t to_low, std::uint64_t to_high, bool own,
+                                    std::size_t most) {
   const std::size_t count = entries_.size();
   for (std::size_t i = 0, first = 0; i < count && near_.size() <= most; ++i) {
     const auto [cell, ball] = entries_[i];
@@ -126,11 +126,11 @@ bool BroadPhase::search_cells(BodyColumns state, std::uint64_t to_low, std::uint
   return near_.size() <= most;
 }
 
-bool BroadPhase::may_meet(int a, int b, BodyColumns state) const {
+bool SphereBroadPhase::may_meet(int a, int b, BodyColumns state) const {
   const Vec3 apart = (state.position(balls_[a].body) - state.position(balls_[b].body)).cwiseAbs() - 2 * slack_;
-  const double reach = balls_[a].radius + balls_[b].radius;
+  const double distance = balls_[a].radius + balls_[b].radius;
   // Not "<": where a centre is not a number the pair is looked at again, and found not to overlap.
-  return !(apart.x() > reach || apart.y() > reach || apart.z() > reach);
+  return !(apart.x() > distance || apart.y() > distance || apart.z() > distance);
 }
 
 }  // namespace rigor

@@ -1,4 +1,4 @@
-#include "core/dynamics/collision/broad_phase.h"
+#include "core/dynamics/collision/sphere_broad_phase.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -47,7 +47,7 @@ class Search {
   std::vector<double> radii_;
   BodyTable state_;
   Columns spheres_;
-  BroadPhase search_;
+  SphereBroadPhase search_;
 };
 
 Vec3 wandering(int ball, double t, double speed) {
@@ -57,7 +57,7 @@ Vec3 wandering(int ball, double t, double speed) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_dynamics_collision_broad_phase)
+BOOST_AUTO_TEST_SUITE(core_dynamics_collision_sphere_broad_phase)
 
 // A search holds for many steps; what it was made for changes in between: speeds, and a ball that jumps, goes far or is
 // lost.

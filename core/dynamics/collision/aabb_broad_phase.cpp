@@ -1,4 +1,4 @@
-#include "core/dynamics/collision/pair_finder.h"
+#include "core/dynamics/collision/aabb_broad_phase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ void sort_from(std::vector<T>& values, std::ptrdiff_t known) {
 
 }  // namespace
 
-void PairFinder::choose_width(const std::vector<Aabb>& boxes) {
+void AabbBroadPhase::choose_width(const std::vector<Aabb>& boxes) {
   sizes_.clear();
   for (const Aabb& box : boxes) {
     const double size = (box.high - box.low).maxCoeff();
@@ -46,14 +46,14 @@ void PairFinder::choose_width(const std::vector<Aabb>& boxes) {
   width_ = 2 * *middle;
 }
 
-void PairFinder::forget_changed() {
+void AabbBroadPhase::forget_changed() {
   const auto is_changed = [&](int place) { return is_changed_[place] != 0; };
   std::erase_if(entries_, [&](const Entry& entry) { return is_changed(entry.box); });
   std::erase_if(large_, is_changed);
   std::erase_if(pairs_, [&](const auto& pair) { return is_changed(pair.first) || is_changed(pair.second); });
 }
 
-void PairFinder::enter(const Aabb& box, int place) {
+void AabbBroadPhase::enter(const Aabb& box, int place) {
   const double farthest = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
   // Written so that what is not a number is large.
   if (!((box.high - box.low).maxCoeff() <= kLarge * width_ && farthest < kFarthestCell * width_)) {
@@ -68,7 +68,7 @@ void PairFinder::enter(const Aabb& box, int place) {
 }
 
 // Those with a changed box: each of these with all that are not, and with the changed ones that come after it.
-void PairFinder::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t first, std::size_t last) {
+void AabbBroadPhase::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t first, std::size_t last) {
   const auto try_pair = [&](int a, int b) {
     if (!overlap(boxes[a], boxes[b])) return;
     const Vec3 corner = boxes[a].low.cwiseMax(boxes[b].low);
@@ -87,7 +87,7 @@ void PairFinder::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t first
   }
 }
 
-void PairFinder::pairs_with_large(const std::vector<Aabb>& boxes) {
+void AabbBroadPhase::pairs_with_large(const std::vector<Aabb>& boxes) {
   for (const int i : large_) {
     for (int j = 0; j < static_cast<int>(boxes.size()); ++j) {
       if (is_changed_[i] == 0 && is_changed_[j] == 0) continue;
@@ -101,7 +101,7 @@ void PairFinder::pairs_with_large(const std::vector<Aabb>& boxes) {
   }
 }
 
-const std::vector<std::pair<int, int>>& PairFinder::overlaps(const std::vector<Aabb>& boxes) {
+const std::vector<std::pair<int, int>>& AabbBroadPhase::overlaps(const std::vector<Aabb>& boxes) {
   choose_width(boxes);
   entries_.clear(), large_.clear(), pairs_.clear();
   all_.resize(boxes.size());
@@ -109,8 +109,8 @@ const std::vector<std::pair<int, int>>& PairFinder::overlaps(const std::vector<A
   return overlaps(boxes, all_);
 }
 
-const std::vector<std::pair<int, int>>& PairFinder::overlaps(const std::vector<Aabb>& boxes,
-                                                             const std::vector<int>& changed) {
+const std::vector<std::pair<int, int>>& AabbBroadPhase::overlaps(const std::vector<Aabb>& boxes,
+                                                                 const std::vector<int>& changed) {
   is_changed_.assign(boxes.size(), 0);
   for (const int place : changed) is_changed_[place] = 1;
   forget_changed();
