@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/dynamics/collision/pair_finder.h"
+#include "core/dynamics/contact/event/acceleration_bounds.h"
 #include "core/dynamics/contact/event/cone_solver.h"
 #include "core/scene/contact_laws.h"
 
@@ -23,8 +24,12 @@ class Touches {
   explicit Touches(const Scene& scene) : colliders_(colliders_of(scene)), laws_(scene) {}
 
   const std::vector<Collider>& colliders() const { return colliders_; }
-  // The pairs that can touch while the bodies go from one state to the other within dt.
-  const std::vector<std::pair<int, int>>& candidates(BodyColumns from, BodyColumns to, double dt);
+  // The pairs that can touch while the bodies go from one state to the other within dt, accelerated by no more than the
+  // bounds, one for each body.
+  const std::vector<std::pair<int, int>>& candidates(BodyColumns from, BodyColumns to, double dt,
+                                                     const AccelerationBounds& bounds);
+  // Those that touch now, or nearly so.
+  const std::vector<std::pair<int, int>>& candidates(BodyColumns state);
   // Every point of the pair, whatever its gap.
   const Manifold& manifold(BodyColumns state, int a, int b);
   // Unit, from b to a: the direction along which the pair is furthest apart, or least deep in each other.
@@ -38,6 +43,7 @@ class Touches {
   bool follow(BodyColumns state, Touch& touch);
 
  private:
+  const std::vector<std::pair<int, int>>& overlapping_boxes();
   void place(BodyColumns state, const ContactPoint& point, Touch& touch) const;
 
   std::vector<Collider> colliders_;

@@ -3,7 +3,8 @@
 // resolved (impacts.h), and between them what touches is held (held_motion.h). A sequence of bounces ends by the rule
 // of kRestSpeed. Bodies that overlap at the start are moved apart at once, without velocity. After kMostEvents in one
 // step the rest of that step has no rebounds, after twice as many no events, and the run says so. Where bodies are not
-// sure to stay apart (clearance.h) the time is halved, so that nothing passes through and no graze is missed.
+// sure to stay apart (conservative_advancement.h, acceleration_bounds.h) the time is halved, so that nothing passes
+// through and no graze is missed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,13 +39,14 @@ class EventStepper : public ContactStepper {
   EventStepper(const Scene& scene, const ContactParts& parts)
       : touches_(scene),
         motion_(scene, parts.integrator, parts.orientation, parts.settings, touches_),
-        impacts_(motion_.system(), number_option(parts.settings, "rest-speed", kRestSpeed)) {}
+        impacts_(motion_.system(), number_option(parts.settings, "rest-speed", kRestSpeed)),
+        bounds_(motion_.system()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     solver_warning_.clear();
     is_smooth_ = true;
     if (!(dt > 0)) return step_without_contact(state, t, dt);
-    pairs_ = touches_.candidates(state, state, 0);
+    pairs_ = touches_.candidates(state);
     motion_.close_gaps(state, pairs_, HeldMotion::Closing::overlaps);
     double done = 0;
     for (int events = 0; done < dt; ++events) {
@@ -56,6 +58,7 @@ class EventStepper : public ContactStepper {
       part_ = {t, done, end == t + dt ? dt : end - t};
       done = events < 2 * kMostEvents ? advance(state) : finish(state);
     }
+    note(motion_.take_projection_warning());
   }
 
   std::string solver_warning() const override { return solver_warning_; }
@@ -87,7 +90,7 @@ class EventStepper : public ContactStepper {
 
   // Impacts now, and what is held until the next event.
   void begin_part(MutableBodyColumns state, bool inelastic) {
-    pairs_ = touches_.candidates(state, state, 0);
+    pairs_ = touches_.candidates(state);
     touching_.clear();
     touches_.find(state, pairs_, kTouching, touching_);
     if (impacts_.resolve(state, touching_, inelastic)) is_smooth_ = false;
@@ -103,7 +106,8 @@ class EventStepper : public ContactStepper {
     part_.to = std::min(part_.to, part_.from + longest_);
     attempt(part_.length());
     shorten_until_settled();
-    pairs_ = touches_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length());
+    shorten_until_bounded();
+    pairs_ = touches_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length(), bounds_);
     clear_ = std::as_const(start_).columns();
     double clear = 0;
     ahead_ = {part_.length()};
@@ -111,7 +115,7 @@ class EventStepper : public ContactStepper {
       const double h = ahead_.back(), distance = pieces == 0 ? distance_from_event() : attempt(h);
       if (distance < 0) return locate(state, clear, h, distance);
       if (pieces > kMostPieces) note("two bodies passed too near each other to tell whether they touched");
-      if (pieces <= kMostPieces && !all_stay_apart(h - clear)) {
+      if (pieces <= kMostPieces && !all_stay_apart(clear, h - clear)) {
         ahead_.push_back(0.5 * (clear + h));
         continue;
       }
@@ -121,17 +125,25 @@ class EventStepper : public ContactStepper {
     return commit(state, part_.to);
   }
 
-  // Whether no pair can have touched between clear_ and end_, h after it. Points that are held are no news, and what
-  // they let their bodies do shows at the end.
-  bool all_stay_apart(double h) {
+  // Whether no pair can have touched between clear_, the state after `clear`, and end_, h after it. Points that are
+  // held are no news, and what they let their bodies do shows at the end.
+  bool all_stay_apart(double clear, double h) {
+    if (!are_bounded(std::as_const(clear_).columns(), clear, h)) return false;
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
     return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
       const auto [a, b] = pair;
       const auto is_of_pair = [&](const HeldPoint& held) { return held.at_end.a == a && held.at_end.b == b; };
       if (std::any_of(motion_.points().begin(), motion_.points().end(), is_of_pair)) return true;
-      return stay_apart(touches_.colliders()[a], touches_.colliders()[b], {from, touches_.parting(from, a, b)},
-                        {to, touches_.parting(to, a, b)}, h);
+      const Collider &first = touches_.colliders()[a], &second = touches_.colliders()[b];
+      return stay_apart(first, second, {from, touches_.parting(from, a, b)}, {to, touches_.parting(to, a, b)},
+                        bend_of(first), bend_of(second), h);
     });
+  }
+
+  Bend bend_of(const Collider& collider) const {
+    if (collider.fixed) return {};
+    const AccelerationBound& bound = bounds_.of(collider.body);
+    return {bound.linear, bound.of_point(collider.reach)};
   }
 
   // The forces of what is held turn with it; in long steps they may find no end to that.
@@ -145,6 +157,21 @@ class EventStepper : public ContactStepper {
     }
   }
 
+  // Of what a stiff spring may do within a long step there is no bound.
+  void shorten_until_bounded() {
+    constexpr int kMostTimes = 30;
+    for (int k = 0; k < kMostTimes && !are_bounded(start_.columns(), 0, part_.length()); ++k) {
+      part_.to = part_.from + 0.5 * part_.length();
+      attempt(part_.length());
+      longest_ = 2 * part_.length();  // of the next part
+    }
+  }
+
+  // The accelerations on the way from the state after `after` to end_, h after it.
+  bool are_bounded(BodyColumns from, double after, double h) {
+    return bounds_.find(from, std::as_const(end_).columns(), part_.t + part_.from + after, h);
+  }
+
   // The state after h into end_. Positive before the first event, negative after it.
   double attempt(double h) {
     has_settled_ = motion_.advance(start_.columns(), end_.columns(), part_.t + part_.from, h);
@@ -156,7 +183,7 @@ class EventStepper : public ContactStepper {
   double commit(MutableBodyColumns state, double done) {
     copy_columns(std::as_const(end_).columns(), state);
     note(motion_.solver_warning());
-    pairs_ = touches_.candidates(state, state, 0);
+    pairs_ = touches_.candidates(state);
     if (motion_.close_gaps(state, pairs_, HeldMotion::Closing::all)) motion_.stop_carrying_points(state);
     return done;
   }
@@ -232,6 +259,7 @@ class EventStepper : public ContactStepper {
   Touches touches_;
   HeldMotion motion_;
   Impacts impacts_;
+  AccelerationBounds bounds_;
   Part part_;
   double longest_ = kInfinity;  // s, of the next part
   bool has_settled_ = true, is_smooth_ = true;

@@ -23,8 +23,8 @@ LeastMotion::Side LeastMotion::side_of(BodyColumns state, int body, const Vec3& 
   return side;
 }
 
-// One for each place, zero where it is not used.
-Eigen::VectorXd LeastMotion::pushes(const std::vector<Demand>& demands, const std::vector<bool>& is_used) const {
+// One for each place, zero where it is not used, and everywhere if there is no solution.
+Eigen::VectorXd LeastMotion::pushes(const std::vector<Demand>& demands, const std::vector<bool>& is_used) {
   const auto count = static_cast<Eigen::Index>(demands.size());
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<std::vector<std::pair<Eigen::Index, const Side*>>> of_body(system_.size());
@@ -45,8 +45,12 @@ Eigen::VectorXd LeastMotion::pushes(const std::vector<Demand>& demands, const st
   for (Eigen::Index i = 0; i < count; ++i) softened.coeffRef(i, i) += little[i];
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(softened);
   Eigen::VectorXd push = Eigen::VectorXd::Zero(count);
-  for (int round = 0; round < kRounds; ++round) push += solver.solve(amounts - give * push);
-  return push;
+  if (solver.info() == Eigen::Success) {
+    for (int round = 0; round < kRounds; ++round) push += solver.solve(amounts - give * push);
+  }
+  if (solver.info() == Eigen::Success && push.allFinite()) return push;
+  solver_warning_ = "no motion of touching bodies closes the gaps between them: its equations are singular";
+  return Eigen::VectorXd::Zero(count);
 }
 
 const std::vector<PoseStep>& LeastMotion::meet(BodyColumns state, const std::vector<Demand>& demands) {
