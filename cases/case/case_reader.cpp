@@ -6,6 +6,7 @@
 
 #include "adapters/engines.h"
 #include "cases/metrics/metric.h"
+#include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
@@ -67,6 +68,18 @@ std::vector<std::string> read_engines(const TomlValue& value) {
 
 bool is_cross_metric(const std::string& name) {
   return std::any_of(cross_metrics().begin(), cross_metrics().end(), [&](const auto& row) { return row.name == name; });
+}
+
+// A run that comes from the same code as the truth agrees with it however wrong both are.
+void check_not_held_to_itself(const TomlValue& value, const Case& of, const Gate& gate) {
+  static const std::vector<EngineInfo> infos = infos_of(engines());
+  for (const TomlValue& item : value.items()) {
+    if (!is_held_to_itself(of.truth, gate.metric, parse_run_name(item.text(), infos), of.scene)) continue;
+    item.refuse(fmt::format(
+        "found {}, whose own code makes the truth '{}' that {} is measured against; allowed: a run of other code, or a "
+        "metric that needs no truth",
+        item.text(), of.truth, gate.metric));
+  }
 }
 
 // A ranking: the metric of every run the gate names must be better than this one's.
@@ -135,6 +148,9 @@ Gate read_gate(const TableReader& table, const Case& of) {
   if (const auto value = table.find("engines")) gate.engines = read_engines(*value);
   if (const auto value = table.find("dt")) gate.dt = read_gate_dt(*value, of.dt);
   read_bounds(table, of, gate);
+  for (const char* key : {"engines", "better_than"}) {
+    if (const auto value = table.find(key)) check_not_held_to_itself(*value, of, gate);
+  }
   gate.because = table.at("because").text();
   return gate;
 }

@@ -8,6 +8,7 @@
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/metrics/metric.h"
+#include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
@@ -70,7 +71,8 @@ Rows metric_rows(const CommandLine&) {
 
 Rows truth_rows(const CommandLine&) {
   Rows rows;
-  for (const TruthRow& truth : truths()) rows.emplace_back(truth.name, truth.summary);
+  for (const TruthRow& truth : truths())
+    rows.emplace_back(truth.name, fmt::format("{}; {}", truth.summary, provenance_of(truth.name)));
   return rows;
 }
 
