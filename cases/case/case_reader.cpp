@@ -58,6 +58,17 @@ bool is_cross_metric(const std::string& name, const Vocabulary& words) {
   return std::find(words.cross_metrics.begin(), words.cross_metrics.end(), name) != words.cross_metrics.end();
 }
 
+// A run that comes from the same code as the truth agrees with it however wrong both are.
+void check_not_held_to_itself(const TomlValue& value, const Vocabulary& words, const Case& of, const Gate& gate) {
+  for (const TomlValue& item : value.items()) {
+    if (!words.is_held_to_itself(of.truth, gate.metric, parse_run_name(item.text(), words.engines), of.scene)) continue;
+    item.refuse(fmt::format(
+        "found {}, whose own code makes the truth '{}' that {} is measured against; allowed: a run of other code, or a "
+        "metric that needs no truth",
+        item.text(), of.truth, gate.metric));
+  }
+}
+
 // A ranking: the metric of every run the gate names must be better than this one's.
 void read_better_than(const TomlValue& value, const Vocabulary& words, Gate& gate) {
   if (is_cross_metric(gate.metric, words))
@@ -124,6 +135,9 @@ Gate read_gate(const TableReader& table, const Case& of, const Vocabulary& words
   if (const auto value = table.find("engines")) gate.engines = read_engines(*value, words);
   if (const auto value = table.find("dt")) gate.dt = read_gate_dt(*value, of.dt);
   read_bounds(table, of, words, gate);
+  for (const char* key : {"engines", "better_than"}) {
+    if (const auto value = table.find(key)) check_not_held_to_itself(*value, words, of, gate);
+  }
   gate.because = table.at("because").text();
   return gate;
 }

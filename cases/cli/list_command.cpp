@@ -9,6 +9,7 @@
 #include "cases/cli/output.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/metrics/metric.h"
+#include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
@@ -73,7 +74,8 @@ Rows metric_rows(const CommandLine&, const EngineTable&) {
 
 Rows truth_rows(const CommandLine&, const EngineTable&) {
   Rows rows;
-  for (const TruthRow& truth : truths()) rows.emplace_back(truth.name, truth.summary);
+  for (const TruthRow& truth : truths())
+    rows.emplace_back(truth.name, fmt::format("{}; {}", truth.summary, provenance_of(truth.name)));
   return rows;
 }
 

@@ -1,6 +1,7 @@
 #include "cases/cli/vocabulary.h"
 
 #include "cases/metrics/metric.h"
+#include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 
 namespace rigor {
@@ -16,7 +17,7 @@ std::vector<std::string> names_of(const Rows& rows) {
 }  // namespace
 
 Vocabulary vocabulary_of(std::vector<EngineInfo> engines) {
-  return {names_of(metrics()), names_of(cross_metrics()), names_of(truths()), std::move(engines)};
+  return {names_of(metrics()), names_of(cross_metrics()), names_of(truths()), std::move(engines), is_held_to_itself};
 }
 
 }  // namespace rigor

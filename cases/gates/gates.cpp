@@ -7,6 +7,7 @@
 
 #include "cases/case/selection.h"
 #include "cases/results/observed_order.h"
+#include "cases/truth/provenance.h"
 
 namespace rigor {
 namespace {
@@ -60,10 +61,15 @@ class GateCheck {
   }
 
  private:
-  bool selects(std::size_t run) const { return selection_.takes(grid_.runs[run]); }
+  bool selects(std::size_t run) const { return selection_.takes(grid_.runs[run]) && !is_made_like_truth(run); }
   bool selects(const StepSize& dt) const { return selection_.takes(dt); }
   bool selects(const Cell& cell) const {
     return cell.status != Status::unsupported && selects(cell.run) && selects(cell.dt);
+  }
+  // A gate that names no runs passes over those that come from the same code as the truth.
+  bool is_made_like_truth(std::size_t run) const {
+    const Case& of = result_.definition;
+    return is_held_to_itself(of.truth, gate_.metric, grid_.runs[run], of.scene);
   }
   const std::string& name_of(const Cell& cell) const { return grid_.runs[cell.run].text; }
 

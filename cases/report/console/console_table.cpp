@@ -11,6 +11,7 @@
 #include "cases/report/wording/explanation.h"
 #include "cases/report/wording/findings.h"
 #include "cases/report/wording/wording.h"
+#include "cases/truth/provenance.h"
 
 namespace rigor {
 namespace {
@@ -145,12 +146,13 @@ std::string truth_sentence(const CaseResult& result) {
   if (!result.truth) return fmt::format("truth: {}, not found.", definition.truth);
   const TruthFacts& facts = *result.truth;
   if (facts.horizon >= definition.duration) {
-    return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s.", definition.truth,
-                       facts.error_at_end, definition.duration);
+    return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s; it is {}.", definition.truth,
+                       facts.error_at_end, definition.duration, provenance_of(definition.truth));
   }
   return fmt::format(
-      "truth: {}, known to {:g} µm until {:.1f} s of the {:g} s; beyond that the motion is too sensitive.",
-      definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration);
+      "truth: {}, known to {:g} µm until {:.1f} s of the {:g} s; beyond that the motion is too sensitive. It is "
+      "{}.",
+      definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration, provenance_of(definition.truth));
 }
 
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell) {

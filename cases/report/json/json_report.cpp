@@ -12,6 +12,7 @@
 #include "cases/report/wording/findings.h"
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/results/result_json.h"
+#include "cases/truth/provenance.h"
 
 namespace rigor {
 namespace {
@@ -81,7 +82,7 @@ Json case_json(const Results& results, const CaseResult& result) {
                {"scene", json_of(definition.scene)},
                {"duration", definition.duration},
                {"dt", Json::array()},
-               {"truth", {{"kind", definition.truth}}},
+               {"truth", {{"kind", definition.truth}, {"provenance", provenance_of(definition.truth)}}},
                {"error", result.error.empty() ? Json(nullptr) : Json(result.error)}};
   for (const StepSize& step : definition.dt) json["dt"].push_back({{"text", step.text}, {"seconds", step.seconds}});
   if (result.truth && definition.truth != "none") {

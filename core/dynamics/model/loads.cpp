@@ -1,6 +1,7 @@
 #include "core/dynamics/model/loads.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rigor {
 namespace {
@@ -32,11 +33,13 @@ PointMotion point_motion(BodyColumns bodies, int body, const Vec3& point) {
 
 double share_of_step(const TimedForce& force, double t, double dt) {
   if (dt == 0) return t >= force.from && t < force.until ? 1 : 0;
-  const double overlap = std::min(force.until, t + dt) - std::max(force.from, t);
-  return std::clamp(overlap / dt, 0.0, 1.0);
+  const double first = std::min(t, t + dt), last = std::max(t, t + dt);
+  const double overlap = std::min(force.until, last) - std::max(force.from, first);
+  return std::clamp(overlap / std::abs(dt), 0.0, 1.0);
 }
 
-Loads::Loads(const Scene& scene) : gravity_(scene.gravity), springs_(scene.springs), forces_(scene.forces) {
+Loads::Loads(const Scene& scene)
+    : gravity_(scene.gravity), springs_(scene.springs), forces_(scene.forces), schedule_(scene.forces) {
   for (const Body& body : scene.bodies) masses_.push_back(body.fixed ? 0 : body.mass);
   damped_ = std::any_of(springs_.begin(), springs_.end(), [](const Spring& s) { return s.damping > 0; });
 }
@@ -50,26 +53,15 @@ void Loads::evaluate(BodyColumns bodies, double t, double dt, Wrenches& out) con
     add_force(spring.a, -force, a.arm, out);
     add_force(spring.b, force, b.arm, out);
   }
-  for (const TimedForce& force : forces_) {
-    const double share = share_of_step(force, t, dt);
-    if (share == 0) continue;
+  for_each_acting(t, dt, [&](const TimedForce& force, double share) {
     add_force(force.body, share * force.force, bodies.rotation(force.body) * force.point, out);
     out[force.body].torque += share * force.torque;
-  }
+  });
 }
 
 void Loads::evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenches& out) const {
   evaluate(bodies, t, dt, out);
   for (std::size_t i = 0; i < masses_.size(); ++i) out[i].force += masses_[i] * gravity_;
-}
-
-double Loads::next_switch(double t, double end) const {
-  for (const TimedForce& force : forces_) {
-    for (const double s : {force.from, force.until}) {
-      if ((s - t) * (end - s) > 0) end = s;
-    }
-  }
-  return end;
 }
 
 }  // namespace rigor

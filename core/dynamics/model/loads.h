@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/dynamics/model/force_schedule.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
@@ -24,7 +25,7 @@ struct PointMotion {
 };
 PointMotion point_motion(BodyColumns bodies, int body, const Vec3& point);
 
-// The share of the step [t, t + dt] in which the force acts; at dt = 0, whether it does.
+// The share of the step from t to t + dt, which may go backward, in which the force acts; at dt = 0, whether it does.
 double share_of_step(const TimedForce& force, double t, double dt);
 
 class Loads {
@@ -38,7 +39,7 @@ class Loads {
   void evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenches& out) const;
 
   // The first instant strictly between t and `end` at which a timed force begins or ends; `end` if there is none.
-  double next_switch(double t, double end) const;
+  double next_switch(double t, double end) const { return schedule_.next_switch(t, end); }
   // Calls part(from, length) for each part of the step [t, t + dt] in which no timed force begins or ends, in order, so
   // that a method of high order does not step across a jump.
   template <typename Part>
@@ -53,6 +54,20 @@ class Loads {
 
   const std::vector<Spring>& springs() const { return springs_; }
   const std::vector<TimedForce>& forces() const { return forces_; }
+  // Calls visit(force, share) for each timed force that acts in the step [t, t + dt], in their order.
+  template <typename Visit>
+  void for_each_acting(double t, double dt, const Visit& visit) const {
+    const auto visit_one = [&](const TimedForce& force) {
+      const double share = share_of_step(force, t, dt);
+      if (share != 0) visit(force, share);
+    };
+    constexpr std::size_t kFew = 32;  // to look at each of so many takes less than to find those that act
+    if (forces_.size() <= kFew) {
+      for (const TimedForce& force : forces_) visit_one(force);
+    } else {
+      for (const std::size_t i : schedule_.acting(t, t + dt)) visit_one(forces_[i]);
+    }
+  }
   // Gives one of the timed forces other values, from the next step on.
   void set_force(std::size_t index, const Vec3& force, const Vec3& torque) {
     forces_[index].force = force, forces_[index].torque = torque;
@@ -65,6 +80,7 @@ class Loads {
   std::vector<double> masses_;  // kg; 0 for a fixed body
   std::vector<Spring> springs_;
   std::vector<TimedForce> forces_;
+  ForceSchedule schedule_;
   bool damped_ = false;
 };
 

@@ -90,9 +90,7 @@ void WrenchColumns::sum_pulls(std::size_t first, std::size_t last) {
 // Says whether any force acts; if none does, columns that are not clear are left as they are.
 bool WrenchColumns::add_forces(BodyColumns state, double t, double dt, bool is_clear) {
   bool acts = false;
-  for (const TimedForce& force : loads_.forces()) {
-    const double share = share_of_step(force, t, dt);
-    if (share == 0) continue;
+  loads_.for_each_acting(t, dt, [&](const TimedForce& force, double share) {
     if (!acts && !is_clear) std::fill_n(wrenches_.data(), kWrenchColumns * wrenches_.stride(), 0.0);
     acts = true;
     const Vec3 F = share * force.force;
@@ -101,7 +99,7 @@ bool WrenchColumns::add_forces(BodyColumns state, double t, double dt, bool is_c
       wrenches_.column(kForce + c)[force.body] += F[c];
       wrenches_.column(kTorque + c)[force.body] += torque[c];
     }
-  }
+  });
   return acts;
 }
 

@@ -114,6 +114,41 @@ BOOST_AUTO_TEST_CASE(each_case_that_cannot_be_is_refused) {
   for (const Refusal& row : kBadJudgements) check(row, kStart);
 }
 
+// What the truth 'events' is made by agrees with it however wrong both are.
+BOOST_AUTO_TEST_CASE(a_gate_that_holds_a_run_to_itself_is_refused) {
+  const std::string start = R"(title = "A test"
+scene.body = [{ name = "box", mass = 1, position = [0, 0, 2], shape = { type = "box", size = [1, 1, 1] } },
+  { name = "ground", shape = { type = "plane", normal = [0, 0, 1], offset = 0 } }]
+[run]
+duration = 1
+dt = 0.01
+[truth]
+kind = 'TRUTH'
+[[gate]]
+metric = 'METRIC'
+because = 'x'
+)";
+  const auto refused = [&](const std::string& truth, const std::string& metric, const std::string& rest) {
+    std::string text = start + rest;
+    text.replace(text.find("TRUTH"), 5, truth), text.replace(text.find("METRIC"), 6, metric);
+    const std::string file = write("case.toml", text);
+    const std::string message = refusal_of([&] { read_case(file, "x"); });
+    return message.starts_with(file) ? message.substr(file.size()) : message;
+  };
+  const std::string itself = "max = 1\nengines = ['ode', 'core:rk4,contact=event']";
+  BOOST_TEST(refused("events", "position_error", itself)
+                 .starts_with(":13:19: gate.engines[1]: found core:rk4,contact=event, whose own code makes the truth "
+                              "'events' that position_error is measured against; allowed: "));
+  BOOST_TEST(refused("events", "energy_drift", itself).starts_with(":13:19: "));
+  BOOST_TEST(refused("events", "observed_order", itself).starts_with(":13:19: "));
+  BOOST_TEST(refused("events", "position_error", "engines = 'ode'\nbetter_than = 'core:rk4,contact=event'")
+                 .starts_with(":13:15: gate.better_than: found core:rk4,contact=event"));
+  // By itself a core that is not told how to treat contacts takes 'impulse' for boxes.
+  BOOST_TEST(refused("events", "position_error", "max = 1\nengines = ['core:rk4', 'ode']") == "");
+  BOOST_TEST(refused("events", "penetration", itself) == "");
+  BOOST_TEST(refused("none", "position_error", itself) == "");
+}
+
 BOOST_AUTO_TEST_CASE(an_error_in_the_scene_names_the_file) {
   const std::string file = write("case.toml", "title = 'x'\nscene.body = [{ name = 'a' }]");
   BOOST_TEST(

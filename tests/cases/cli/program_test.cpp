@@ -317,6 +317,7 @@ BOOST_AUTO_TEST_CASE(truth_prints_states_at_any_time_with_their_error) {
   BOOST_TEST(answer.code == 0);
   BOOST_TEST_REQUIRE(lines.size() == 4u);
   BOOST_TEST(lines[0].ends_with(",wz,error"));
+  BOOST_TEST(answer.err.find("a closed form, independent of every engine") != std::string::npos);
   BOOST_TEST(std::abs(from_the_end(lines[2], 12) - -1.25) < 1e-12);
   BOOST_TEST(std::abs(from_the_end(lines[3], 12) - -45) < 1e-12);
   BOOST_TEST(from_the_end(lines[3], 0) < 1e-9);

@@ -76,6 +76,19 @@ BOOST_AUTO_TEST_CASE(a_limit_is_held_against_every_cell_it_selects) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_gate_passes_over_the_runs_that_the_truth_is_made_like) {
+  Fixture run;
+  run.grid.runs[1].engine = "core", run.grid.runs[1].settings.options["contact"] = "event";
+  run.result().definition.truth = "events";
+  Gate limit = gate("position_error");
+  limit.max = 0.001;  // none of them holds it
+  BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 2);
+  for (const GateResult& answer : run.result().gates) BOOST_TEST(answer.engine == "a");
+  run.result().definition.truth = "reference";
+  run.result().gates.clear();
+  BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 4);
+}
+
 BOOST_AUTO_TEST_CASE(engines_and_steps_narrow_a_gate) {
   Fixture run;
   Gate limit = gate("position_error");

@@ -16,8 +16,8 @@ inline std::vector<Case> suite_cases(const std::function<bool(const Case&)>& is_
   return cases;
 }
 
-inline void check_sources_and_gates(const std::vector<Case>& cases, std::size_t at_least) {
-  BOOST_TEST(cases.size() >= at_least);
+inline void check_sources_and_gates(const std::vector<Case>& cases) {
+  BOOST_TEST_REQUIRE(!cases.empty());
   for (const Case& c : cases) {
     BOOST_TEST_CONTEXT(c.id) {
       BOOST_TEST(!c.source.empty());
@@ -28,7 +28,7 @@ inline void check_sources_and_gates(const std::vector<Case>& cases, std::size_t 
 
 // Each closed form that a case cites can be made, begins where the scene does, to its own error there (it computes that
 // instant as it does any other) and the velocities to roundings, and ends with no more of an error than `at_the_end`.
-inline void check_closed_forms(const std::vector<Case>& cases, double at_the_end, int at_least) {
+inline void check_closed_forms(const std::vector<Case>& cases, double at_the_end) {
   int cited = 0;
   for (const Case& c : cases) {
     if (c.truth == "none" || c.truth == "reference" || c.truth == "events") continue;
@@ -50,7 +50,7 @@ inline void check_closed_forms(const std::vector<Case>& cases, double at_the_end
     }
     ++cited;
   }
-  BOOST_TEST(cited >= at_least);
+  BOOST_TEST(cited > 0);
 }
 
 }  // namespace rigor::test
