@@ -109,7 +109,7 @@ int list_command(const CommandLine& line) {
         line.words.empty() || std::find(line.words.begin(), line.words.end(), kind.name) != line.words.end();
     if (is_wanted) text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", kind.name, table(kind.rows(line)));
   }
-  print(text);
+  print_table(text);
   return kGood;
 }
 
