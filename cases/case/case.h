@@ -14,6 +14,10 @@ struct StepSize {
   std::string text;  // as it was written, "1/30": what tables and file names show
 };
 
+// Whether it is the same step, however written: "1/30" and "0.03333333333". They agree to a billionth, by which steps
+// are rounded where they are counted as well: the runs are as long to within that part of a step's count.
+bool operator==(const StepSize& a, const StepSize& b);
+
 // What a metric's value is held against. Exactly one of the bounds is set (an empty better_than is none), or min and
 // max together.
 struct Gate {

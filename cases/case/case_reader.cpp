@@ -25,8 +25,7 @@ void read_run(const TableReader& table, Case& out) {
   for (const TomlValue& value : table.at("dt").items()) {
     const StepSize dt = read_seconds(value);
     check_step_size(dt, out.duration, value.label());
-    const auto same = [&](const StepSize& other) { return other.seconds == dt.seconds; };
-    if (std::any_of(out.dt.begin(), out.dt.end(), same))
+    if (std::find(out.dt.begin(), out.dt.end(), dt) != out.dt.end())
       value.refuse(fmt::format("the step {} s is given twice", dt.text));
     out.dt.push_back(dt);
   }
@@ -84,8 +83,7 @@ std::vector<StepSize> read_gate_dt(const TomlValue& value, const std::vector<Ste
   std::vector<StepSize> steps;
   for (const TomlValue& item : value.items()) {
     const StepSize wanted = read_seconds(item);
-    const auto found =
-        std::find_if(of_run.begin(), of_run.end(), [&](const StepSize& dt) { return dt.seconds == wanted.seconds; });
+    const auto found = std::find(of_run.begin(), of_run.end(), wanted);
     if (found == of_run.end()) {
       Keys known;
       for (const StepSize& dt : of_run) known.push_back(dt.text);

@@ -17,7 +17,7 @@ int compare_command(const CommandLine& line, const EngineTable&) {
   }
   const Outcomes before = read_outcomes(line.words[0]), after = read_outcomes(line.words[1]);
   const Changes changes = changes_between(before, after, line.factor);
-  print(text_of(changes, line.factor));
+  print_table(text_of(changes, line.factor));
   return changes.is_worse() ? kGateFailed : kGood;
 }
 

@@ -115,7 +115,7 @@ int list_command(const CommandLine& line, const EngineTable& engines) {
     if (is_wanted)
       text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", kind.name, table(kind.rows(line, engines)));
   }
-  print(text);
+  print_table(text);
   return kGood;
 }
 

@@ -29,7 +29,7 @@ int print_from_child(const std::string& what, double limit, const std::function<
   int code = kGood;
   const auto on_message = [](std::size_t, const std::string& message) {
     if (message.starts_with(kNote)) {
-      fmt::print(stderr, "rigor: {}\n", message.substr(1));
+      say(message.substr(1));
     } else {
       print(message);
     }
@@ -37,7 +37,7 @@ int print_from_child(const std::string& what, double limit, const std::function<
   const auto on_end = [&](std::size_t, const JobEnd& end) {
     if (end.how == Ending::finished) return;
     if (end.how == Ending::refused) throw InputError(end.text);
-    fmt::print(stderr, "rigor: {}: {}\n", what, sentence_of(end, limit));
+    say(fmt::format("{}: {}", what, sentence_of(end, limit)));
     code = kBroken;
   };
   run_jobs({{work, limit}}, 1, on_message, on_end);

@@ -111,7 +111,7 @@ class GateCheck {
   void check_ranking(Cell& cell) {
     const RunName other_run = parse_run_name(gate_.better_than, grid_.engines);
     const auto other = std::find_if(result_.cells.begin(), result_.cells.end(), [&](const Cell& c) {
-      return is_same_run(grid_.runs[c.run], other_run) && c.dt.seconds == cell.dt.seconds;
+      return is_same_run(grid_.runs[c.run], other_run) && c.dt == cell.dt;
     });
     if (other == result_.cells.end() || other->status == Status::unsupported) return;
     const std::string head = fmt::format("{} of {} at dt = {}", gate_.metric, name_of(cell), cell.dt.text);
@@ -195,7 +195,7 @@ class GateCheck {
     if (!selects(spread.first) || !selects(spread.second) || !selects(spread.dt)) return;
     const bool both_have_results = std::all_of(result_.cells.begin(), result_.cells.end(), [&](const Cell& cell) {
       const bool is_of_pair = cell.run == spread.first || cell.run == spread.second;
-      return !is_of_pair || cell.dt.seconds != spread.dt.seconds || has_result(cell);
+      return !is_of_pair || cell.dt != spread.dt || has_result(cell);
     });
     if (!both_have_results) return;
     const Furthest& worst = gate_.metric == "spread" ? spread.distance : spread.angle;

@@ -13,6 +13,7 @@
 
 #include "cases/metrics/metric.h"
 #include "cases/results/changes.h"
+#include "cases/results/result_json.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -21,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kTitle = "# Rigor baseline 1";
-constexpr int kSchema = 1;
+constexpr int kSchemas[] = {1, 2};  // in the first a number that was not finite is null
 
 // A time is measured anew each run; a shift in time has a sign; and of two metrics more is better.
 bool is_compared(const std::string& metric) {
@@ -41,7 +42,7 @@ Outcomes::Cell cell_from(const Json& json) {
   for (const auto& [name, metric] : json.at("metrics").items()) {
     if (!is_compared(name) || !metric.contains("value")) continue;
     const Json& value = metric.at("value");
-    cell.metrics[name] = value.is_null() ? HUGE_VAL : value.get<double>();  // null: it was not finite
+    cell.metrics[name] = value.is_null() ? HUGE_VAL : number_of(value);
   }
   return cell;
 }
@@ -58,8 +59,10 @@ void add_gates(const Json& json, Outcomes& out) {
 }
 
 Outcomes from_json(const Json& json) {
-  if (json.at("schema").get<int>() != kSchema)
-    throw InputError(fmt::format("its schema is {}; allowed: {}", json.at("schema").dump(), kSchema));
+  if (std::find(std::begin(kSchemas), std::end(kSchemas), json.at("schema").get<int>()) == std::end(kSchemas)) {
+    throw InputError(
+        fmt::format("its schema is {}; allowed: {}", json.at("schema").dump(), fmt::join(kSchemas, " and ")));
+  }
   Outcomes out;
   std::map<std::string, std::set<std::string>> settings;
   for (const Json& cell : json.at("cells")) {

@@ -1,10 +1,10 @@
 #include "cases/results/results.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 
 namespace rigor {
 namespace {
@@ -18,7 +18,7 @@ std::string word_of(Status status) { return kStatusWords[static_cast<int>(status
 
 Status status_of(const std::string& word) {
   const auto found = std::find(std::begin(kStatusWords), std::end(kStatusWords), word);
-  assert(found != std::end(kStatusWords));
+  if (found == std::end(kStatusWords)) throw std::runtime_error("no such status: " + word);
   return static_cast<Status>(found - std::begin(kStatusWords));
 }
 

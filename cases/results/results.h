@@ -18,7 +18,7 @@ namespace rigor {
 // that did not converge) in a run that did not blow up; one that did is `diverged`, whatever it complained of.
 enum class Status { pass, fail, known_deviation, unexpected_pass, unsupported, diverged, crashed, timed_out, invalid };
 std::string word_of(Status status);
-Status status_of(const std::string& word);
+Status status_of(const std::string& word);  // throws std::runtime_error for a word that is none
 
 // A metric of one cell, without its series over time.
 struct MetricValue {

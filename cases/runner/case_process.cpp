@@ -11,6 +11,7 @@
 #include <set>
 
 #include "cases/results/result_json.h"
+#include "cases/runner/build_identity.h"
 #include "cases/runner/executor.h"
 #include "cases/runner/journal.h"
 #include "cases/runner/simulate.h"
@@ -105,7 +106,13 @@ class CaseJobs {
  public:
   CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
            const Truth* truth, const TruthFacts& facts)
-      : grid_(grid), planned_(planned), engines_(engines), options_(options), truth_(truth), facts_(facts) {
+      : grid_(grid),
+        planned_(planned),
+        engines_(engines),
+        options_(options),
+        truth_(truth),
+        facts_(facts),
+        heard_(planned) {
     const Case& definition = planned.definition;
     if (searches_steps(planned, options) && truth) {
       const double horizon = stability_horizon(definition);
@@ -134,21 +141,29 @@ class CaseJobs {
       const auto kept = journal.found().find(job);
       if (kept == journal.found().end()) {
         left.push_back(job), jobs.push_back(jobs_[job]);
-        continue;
+      } else {
+        hear(job, kept->second), channel.send(kept->second.message);
       }
-      channel.send(kept->second.message);
-      if (!kept->second.path.empty()) keep_path(job, kept->second.path);
     }
-    std::vector<std::string> answers(jobs_.size());
+    std::map<std::size_t, std::string> flaws;  // by job; empty for one whose answer is good
     const auto on_message = [&](std::size_t index, const std::string& message) {
       const std::size_t job = left[index];
-      const bool is_path = !answers[job].empty();
-      if (is_path) keep_path(job, message);
-      if (!is_path) answers[job] = message, channel.send(message);
-      if (is_path || !is_cell(jobs_[job])) journal.add(job, {answers[job], is_path ? message : ""});
+      if (flaws.contains(job)) return;  // a job answers once
+      const Journal::Record record = parted(message);
+      try {
+        hear(job, record);
+        flaws[job] = "";
+      } catch (const std::exception& error) {
+        flaws[job] = fmt::format("its message could not be read: {}", error.what());
+        return;
+      }
+      channel.send(record.message), journal.add(job, record);
     };
-    const auto on_end = [&](std::size_t index, const JobEnd& end) {
-      if (answers[left[index]].empty()) channel.send(message_of_failure(jobs_[left[index]], end));
+    const auto on_end = [&](std::size_t index, JobEnd end) {
+      const auto flaw = flaws.find(left[index]);
+      if (flaw != flaws.end() && flaw->second.empty()) return;
+      if (flaw != flaws.end()) end.how = Ending::threw, end.text = flaw->second;
+      channel.send(message_of_failure(jobs_[left[index]], end));
     };
     const auto work = [&](const JobSpec& job, const Channel& to) {
       is_cell(job) ? do_cell(job, to) : do_stable_step(job, to);
@@ -161,6 +176,9 @@ class CaseJobs {
   const RunName& run_of(std::size_t index) const { return grid_.runs[index]; }
 
   static bool is_cell(const JobSpec& job) { return job.kind == JobSpec::Kind::cell; }
+  static MessageSubject subject_of(const JobSpec& job) {
+    return {is_cell(job) ? MessageSubject::Part::cell : MessageSubject::Part::stable_step, job.part};
+  }
 
   void do_stable_step(const JobSpec& job, const Channel& channel) const {
     const Case& definition = planned_.definition;
@@ -175,8 +193,7 @@ class CaseJobs {
   void do_cell(const JobSpec& job, const Channel& channel) const {
     const Cell& cell = planned_.cells[job.part];
     const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_);
-    channel.send(message_of_cell(job.part, judged.cell, planned_.definition.scene));
-    channel.send(packed(judged.path));
+    channel.send(joined({message_of_cell(job.part, judged.cell, planned_.definition.scene), packed(judged.path)}));
   }
 
   std::string message_of_failure(const JobSpec& job, const JobEnd& end) const {
@@ -187,8 +204,28 @@ class CaseJobs {
     return message_of_cell(job.part, failed, planned_.definition.scene);
   }
 
-  // A cell's second and last message; a stable step has only one.
-  void keep_path(std::size_t job, const std::string& message) { paths_[jobs_[job].part] = unpacked(message); }
+  // A job's one message: what it came to and, behind a zero byte, which no JSON holds, the path.
+  static std::string joined(const Journal::Record& record) { return record.message + '\0' + record.path; }
+  static Journal::Record parted(const std::string& message) {
+    const std::size_t zero = std::min(message.find('\0'), message.size());
+    return {message.substr(0, zero), message.substr(std::min(zero + 1, message.size()))};
+  }
+
+  // Throws for an answer that the grid's process could not read, or that is about another job than its own. Keeps a
+  // path.
+  void hear(std::size_t job, const Journal::Record& record) {
+    const MessageSubject subject = apply_message(heard_, record.message);
+    if (subject != subject_of(jobs_[job])) throw std::runtime_error("it is about another cell");
+    if (subject.part != MessageSubject::Part::cell) return;
+    const Cell &planned = planned_.cells[subject.index], &heard = heard_.cells[subject.index];
+    if (!heard.trajectory.empty() && heard.trajectory != planned.trajectory)
+      throw std::runtime_error("it names another trajectory");
+    heard_.cells[subject.index] = planned;  // its recordings are large
+    if (record.path.empty()) return;
+    Path path = unpacked(record.path);
+    if (path.bodies != planned_.definition.scene.bodies.size()) throw std::runtime_error("its path has other bodies");
+    paths_[subject.index] = std::move(path);
+  }
 
   // Every pair of runs at the same dt that both left a path.
   std::vector<Spread> spreads() const {
@@ -196,7 +233,7 @@ class CaseJobs {
     for (const auto& [a, path_a] : paths_) {
       for (auto later = paths_.upper_bound(a); later != paths_.end(); ++later) {
         const Cell &one = planned_.cells[a], &other = planned_.cells[later->first];
-        if (one.dt.seconds != other.dt.seconds) continue;
+        if (one.dt != other.dt) continue;
         Spread spread = spread_between(path_a, later->second);
         spread.first = one.run, spread.second = other.run, spread.dt = one.dt;
         found.push_back(spread);
@@ -213,6 +250,7 @@ class CaseJobs {
   TruthFacts facts_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<JobSpec> jobs_;
+  CaseResult heard_;                   // of what is heard, to see whether it can be read
   std::map<std::size_t, Path> paths_;  // by index of the cell
 };
 
@@ -229,19 +267,31 @@ std::string journal_of(const CaseResult& planned, const Results& grid, const Gri
 
 // All that the case's results depend on: another program, too, makes other results.
 std::string plan_of(const Results& grid, const CaseResult& planned, const GridOptions& options) {
-  std::error_code no_matter;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", no_matter);
-  const auto written = std::filesystem::last_write_time(program, no_matter).time_since_epoch().count();
   const Case& definition = planned.definition;
-  std::string plan =
-      fmt::format("{} {}\n{}\n{}\n{:.17g} {} {} {}\n", program.string(), written, definition.id, definition.text,
-                  definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
+  std::string plan = fmt::format("{}\n{}\n{}\n{:.17g} {} {} {}\n", build_identity(), definition.id, definition.text,
+                                 definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
   for (const auto& recorder : options.recorders) plan += recorder->name() + "\n";
   for (const RunName& run : grid.runs) plan += run.text + "\n";
   for (const Cell& cell : planned.cells)
     plan += fmt::format("{} {:.17g} {} {}\n", cell.run, cell.dt.seconds, word_of(cell.status), cell.trajectory);
   for (const StableStepResult& stable : planned.stable_steps) plan += word_of(stable.status) + "\n";
   return plan;
+}
+
+// Not believed: what cannot be read, and a cell whose trajectory is no longer there.
+void forget_what_is_wrong(Journal& journal, const CaseResult& planned, const GridOptions& options) {
+  CaseResult scratch = planned;
+  journal.forget_if([&](const Journal::Record& record) {
+    try {
+      const MessageSubject subject = apply_message(scratch, record.message);
+      if (subject.part != MessageSubject::Part::cell) return false;
+      const std::string& trajectory = scratch.cells[subject.index].trajectory;
+      return !trajectory.empty() && !options.folder.empty() &&
+             !std::filesystem::exists(std::filesystem::path(options.folder) / trajectory);
+    } catch (const std::exception&) {
+      return true;
+    }
+  });
 }
 
 }  // namespace
@@ -286,6 +336,7 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
               const Channel& channel) {
   const Case& definition = planned.definition;
   Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, options));
+  forget_what_is_wrong(journal, planned, options);
   const auto known_truth = journal.found().find(Journal::kTruth);
   const bool is_done = known_truth != journal.found().end() && journal.found().size() == 1 + jobs_in(planned);
   if (is_done) {

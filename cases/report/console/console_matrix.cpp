@@ -97,12 +97,12 @@ std::string panel(const Results& results, const std::vector<std::size_t>& runs) 
     if (of != family) text += of + "\n", family = of;
     const StepSize dt = matrix_dt(result, headline);
     const std::string name = (slash == std::string::npos ? id : " " + id.substr(slash + 1)) +
-                             (dt.text == headline.text ? "" : fmt::format(" {}", dt.text));
+                             (dt == headline ? "" : fmt::format(" {}", dt.text));
     std::string row = fmt::format("{:<{}}", shortened(name, kCaseColumn), kCaseColumn);
     const std::string metric = main_error(result);
     for (const std::size_t run : runs) {
       const auto cell = std::find_if(result.cells.begin(), result.cells.end(),
-                                     [&](const Cell& c) { return c.run == run && c.dt.text == dt.text; });
+                                     [&](const Cell& c) { return c.run == run && c.dt == dt; });
       row += right_aligned(cell == result.cells.end() ? "" : cell_text(*cell, metric), kColumn);
     }
     row.erase(row.find_last_not_of(' ') + 1);

@@ -117,7 +117,7 @@ std::string block(const Results& results, const CaseResult& result) {
   std::string text = wrapped(fmt::format("{}: {}", result.definition.id, result.definition.title), 2) + "\n";
   text += "  " + wrapped(truth_sentence(result), 2) + "\n" + header(dt);
   for (const Cell& cell : result.cells) {
-    if (cell.dt.seconds == dt.seconds) text += row_line(row_text(results, result, cell));
+    if (cell.dt == dt) text += row_line(row_text(results, result, cell));
   }
   text += explained_text(explained_rows(results, result, dt));
   for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";

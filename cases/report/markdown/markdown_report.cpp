@@ -35,7 +35,7 @@ std::string table(const Results& results, const CaseResult& result, const StepSi
       "synchronised [%] | largest stable dt [s] | verdict |\n|---|---:|---:|---:|---:|---:|---:|---|\n",
       dt.text);
   for (const Cell& cell : result.cells) {
-    if (cell.dt.text != dt.text) continue;
+    if (cell.dt != dt) continue;
     const RowText row = row_text(results, result, cell);
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", plain(row.engine), row.first_second, row.whole,
                         row.orientation, row.energy, row.energy_synchronised, row.stable_dt, plain(row.verdict));
@@ -74,7 +74,7 @@ std::string finer_steps(const Results& results, const CaseResult& result) {
   std::string text;
   const StepSize coarsest = coarsest_dt(result);
   for (const StepSize& dt : result.definition.dt) {
-    if (dt.text != coarsest.text)
+    if (dt != coarsest)
       text += fmt::format("### {}, dt = {} s\n\n", plain(result.definition.id), dt.text) + table(results, result, dt) +
               "\n";
   }

@@ -35,7 +35,7 @@ TextTable errors_and_costs(const Results& results, const CaseResult& result, con
     const ObservedOrder order = observed_order(result, run, metric);
     std::vector<std::string> row = {results.runs[run].text, order.value ? fmt::format("{:.2f}", *order.value) : kNone};
     for (const StepSize& dt : result.definition.dt) {
-      const auto at = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.dt.text == dt.text; });
+      const auto at = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.dt == dt; });
       row.push_back(at == points.end() ? kNone : fmt::format("{:.2g} at {:.3g}", at->error, 1e6 * at->cost));
     }
     table.rows.push_back(row);
@@ -64,7 +64,7 @@ TextTable times_less(const Results& results, const CaseResult& result, const std
 
 bool blew_up(const CaseResult& result, std::size_t run, const StepSize& dt) {
   return std::any_of(result.cells.begin(), result.cells.end(), [&](const Cell& cell) {
-    return cell.run == run && cell.dt.seconds == dt.seconds && cell.status == Status::diverged;
+    return cell.run == run && cell.dt == dt && cell.status == Status::diverged;
   });
 }
 
@@ -73,8 +73,7 @@ TextTable spread_table(const Results& results, const CaseResult& result) {
   std::vector<std::size_t> runs;  // those that are in a pair
   std::vector<const Spread*> pairs;
   for (const Spread& spread : result.spreads) {
-    if (spread.dt.seconds != dt.seconds || blew_up(result, spread.first, dt) || blew_up(result, spread.second, dt))
-      continue;
+    if (spread.dt != dt || blew_up(result, spread.first, dt) || blew_up(result, spread.second, dt)) continue;
     pairs.push_back(&spread);
     for (const std::size_t run : {spread.first, spread.second}) {
       if (std::find(runs.begin(), runs.end(), run) == runs.end()) runs.push_back(run);

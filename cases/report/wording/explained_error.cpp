@@ -29,7 +29,7 @@ ExplainedRow row_of(const std::string& engine, const Cell& cell) {
 std::vector<ExplainedRow> explained_rows(const Results& results, const CaseResult& result, const StepSize& dt) {
   std::vector<ExplainedRow> rows;
   for (const Cell& cell : result.cells) {
-    if (cell.dt.text != dt.text || cell.scheme.twin.empty()) continue;
+    if (cell.dt != dt || cell.scheme.twin.empty()) continue;
     rows.push_back(row_of(results.runs[cell.run].text, cell));
   }
   return rows;

@@ -63,7 +63,7 @@ class Explainer {
   template <typename F>
   void for_headline_cells(const F& f) const {
     for (const Cell& cell : result_.cells) {
-      if (cell.dt.seconds == dt_.seconds && !cell.metrics.empty()) f(cell, method_of_run(results_, cell.run));
+      if (cell.dt == dt_ && !cell.metrics.empty()) f(cell, method_of_run(results_, cell.run));
     }
   }
   std::string name_of(const Cell& cell) const { return results_.runs[cell.run].text; }

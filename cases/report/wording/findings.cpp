@@ -52,7 +52,7 @@ class Finder {
   void for_cells(std::size_t run, const F& f) const {
     for (const CaseResult& result : results_.cases) {
       for (const Cell& cell : result.cells) {
-        if (cell.run == run && cell.dt.seconds == dt_.seconds && !cell.metrics.empty()) f(result, cell);
+        if (cell.run == run && cell.dt == dt_ && !cell.metrics.empty()) f(result, cell);
       }
     }
   }
@@ -351,11 +351,11 @@ class Finder {
 std::vector<Finding> findings(const Results& results) { return Finder(results).all(); }
 
 StepSize headline_dt(const Results& results) {
-  constexpr double kHeadline = 1.0 / 30;
+  const StepSize headline{1.0 / 30, "1/30"};
   StepSize coarsest{0, ""};
   for (const CaseResult& result : results.cases) {
     for (const StepSize& step : result.definition.dt) {
-      if (std::abs(step.seconds - kHeadline) < 1e-12) return step;
+      if (step == headline) return step;
       if (step.seconds > coarsest.seconds) coarsest = step;
     }
   }

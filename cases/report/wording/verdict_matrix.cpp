@@ -59,9 +59,8 @@ std::string sign_of(const Cell& cell) {
 
 StepSize matrix_dt(const CaseResult& result, const StepSize& headline) {
   const auto& steps = result.definition.dt;
-  const bool has_it =
-      std::any_of(steps.begin(), steps.end(), [&](const StepSize& dt) { return dt.text == headline.text; });
-  return has_it ? headline : coarsest_dt(result);
+  const auto own = std::find(steps.begin(), steps.end(), headline);
+  return own != steps.end() ? *own : coarsest_dt(result);
 }
 
 std::string main_error(const CaseResult& result) {
@@ -84,10 +83,10 @@ TextTable verdict_matrix(const Results& results) {
   for (const CaseResult& result : results.cases) {
     const StepSize dt = matrix_dt(result, headline);
     std::vector<std::string> row(results.runs.size() + 1, "");
-    row[0] = result.definition.id + (dt.text == headline.text ? "" : fmt::format(" (dt {})", dt.text));
+    row[0] = result.definition.id + (dt == headline ? "" : fmt::format(" (dt {})", dt.text));
     const std::string metric = main_error(result);
     for (const Cell& cell : result.cells) {
-      if (cell.dt.text == dt.text) row[cell.run + 1] = cell_text(cell, metric);
+      if (cell.dt == dt) row[cell.run + 1] = cell_text(cell, metric);
     }
     matrix.rows.push_back(row);
   }

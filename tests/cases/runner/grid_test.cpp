@@ -1,9 +1,12 @@
 #include "cases/runner/grid.h"
 #include "cases/report/csv/trajectory_csv.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +15,8 @@
 #include <set>
 #include <thread>
 
+#include "cases/results/result_json.h"
+#include "cases/runner/process_pool.h"
 #include "core/base/error.h"
 #include "tests/cases/runner/faulty_engine.h"
 
@@ -27,6 +32,22 @@ void spin() {
   }
 }
 
+// The pipe by which a cell's process answers: of those it can write to and does not print to, the one made last.
+int pipe_of_answers() {
+  struct stat printed {
+  }, about{};
+  fstat(STDOUT_FILENO, &printed);
+  int found = -1;
+  for (int descriptor = STDERR_FILENO + 1; descriptor < 256; ++descriptor) {
+    if (fstat(descriptor, &about) != 0 || !S_ISFIFO(about.st_mode) || about.st_ino == printed.st_ino) continue;
+    if ((fcntl(descriptor, F_GETFL) & O_ACCMODE) == O_WRONLY) found = descriptor;
+  }
+  return found;
+}
+
+// An engine whose memory errors write into its process's answers.
+void answer_before_rigor_does(const std::string& text) { Channel(pipe_of_answers()).send(text); }
+
 EngineTable faulty_engines(bool with_one_that_hangs = true) {
   EngineTable table;
   const auto add = [&](auto&&... parts) { table.add(std::make_unique<FaultyEngine>(parts...)); };
@@ -41,6 +62,36 @@ EngineTable faulty_engines(bool with_one_that_hangs = true) {
   add("throws", [](double&) { throw std::runtime_error("no memory left for contacts"); });
   return table;
 }
+
+// Loses its numbers after 20 s, at steps of more than 0.1 s.
+class LateEngine : public FaultyEngine {
+ public:
+  LateEngine() : FaultyEngine("late", [this](double& x) { x = is_lost() ? std::nan("") : 0; }) {}
+  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {
+    time_ = 0;
+    return std::make_unique<LateWorld>(*this, FaultyEngine::load(scene, settings));
+  }
+
+ private:
+  class LateWorld : public World {
+   public:
+    LateWorld(const LateEngine& engine, std::unique_ptr<World> world) : engine_(engine), world_(std::move(world)) {}
+    void step(double dt) override {
+      engine_.dt_ = dt, engine_.time_ += dt;
+      world_->step(dt);
+    }
+    void read(Snapshot& out) const override { world_->read(out); }
+    SettingsInForce settings_in_force() const override { return world_->settings_in_force(); }
+    std::string solver_warning() const override { return ""; }
+
+   private:
+    const LateEngine& engine_;
+    std::unique_ptr<World> world_;
+  };
+
+  bool is_lost() const { return dt_ > 0.1 && time_ > 20; }
+  mutable double dt_ = 0, time_ = 0;  // s
+};
 
 std::vector<RunName> runs_of(const EngineTable& table) {
   std::vector<RunName> runs;
@@ -84,6 +135,48 @@ BOOST_AUTO_TEST_CASE(a_broken_engine_costs_its_own_cells_and_says_how) {
   BOOST_TEST(aborted.reason.find("solver: matrix is singular") != std::string::npos, aborted.reason);
 }
 
+BOOST_AUTO_TEST_CASE(a_garbled_answer_costs_its_cell_and_no_other) {
+  const Case definition = drifting_body("a");
+  Cell passing;
+  passing.status = Status::pass, passing.reason = "";
+  const std::vector<std::pair<std::string, std::string>> garbled = {
+      {"babbles", "{\"cell\":0, and so on"},
+      {"is-of-no-status", "{\"cell\":2,\"result\":{\"status\":\"psas\",\"reason\":\"\"},\"playback\":[]}"},
+      {"poses-as-another", message_of_cell(0, passing, definition.scene)},
+      {"is-far-off", message_of_cell(9999, passing, definition.scene)},
+      {"is-torn", message_of_cell(6, passing, definition.scene).substr(0, 40)},
+  };
+  EngineTable table;
+  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
+  for (const auto& [name, text] : garbled)
+    table.push_back(std::make_unique<FaultyEngine>(name, [text](double&) { answer_before_rigor_does(text); }));
+  const Results grid = run({definition}, table, {2, 20, "", false});
+  BOOST_TEST(grid.cases.front().error == "");
+  for (const Cell& cell : grid.cases.front().cells) {
+    const bool is_good = grid.runs[cell.run].engine == "good";
+    BOOST_TEST((cell.status == (is_good ? Status::pass : Status::crashed)), grid.runs[cell.run].engine);
+    if (!is_good) BOOST_TEST(cell.reason.find("its message could not be read") != std::string::npos, cell.reason);
+  }
+  BOOST_TEST(grid.cases.front().spreads.empty());  // only one engine left a path
+}
+
+BOOST_AUTO_TEST_CASE(a_case_whose_process_is_stopped_ends) {
+  EngineTable table;
+  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
+  table.push_back(std::make_unique<FaultyEngine>("stops-its-parent", [](double&) {
+    kill(getppid(), SIGSTOP);
+    pause();
+  }));
+  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {1, 0.1, "", false});
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) {
+      const bool is_good = grid.runs[cell.run].engine == "good";
+      BOOST_TEST((cell.status == (is_good ? Status::pass : Status::timed_out)), word_of(cell.status) + cell.reason);
+    }
+    BOOST_TEST(result.error.find("broke off") != std::string::npos, result.error);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(results_do_not_depend_on_how_many_run_at_once) {
   const auto no_time = [](const Results& grid) {
     std::string text;
@@ -125,6 +218,20 @@ BOOST_AUTO_TEST_CASE(each_pair_that_ran_has_its_spread_at_each_step) {
     BOOST_TEST_REQUIRE(spread.parted_at.has_value());
     BOOST_TEST(*spread.parted_at == 5 * spread.dt.seconds, boost::test_tools::tolerance(1e-12));
   }
+}
+
+// However short the run is, a step has to hold for 30 s to be called stable.
+BOOST_AUTO_TEST_CASE(a_step_that_blows_up_late_is_not_stable) {
+  EngineTable table;
+  table.add(std::make_unique<LateEngine>());
+  const Results grid = run({drifting_body("a")}, table, {1, 60, "", true});
+  BOOST_TEST_REQUIRE(grid.cases.front().stable_steps.size() == 1u);
+  const StableStepResult& found = grid.cases.front().stable_steps.front();
+  BOOST_TEST((found.status == Status::pass), found.reason);
+  BOOST_TEST(!found.step.is_cap);
+  BOOST_TEST(found.step.dt <= 0.1);
+  BOOST_TEST(found.step.dt > 0.099);  // to 1 % of the limit
+  for (const Cell& cell : grid.cases.front().cells) BOOST_TEST((cell.status == Status::pass));
 }
 
 BOOST_AUTO_TEST_CASE(a_truth_that_does_not_fit_costs_one_case) {
