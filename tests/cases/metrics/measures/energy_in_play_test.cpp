@@ -60,13 +60,26 @@ BOOST_AUTO_TEST_CASE(over_a_fixed_body_the_fall_ends_at_its_lowest_point_and_ove
   BOOST_TEST(energy_in_play(ball_over(3, shelf), 10) == 0.5 * 2 * 100 * 100, kClose);
 }
 
+BOOST_AUTO_TEST_CASE(what_hangs_by_springs_falls_no_further_than_they_let_it) {
+  // Two weights of 1 kg in a chain of springs of 1 m and 400 N/m: 40 N, twice the whole weight is 80 N, stretch each by
+  // 0.1 m. At rest the fall of the upper one is 0.1 m and that of the lower one twice that: 10 N · 0.3 m = 3 J.
+  Scene scene;
+  scene.gravity = {0, 0, -10};
+  scene.bodies = {test::body("upper", 1, {1, 1, 1}, {0, 0, -1}), test::body("lower", 1, {1, 1, 1}, {0, 0, -2})};
+  scene.springs = {test::spring(0, {0, 0, 0}, 1, {0, 0, 0}, 400, 1),
+                   test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, 400, 1)};
+  BOOST_TEST(energy_in_play(scene, 100) == 3, kClose);
+  scene.springs.pop_back();  // tied to each other, and to nothing else
+  BOOST_TEST(energy_in_play(scene, 100) == 1000 * 1000, kClose);
+}
+
 BOOST_AUTO_TEST_CASE(springs_and_pushes_add_what_they_store_and_give) {
   Scene scene = ball_over(3, test::plane());
-  scene.springs = {test::spring(kWorld, {0, 0, 4.5}, 0, {0, 0, 0}, 100, 0)};
-  BOOST_TEST(energy_in_play(scene, 10) == 60 + 50, kClose);
+  scene.springs = {test::spring(kWorld, {0, 0, 4.5}, 0, {0, 0, 0}, 100, 0)};  // 1 m long
+  BOOST_TEST(energy_in_play(scene, 10) == 8 + 50, kClose);                    // 40 N stretch it by 0.4 m
   scene.forces = {{.body = 0, .force = Vec3(0, 4, 0), .until = 1}};
-  // The 60 J are 7.75 m/s, to which the push adds 2.
-  BOOST_TEST(energy_in_play(scene, 10) == 50 + std::pow(std::sqrt(60) + 2, 2), kClose);
+  // The 8 J are 2.83 m/s, to which the push adds 2.
+  BOOST_TEST(energy_in_play(scene, 10) == 50 + std::pow(std::sqrt(8) + 2, 2), kClose);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
