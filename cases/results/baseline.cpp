@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cases/metrics/metric.h"
+#include "cases/metrics/verdict.h"
 #include "cases/results/changes.h"
 #include "cases/results/result_json.h"
 #include "core/base/error.h"
@@ -23,6 +24,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kTitle = "# Rigor baseline 1";
 constexpr int kSchemas[] = {1, 2};  // in the first a number that was not finite is null
+constexpr const char* kVerdictIs = "verdict=";
 
 // A time is measured anew each run; a shift in time has a sign; and of two metrics more is better.
 bool is_compared(const std::string& metric) {
@@ -37,8 +39,15 @@ std::string joined(const std::vector<std::string>& parts) { return fmt::format("
 
 std::string text_at(const Json& json, const char* key) { return json.at(key).get<std::string>(); }
 
+const std::string& known_verdict(const std::string& word) {
+  verdict_of(word);
+  return word;
+}
+
 Outcomes::Cell cell_from(const Json& json) {
-  Outcomes::Cell cell{text_at(json, "status"), {}};
+  Outcomes::Cell cell{text_at(json, "status"), "", {}};
+  if (const Json& verdict = json.at("verdict"); !verdict.is_null())
+    cell.verdict = known_verdict(text_at(verdict, "word"));
   for (const auto& [name, metric] : json.at("metrics").items()) {
     if (!is_compared(name) || !metric.contains("value")) continue;
     const Json& value = metric.at("value");
@@ -97,10 +106,14 @@ std::vector<std::string> split(const std::string& line) {
 }
 
 void add_cell(const std::vector<std::string>& parts, Outcomes& out) {
-  Outcomes::Cell cell{parts[4], {}};
+  Outcomes::Cell cell{parts[4], "", {}};
   for (std::size_t i = 5; i < parts.size(); ++i) {
     const std::size_t equals = parts[i].find('=');
     if (equals == std::string::npos) throw InputError(fmt::format("'{}' is no metric=value", parts[i]));
+    if (parts[i].starts_with(kVerdictIs)) {
+      cell.verdict = known_verdict(parts[i].substr(equals + 1));
+      continue;
+    }
     cell.metrics[parts[i].substr(0, equals)] = number(parts[i].substr(equals + 1));
   }
   out.cells[joined({parts[1], parts[2], parts[3]})] = cell;
@@ -174,6 +187,7 @@ std::string baseline_text(const Outcomes& outcomes) {
   for (const std::string& name : names) text += fmt::format("metric\t{}\n", name);
   for (const auto& [key, cell] : outcomes.cells) {
     text += fmt::format("cell\t{}\t{}", key, cell.status);
+    if (!cell.verdict.empty()) text += fmt::format("\t{}{}", kVerdictIs, cell.verdict);
     for (const auto& [name, value] : cell.metrics) {
       if (value > kNoise) text += fmt::format("\t{}={:.4g}", name, value);
     }

@@ -13,6 +13,7 @@ inline constexpr const char* kBetweenValues = " | ";
 struct Outcomes {
   struct Cell {
     std::string status;                     // "pass", "fail", ...
+    std::string verdict;                    // "stable", "gaining", ...; empty if there is none, or it is not known
     std::map<std::string, double> metrics;  // lower is better in all of them; none that is a measured time
   };
   // Keys are made of parts parted by tabs, in this order; no name holds a tab.

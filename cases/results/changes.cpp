@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "cases/metrics/verdict.h"
+
 namespace rigor {
 namespace {
 
@@ -53,14 +55,24 @@ void compare_errors(const std::string& key, const Outcomes& before, const Outcom
   }
 }
 
+// An older result may know fewer verdicts, or none.
+void compare_verdicts(const std::string& key, const Outcomes& before, const Outcomes& after, Changes& out) {
+  const std::string &was = before.cells.at(key).verdict, &is = after.cells.at(key).verdict;
+  if (was.empty() || is.empty() || was == is) return;
+  (verdict_of(is) > verdict_of(was) ? out.newly_failing : out.newly_passing)
+      .push_back(fmt::format("{}: its verdict is {}, was {}", named(key), is, was));
+}
+
 void compare_cells(const std::string& key, const Outcomes& before, const Outcomes& after, double factor, Changes& out) {
   const std::string &was = before.cells.at(key).status, &is = after.cells.at(key).status;
   if (badness(was) != badness(is)) {
     (badness(is) > badness(was) ? out.newly_failing : out.newly_passing)
         .push_back(fmt::format("{}: {}, was {}", named(key), is, was));
   }
-  // Numbers of a run that failed mean little.
-  if (badness(was) == 0 && badness(is) == 0) compare_errors(key, before, after, factor, out);
+  // Numbers and verdicts of a run that failed mean little.
+  if (badness(was) != 0 || badness(is) != 0) return;
+  compare_verdicts(key, before, after, out);
+  compare_errors(key, before, after, factor, out);
 }
 
 std::set<std::string> cases_of(const Outcomes& outcomes) {

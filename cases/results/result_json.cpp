@@ -98,13 +98,6 @@ SchemeFindings scheme_from(const Json& json, const Scene& scene) {
           metrics_from(json.at("without_gyroscopic_term"), scene)};
 }
 
-Verdict verdict_of(const std::string& word) {
-  for (Verdict verdict : {Verdict::stable, Verdict::drifting, Verdict::blown_up}) {
-    if (word_of(verdict) == word) return verdict;
-  }
-  throw std::runtime_error("no such verdict: " + word);
-}
-
 void fill_in(Cell& cell, const Json& json, const Scene& scene) {
   cell.status = status_of(json.at("status").get<std::string>());
   cell.reason = json.at("reason").get<std::string>();
@@ -114,7 +107,8 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
   if (!json.at("verdict").is_null()) {
     const Json& verdict = json.at("verdict");
     cell.stability = {verdict_of(verdict.at("word").get<std::string>()), number_of(verdict.at("time")),
-                      body_index(scene, verdict.at("body").get<std::string>()), verdict.at("why").get<std::string>()};
+                      body_index(scene, verdict.at("body").get<std::string>()), verdict.at("why").get<std::string>(),
+                      number_of(verdict.at("amount"))};
   }
   cell.metrics = metrics_from(json.at("metrics"), scene);
   cell.scheme = scheme_from(json.at("by_scheme"), scene);
@@ -163,7 +157,9 @@ Json json_of(const Cell& cell, const Scene& scene) {
     json["verdict"] = {{"word", word_of(stability.verdict)},
                        {"time", stability.time},
                        {"body", scene.body_name(stability.body)},
-                       {"why", stability.why}};
+                       {"why", stability.why},
+                       {"amount", stability.amount},
+                       {"phrase", phrase_of(stability)}};
   }
   json["metrics"] = json_of(cell.metrics, scene);
   json["by_scheme"] = json_of(cell.scheme, scene);

@@ -316,9 +316,8 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   JudgedRun judged{
       scene,           run.trajectory, samples ? &*samples : nullptr, leapfrog_stagger, twin ? &*twin : nullptr,
       cell.cpu_seconds};
-  cell.stability = judge_stability(scene, run, facts.largest_kinetic_energy, leapfrog_stagger, judged.truth,
-                                   facts.largest_energy_change);
   judged.duration = definition.duration;
+  cell.stability = judge_stability(judged, run.not_finite, facts.largest_kinetic_energy, facts.largest_energy_change);
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   std::vector<NamedSeries> series;
   cell.metrics = measured(judged, definition, options, series);

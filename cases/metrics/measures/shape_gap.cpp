@@ -134,6 +134,13 @@ double bounding_radius(const Shape& shape) {
   return kInfinity;
 }
 
+double inradius(const Shape& shape) {
+  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
+  if (const auto* c = std::get_if<Capsule>(&shape)) return c->radius;
+  if (const auto* b = std::get_if<Box>(&shape)) return b->size.minCoeff() / 2;
+  return kInfinity;
+}
+
 void for_each_near_pair(const Scene& scene, BodyColumns bodies, double reach,
                         const std::function<void(int a, int b, double gap)>& visit) {
   std::vector<Extent> extents;

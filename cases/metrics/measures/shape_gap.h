@@ -20,6 +20,7 @@ struct BodyPose {
 double shape_gap(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b);
 
 double bounding_radius(const Shape& shape);  // m, round the body's origin; infinite for a plane
+double inradius(const Shape& shape);  // m, of the largest sphere inside: half its thickness; infinite for a plane
 
 // Calls `visit(a, b, gap)` for each pair of the scene's colliding bodies, of which one can move, that may be nearer to
 // each other than `reach` [m]: neighbours are found by sorting along one axis.

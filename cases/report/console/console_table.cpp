@@ -44,7 +44,7 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
   if (cell.stability.verdict == Verdict::blown_up) {
     return fmt::format("blown up at {:.2f} s: {}", cell.stability.time, scene.body_name(cell.stability.body));
   }
-  return cell.status == Status::pass ? word_of(cell.stability.verdict) : word_of(cell.status);
+  return cell.status == Status::pass ? phrase_of(cell.stability) : word_of(cell.status);
 }
 
 // The first column of a table; a long name gets a line of its own.

@@ -91,6 +91,7 @@ Json case_json(const Results& results, const CaseResult& result) {
     json["truth"]["horizon_tolerance"] = kHorizonTolerance;
   }
   if (result.truth) json["largest_kinetic_energy"] = result.truth->largest_kinetic_energy;
+  json["size"] = size_of(definition.scene);
   json["main_error"] = main_error(result);
   json["observed_order"] = observed_orders_json(results, result);
   json["work_precision"] = work_precision_json(results, result);

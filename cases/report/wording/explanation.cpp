@@ -56,6 +56,7 @@ class Explainer {
     if (omega_ == 0) explain_falling_too_far();
     explain_raw_energy();
     explain_gyroscopic_loss();
+    explain_verdicts();
     return sentences_;
   }
 
@@ -183,6 +184,15 @@ class Explainer {
           name_of(cell));
     });
     for (const auto& [text, engines] : names) sentences_.push_back(fmt::format("Why: {}: {}", engines, text));
+  }
+
+  // What the words "overlapping", "gaining" and "collapsed" stand on.
+  void explain_verdicts() {
+    for_headline_cells([&](const Cell& cell, const MethodInfo&) {
+      const Verdict verdict = cell.stability.verdict;
+      if (verdict == Verdict::stable || verdict == Verdict::drifting || verdict == Verdict::blown_up) return;
+      sentences_.push_back(fmt::format("{} is {}: {}.", name_of(cell), word_of(verdict), cell.stability.why));
+    });
   }
 
   const Results& results_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/metrics/measures/shape_gap.h"
 #include "cases/report/wording/findings.h"
 #include "cases/report/wording/wording.h"
 
@@ -32,9 +33,27 @@ std::string error_text(const Cell& cell, const std::string& metric) {
 
 std::string cell_text(const Cell& cell, const std::string& metric) {
   std::string word = word_of(cell.status);
-  if (cell.status == Status::diverged) return fmt::format("{} blown up {:.2f} s", sign_of(cell), cell.stability.time);
-  if (cell.status == Status::pass && !cell.metrics.empty()) word = word_of(cell.stability.verdict);
+  if (cell.status == Status::diverged) return sign_of(cell) + " " + phrase_of(cell.stability);
+  if (cell.status == Status::pass && !cell.metrics.empty()) word = phrase_of(cell.stability);
   return fmt::format("{} {}{}", sign_of(cell), word, error_text(cell, metric));
+}
+
+std::string sign_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::stable:
+      return "✓";
+    case Verdict::drifting:
+      return "≈";
+    case Verdict::overlapping:
+      return "∩";
+    case Verdict::gaining:
+      return "↑";
+    case Verdict::collapsed:
+      return "↓";
+    case Verdict::blown_up:
+      return "✕";
+  }
+  return "!";
 }
 
 }  // namespace
@@ -42,7 +61,7 @@ std::string cell_text(const Cell& cell, const std::string& metric) {
 std::string sign_of(const Cell& cell) {
   switch (cell.status) {
     case Status::pass:
-      return cell.stability.verdict == Verdict::drifting ? "≈" : "✓";
+      return sign_of(cell.stability.verdict);
     case Status::diverged:
     case Status::fail:
       return "✕";
@@ -55,6 +74,25 @@ std::string sign_of(const Cell& cell) {
     default:
       return "!";
   }
+}
+
+double size_of(const Scene& scene) {
+  double size = 0;
+  Vec3 low = Vec3::Constant(HUGE_VAL), high = -low;
+  for (const Body& body : scene.bodies) {
+    if (body.fixed) continue;
+    low = low.cwiseMin(body.position), high = high.cwiseMax(body.position);
+    size = std::max(
+        size, 2 * (body.shape ? bounding_radius(*body.shape) : std::sqrt(0.5 * body.inertia.trace() / body.mass)));
+  }
+  for (const Spring& spring : scene.springs) size = std::max(size, spring.rest_length);
+  return low.x() <= high.x() ? std::max(size, (high - low).norm()) : size;
+}
+
+std::string shade_of(const CaseResult& result, const Cell& cell) {
+  const double share = value_of(cell, "position_error") / size_of(result.definition.scene);
+  if (cell.status == Status::diverged || !(share >= 1e-3)) return " ";
+  return share < 1e-2 ? "░" : share < 1e-1 ? "▒" : share < 1 ? "▓" : "█";
 }
 
 StepSize matrix_dt(const CaseResult& result, const StepSize& headline) {
@@ -75,10 +113,13 @@ std::string main_error(const CaseResult& result) {
 
 TextTable verdict_matrix(const Results& results) {
   const StepSize headline = headline_dt(results);
-  TextTable matrix{fmt::format("dt = {} s: the verdict, and the largest error of the position [m]; of the orientation "
-                               "[rad] where nothing moves away; of the energy [%] where there is no truth",
-                               headline.text),
-                   {{"case"}}};
+  TextTable matrix{
+      fmt::format("dt = {} s: the verdict, and the largest error of the position [m]; of the orientation "
+                  "[rad] where nothing moves away; of the energy [%] where there is no truth. The darker "
+                  "the square, the larger the position's error beside the case's size: ░ from 1e-3, ▒ 1e-2, "
+                  "▓ 1e-1, █ 1",
+                  headline.text),
+      {{"case"}}};
   for (const RunName& run : results.runs) matrix.rows[0].push_back(run.text);
   for (const CaseResult& result : results.cases) {
     const StepSize dt = matrix_dt(result, headline);
@@ -86,7 +127,9 @@ TextTable verdict_matrix(const Results& results) {
     row[0] = result.definition.id + (dt == headline ? "" : fmt::format(" (dt {})", dt.text));
     const std::string metric = main_error(result);
     for (const Cell& cell : result.cells) {
-      if (cell.dt == dt) row[cell.run + 1] = cell_text(cell, metric);
+      if (cell.dt != dt) continue;
+      const std::string shade = shade_of(result, cell);
+      row[cell.run + 1] = cell_text(cell, metric) + (shade == " " ? "" : " " + shade);
     }
     matrix.rows.push_back(row);
   }

@@ -16,7 +16,7 @@ Stability verdict_on(const Scene& scene, const std::string& method, double dt, d
   const Simulation run = simulate(core(), test::core_method(method), scene, dt, duration);
   const TruthSamples samples = test::sampled(*truth, run.trajectory, scene, largest);
   const double lag = method_of(core().info(), test::core_method(method)).leapfrog_stagger;
-  return judge_stability(scene, run, largest, lag, &samples);
+  return judge_stability({scene, run.trajectory, &samples, lag}, run.not_finite, largest);
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(a_state_that_is_not_finite_has_blown_up_with_its_body_and_t
     if (step == 7) bodies.column(3)[0] = std::nan("");
   };
   const Simulation run = simulate(test::ScriptedEngine(script), {}, scene, 0.5, 10);
-  const Stability verdict = judge_stability(scene, run, 1, 0);
+  const Stability verdict = judge_stability({scene, run.trajectory, nullptr, 0}, run.not_finite, 1);
   BOOST_TEST(word_of(verdict.verdict) == "blown up");
   BOOST_TEST(verdict.time == 3.5);
   BOOST_TEST(verdict.body == 0);
@@ -91,10 +91,13 @@ BOOST_AUTO_TEST_CASE(a_weight_that_dampers_let_creep_back_has_not_blown_up) {
   BOOST_TEST(change == 800, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(largest_energy_change(scene, nullptr, 5) == 0);
   const Simulation run = simulate(core(), test::core_method("rk4"), scene, 1e-3, 5);
-  BOOST_TEST(word_of(judge_stability(scene, run, kinetic, 0, nullptr, change).verdict) == "stable");
-  BOOST_TEST(word_of(judge_stability(scene, run, kinetic, 0).verdict) == "blown up");  // by its motion alone
+  const auto verdict = [&](const Simulation& judged, double largest_change) {
+    return word_of(judge_stability({scene, judged.trajectory, nullptr, 0}, {}, kinetic, largest_change).verdict);
+  };
+  BOOST_TEST(verdict(run, change) == "stable");
+  BOOST_TEST(verdict(run, 0) == "blown up");  // by its motion alone
   const Simulation wild = simulate(core(), test::core_method("explicit-euler"), scene, 0.02, 5);
-  BOOST_TEST(word_of(judge_stability(scene, wild, kinetic, 0, nullptr, change).verdict) == "blown up");
+  BOOST_TEST(verdict(wild, change) == "blown up");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -54,6 +54,27 @@ BOOST_AUTO_TEST_CASE(nothing_has_changed_from_a_result_to_itself) {
   });
 }
 
+BOOST_AUTO_TEST_CASE(a_worse_verdict_is_worse_and_a_better_one_is_told) {
+  const Results stable = gated_results();
+  Results gaining = gated_results();
+  good_cell(gaining).stability = {Verdict::gaining, 0.5, kWorld, "it rose", 0.13};
+  both_ways(stable, gaining, [](const Changes& changes) {
+    BOOST_TEST_REQUIRE(changes.newly_failing.size() == 1);
+    BOOST_TEST(changes.newly_failing[0] == "family/case, good, 1/10: its verdict is gaining, was stable");
+    BOOST_TEST(changes.is_worse());
+  });
+  both_ways(gaining, stable, [](const Changes& changes) {
+    BOOST_TEST(changes.newly_passing.size() == 1);
+    BOOST_TEST(!changes.is_worse());
+  });
+}
+
+BOOST_AUTO_TEST_CASE(a_verdict_that_nobody_knows_is_refused) {
+  const Folder folder;
+  const std::string file = folder.write("b.txt", "# Rigor baseline 1\ncell\tc\te\t1/30\tpass\tverdict=fine\n");
+  BOOST_CHECK_EXCEPTION(read_outcomes(file), InputError, says("line 2: no such verdict: fine"));
+}
+
 BOOST_AUTO_TEST_CASE(an_error_that_grows_beyond_the_factor_is_worse_and_one_that_shrinks_is_told) {
   struct Row {
     double times;

@@ -147,9 +147,9 @@ BOOST_AUTO_TEST_CASE(a_garbled_answer_costs_its_cell_and_no_other) {
       {"is-torn", message_of_cell(6, passing, definition.scene).substr(0, 40)},
   };
   EngineTable table;
-  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
   for (const auto& [name, text] : garbled)
-    table.push_back(std::make_unique<FaultyEngine>(name, [text](double&) { answer_before_rigor_does(text); }));
+    table.add(std::make_unique<FaultyEngine>(name, [text](double&) { answer_before_rigor_does(text); }));
   const Results grid = run({definition}, table, {2, 20, "", false});
   BOOST_TEST(grid.cases.front().error == "");
   for (const Cell& cell : grid.cases.front().cells) {
@@ -162,8 +162,8 @@ BOOST_AUTO_TEST_CASE(a_garbled_answer_costs_its_cell_and_no_other) {
 
 BOOST_AUTO_TEST_CASE(a_case_whose_process_is_stopped_ends) {
   EngineTable table;
-  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
-  table.push_back(std::make_unique<FaultyEngine>("stops-its-parent", [](double&) {
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
+  table.add(std::make_unique<FaultyEngine>("stops-its-parent", [](double&) {
     kill(getppid(), SIGSTOP);
     pause();
   }));

@@ -26,6 +26,8 @@ BOOST_AUTO_TEST_CASE(a_reader_finds_every_part_by_its_name) {
   BOOST_TEST(cell.at("dt_seconds") == 0.1);
   BOOST_TEST(cell.at("status") == "pass");
   BOOST_TEST(cell.at("verdict").at("word") == "stable");
+  BOOST_TEST(cell.at("verdict").at("phrase") == "stable");
+  BOOST_TEST(json.at("cases").at(0).at("size").get<double>() == 2.45, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(cell.at("settings").at("solver") == "exact");
   BOOST_TEST(cell.at("trajectory") == "t0.csv");
   const auto& error = cell.at("metrics").at("position_error");

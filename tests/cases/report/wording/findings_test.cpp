@@ -187,12 +187,31 @@ BOOST_AUTO_TEST_CASE(the_matrix_has_a_word_and_a_number_in_each_cell) {
   grid.cases[0].cells[3].status = Status::unsupported;
   TextTable matrix = verdict_matrix(grid);
   BOOST_TEST((matrix.rows[0] == std::vector<std::string>{"case", "good", "wild"}));
-  BOOST_TEST((matrix.rows[1] == std::vector<std::string>{"family/case", "✓ stable 0.25 m", "✕ blown up 0.40 s"}));
+  BOOST_TEST((matrix.rows[1] == std::vector<std::string>{"family/case", "✓ stable 0.25 m ▓", "✕ blown up 0.40 s"}));
   grid.cases[0].definition.dt = {{0.05, "1/20"}};
   grid.cases.push_back(sample_results().cases.front());
   grid.cases.back().definition.id = "other";
   matrix = verdict_matrix(grid);
-  BOOST_TEST((matrix.rows[1] == std::vector<std::string>{"family/case (dt 1/20)", "✓ stable 0.25 m", "– unsupported"}));
+  BOOST_TEST(
+      (matrix.rows[1] == std::vector<std::string>{"family/case (dt 1/20)", "✓ stable 0.25 m ▓", "– unsupported"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_cells_sign_and_word_are_its_verdict_and_its_shade_is_the_decade_of_its_error) {
+  // A body of 1 kg and 1 kg m² about each axis: a sphere of gyration of 2.45 m is its size.
+  Results grid = sample_results();
+  const auto shown = [&](const Stability& stability, double error) {
+    grid.cases[0].cells[0].stability = stability;
+    grid.cases[0].cells[0].metrics["position_error"].value = error;
+    return verdict_matrix(grid).rows[1][1];
+  };
+  BOOST_TEST(size_of(grid.cases[0].definition.scene) == 2.45, boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(shown({Verdict::stable, 0, kWorld, ""}, 0.002) == "✓ stable 0.002 m");
+  BOOST_TEST(shown({Verdict::drifting, 0, kWorld, "", 0.02}, 0.003) == "≈ drifting 0.003 m ░");
+  BOOST_TEST(shown({Verdict::overlapping, 1, 0, "", 0.5}, 0.03) == "∩ overlapping 0.5 m 0.03 m ▒");
+  BOOST_TEST(shown({Verdict::gaining, 1, kWorld, "", 0.132}, 0.3) == "↑ gaining 13 % 0.3 m ▓");
+  BOOST_TEST(shown({Verdict::collapsed, 0.1667, 0, ""}, 2.5) == "↓ collapsed 0.17 s 2.5 m █");
+  grid.cases[0].cells[0].metrics.erase("position_error");
+  BOOST_TEST(shade_of(grid.cases[0], grid.cases[0].cells[0]) == " ");
 }
 
 BOOST_AUTO_TEST_CASE(the_error_that_matters_is_the_first_that_is_there) {
