@@ -38,6 +38,8 @@ std::string excerpt(const std::string& text) {
 
 }  // namespace
 
+std::string kind_of(const Gate& gate) { return gate.regression ? "regression" : "bound"; }
+
 StepSize parse_step_size(const std::string& text, const std::string& what) {
   constexpr std::size_t kLongest = 40;  // it goes into tables and file names; 17 digits over 17 digits fit
   const auto seconds = text.size() <= kLongest ? parse_seconds(text) : std::nullopt;

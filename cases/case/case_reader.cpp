@@ -4,12 +4,9 @@
 
 #include <algorithm>
 
-#include "adapters/engines.h"
-#include "cases/metrics/metric.h"
+#include "cases/case/gate_reader.h"
+#include "cases/case/seconds_reader.h"
 #include "cases/truth/truth.h"
-#include "core/base/error.h"
-#include "core/base/near_match.h"
-#include "core/engine/run_name.h"
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/table_reader.h"
 
@@ -21,13 +18,6 @@ Keys names_of(const Rows& rows) {
   Keys names;
   for (const auto& row : rows) names.push_back(row.name);
   return names;
-}
-
-// A number of seconds, or a fraction of one in quotes.
-StepSize read_seconds(const TomlValue& value) {
-  if (value.is_text()) return parse_step_size(value.text(), value.label());
-  const double seconds = value.positive();
-  return {seconds, fmt::format("{}", seconds)};
 }
 
 void read_run(const TableReader& table, Case& out) {
@@ -50,95 +40,6 @@ void read_truth(const TableReader& table, Case& out) {
   out.truth_where = kind.where();
 }
 
-RunName read_run_name(const TomlValue& value) {
-  static const std::vector<EngineInfo> infos = infos_of(engines());
-  try {
-    return parse_run_name(value.text(), infos);
-  } catch (const InputError& error) {
-    value.refuse(error.what());
-  }
-}
-
-std::vector<std::string> read_engines(const TomlValue& value) {
-  std::vector<std::string> names;
-  for (const TomlValue& item : value.items()) names.push_back(read_run_name(item).text);
-  return names;
-}
-
-bool is_cross_metric(const std::string& name) {
-  return std::any_of(cross_metrics().begin(), cross_metrics().end(), [&](const auto& row) { return row.name == name; });
-}
-
-// A ranking: the metric of every run the gate names must be better than this one's.
-void read_better_than(const TomlValue& value, Gate& gate) {
-  if (is_cross_metric(gate.metric))
-    value.refuse(fmt::format("{} does not rank runs; give max, min or equals", gate.metric));
-  gate.better_than = read_run_name(value).text;
-  if (gate.engines.empty()) value.refuse("a ranking names the runs that are better; give engines");
-  if (std::find(gate.engines.begin(), gate.engines.end(), gate.better_than) != gate.engines.end())
-    value.refuse(fmt::format("found {}, which is among engines; no run is better than itself", gate.better_than));
-}
-
-// The run's own step sizes that the gate names.
-std::vector<StepSize> read_gate_dt(const TomlValue& value, const std::vector<StepSize>& of_run) {
-  std::vector<StepSize> steps;
-  for (const TomlValue& item : value.items()) {
-    const StepSize wanted = read_seconds(item);
-    const auto found =
-        std::find_if(of_run.begin(), of_run.end(), [&](const StepSize& dt) { return dt.seconds == wanted.seconds; });
-    if (found == of_run.end()) {
-      Keys known;
-      for (const StepSize& dt : of_run) known.push_back(dt.text);
-      item.refuse(fmt::format("the run has no step {} s; allowed: {}", wanted.text, listed(known)));
-    }
-    steps.push_back(*found);
-  }
-  return steps;
-}
-
-std::optional<double> number_if_given(const TableReader& table, const char* key) {
-  const auto value = table.find(key);
-  return value ? std::optional(value->number()) : std::nullopt;
-}
-
-void read_bounds(const TableReader& table, const Case& of, Gate& gate) {
-  gate.max = number_if_given(table, "max");
-  gate.min = number_if_given(table, "min");
-  gate.equals = number_if_given(table, "equals");
-  if (const auto order = table.find("at_least_order")) {
-    gate.at_least_order = order->positive();
-    if (is_cross_metric(gate.metric))
-      order->refuse(fmt::format("{} has no order; give max, min or equals", gate.metric));
-    if ((gate.dt.empty() ? of.dt : gate.dt).size() < 2)
-      order->refuse("an order is observed over two step sizes or more");
-  }
-  if (const auto other = table.find("better_than")) read_better_than(*other, gate);
-  const int bounds =
-      (gate.max || gate.min) + gate.equals.has_value() + gate.at_least_order.has_value() + !gate.better_than.empty();
-  if (bounds != 1) {
-    table.refuse(
-        fmt::format("found {}; allowed: one of max, min, equals, at_least_order, better_than, or min and max "
-                    "together",
-                    bounds == 0 ? "no bound" : "bounds that do not go together"));
-  }
-  if (gate.min && gate.max && *gate.min > *gate.max) {
-    table.at("min").refuse(fmt::format("found {}, more than max, {}", *gate.min, *gate.max));
-  }
-}
-
-Gate read_gate(const TableReader& table, const Case& of) {
-  Gate gate;
-  gate.where = table.self().where();
-  Keys known = names_of(metrics());
-  for (const CrossMetricRow& row : cross_metrics()) known.push_back(row.name);
-  gate.metric = table.at("metric").choice(known);
-  if (const auto value = table.find("engines")) gate.engines = read_engines(*value);
-  if (const auto value = table.find("dt")) gate.dt = read_gate_dt(*value, of.dt);
-  read_bounds(table, of, gate);
-  gate.because = table.at("because").text();
-  return gate;
-}
-
 }  // namespace
 
 Case read_case(const std::string& path, const std::string& id) {
@@ -153,9 +54,8 @@ Case read_case(const std::string& path, const std::string& id) {
   read_run(root.at("run").table({"duration", "dt"}), out);
   if (const auto truth = root.find("truth")) read_truth(truth->table({"kind"}), out);
   if (const auto gates = root.find("gate")) {
-    for (const TableReader& gate : gates->tables(
-             {"metric", "engines", "dt", "max", "min", "at_least_order", "equals", "better_than", "because"})) {
-      out.gates.push_back(read_gate(gate, out));
+    for (const TableReader& table : gates->tables(gate_keys())) {
+      for (Gate& gate : gates_of(read_gate_table(table), out)) out.gates.push_back(std::move(gate));
     }
   }
   return out;

@@ -22,8 +22,10 @@ std::string unit_of(const std::string& metric) {
 
 std::string limit_of(const Gate& gate) {
   const std::string unit = unit_of(gate.metric);
+  if (gate.declares_order) return "the order that its method declares, less a tenth";
   if (gate.at_least_order) return fmt::format("order at least {:g}", *gate.at_least_order);
   if (gate.equals) return fmt::format("equal to {:.17g}{}", *gate.equals, unit);
+  if (gate.regression) return fmt::format("within {:g} times the recorded value", *gate.regression);
   if (!gate.better_than.empty()) return "better than " + gate.better_than;
   std::string text;
   if (gate.min) text = fmt::format("at least {:g}{}", *gate.min, unit);
@@ -45,6 +47,7 @@ Shortfall of_gate(const CaseResult& result, const GateResult& answer) {
   row.found = answer.value ? fmt::format("{:.6g}{}", *answer.value, unit) : word_of(answer.answer);
   row.worst = worst_text(answer, result.definition.scene);
   row.because = answer.answer == GateAnswer::failed && answer.value ? gate.because : answer.text;
+  if (gate.regression) row.what += " (regression)";
   if (answer.answer == GateAnswer::unexpected_pass) row.what += ", unexpected pass";
   return row;
 }
@@ -67,8 +70,7 @@ std::vector<Shortfall> shortfalls(const Results& results) {
                         cell.reason, ""});
     }
     for (const GateResult& answer : result.gates) {
-      if (answer.answer != GateAnswer::held && answer.answer != GateAnswer::known_deviation)
-        rows.push_back(of_gate(result, answer));
+      if (falls_short(answer.answer)) rows.push_back(of_gate(result, answer));
     }
   }
   return rows;

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "cases/case/run_selector.h"
 #include "core/base/error.h"
 #include "tests/cases/runner/faulty_engine.h"
 
