@@ -1,6 +1,7 @@
 #include "cases/case/family.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "adapters/engines.h"
 #include "cases/case/run_selector.h"
@@ -9,6 +10,10 @@
 
 namespace rigor {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kExtension = ".toml";
 
 // Beside what an engine needs for it: whether anything pulls at all, and whether springs lose energy.
 Features features_of(const Scene& scene) {
@@ -27,7 +32,22 @@ bool has(const Features& features, const std::string& word) {
                      [&](const std::string& feature) { return feature == word || feature.starts_with(word + ":"); });
 }
 
+// The names of the other files of the folder, which no family lists.
+Keys cases_beside(const std::string& path) {
+  Keys names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(fs::path(path).parent_path(), error)) {
+    const fs::path& file = entry.path();
+    if (file.extension() == kExtension && file.filename() != kFamilyFile) names.push_back(file.stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 bool is_about(const GateTable& table, const Case& definition, const Features& features) {
+  std::string name = definition.id.substr(definition.id.rfind('/') + 1);  // an id, or the path of a file elsewhere
+  if (name.ends_with(kExtension)) name.resize(name.size() - kExtension.size());
+  if (std::find(table.except.begin(), table.except.end(), name) != table.except.end()) return false;
   const bool has_scene = std::all_of(table.scene.begin(), table.scene.end(), [&](const std::string& word) {
     return word.starts_with('!') ? !has(features, word.substr(1)) : has(features, word);
   });
@@ -63,8 +83,9 @@ bool leave_out_runs_of(const std::vector<Gate>& own, const std::vector<EngineInf
 Family read_family(const std::string& path) {
   const TomlFile file = TomlFile::read(path);
   Family family;
+  const Keys cases = cases_beside(path);
   for (const TableReader& table : file.root({"gate"}).at("gate").tables(family_gate_keys()))
-    family.gates.push_back(read_family_gate_table(table));
+    family.gates.push_back(read_family_gate_table(table, cases));
   return family;
 }
 

@@ -166,7 +166,7 @@ const Keys& gate_keys() {
 const Keys& family_gate_keys() {
   static const Keys keys = [] {
     Keys all = gate_keys();
-    all.insert(all.end(), {"scene", "truth"});
+    all.insert(all.end(), {"scene", "truth", "except"});
     return all;
   }();
   return keys;
@@ -185,7 +185,7 @@ GateTable read_gate_table(const TableReader& table) {
   return out;
 }
 
-GateTable read_family_gate_table(const TableReader& table) {
+GateTable read_family_gate_table(const TableReader& table, const Keys& cases) {
   GateTable out = read_gate_table(table);
   out.gate.is_of_family = true;
   if (const auto value = table.find("scene")) out.scene = read_scene_words(*value);
@@ -193,6 +193,9 @@ GateTable read_family_gate_table(const TableReader& table) {
     Keys known = {"none"};
     for (const TruthRow& row : truths()) known.push_back(row.name);
     for (const TomlValue& item : value->items()) out.truths.push_back(item.choice(known));
+  }
+  if (const auto value = table.find("except")) {
+    for (const TomlValue& item : value->items()) out.except.push_back(item.choice(cases));
   }
   return out;
 }

@@ -25,11 +25,12 @@ struct GateTable {
   // In a family only: of which cases. Features of the scene (features.h; "contact" is any contact), with ! those it
   // must not have; and truths. Empty: of all.
   std::vector<std::string> scene, truths;
+  std::vector<std::string> except;  // cases of the family that it is not about, by the names of their files
 };
 
 // The keys that a gate may have. Throws InputError with its place for whatever else a table holds.
 GateTable read_gate_table(const TableReader& table);
-GateTable read_family_gate_table(const TableReader& table);
+GateTable read_family_gate_table(const TableReader& table, const Keys& cases);  // those beside it, by their files
 const Keys& gate_keys();
 const Keys& family_gate_keys();
 

@@ -52,8 +52,12 @@ Shortfall of_gate(const CaseResult& result, const GateResult& answer) {
   return row;
 }
 
-bool came_to_nothing(Status status) {
-  return status == Status::crashed || status == Status::timed_out || status == Status::invalid;
+// A cell that is invalid may be one of which nobody expects a result.
+bool came_to_nothing(const Cell& cell, const CaseResult& result, const Results& results) {
+  if (cell.status != Status::invalid) return cell.status == Status::crashed || cell.status == Status::timed_out;
+  return std::any_of(result.gates.begin(), result.gates.end(), [&](const GateResult& answer) {
+    return answer.engine == results.runs[cell.run].text && answer.dt == cell.dt.text && falls_short(answer.answer);
+  });
 }
 
 }  // namespace
@@ -65,7 +69,7 @@ std::vector<Shortfall> shortfalls(const Results& results) {
     if (!result.error.empty())
       rows.push_back({definition.id, "", "", "truth", "", "", "", result.error, definition.truth_where});
     for (const Cell& cell : result.cells) {
-      if (came_to_nothing(cell.status) && result.error.empty())
+      if (came_to_nothing(cell, result, results) && result.error.empty())
         rows.push_back({definition.id, results.runs[cell.run].text, cell.dt.text, word_of(cell.status), "", "", "",
                         cell.reason, ""});
     }

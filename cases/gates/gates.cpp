@@ -104,12 +104,14 @@ class GateCheck {
         metric->value, metric->worst);
   }
 
-  // A run that blew up has no value to hold or to record.
+  // A run that blew up, or did not do what its method promises, has no value to hold or to record.
   void check_regression(Cell& cell) {
     const std::string head = fmt::format("{} of {} at dt = {}", gate_.metric, name_of(cell), cell.dt.text);
+    const auto was = recorded_.find(result_.definition.id, grid_.runs[cell.run], cell.dt.seconds, gate_.metric);
+    if (!was && cell.status == Status::invalid)
+      return add(name_of(cell), cell.dt.text, GateAnswer::not_recorded, head + " is none, and none is recorded");
     const MetricValue* metric = value_to_judge(cell, head);
     if (!metric) return;
-    const auto was = recorded_.find(result_.definition.id, grid_.runs[cell.run], cell.dt.seconds, gate_.metric);
     const bool blew_up = cell.status == Status::diverged;
     if (!was) {
       return add(name_of(cell), cell.dt.text, GateAnswer::not_recorded,
@@ -251,6 +253,8 @@ class GateCheck {
       if (cell.run != run || !selects(cell)) continue;
       const auto found = cell.metrics.find(gate_.metric);
       if (found != cell.metrics.end() && !found->second.not_applicable.empty()) continue;
+      // A step that is too long for a method says nothing of the order that it declares.
+      if (gate_.declares_order && cell.status == Status::diverged) continue;
       if (found == cell.metrics.end() || (cell.status != Status::pass && cell.status != Status::fail)) {
         add(grid_.runs[run].text, "", GateAnswer::failed,
             fmt::format("the order of {} of {} cannot be judged, for the cell at dt = {} is {}: {}", gate_.metric,

@@ -65,6 +65,7 @@ BOOST_AUTO_TEST_CASE(a_gate_may_be_about_scenes_and_truths_of_a_kind) {
   BOOST_TEST((count("scene = ['gravity']") == std::pair<std::size_t, std::size_t>{0, 0}));
   BOOST_TEST((count("truth = ['projectile', 'bounce']") == std::pair<std::size_t, std::size_t>{1, 1}));
   BOOST_TEST((count("truth = 'bounce'") == std::pair<std::size_t, std::size_t>{0, 0}));
+  BOOST_TEST((count("except = 'free'") == std::pair<std::size_t, std::size_t>{0, 1}));
   BOOST_TEST((count("dt = '1/30'") == std::pair<std::size_t, std::size_t>{0, 0}));  // no case has such a step
 }
 
@@ -94,6 +95,7 @@ BOOST_AUTO_TEST_CASE(errors_of_a_family_have_their_place) {
       {gate("max = 1\nscene = ['sprng']"), "5:10: gate.scene[0]: ", {"did you mean 'spring'?"}},
       {gate("max = 1\ntruth = 'projectil'"), "5:9: gate.truth: ", {"did you mean 'projectile'?"}},
       {gate("max = 1\nengines = 'order>=40'"), "5:11: gate.engines: ", {"selects no run"}},
+      {gate("max = 1\nexcept = ['fre']"), "5:11: gate.except[0]: ", {"did you mean 'free'?"}},
       {gate("regression = 1"), "4:14: gate.regression: ", {"above 1"}},
       {gate("at_least_order = 'declred'"), "4:18: gate.at_least_order: ", {"'declared'"}},
       {gate("max = 1\ndt = '=<1/30'"), "5:6: gate.dt: ", {"<=, >, >="}},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cases/gates/failures.h"
 #include "cases/gates/gates.h"
 #include "cases/report/reports.h"
 #include "core/base/error.h"
@@ -73,6 +74,23 @@ BOOST_AUTO_TEST_CASE(a_cell_without_a_recorded_value_is_said_to_have_none_and_th
   for (const GateResult& answer : result().gates) {
     if (answer.engine == "wild" && answer.answer == GateAnswer::not_recorded) BOOST_TEST(!answer.value.has_value());
   }
+}
+
+// ODE's direct solver gives up on some scenes: no value then, but one that is recorded has to come again.
+BOOST_AUTO_TEST_CASE(an_invalid_cell_fails_only_where_a_value_is_recorded) {
+  Gate gate;
+  gate.metric = "position_error", gate.regression = 1.25, gate.engines = {"good"}, gate.dt = {{0.1, "1/10"}};
+  result().definition.gates = {gate};
+  result().cells[0].status = Status::invalid;
+  check_gates(result(), grid);
+  BOOST_TEST((result().gates.front().answer == GateAnswer::not_recorded));
+  const auto of_cell = [](const Shortfall& row) { return row.engine == "good"; };
+  auto rows = shortfalls(grid);
+  BOOST_TEST(std::none_of(rows.begin(), rows.end(), of_cell));
+  check_gates(result(), grid, recorded(kLine));
+  BOOST_TEST((result().gates.front().answer == GateAnswer::failed));
+  rows = shortfalls(grid);
+  BOOST_TEST(std::count_if(rows.begin(), rows.end(), of_cell) == 2);  // as a cell and for its gate
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_blew_up_does_not_hold_what_is_recorded) {
