@@ -91,6 +91,12 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
         ->type_name("F")
         ->capture_default_str();
   }
+  if (takes("--regression")) {
+    command
+        .add_option("--regression", line.regression,
+                    "print what the regressions found of this engine instead, for adapters/ENGINE/regression.jsonl")
+        ->type_name("ENGINE");
+  }
   if (takes("--quick"))
     command.add_flag("--quick", line.quick, "only gates whose cells take a moment; for each change, not each night");
   if (takes("--resume"))

@@ -20,8 +20,10 @@ std::string unit_of(const std::string& metric) {
 
 std::string limit_of(const Gate& gate) {
   const std::string unit = unit_of(gate.metric);
+  if (gate.declares_order) return "the order that its method declares, less a tenth";
   if (gate.at_least_order) return fmt::format("order at least {:g}", *gate.at_least_order);
   if (gate.equals) return fmt::format("equal to {:.17g}{}", *gate.equals, unit);
+  if (gate.regression) return fmt::format("within {:g} times the recorded value", *gate.regression);
   if (!gate.better_than.empty()) return "better than " + gate.better_than;
   std::string text;
   if (gate.min) text = fmt::format("at least {:g}{}", *gate.min, unit);
@@ -43,12 +45,17 @@ Shortfall of_gate(const CaseResult& result, const GateResult& answer) {
   row.found = answer.value ? fmt::format("{:.6g}{}", *answer.value, unit) : word_of(answer.answer);
   row.worst = worst_text(answer, result.definition.scene);
   row.because = answer.answer == GateAnswer::failed && answer.value ? gate.because : answer.text;
+  if (gate.regression) row.what += " (regression)";
   if (answer.answer == GateAnswer::unexpected_pass) row.what += ", unexpected pass";
   return row;
 }
 
-bool came_to_nothing(Status status) {
-  return status == Status::crashed || status == Status::timed_out || status == Status::invalid;
+// A cell that is invalid may be one of which nobody expects a result.
+bool came_to_nothing(const Cell& cell, const CaseResult& result, const Results& results) {
+  if (cell.status != Status::invalid) return cell.status == Status::crashed || cell.status == Status::timed_out;
+  return std::any_of(result.gates.begin(), result.gates.end(), [&](const GateResult& answer) {
+    return answer.engine == results.runs[cell.run].text && answer.dt == cell.dt.text && falls_short(answer.answer);
+  });
 }
 
 }  // namespace
@@ -60,13 +67,12 @@ std::vector<Shortfall> shortfalls(const Results& results) {
     if (!result.error.empty())
       rows.push_back({definition.id, "", "", "truth", "", "", "", result.error, definition.truth_where});
     for (const Cell& cell : result.cells) {
-      if (came_to_nothing(cell.status) && result.error.empty())
+      if (came_to_nothing(cell, result, results) && result.error.empty())
         rows.push_back({definition.id, results.runs[cell.run].text, cell.dt.text, word_of(cell.status), "", "", "",
                         cell.reason, ""});
     }
     for (const GateResult& answer : result.gates) {
-      if (answer.answer != GateAnswer::held && answer.answer != GateAnswer::known_deviation)
-        rows.push_back(of_gate(result, answer));
+      if (falls_short(answer.answer)) rows.push_back(of_gate(result, answer));
     }
   }
   return rows;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cases/case/selection.h"
 #include "cases/results/observed_order.h"
@@ -31,9 +32,10 @@ bool is_higher_better(const std::string& metric) {
 // One gate over one case.
 class GateCheck {
  public:
-  GateCheck(CaseResult& result, const Results& grid, std::size_t index)
+  GateCheck(CaseResult& result, const Results& grid, const RecordedValues& recorded, std::size_t index)
       : result_(result),
         grid_(grid),
+        recorded_(recorded),
         index_(index),
         gate_(result.definition.gates[index]),
         selection_(gate_, grid.engines),
@@ -51,10 +53,11 @@ class GateCheck {
       for (std::size_t run = 0; run < grid_.runs.size(); ++run) check_order(run);
     } else {
       for (Cell& cell : result_.cells) {
-        if (selects(cell)) gate_.better_than.empty() ? check_cell(cell) : check_ranking(cell);
+        if (!selects(cell)) continue;
+        gate_.regression ? check_regression(cell) : gate_.better_than.empty() ? check_cell(cell) : check_ranking(cell);
       }
     }
-    if (result_.gates.size() == before) {
+    if (result_.gates.size() == before && !gate_.is_of_family) {
       add("", "", GateAnswer::not_checked,
           fmt::format("{}: no cell that ran has {} for this gate to judge", gate_.where, gate_.metric));
     }
@@ -105,6 +108,28 @@ class GateCheck {
       return fail(cell, fmt::format("{} {}; {}{}", head, fault, worst_of(*metric), because()), *metric);
     add(name_of(cell), cell.dt.text, GateAnswer::held, fmt::format("{} is {:.6g}{}", head, metric->value, unit_),
         metric->value, metric->worst);
+  }
+
+  // A run that blew up, or did not do what its method promises, has no value to hold or to record.
+  void check_regression(Cell& cell) {
+    const std::string head = fmt::format("{} of {} at dt = {}", gate_.metric, name_of(cell), cell.dt.text);
+    const auto was = recorded_.find(result_.definition.id, grid_.runs[cell.run], cell.dt.seconds, gate_.metric);
+    if (!was && cell.status == Status::invalid)
+      return add(name_of(cell), cell.dt.text, GateAnswer::not_recorded, head + " is none, and none is recorded");
+    const MetricValue* metric = value_to_judge(cell, head);
+    if (!metric) return;
+    const bool blew_up = cell.status == Status::diverged;
+    if (!was) {
+      return add(name_of(cell), cell.dt.text, GateAnswer::not_recorded,
+                 fmt::format("{} is {:.6g}{}, and none is recorded", head, metric->value, unit_),
+                 blew_up ? std::nullopt : std::optional(metric->value), metric->worst);
+    }
+    const std::string change =
+        blew_up ? "of no meaning, for the run is " + cell.reason : change_from(*was, metric->value, *gate_.regression);
+    const std::string both = fmt::format("{} is {:.6g}{}, was {:.6g}{}", head, metric->value, unit_, *was, unit_);
+    if (!change.empty())
+      return fail(cell, fmt::format("{}: {}; {}{}", both, change, worst_of(*metric), because()), *metric);
+    add(name_of(cell), cell.dt.text, GateAnswer::held, both, metric->value, metric->worst);
   }
 
   // A run that blew up is worse than any that did not; of two that did neither is better.
@@ -205,7 +230,28 @@ class GateCheck {
            fmt::format("worst at {:.6g} s: {}", worst.time, result_.definition.scene.body_name(worst.body)));
   }
 
+  // What an order has to be at least: the gate's own, or what the method declares. An adaptive one declares none.
+  std::optional<double> wanted_order(std::size_t run) const {
+    if (!gate_.declares_order) return gate_.at_least_order;
+    const RunName& name = grid_.runs[run];
+    for (const EngineInfo& engine : grid_.engines) {
+      if (engine.name != name.engine) continue;
+      const MethodInfo& method = method_of(engine, name.settings);
+      if (!method.adaptive) return method.order - *gate_.at_least_order;
+    }
+    return std::nullopt;
+  }
+
+  // A gate that speaks of every method has to leave aside the steps at which one is not yet near its limit, and those
+  // at which only roundings are left.
+  bool shows_order(double error) const {
+    constexpr double kLarge = 0.03, kRoundings = 1e-10;  // m, rad: the second after thousands of steps
+    return !gate_.declares_order || (error < kLarge && error > std::max(kRoundings, 100 * error_floor(result_)));
+  }
+
   void check_order(std::size_t run) {
+    const std::optional<double> wanted = wanted_order(run);
+    if (!wanted) return;
     std::vector<double> dt, values;
     std::string table;
     const Cell* worst = nullptr;
@@ -213,12 +259,15 @@ class GateCheck {
       if (cell.run != run || !selects(cell)) continue;
       const auto found = cell.metrics.find(gate_.metric);
       if (found != cell.metrics.end() && !found->second.not_applicable.empty()) continue;
+      // A step that is too long for a method says nothing of the order that it declares.
+      if (gate_.declares_order && cell.status == Status::diverged) continue;
       if (found == cell.metrics.end() || (cell.status != Status::pass && cell.status != Status::fail)) {
         add(grid_.runs[run].text, "", GateAnswer::failed,
             fmt::format("the order of {} of {} cannot be judged, for the cell at dt = {} is {}: {}", gate_.metric,
                         grid_.runs[run].text, cell.dt.text, word_of(cell.status), cell.reason));
         return;
       }
+      if (!shows_order(found->second.value)) continue;
       dt.push_back(cell.dt.seconds), values.push_back(found->second.value);
       table += fmt::format("{}{:.4g} at {}", table.empty() ? "" : ", ", found->second.value, cell.dt.text);
       if (!worst || found->second.value > worst->metrics.at(gate_.metric).value) worst = &cell;
@@ -227,18 +276,18 @@ class GateCheck {
     const double order = fitted_order(dt, values);
     const std::string head =
         fmt::format("the observed order of {} of {} is {:.3g} ({})", gate_.metric, grid_.runs[run].text, order, table);
-    if (order >= *gate_.at_least_order) {
+    if (order >= *wanted) {
       add(grid_.runs[run].text, "", GateAnswer::held, head, order);
     } else {
       add(grid_.runs[run].text, "", GateAnswer::failed,
-          fmt::format("{}, below {:g}; {}{}", head, *gate_.at_least_order, worst_of(worst->metrics.at(gate_.metric)),
-                      because()),
+          fmt::format("{}, below {:g}; {}{}", head, *wanted, worst_of(worst->metrics.at(gate_.metric)), because()),
           order, worst->metrics.at(gate_.metric).worst);
     }
   }
 
   CaseResult& result_;
   const Results& grid_;
+  const RecordedValues& recorded_;
   std::size_t index_;
   const Gate& gate_;
   GateSelection selection_;
@@ -247,17 +296,32 @@ class GateCheck {
 
 }  // namespace
 
-void check_gates(CaseResult& result, const Results& grid) {
+void check_gates(CaseResult& result, const Results& grid, const RecordedValues& recorded) {
   result.gates.clear();
-  for (std::size_t i = 0; i < result.definition.gates.size(); ++i) GateCheck(result, grid, i).check();
+  for (std::size_t i = 0; i < result.definition.gates.size(); ++i) GateCheck(result, grid, recorded, i).check();
 }
 
 bool all_gates_hold(const Results& grid) {
   return std::all_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& result) {
-    return result.error.empty() && std::all_of(result.gates.begin(), result.gates.end(), [](const GateResult& gate) {
-             return gate.answer == GateAnswer::held || gate.answer == GateAnswer::known_deviation;
-           });
+    return result.error.empty() && std::none_of(result.gates.begin(), result.gates.end(),
+                                                [](const GateResult& gate) { return falls_short(gate.answer); });
   });
+}
+
+std::vector<Gate> unmet_family_gates(const Results& grid) {
+  std::map<std::string, const Gate*> unmet;  // by where it stands and its metric
+  const auto key = [](const Gate& gate) { return gate.where + " " + gate.metric; };
+  for (const CaseResult& result : grid.cases) {
+    for (const Gate& gate : result.definition.gates) {
+      if (gate.is_of_family) unmet.emplace(key(gate), &gate);
+    }
+  }
+  for (const CaseResult& result : grid.cases) {
+    for (const GateResult& answer : result.gates) unmet.erase(key(result.definition.gates[answer.gate]));
+  }
+  std::vector<Gate> gates;
+  for (const auto& [name, gate] : unmet) gates.push_back(*gate);
+  return gates;
 }
 
 }  // namespace rigor

@@ -47,6 +47,8 @@ void compare_errors(const std::string& key, const Outcomes& before, const Outcom
   }
   for (const std::string& name : names) {
     const auto was = value_of(before, old_cell, name), is = value_of(after, new_cell, name);
+    if (was && !is && !new_cell.not_asked.contains(name) && *was > kNoise)
+      out.lost.push_back(fmt::format("{}: {} is missing, was {:.4g}", named(key), name, *was));
     if (!was || !is) continue;
     const double low = std::max(kNoise, std::min(*was, *is)), high = std::max(*was, *is);
     if (!(high > factor * low)) continue;
@@ -164,6 +166,7 @@ std::string text_of(const Changes& changes, double factor) {
   std::string text = section("newly failing", changes.newly_failing) + section("newly passing", changes.newly_passing);
   text += section(fmt::format("errors grown by more than {:g} times", factor), changes.grown);
   text += section(fmt::format("errors shrunk by more than {:g} times", factor), changes.shrunk);
+  text += section("no longer measured", changes.lost);
   text += section("settings that differ", changes.settings);
   text += section("gone", changes.gone) + section("added", changes.added);
   if (text.empty()) text = fmt::format("nothing changed by more than {:g} times\n", factor);

@@ -11,7 +11,8 @@ namespace {
 // In the order of the enumeration.
 constexpr const char* kStatusWords[] = {"pass",     "fail",    "known-deviation", "unexpected-pass", "unsupported",
                                         "diverged", "crashed", "timed-out",       "invalid"};
-constexpr const char* kAnswerWords[] = {"held", "failed", "not checked", "known deviation", "unexpected pass"};
+constexpr const char* kAnswerWords[] = {"held",        "failed", "not checked", "known deviation", "unexpected pass",
+                                        "not recorded"};
 }  // namespace
 
 std::string word_of(Status status) { return kStatusWords[static_cast<int>(status)]; }
@@ -33,6 +34,10 @@ MetricValue condensed(const MetricResult& result, const Trajectory& trajectory) 
     if (std::abs(measured.series[i]) > std::abs(out.first_second)) out.first_second = measured.series[i];
   }
   return out;
+}
+
+bool falls_short(GateAnswer answer) {
+  return answer == GateAnswer::failed || answer == GateAnswer::not_checked || answer == GateAnswer::unexpected_pass;
 }
 
 std::string word_of(GateAnswer answer) { return kAnswerWords[static_cast<int>(answer)]; }

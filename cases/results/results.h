@@ -40,9 +40,11 @@ struct SchemeFindings {
 };
 
 // A gate's answer for one cell, or for an order fitted over several. known_deviation: it failed where the adapter's
-// known_deviations.toml says that it does; unexpected_pass: it held there.
-enum class GateAnswer { held, failed, not_checked, known_deviation, unexpected_pass };
+// known_deviations.toml says that it does; unexpected_pass: it held there. not_recorded: of a regression, where there
+// is no value to hold the cell's against.
+enum class GateAnswer { held, failed, not_checked, known_deviation, unexpected_pass, not_recorded };
 std::string word_of(GateAnswer answer);
+bool falls_short(GateAnswer answer);  // whether `rigor gate` may not answer with exit code 0
 struct GateResult {
   std::size_t gate = 0;  // index in Case::gates
   std::string engine;    // a run's name; empty if the gate met no cell at all

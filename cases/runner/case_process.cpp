@@ -272,6 +272,7 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const GridOp
                                  definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
   for (const auto& recorder : options.recorders) plan += recorder->name() + "\n";
   for (const RunName& run : grid.runs) plan += run.text + "\n";
+  for (const Gate& gate : definition.gates) plan += gate.metric + "\n";  // some metrics are measured for a gate alone
   for (const Cell& cell : planned.cells)
     plan += fmt::format("{} {:.17g} {} {}\n", cell.run, cell.dt.seconds, word_of(cell.status), cell.trajectory);
   for (const StableStepResult& stable : planned.stable_steps) plan += word_of(stable.status) + "\n";

@@ -159,21 +159,6 @@ void override_run(Case& definition, const Overrides& overrides) {
   for (const StepSize& dt : definition.dt) check_steps(definition, dt);
 }
 
-std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines) {
-  std::vector<RunName> runs;
-  for (const EngineInfo& engine : engines) {
-    if (engine.is_in_house) {
-      for (const MethodInfo& method : engine.methods) {
-        if (method.twin_of.empty()) runs.push_back(parse_run_name(engine.name + ":" + method.name, engines));
-      }
-    } else {
-      runs.push_back(parse_run_name(engine.name, engines));
-      runs.push_back(parse_run_name(engine.name + "@stock", engines));
-    }
-  }
-  return runs;
-}
-
 std::vector<RunName> runs_of_gates(const std::vector<Case>& cases, const std::vector<RunName>& but,
                                    const std::vector<EngineInfo>& engines) {
   std::vector<RunName> found;

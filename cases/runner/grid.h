@@ -22,9 +22,6 @@ struct Overrides {
 // Throws InputError for a step longer than the run, or so short that the run would never end.
 void override_run(Case& definition, const Overrides& overrides);
 
-// Every method of the in-house core but the twins of other engines, and every other engine on both tracks.
-std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines);
-
 struct GridOptions {
   int jobs = 1;                        // children at once
   double limit = 60;                   // s of CPU time, for each cell, each stable step and each truth

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "cases/case/run_selector.h"
 #include "cases/case/suite.h"
 #include "cases/gates/deviations.h"
 #include "cases/gates/gates.h"
@@ -69,9 +70,10 @@ std::vector<std::pair<std::string, GateResult>> failures(const std::vector<Case>
   Results grid = plan_grid(cases, runs, table, {false, true}, named);
   run_grid(grid, table, {2, 60, {}, false, false}, [](std::size_t, std::size_t) {});
   const auto known = read_known_deviations(default_adapters_dir(), infos);
+  const RecordedValues recorded = read_recorded_values(default_adapters_dir(), infos);
   std::vector<std::pair<std::string, GateResult>> found;
   for (CaseResult& result : grid.cases) {
-    check_gates(result, grid);
+    check_gates(result, grid, recorded);
     apply_known_deviations(result, grid, known);
     for (const GateResult& answer : result.gates) {
       if (answer.answer == GateAnswer::failed && !answer.engine.empty())

@@ -99,9 +99,9 @@ std::string row_line(const RowText& row) {
 std::string gate_lines(const CaseResult& result, bool with_unchecked) {
   std::string lines;
   for (const GateResult& gate : result.gates) {
-    if (gate.answer == GateAnswer::held || gate.answer == GateAnswer::known_deviation) continue;
-    if (gate.answer == GateAnswer::not_checked && !with_unchecked) continue;
-    lines += "  " + wrapped(fmt::format("gate {}: {}", word_of(gate.answer), gate.text), 4) + "\n";
+    if (!falls_short(gate.answer) || (gate.answer == GateAnswer::not_checked && !with_unchecked)) continue;
+    const std::string kind = kind_of(result.definition.gates[gate.gate]);
+    lines += "  " + wrapped(fmt::format("{} {}: {}", kind, word_of(gate.answer), gate.text), 4) + "\n";
   }
   return lines;
 }
@@ -179,17 +179,24 @@ RowText row_text(const Results& results, const CaseResult& result, const Cell& c
 }
 
 std::string gate_summary(const Results& results) {
-  std::map<GateAnswer, int> counts;
+  using Counts = std::map<GateAnswer, int>;
+  std::map<std::string, Counts> counts;
   for (const CaseResult& result : results.cases) {
-    for (const GateResult& gate : result.gates) ++counts[gate.answer];
+    for (const GateResult& answer : result.gates)
+      ++counts[kind_of(result.definition.gates[answer.gate])][answer.answer];
   }
-  std::string text = fmt::format("gates: {} held, {} failed, {} not checked", counts[GateAnswer::held],
-                                 counts[GateAnswer::failed], counts[GateAnswer::not_checked]);
-  for (const auto& [answer, words] : {std::pair{GateAnswer::known_deviation, "known deviations"},
-                                      {GateAnswer::unexpected_pass, "unexpected passes"}}) {
-    if (counts[answer] > 0) text += fmt::format(", {} {}", counts[answer], words);
-  }
-  return text + "\n";
+  const auto line = [](const std::string& what, Counts& of) {
+    std::string text = fmt::format("{}: {} held, {} failed, {} not checked", what, of[GateAnswer::held],
+                                   of[GateAnswer::failed], of[GateAnswer::not_checked]);
+    for (const auto& [answer, words] : {std::pair{GateAnswer::known_deviation, "known deviations"},
+                                        {GateAnswer::unexpected_pass, "unexpected passes"},
+                                        {GateAnswer::not_recorded, "without a recorded value"}}) {
+      if (of[answer] > 0) text += fmt::format(", {} {}", of[answer], words);
+    }
+    return text + "\n";
+  };
+  const std::string bounds = line("bounds", counts["bound"]);
+  return counts.contains("regression") ? bounds + line("regressions", counts["regression"]) : bounds;
 }
 
 std::string console_table(const Results& results) {

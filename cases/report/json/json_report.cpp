@@ -60,11 +60,13 @@ Json gates_json(const CaseResult& result) {
                          {"text", answer.text},
                          {"value", bound(answer.value)}});
     }
-    gates.push_back({{"metric", gate.metric},
+    gates.push_back({{"kind", kind_of(gate)},
+                     {"metric", gate.metric},
                      {"max", bound(gate.max)},
                      {"min", bound(gate.min)},
                      {"equals", bound(gate.equals)},
-                     {"at_least_order", bound(gate.at_least_order)},
+                     {"at_least_order", gate.declares_order ? Json("declared") : bound(gate.at_least_order)},
+                     {"regression", bound(gate.regression)},
                      {"better_than", gate.better_than.empty() ? Json(nullptr) : Json(gate.better_than)},
                      {"because", gate.because},
                      {"where", gate.where},

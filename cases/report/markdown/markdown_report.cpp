@@ -65,7 +65,9 @@ std::string headline(const Results& results, const CaseResult& result) {
   for (const std::string& sentence : explanations(results, result)) text += plain(sentence) + "\n\n";
   for (const std::string& sentence : work_precision_sentences(results, result)) text += plain(sentence) + "\n\n";
   for (const GateResult& gate : result.gates) {
-    if (gate.answer != GateAnswer::held) text += fmt::format("- gate {}: {}\n", word_of(gate.answer), plain(gate.text));
+    const std::string kind = kind_of(result.definition.gates[gate.gate]);
+    if (gate.answer != GateAnswer::held && gate.answer != GateAnswer::not_recorded)
+      text += fmt::format("- {} {}: {}\n", kind, word_of(gate.answer), plain(gate.text));
   }
   return text;
 }
@@ -111,7 +113,7 @@ std::string markdown_report(const Results& results) {
     text += fmt::format("- **{}:** {}\n", found.topic, plain(found.text));
     if (!found.more.empty()) text += fmt::format("  <br>{}\n", plain(found.more));
   }
-  text += "\n" + table(verdict_matrix(results)) + "\n";
+  text += "\n" + table(verdict_matrix(results)) + "\n" + plain(gate_summary(results)) + "\n";
   for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
   text += "# Other step sizes\n\n";
   for (const CaseResult& result : results.cases) text += finer_steps(results, result);

@@ -263,11 +263,11 @@ BOOST_AUTO_TEST_CASE(gate_answers_with_its_exit_code) {
   BOOST_TEST(run({"gate", "stone", "--engine", "core:rk4", "--out", out}).code == 0);
   const Answer strict = run({"gate", "strict", "--engine", "core:rk4", "--out", out});
   BOOST_TEST(strict.code == 1);
-  BOOST_TEST(strict.out.find("gate failed") != std::string::npos, strict.out);
+  BOOST_TEST(strict.out.find("bound failed") != std::string::npos, strict.out);
   BOOST_TEST(run({"run", "strict", "--engine", "core:rk4", "--out", out}).code == 0);
   const Answer unchecked = run({"gate", "stone", "--engine", "ode", "--out", out});
   BOOST_TEST(unchecked.code == 1);
-  BOOST_TEST(unchecked.out.find("gate not checked") != std::string::npos, unchecked.out);
+  BOOST_TEST(unchecked.out.find("bound not checked") != std::string::npos, unchecked.out);
 }
 
 BOOST_AUTO_TEST_CASE(a_gate_runs_what_its_gates_judge_and_on_a_runner_points_at_them) {

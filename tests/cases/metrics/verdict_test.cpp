@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "tests/cases/scripted_engine.h"
 #include "tests/cases/truth/closed_form/contact/contact_scenes.h"
+#include "tests/cases/vocabulary.h"
 
 using namespace rigor;
 
@@ -86,7 +87,7 @@ BOOST_AUTO_TEST_SUITE(cases_metrics_verdict)
 
 // Each of these was called stable while its own motion was what a gain was measured by.
 BOOST_AUTO_TEST_CASE(what_engines_do_to_contact_at_a_thirtieth_is_told) {
-  const auto suite_scene = [](const char* id) { return select_cases({id}, default_suite_dir()).at(0).scene; };
+  const auto suite_scene = [](const char* id) { return select_cases({id}, default_suite_dir(), words()).at(0).scene; };
   const Scene dominoes = suite_scene("contact/dominoes"), logs = suite_scene("contact/log-pile"),
               stack = suite_scene("contact/stack-of-ten"),
               tall = thrown_box({0.2, 0.2, 2}, {0.6, 0, 0.06}, {0, 0.6, 0}, 1, {0, 0.5}),

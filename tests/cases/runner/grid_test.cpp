@@ -17,6 +17,7 @@
 
 #include "cases/results/result_json.h"
 #include "cases/runner/process_pool.h"
+#include "cases/case/run_selector.h"
 #include "core/base/error.h"
 #include "tests/cases/runner/faulty_engine.h"
 
