@@ -12,9 +12,11 @@ class ExplicitEuler : public Stepper {
   explicit ExplicitEuler(const StepperParts& parts) : parts_(parts), passes_(parts), wrenches_(parts.system) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    const double* const wrench = wrenches_.over_step(state, t, dt);
+    const double* wrench = wrenches_.over_step(state, t, dt);
+    if (parts_.joints) wrench = parts_.joints->hold(state, wrench, Joints::Rows::chosen_anew);
     parts_.system.constants.for_each_block(
         [&](const Bodies& block) { passes_.kick_and_drift_at_once(block, state, wrench, dt); });
+    if (parts_.joints) parts_.joints->project(state);
     if (parts_.contact) parts_.contact->resolve(state);
   }
 
@@ -34,6 +36,7 @@ const Integrator kExplicitEuler = {
     .symplectic = false,
     .leapfrog_stagger = 0,
     .default_orientation = "quaternion-exponential",
+    .takes_joints = true,
     .make = make_stepper<ExplicitEuler>,
 };
 
