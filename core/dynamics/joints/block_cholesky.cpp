@@ -7,6 +7,11 @@
 #include <set>
 
 namespace rigor {
+namespace {
+
+constexpr double kInfinite = 1e150;  // its square is a number, too
+
+}  // namespace
 
 BlockCholesky::BlockCholesky(std::vector<int> rows, const std::vector<std::pair<int, int>>& coupled)
     : rows_(std::move(rows)), diagonal_(rows_.size()), scale_(rows_.size()), kept_(rows_.size()) {
@@ -152,7 +157,8 @@ void BlockCholesky::factorise_diagonal(std::size_t p, const Vec6& scale) {
       smallest_pivot_ = pivot / scale[k];
       joint_of_smallest_ = joint_[p];
     }
-    const double root = std::sqrt(pivot);
+    // What is lost in rounding counts as infinite, which leaves its row out; whoever asks smallest_pivot() knows.
+    const double root = pivot > kLost * scale[k] || kept_[p][k] == 0 ? std::sqrt(pivot) : kInfinite;
     D(k, k) = root;
     for (int i = k + 1; i < kMostRows; ++i) {
       double sum = D(i, k);

@@ -43,6 +43,10 @@ class BlockCholesky {
   int rank() const;  // of all blocks together
   bool has_redundant_rows() const { return has_redundant_; }
 
+  // Below it a row's pivot, relative to its own diagonal element, is lost in the rounding of what was subtracted from
+  // it.
+  static constexpr double kLost = 1e-13;
+
   // Factorises what has been filled in; S is lost. With `choose`, picks the rows anew.
   void factorise(bool choose);
   // The smallest pivot of a kept row relative to its own diagonal element, and the joint that has it: near zero the

@@ -16,8 +16,7 @@ constexpr int kMostIterations = 50;
 constexpr double kClosed = 16 * kEpsilon;  // of the extent: what rounding of poses leaves of a gap,
 constexpr double kRounding = 1e-12;        // and where bodies are far from the origin
 constexpr double kOpen = 1e-9;             // of the extent: a gap that no rounding explains
-// Below it a row's pivot is lost in the rounding of what was subtracted from it.
-constexpr double kSingular = 1e-13;
+constexpr double kWellPosed = 1e-5;        // pivots above it leave eleven digits or more
 // How far a repeated row's acceleration may be from what the others make it, relative to the terms of the row.
 constexpr double kContradiction = 1e-6;
 
@@ -31,7 +30,11 @@ Vec6 wrench_at(const double* columns, std::size_t stride, int body) {
 }  // namespace
 
 Joints::Joints(const Scene& scene, const System& system)
-    : system_(system), frames_(system.size()), multipliers_(scene.joints.size()), free_(system.size()) {
+    : system_(system),
+      frames_(system.size()),
+      multipliers_(scene.joints.size()),
+      correction_(scene.joints.size()),
+      free_(system.size()) {
   const auto moving = [&](int body) { return body != kWorld && !system.bodies[body].fixed ? body : kWorld; };
   std::vector<int> rows;
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
@@ -180,7 +183,7 @@ void Joints::factorise(BodyColumns state, Rows rows) {
 }
 
 void Joints::warn_if_singular() {
-  if (factor_->smallest_pivot() > kSingular || !warning_.empty()) return;
+  if (factor_->smallest_pivot() > BlockCholesky::kLost || !warning_.empty()) return;
   warning_ = fmt::format("the joints are in a singular position, at {}", names_[factor_->joint_of_smallest_pivot()]);
 }
 
@@ -211,7 +214,26 @@ double Joints::largest_gap() const {
 template <typename RightSide>
 void Joints::solve_for(const RightSide& right_side) {
   for (std::size_t k = 0; k < joints_.size(); ++k) multipliers_[k] = right_side(joints_[k]);
+  if (factor_->smallest_pivot() > kWellPosed) return factor_->solve(multipliers_);
+  right_side_ = multipliers_;
   factor_->solve(multipliers_);
+  for (int pass = 0; pass < 2; ++pass) refine();
+}
+
+// Near a singular position, at a distance of d rad, S has lost d^-2 roundings. What J itself says of the solution has
+// lost d^-1, and corrects it (the corrected semi-normal equations; Å. Björck, 1987).
+void Joints::refine() {
+  const double* const wrench = as_wrench(multipliers_);
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    correction_[k] = right_side_[k];
+    for (int end = 0; end < 2; ++end) {
+      const int body = joints_[k].body[end];
+      if (body != kWorld)
+        correction_[k].noalias() -= joints_[k].Y[end].lazyProduct(wrench_at(wrench, wrench_.stride(), body));
+    }
+  }
+  factor_->solve(correction_);
+  for (std::size_t k = 0; k < joints_.size(); ++k) multipliers_[k] += correction_[k];
 }
 
 // Jᵀ l, in wrench_.

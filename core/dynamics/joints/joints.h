@@ -78,6 +78,7 @@ class Joints : public ConstraintForces {
   double largest_gap() const;
   template <typename RightSide>
   void solve_for(const RightSide& right_side);
+  void refine();
   const double* as_wrench(const std::vector<Vec6>& multipliers);
   Vec6 free_acceleration(int body, const double* wrench) const;
   const double* impulse_against_velocities();
@@ -94,8 +95,8 @@ class Joints : public ConstraintForces {
   std::vector<Frame> frames_;  // by body
   std::unique_ptr<BlockCholesky> factor_;
   std::vector<Coupling> couplings_;
-  std::vector<Vec6> multipliers_, total_multipliers_;  // by joint
-  std::vector<Vec6> free_;                             // by body: accelerations without joints
+  std::vector<Vec6> multipliers_, total_multipliers_, right_side_, correction_;  // by joint
+  std::vector<Vec6> free_;  // by body: accelerations without joints
   Columns wrench_, total_;
   double extent_ = 1;  // m: the longest arm, what gaps are small against
   int rows_total_ = 0, rank_total_ = 0;
