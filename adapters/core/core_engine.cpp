@@ -7,6 +7,7 @@
 
 #include "adapters/option_values.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/dynamics/joints/joints.h"
 #include "core/engine/clock.h"
 #include "core/scene/contact_laws.h"
 

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "core/dynamics/joints/joints.h"
+
 namespace rigor {
 
 namespace {

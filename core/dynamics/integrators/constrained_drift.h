@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/joints/joints.h"
 
 namespace rigor {
 

@@ -9,6 +9,7 @@
 
 #include "core/dynamics/integrators/dormand_prince_tableau.h"
 #include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/motion_equations.h"
 #include "core/engine/option_values.h"
 

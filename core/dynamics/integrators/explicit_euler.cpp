@@ -2,6 +2,7 @@
 //   x1 = x0 + dt v0,  R1 = R0 turned by dt w0,  v1 = v0 + dt F0/m,  w1 = w0 + dt I⁻¹(tau0 - w0 x I w0)
 // On an undamped oscillation of frequency f [rad/s] each step multiplies the energy by 1 + (f dt)²: it always blows up.
 #include "core/dynamics/integrators/euler_passes.h"
+#include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {

@@ -8,11 +8,12 @@
 
 #include "core/dynamics/contact/velocity_correction.h"
 #include "core/dynamics/integrators/orientation_updates.h"
-#include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/system.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
+
+class Joints;
 
 // Steps one system. The state is all there is: what a stepper remembers of earlier steps may serve it only as long as
 // the state and the instant are those that it left.

@@ -4,6 +4,7 @@
 // oscillation of frequency f it is stable while f dt < 2. The gyroscopic term is explicit, so that a free body's spin
 // is not symplectic. With joints the velocities also get the impulses that close all joints at the step's end (SHAKE).
 #include "core/dynamics/integrators/euler_passes.h"
+#include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {
