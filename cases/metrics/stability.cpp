@@ -43,8 +43,6 @@ std::optional<Stability> energy_explosion(const Scene& scene, const Trajectory& 
   return {};
 }
 
-}
-
 }  // namespace
 
 bool is_bounded(double change, double energy_in_play, bool may_lose) {

@@ -286,9 +286,9 @@ void forget_what_is_wrong(Journal& journal, const CaseResult& planned, const Gri
     try {
       const MessageSubject subject = apply_message(scratch, record.message);
       if (subject.part != MessageSubject::Part::cell) return false;
-      const std::string& trajectory = scratch.cells[subject.index].trajectory;
-      return !trajectory.empty() && !options.folder.empty() &&
-             !std::filesystem::exists(std::filesystem::path(options.folder) / trajectory);
+      const Cell& cell = scratch.cells[subject.index];
+      return std::any_of(options.recorders.begin(), options.recorders.end(),
+                         [&](const auto& recorder) { return !recorder->still_has(cell); });
     } catch (const std::exception&) {
       return true;
     }

@@ -27,6 +27,8 @@ class Recorder {
                            const std::vector<NamedSeries>& series, const TruthFacts& facts) const = 0;
   // The cell came to no good end: what may have been kept of it elsewhere goes.
   virtual void discard(const Cell& cell) const = 0;
+  // Whether what it kept elsewhere of a cell is still there, for a run that goes on from another's journal.
+  virtual bool still_has(const Cell& cell) const = 0;
 };
 using Recorders = std::vector<std::shared_ptr<const Recorder>>;
 

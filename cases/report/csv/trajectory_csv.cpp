@@ -64,4 +64,8 @@ void TrajectoryRecorder::discard(const Cell& cell) const {
   std::filesystem::remove(std::filesystem::path(folder_) / cell.trajectory, no_matter);
 }
 
+bool TrajectoryRecorder::still_has(const Cell& cell) const {
+  return cell.trajectory.empty() || std::filesystem::exists(std::filesystem::path(folder_) / cell.trajectory);
+}
+
 }  // namespace rigor

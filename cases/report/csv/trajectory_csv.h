@@ -29,6 +29,7 @@ class TrajectoryRecorder : public Recorder {
   Recording of_run(const Case& definition, const Cell& cell, const JudgedRun& run, const std::vector<NamedSeries>&,
                    const TruthFacts&) const override;
   void discard(const Cell& cell) const override;
+  bool still_has(const Cell& cell) const override;
 
  private:
   std::string folder_;

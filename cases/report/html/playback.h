@@ -51,6 +51,7 @@ class PlaybackRecorder : public Recorder {
   Recording of_run(const Case& definition, const Cell& cell, const JudgedRun& run,
                    const std::vector<NamedSeries>& series, const TruthFacts& facts) const override;
   void discard(const Cell&) const override {}
+  bool still_has(const Cell&) const override { return true; }
 
  private:
   PlaybackLimit limit_;

@@ -45,7 +45,7 @@ class ContactPoints {
 
  private:
   const std::vector<std::pair<int, int>>& overlapping_boxes();
-  void place(BodyColumns state, const ContactPoint& point, ContactPoint& touch) const;
+  void place(BodyColumns state, const ManifoldPoint& point, ContactPoint& contact) const;
 
   std::vector<Collider> colliders_;
   ContactLaws laws_;

@@ -1,7 +1,7 @@
 // Contact by events. Inside a step the instants are found at which bodies meet and at which sliding ends, as roots of
 // gaps and of sliding speeds along the integrator's own sub-steps from the last such instant; there impacts are
 // resolved (impacts.h), and between them what touches is persistent (held_motion.h). A sequence of bounces ends by the rule
-// of kRestSpeed. Bodies that overlap at the start are moved apart at once, without velocity. After kMostEvents in one
+// of kRestitutionThreshold. Bodies that overlap at the start are moved apart at once, without velocity. After kMostEvents in one
 // step the rest of that step has no rebounds, after twice as many no events, and the run says so. Where bodies are not
 // sure to stay apart (conservative_advancement.h, acceleration_bounds.h) the time is halved, so that nothing passes
 // through and no graze is missed.
@@ -39,7 +39,7 @@ class EventStepper : public ContactStepper {
   EventStepper(const Scene& scene, const ContactParts& parts)
       : contact_points_(scene),
         persistent_contact_(scene, parts.integrator, parts.orientation, parts.settings, contact_points_),
-        impacts_(persistent_contact_.system(), number_option(parts.settings, "rest-speed", kRestSpeed)),
+        impacts_(persistent_contact_.system(), number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
         bounds_(persistent_contact_.system()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {

@@ -63,7 +63,7 @@ const std::vector<PoseStep>& MassWeightedProjection::project(BodyColumns state,
   }
   std::vector<bool> is_used(targets.size(), true);
   Eigen::VectorXd multiplier;
-  for (int choice = 0; choice < kMostActiveSets; ++choice) {
+  for (int choice = 0; choice < kMostActiveSets && !targets.empty(); ++choice) {
     multiplier = multipliers(targets, is_used);
     bool is_pulling = false;
     for (std::size_t i = 0; i < targets.size(); ++i) {
