@@ -107,6 +107,7 @@ struct Fixture {
     return WIFEXITED(answer) ? WEXITSTATUS(answer) : -1;
   }
   nlohmann::json results() const { return nlohmann::json::parse(content(fs::path(out) / "results.json")); }
+  nlohmann::json cells() const { return results().at("cells"); }
 };
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -371,7 +372,7 @@ BOOST_AUTO_TEST_CASE(no_reader_and_no_stream_is_needed_for_the_exit_code) {
         "%s 2>&- >/dev/null", "%s <&- 2>&- >/dev/null", "%s 2>/dev/full >/dev/null"}) {
     BOOST_TEST(shell(around, bad) == 1, around);
     BOOST_TEST(shell(around, good) == 0, around);
-    for (const auto& cell : results().at("cells")) BOOST_TEST(cell.at("status") == "pass", around);
+    for (const auto& cell : cells()) BOOST_TEST(cell.at("status") == "pass", around);
   }
   BOOST_TEST(shell("%s >&- 2>&-", "gate stone --engine nothing") == 2);
   BOOST_TEST(shell("%s 2>/dev/full", "gate stone --engine nothing") == 2);
@@ -435,16 +436,14 @@ BOOST_AUTO_TEST_CASE(a_report_that_cannot_be_written_costs_itself_and_resume_goe
   BOOST_TEST(std::distance(fs::directory_iterator(out), {}) == std::ssize(reports()) + 1);  // and the trajectories
 }
 
-BOOST_AUTO_TEST_CASE(too_few_descriptors_end_with_3_and_a_sentence) {
-  for (const rlim_t count : {5, 6, 8, 10}) {
+BOOST_AUTO_TEST_CASE(too_few_descriptors_end_in_a_sentence_and_never_in_success) {
+  for (const rlim_t count : {7, 8}) {  // fewer than the program, the case and the cell need together
     const Answer answer = run({"run", "stone", "--engine", "core:rk4", "--out", out}, [count] {
       const rlimit few{count, count};
       setrlimit(RLIMIT_NOFILE, &few);
     });
-    if (answer.code == 0) continue;  // so many were enough
-    BOOST_TEST(count < 10u);
-    BOOST_TEST(answer.code == 3);
-    BOOST_TEST(answer.err != "", count << " descriptors");
+    BOOST_TEST((answer.code == 2 || answer.code == 3), count << " descriptors: " << answer.code);
+    BOOST_TEST(answer.err.find("Too many open files") != std::string::npos, answer.err);
   }
 }
 
@@ -479,16 +478,27 @@ BOOST_AUTO_TEST_CASE(a_run_goes_on_from_its_own_build_alone) {
     const std::string kept = content(journal);
     BOOST_TEST_REQUIRE(kept.find(key) != std::string::npos);
     const double was = std::strtod(kept.c_str() + kept.find(key) + key.size(), nullptr);
-    if (is_changed) std::ofstream(program, std::ios::binary | std::ios::app) << '\0';  // another build of the same age
+    if (is_changed) {  // another build of the same age, put there as a linker does
+      const fs::path other = folder.path / "other";
+      fs::copy_file(program, other);
+      std::ofstream(other, std::ios::binary | std::ios::app) << '\0';
+      BOOST_TEST_REQUIRE(fs::file_size(other) == fs::file_size(program) + 1);
+      fs::rename(other, program);
+    }
     fs::last_write_time(program, written);
     const Answer resumed = wait_for(start(
         {"run", "stone", "--engine", "core:rk4", "--engine", "core:explicit-euler", "--dt", "1/10", "--dt", "1e-8",
          "--jobs", "1", "--duration", "1", "--timeout", "0.3", "--out", out, "--resume"},
         [] {}, program.string()));
     BOOST_TEST(resumed.code == 3);  // for the endless ones
+    std::string times;
     bool is_found = false;
-    for (const auto& cell : results().at("cells")) is_found |= cell.at("wall_seconds") == was;
-    BOOST_TEST(is_found == !is_changed);
+    for (const auto& cell : cells()) {
+      const double now = cell.at("wall_seconds").get<double>();
+      is_found = is_found || now == was;
+      times += std::to_string(now) + " ";
+    }
+    BOOST_TEST(is_found == !is_changed, "kept " << was << ", now " << times);
   }
 }
 
@@ -528,7 +538,7 @@ BOOST_AUTO_TEST_CASE(a_run_killed_while_it_publishes_goes_on_to_its_own_trajecto
     std::vector<std::string> with_resume = words("1");
     with_resume.push_back("--resume");
     BOOST_TEST(run(with_resume).code == 0);
-    for (const auto& cell : results().at("cells")) {
+    for (const auto& cell : cells()) {
       const auto rows = lines_of(content(fs::path(out) / "trajectories" / cell.at("trajectory").get<std::string>()));
       BOOST_TEST(rows.size() == 102u);  // its head, the start and a hundred steps
     }

@@ -33,7 +33,8 @@ void spin() {
   }
 }
 
-// The pipe by which a cell's process answers: of those it can write to and does not print to, the one made last.
+// The pipe by which a cell's process answers: of Rigor's, which it can write to and does not print to, the one made
+// last.
 int pipe_of_answers() {
   struct stat printed {
   }, about{};
@@ -41,6 +42,7 @@ int pipe_of_answers() {
   int found = -1;
   for (int descriptor = STDERR_FILENO + 1; descriptor < 256; ++descriptor) {
     if (fstat(descriptor, &about) != 0 || !S_ISFIFO(about.st_mode) || about.st_ino == printed.st_ino) continue;
+    if (fcntl(descriptor, F_GETFD) != FD_CLOEXEC) continue;  // what the test itself was started with
     if ((fcntl(descriptor, F_GETFL) & O_ACCMODE) == O_WRONLY) found = descriptor;
   }
   return found;
