@@ -44,7 +44,7 @@ int baseline_command(const CommandLine& line, const EngineTable&) {
     check_engine(line.regression);
     const RegressionText found = regression_text(line.words[0], line.regression);
     print(found.text);
-    if (found.left_out > 0) fmt::print(stderr, "rigor: {} cells have no value to record\n", found.left_out);
+    if (found.left_out > 0) say(fmt::format("{} cells have no value to record", found.left_out));
     return kGood;
   }
   print(baseline_text(read_outcomes(line.words[0])));

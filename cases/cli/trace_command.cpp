@@ -115,7 +115,7 @@ int truth_command(const CommandLine& line, const EngineTable& engines) {
   std::vector<double> times = line.times;
   if (times.empty()) override_run(definition, {}), times = times_of_run(definition);
   const double end = std::max(definition.duration, *std::max_element(times.begin(), times.end()));
-  fmt::print(stderr, "rigor: the truth '{}' is {}\n", definition.truth, provenance_of(definition.truth));
+  say(fmt::format("the truth '{}' is {}", definition.truth, provenance_of(definition.truth)));
   return print_from_child("the truth of " + definition.id, line.limit, [&](const Channel& channel) {
     send_truth(*make_truth(definition.truth, definition.scene, end), definition.scene, times, channel);
   });

@@ -15,9 +15,9 @@
 #include <set>
 #include <thread>
 
+#include "cases/case/run_selector.h"
 #include "cases/results/result_json.h"
 #include "cases/runner/process_pool.h"
-#include "cases/case/run_selector.h"
 #include "core/base/error.h"
 #include "tests/cases/runner/faulty_engine.h"
 
@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(a_garbled_answer_costs_its_cell_and_no_other) {
   table.add(std::make_unique<FaultyEngine>("good", sit_still));
   for (const auto& [name, text] : garbled)
     table.add(std::make_unique<FaultyEngine>(name, [text](double&) { answer_before_rigor_does(text); }));
-  const Results grid = run({definition}, table, {2, 20, "", false});
+  const Results grid = run({definition}, table, {2, 20, {}, false});
   BOOST_TEST(grid.cases.front().error == "");
   for (const Cell& cell : grid.cases.front().cells) {
     const bool is_good = grid.runs[cell.run].engine == "good";
@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(a_case_whose_process_is_stopped_ends) {
     kill(getppid(), SIGSTOP);
     pause();
   }));
-  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {1, 0.1, "", false});
+  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {1, 0.1, {}, false});
   for (const CaseResult& result : grid.cases) {
     for (const Cell& cell : result.cells) {
       const bool is_good = grid.runs[cell.run].engine == "good";
@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(each_pair_that_ran_has_its_spread_at_each_step) {
 BOOST_AUTO_TEST_CASE(a_step_that_blows_up_late_is_not_stable) {
   EngineTable table;
   table.add(std::make_unique<LateEngine>());
-  const Results grid = run({drifting_body("a")}, table, {1, 60, "", true});
+  const Results grid = run({drifting_body("a")}, table, {1, 60, {}, true});
   BOOST_TEST_REQUIRE(grid.cases.front().stable_steps.size() == 1u);
   const StableStepResult& found = grid.cases.front().stable_steps.front();
   BOOST_TEST((found.status == Status::pass), found.reason);
