@@ -169,6 +169,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_flies_apart_does_not_excuse_itself_by_what_it_ga
   const Stability verdict = verdict_of_height(standing_box(), [](double t) { return 0.5 + 0.4 * t; });
   BOOST_TEST(word_of(verdict.verdict) == "gaining");
   BOOST_TEST(verdict.amount == 10, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(phrase_of(verdict) == "gaining 1000 %");
 }
 
 // A ball of 2 kg dropped from 5 m that leaves the ground at `speed`: 100 J in play. Its velocity is read `behind` steps
