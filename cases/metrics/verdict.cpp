@@ -154,7 +154,8 @@ std::string phrase_of(const Stability& stability) {
   const std::string word = word_of(stability.verdict);
   switch (stability.verdict) {
     case Verdict::gaining:
-      return fmt::format("{} {:.2g} %", word, 100 * stability.amount);
+      return stability.amount < 1 ? fmt::format("{} {:.2g} %", word, 100 * stability.amount)
+                                  : fmt::format("{} {:.0f} %", word, 100 * stability.amount);
     case Verdict::overlapping:
       return fmt::format("{} {:.2g} m", word, stability.amount);
     case Verdict::collapsed:
