@@ -9,11 +9,6 @@
 
 namespace rigor {
 
-struct BodyPose {
-  Vec3 position = Vec3::Zero();         // m, p_WB
-  Quat orientation = Quat::Identity();  // unit, B to W
-};
-
 // m. Exact for every pair of sphere, box, capsule and plane, but for two: boxes apart, where it is the widest gap along
 // any axis of a face or across two edges, which is the distance unless two corners are nearest; and a capsule whose
 // axis runs inside a box, where it is how deep the deepest point of it lies.
