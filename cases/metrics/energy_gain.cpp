@@ -9,7 +9,7 @@ namespace rigor {
 namespace {
 
 MetricResult measure(const JudgedRun& run) {
-  if (!run.scene.forces.empty()) return {{}, "forces drive the scene and may add energy"};
+  if (is_driven(run.scene)) return {{}, "forces or motors drive the scene and may add energy"};
   if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
   const double scale = energy_scale(run);
   const std::vector<double> energies = energies_of(run, run.leapfrog_stagger),

@@ -63,7 +63,10 @@ Stability drift(const JudgedRun& run, const EnergySeries& energies) {
 // compared.
 Stability gain(const JudgedRun& run, double scale) {
   std::vector<double> as_read = energies_of(run, 0), synchronised = energies_of(run, run.leapfrog_stagger);
-  const bool oscillates = !run.scene.springs.empty();
+  const auto& joints = run.scene.joints;
+  const bool oscillates =
+      !run.scene.springs.empty() ||
+      std::any_of(joints.begin(), joints.end(), [](const Joint& joint) { return joint.stiffness != 0; });
   if (oscillates) as_read = means_of_tenths(as_read), synchronised = means_of_tenths(synchronised);
   const std::vector<double> rises = rises_of(as_read, synchronised);
   const auto most = std::max_element(rises.begin(), rises.end());
@@ -154,7 +157,8 @@ std::string phrase_of(const Stability& stability) {
   const std::string word = word_of(stability.verdict);
   switch (stability.verdict) {
     case Verdict::gaining:
-      return fmt::format("{} {:.2g} %", word, 100 * stability.amount);
+      return stability.amount < 1 ? fmt::format("{} {:.2g} %", word, 100 * stability.amount)
+                                  : fmt::format("{} {:.0f} %", word, 100 * stability.amount);
     case Verdict::overlapping:
       return fmt::format("{} {:.2g} m", word, stability.amount);
     case Verdict::collapsed:
@@ -168,13 +172,12 @@ std::string phrase_of(const Stability& stability) {
 Stability verdict_on(const JudgedRun& run) {
   const EnergySeries energies = energy_series(run, run.leapfrog_stagger);
   std::vector<Stability> found;
-  const bool is_driven = !run.scene.forces.empty();
   if (!energies.not_applicable.empty()) {
     found.push_back({Verdict::stable, 0, kWorld,
                      "the energy stays bounded; whether it drifts is not known: " + energies.not_applicable});
   } else {
     if (!energies.only_gains_count) found.push_back(drift(run, energies));
-    if (!is_driven && (energies.only_gains_count || anything_can_touch(run.scene)))
+    if (!is_driven(run.scene) && (energies.only_gains_count || anything_can_touch(run.scene)))
       found.push_back(gain(run, energies.scale));
   }
   if (const auto overlap = overlapping(run)) found.push_back(*overlap);

@@ -195,6 +195,7 @@ double rounded_to_four(double value) { return std::stod(fmt::format("{:.4g}", va
 Json json_of(const std::string& key, const Outcomes::Cell& cell) {
   const auto parts = split(key, "\t");
   Json json = {{"case", parts[0]}, {"engine", parts[1]}, {"dt", parts[2]}, {"status", cell.status}};
+  if (!cell.verdict.empty()) json["verdict"] = cell.verdict;
   json["metrics"] = Json::object();
   for (const auto& [name, value] : cell.metrics) {
     if (!std::isfinite(value))

@@ -14,12 +14,17 @@ namespace {
 
 enum class Exchange { none, contact, damping, driving };
 
+bool is_damped(const Scene& scene) {
+  return std::any_of(scene.springs.begin(), scene.springs.end(), [](const Spring& s) { return s.damping != 0; }) ||
+         std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
+           return joint.damping != 0 || (joint.has_limits() && joint.restitution < 1);
+         });
+}
+
 Exchange exchange_of(const Scene& scene) {
-  if (!scene.forces.empty()) return Exchange::driving;
+  if (is_driven(scene)) return Exchange::driving;
   if (contact_may_lose(scene)) return Exchange::contact;
-  const bool damped =
-      std::any_of(scene.springs.begin(), scene.springs.end(), [](const Spring& s) { return s.damping != 0; });
-  return damped ? Exchange::damping : Exchange::none;
+  return is_damped(scene) ? Exchange::damping : Exchange::none;
 }
 
 std::vector<double> truths_energies(const JudgedRun& run, std::size_t count) {
@@ -72,6 +77,8 @@ bool contact_may_lose(const Scene& scene) {
          std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return loses(pair.law); });
 }
 
+bool is_driven(const Scene& scene) { return !scene.forces.empty() || !scene.motors.empty(); }
+
 bool may_change_energy(const Scene& scene) { return exchange_of(scene) != Exchange::none; }
 
 double energy_scale(const JudgedRun& run) {
@@ -100,7 +107,7 @@ EnergySeries energy_series(const JudgedRun& run, double lag) {
     series.found.resize(truth.size());
     for (const double e : truth) series.expected.push_back(series.found.front() + e - truth.front());
   } else {
-    series.not_applicable = "forces drive the scene, and there is no truth to say what energy they give it";
+    series.not_applicable = "forces or motors drive the scene, and there is no truth to say what energy they give it";
   }
   return series;
 }

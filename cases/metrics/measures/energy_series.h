@@ -41,7 +41,10 @@ std::vector<double> rises_of(const std::vector<double>& as_read, const std::vect
 // a body slips as it lands.
 bool contact_may_lose(const Scene& scene);
 
-// Whether contact, dampers or timed forces may take or give energy.
+// Whether timed forces or motors act.
+bool is_driven(const Scene& scene);
+
+// Whether contact, dampers or limits, timed forces or motors may take or give energy.
 bool may_change_energy(const Scene& scene);
 
 // J: what a change of energy is relative to: the truth's largest kinetic energy; without one, or where nothing moves in

@@ -203,7 +203,9 @@ class Finder {
     for_cells(run, [&](const CaseResult& result, const Cell& cell) {
       const double drift = value_of(cell.metrics, kDrift);
       if (may_change_energy(result.definition.scene)) return;
-      if (cell.stability.verdict != Verdict::drifting || std::isnan(drift) || (drift < 0) != is_loss) return;
+      const Verdict verdict = cell.stability.verdict;
+      if (verdict != Verdict::drifting && verdict != Verdict::gaining) return;
+      if (std::isnan(drift) || (drift < 0) != is_loss) return;
       if (std::abs(drift) > largest) largest = std::abs(drift), worst = &cell, worst_case = &result;
     });
     if (!worst) return "";

@@ -77,8 +77,10 @@ BOOST_AUTO_TEST_CASE(a_worse_verdict_is_worse_and_a_better_one_is_told) {
 
 BOOST_AUTO_TEST_CASE(a_verdict_that_nobody_knows_is_refused) {
   const Folder folder;
-  const std::string file = folder.write("b.txt", "# Rigor baseline 1\ncell\tc\te\t1/30\tpass\tverdict=fine\n");
-  BOOST_CHECK_EXCEPTION(read_outcomes(file), InputError, says("line 2: no such verdict: fine"));
+  const std::string file = folder.write("b", R"({"rigor_baseline":2,"metrics":[]}
+{"case":"a","engine":"b","dt":"1","status":"pass","verdict":"fine","metrics":{}}
+)");
+  BOOST_CHECK_EXCEPTION(read_outcomes(file), InputError, says("line 2: cell: no such verdict: fine"));
 }
 
 BOOST_AUTO_TEST_CASE(an_error_that_grows_beyond_the_factor_is_worse_and_one_that_shrinks_is_told) {
