@@ -1,36 +1,48 @@
 #include "adapters/engines.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 
 #include "adapters/bullet/bullet_engine.h"
+#include "adapters/bullet/bullet_twin.h"
 #include "adapters/core/core_engine.h"
 #include "adapters/ode/ode_engine.h"
+#include "adapters/ode/ode_twin.h"
+#include "core/base/error.h"
 
 namespace rigor {
 
 // One row an engine, alphabetical.
-const EngineTable& engines() {
-  static const EngineTable table = [] {
-    EngineTable rows;
-    rows.push_back(std::make_unique<BulletEngine>());
-    rows.push_back(std::make_unique<CoreEngine>());
-    rows.push_back(std::make_unique<OdeEngine>());
-    return rows;
-  }();
+EngineTable built_in_engines() {
+  EngineTable table;
+  table.add(std::make_unique<BulletEngine>());
+  table.add(std::make_unique<CoreEngine>(std::vector<Integrator>{kBulletTwin, kOdeTwin}));
+  table.add(std::make_unique<OdeEngine>());
   return table;
 }
 
-std::vector<EngineInfo> infos_of(const EngineTable& table) {
-  std::vector<EngineInfo> infos;
-  for (const auto& engine : table) infos.push_back(engine->info());
-  return infos;
+const EngineTable& engines() {
+  static const EngineTable table = built_in_engines();
+  return table;
 }
 
-const Engine& find_engine(const EngineTable& table, const std::string& name) {
-  const auto found = std::find_if(table.begin(), table.end(), [&](const auto& e) { return e->info().name == name; });
-  assert(found != table.end() && "run names are checked against the table before an engine is asked for");
-  return **found;
+void EngineTable::add(std::unique_ptr<Engine> engine) {
+  EngineInfo info = engine->info();
+  const bool is_taken = std::any_of(infos_.begin(), infos_.end(), [&](const auto& i) { return i.name == info.name; });
+  if (is_taken) throw InputError(fmt::format("there are two engines called '{}'", info.name));
+  engines_.push_back(std::move(engine)), infos_.push_back(std::move(info));
 }
+
+std::size_t EngineTable::index_of(const std::string& name) const {
+  const auto found = std::find_if(infos_.begin(), infos_.end(), [&](const auto& info) { return info.name == name; });
+  assert(found != infos_.end() && "run names are checked against the table before an engine is asked for");
+  return static_cast<std::size_t>(found - infos_.begin());
+}
+
+const EngineInfo& EngineTable::info_of(const std::string& name) const { return infos_[index_of(name)]; }
+
+const Engine& EngineTable::find(const std::string& name) const { return *engines_[index_of(name)]; }
 
 }  // namespace rigor

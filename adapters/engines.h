@@ -8,11 +8,29 @@
 
 namespace rigor {
 
-using EngineTable = std::vector<std::unique_ptr<Engine>>;
+// Asks each engine for its facts once, when it is added.
+class EngineTable {
+ public:
+  // Throws InputError for a name that is there already.
+  void add(std::unique_ptr<Engine> engine);
 
-const EngineTable& engines();  // alphabetical
+  const std::vector<EngineInfo>& infos() const { return infos_; }
+  const EngineInfo& info_of(const std::string& name) const;  // the name must be there
+  const Engine& find(const std::string& name) const;         // likewise
+  auto begin() const { return engines_.begin(); }
+  auto end() const { return engines_.end(); }
 
-std::vector<EngineInfo> infos_of(const EngineTable& table);
-const Engine& find_engine(const EngineTable& table, const std::string& name);  // the name must be there
+ private:
+  std::size_t index_of(const std::string& name) const;
+
+  std::vector<std::unique_ptr<Engine>> engines_;
+  std::vector<EngineInfo> infos_;  // of the engines, in their order
+};
+
+EngineTable built_in_engines();  // alphabetical; a copy of one's own, to add others to
+const EngineTable& engines();    // the same, for those who add none
+
+inline const std::vector<EngineInfo>& infos_of(const EngineTable& table) { return table.infos(); }
+inline const Engine& find_engine(const EngineTable& table, const std::string& name) { return table.find(name); }
 
 }  // namespace rigor

@@ -13,6 +13,7 @@
 #include "bench/scenes.h"
 #include "cases/case/case_reader.h"
 #include "cases/case/suite.h"
+#include "cases/cli/vocabulary.h"
 #include "cases/truth/truth.h"
 
 namespace rigor::bench {
@@ -104,11 +105,12 @@ const fs::path& scratch_folder() {
 
 void time_reading(benchmark::State& state, const std::string& id) {
   const std::string file = (fs::path(default_suite_dir()) / (id + ".toml")).string();
-  for (auto _ : state) benchmark::DoNotOptimize(read_case(file, id));
+  const Vocabulary words = vocabulary_of(infos_of(engines()));
+  for (auto _ : state) benchmark::DoNotOptimize(read_case(file, id, words));
 }
 
 void time_truth(benchmark::State& state, const std::string& id, bool is_kept) {
-  const Case definition = select_cases({id}, default_suite_dir()).front();
+  const Case definition = select_cases({id}, default_suite_dir(), vocabulary_of(infos_of(engines()))).front();
   setenv("RIGOR_CACHE_DIR", is_kept ? scratch_folder().c_str() : "", 1);
   if (is_kept) make_truth(definition.truth, definition.scene, definition.duration);
   for (auto _ : state) benchmark::DoNotOptimize(make_truth(definition.truth, definition.scene, definition.duration));

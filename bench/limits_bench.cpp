@@ -103,7 +103,6 @@ void register_limits() {
         ->UseManualTime();
   }
   for (const Integrator& method : integrators()) {
-    if (!method.twin_of.empty()) continue;
     benchmark::RegisterBenchmark(fmt::format("limit/in-cache/core:{}", method.name).c_str(), step_in_cache, method.name)
         ->UseManualTime();
   }

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "adapters/engines.h"
 #include "cases/case/suite.h"
+#include "cases/cli/vocabulary.h"
 
 namespace rigor::bench {
 namespace {
@@ -150,7 +152,9 @@ Scene pyramid(const SceneRow&, int count) {
 }
 
 // A scene of the course, by its row's name.
-Scene of_the_suite(const SceneRow& row, int) { return select_cases({row.name}, default_suite_dir()).front().scene; }
+Scene of_the_suite(const SceneRow& row, int) {
+  return select_cases({row.name}, default_suite_dir(), vocabulary_of(infos_of(engines()))).front().scene;
+}
 
 }  // namespace
 

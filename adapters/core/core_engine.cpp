@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "adapters/option_values.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/dynamics/joints/joints.h"
 #include "core/engine/clock.h"
 #include "core/scene/contact_laws.h"
 
@@ -18,9 +20,9 @@ constexpr const char* kDefault = "dormand-prince";  // right whatever the step
 
 class CoreWorld : public World {
  public:
-  CoreWorld(const Scene& scene, const Settings& settings)
+  CoreWorld(const Scene& scene, const Integrator& integrator, const Settings& settings)
       : system_(scene),
-        integrator_(integrator(settings.method)),
+        integrator_(integrator),
         tolerance_(number_option(settings, "tolerance", kDefaultTolerance)),
         contact_method_(settings.options.contains("contact") ? contact_method(settings.options.at("contact"))
                                                              : contact_method_for(scene)) {
@@ -30,6 +32,7 @@ class CoreWorld : public World {
     system_.constants.use_threads(static_cast<int>(number_option(settings, "threads", 1)));
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
+    if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_);
     if (anything_can_touch(scene)) {
       auto stepper = contact_method_.make(scene, {system_, integrator_, orientation_, settings});
       contact_settings_ = stepper->settings_in_force();
@@ -37,11 +40,12 @@ class CoreWorld : public World {
       stepper_ = std::move(stepper);
     } else {
       contact_settings_ = {{"contact", "none in this scene"}};
-      stepper_ = integrator_.make({system_, nullptr, orientation_, settings});
+      stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get()});
     }
   }
 
   void step(double dt) override {
+    if (joints_) joints_->begin_step();
     stepper_->step(state_.columns(), clock_.time(), dt);
     clock_.advance(dt);
   }
@@ -56,22 +60,32 @@ class CoreWorld : public World {
     if (orientation_) settings.emplace_back("orientation", orientation_->name);
     if (integrator_.adaptive) settings.emplace_back("tolerance", fmt::format("{}", tolerance_));
     settings.insert(settings.end(), contact_settings_.begin(), contact_settings_.end());
+    if (joints_) settings.emplace_back("joints", fmt::format("{} rows, of rank {}", joints_->rows(), joints_->rank()));
     return settings;
   }
 
-  std::string solver_warning() const override { return stepper_->solver_warning(); }
+  std::string solver_warning() const override {
+    const std::string of_joints = joints_ ? joints_->warning() : "";
+    return of_joints.empty() ? stepper_->solver_warning() : of_joints;
+  }
 
  private:
   System system_;
-  const Integrator& integrator_;
+  const Integrator integrator_;
   double tolerance_;  // of an adaptive method
   const ContactMethod& contact_method_;
   const OrientationUpdate* orientation_ = nullptr;
   SettingsInForce contact_settings_;
   BodyTable state_;
+  std::unique_ptr<Joints> joints_;  // null where there are none
   std::unique_ptr<Stepper> stepper_;
   Clock clock_;
 };
+
+// What joints ask for; a method takes all of it, or none, or all but dampers.
+const Features kJointFeatures = {"joint:ball",          "joint:distance",  "joint:fixed",  "joint:hinge",
+                                 "joint:slider",        "joint:universal", "joint-spring", "joint-damper",
+                                 "joints-with-dampers", "motor:effort"};
 
 template <typename Rows>
 std::vector<std::string> names_of(const Rows& rows) {
@@ -118,18 +132,25 @@ MethodInfo method_info(const Integrator& integrator) {
     for (const ContactMethod& method : contact_methods())
       info.lacks.insert(method.features.begin(), method.features.end());
   }
+  if (!integrator.takes_joints) info.lacks = joined(info.lacks, kJointFeatures);
+  if (!integrator.takes_dampers_with_joints) info.lacks.insert("joints-with-dampers");
   return info;
 }
 
 }  // namespace
 
+CoreEngine::CoreEngine(std::vector<Integrator> twins) : integrators_(integrators()) {
+  integrators_.insert(integrators_.end(), twins.begin(), twins.end());
+}
+
 EngineInfo CoreEngine::info() const {
   EngineInfo info{.name = "core", .version = kVersion, .precision = "double"};
-  info.features = {"spring", "timed-force", "fixed-body"};
+  info.is_in_house = true;
+  info.features = joined({"spring", "timed-force", "fixed-body"}, kJointFeatures);
   for (const ContactMethod& method : contact_methods()) {
     info.features.insert(method.features.begin(), method.features.end());
   }
-  for (const Integrator& row : integrators()) info.methods.push_back(method_info(row));
+  for (const Integrator& row : integrators_) info.methods.push_back(method_info(row));
   // The first is what a run named "core" gets. Twins last.
   std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.twin_of.empty(); });
   std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.name == kDefault; });
@@ -138,7 +159,10 @@ EngineInfo CoreEngine::info() const {
 
 std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& settings) const {
   refuse_unsupported(info(), settings, scene);
-  return std::make_unique<CoreWorld>(scene, settings);
+  const auto row = std::find_if(integrators_.begin(), integrators_.end(),
+                                [&](const Integrator& own) { return own.name == settings.method; });
+  assert(row != integrators_.end() && "methods are checked when the run is named");
+  return std::make_unique<CoreWorld>(scene, *row, settings);
 }
 
 }  // namespace rigor

@@ -2,16 +2,23 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
+#include "core/dynamics/integrators/integrator.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
 
 class CoreEngine : public Engine {
  public:
+  // `twins`: methods beside the core's own, which repeat the schemes of other engines.
+  explicit CoreEngine(std::vector<Integrator> twins = {});
   EngineInfo info() const override;
   std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override;
   std::string twin(const Settings&) const override { return ""; }
+
+ private:
+  std::vector<Integrator> integrators_;
 };
 
 }  // namespace rigor

@@ -46,6 +46,8 @@ void align_friction(dContact& contact, dBodyID a, dBodyID b) {
 
 }  // namespace
 
+double OdeWorld::bounce_threshold() { return surface_of({.restitution = 1, .friction = 0}).bounce_vel; }
+
 void OdeWorld::find_contacts() {
   dSpaceCollide(moving_, this, &OdeWorld::touch);
   dSpaceCollide2(reinterpret_cast<dGeomID>(moving_), reinterpret_cast<dGeomID>(fixed_), this, &OdeWorld::touch);

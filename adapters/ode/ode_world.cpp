@@ -258,7 +258,7 @@ SettingsInForce OdeWorld::settings_in_force() const {
                        ? "pyramid, its first direction along the sliding velocity, so that it brakes as the cone does"
                        : "pyramid, its directions chosen by the engine: along its diagonal it brakes with sqrt(2) of "
                          "the force, and a slide ends after 0.71 of its way"},
-      {"bounce threshold", "0 m/s"},
+      {"bounce threshold", fmt::format("{:g} m/s", bounce_threshold())},
       {"springs and timed forces", "user forces, recomputed before each step"},
   };
   if (quick_) {

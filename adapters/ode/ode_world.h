@@ -40,6 +40,7 @@ class OdeWorld : public World {
   std::string cfm_in_words() const;
   std::string solver_in_words() const;
   void add_loads(double dt);
+  static double bounce_threshold();  // m/s, of the contacts that are made
   void find_contacts();
   static void touch(void* self, dGeomID a, dGeomID b);  // ODE calls it for each pair whose bounding boxes overlap
   void add_contacts(dGeomID a, dGeomID b);

@@ -49,8 +49,7 @@ std::optional<AtCost> error_at_cost(std::vector<ErrorPoint> points, double cost,
 std::vector<std::size_t> baselines(const Results& results) {
   std::vector<std::size_t> found;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
-    const RunName& name = results.runs[run];
-    if (name.engine != "core" && name.settings.track == Track::matched) found.push_back(run);
+    if (!is_in_house(results, run) && results.runs[run].settings.track == Track::matched) found.push_back(run);
   }
   return found;
 }
@@ -87,7 +86,7 @@ std::optional<BestOfCore> best_of_core(const Results& results, const CaseResult&
                                        const std::string& metric) {
   std::optional<BestOfCore> best;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
-    if (results.runs[run].engine != "core") continue;
+    if (!is_in_house(results, run)) continue;
     const BestOfCore here{metric, at_equal_cost(result, run, baseline, metric)};
     if (here.compared() == 0) continue;
     const bool is_better = !best || here.compared() > best->compared() ||

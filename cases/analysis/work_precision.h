@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/analysis/observed_order.h"
+#include "cases/results/observed_order.h"
 
 namespace rigor {
 

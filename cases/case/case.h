@@ -14,17 +14,28 @@ struct StepSize {
   std::string text;  // as it was written, "1/30": what tables and file names show
 };
 
-// What a metric's value is held against. Exactly one of the bounds is set (an empty better_than is none), or min and
-// max together.
+// Whether it is the same step, however written: "1/30" and "0.03333333333". They agree to a billionth, by which steps
+// are rounded where they are counted as well: the runs are as long to within that part of a step's count.
+bool operator==(const StepSize& a, const StepSize& b);
+
+// What a metric's value is held against. Exactly one of the limits is set (an empty better_than is none), or min and
+// max together. All but `regression` are bounds: they hold whoever wrote the engine. A regression guards a value that
+// was measured, and stands beside the engine (cases/gates/regression.h), against change.
 struct Gate {
   std::string metric;                // a row of metrics.cpp
   std::vector<std::string> engines;  // run names; empty: every engine that supports the scene
   std::vector<StepSize> dt;          // empty: every dt of the run
   std::optional<double> max, min, equals, at_least_order;
-  std::string better_than = "";  // a run's name, at the same dt: the value must be better than its value
+  bool declares_order = false;       // at_least_order is how far a run may fall short of what its method declares
+  std::optional<double> regression;  // > 1: by how much the value may differ from the one recorded, either way
+  std::string better_than = "";      // a run's name, at the same dt: the value must be better than its value
   std::string because;
-  std::string where;  // "file:line:column" of the gate
+  std::string where;          // "file:line:column" of the gate
+  bool is_of_family = false;  // of the folder's family.toml: of a case where it meets no cell it says nothing
 };
+
+// "bound" or "regression", as reports call them.
+std::string kind_of(const Gate& gate);
 
 struct Case {
   std::string id;  // "springs/fixed-spring": its path in the suite; or the path as given, for a file elsewhere

@@ -4,11 +4,12 @@
 #include <string>
 
 #include "cases/case/case.h"
+#include "cases/case/vocabulary.h"
 
 namespace rigor {
 
 // Throws InputError, "file:line:column: key: what was found, what is allowed (near match)", for anything the design's
-// case file does not allow; also for a metric, truth, engine or step size that does not exist.
-Case read_case(const std::string& path, const std::string& id);
+// case file does not allow; also for a metric, truth, engine or step size that is not among `words`.
+Case read_case(const std::string& path, const std::string& id, const Vocabulary& words);
 
 }  // namespace rigor

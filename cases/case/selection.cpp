@@ -1,7 +1,6 @@
 #include "cases/case/selection.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace rigor {
 
@@ -9,8 +8,6 @@ bool is_same_run(const RunName& a, const RunName& b) {
   return a.engine == b.engine && a.settings.method == b.settings.method && a.settings.options == b.settings.options &&
          a.settings.track == b.settings.track;
 }
-
-bool is_same_step(double dt, double other) { return std::abs(dt - other) <= 1e-9 * dt; }
 
 GateSelection::GateSelection(const Gate& gate, const std::vector<EngineInfo>& engines) : dt_(gate.dt) {
   for (const std::string& name : gate.engines) runs_.push_back(parse_run_name(name, engines));
@@ -27,8 +24,7 @@ bool GateSelection::needs(const RunName& run) const {
 }
 
 bool GateSelection::takes(const StepSize& dt) const {
-  const auto is_it = [&](const StepSize& own) { return is_same_step(own.seconds, dt.seconds); };
-  return dt_.empty() || std::any_of(dt_.begin(), dt_.end(), is_it);
+  return dt_.empty() || std::find(dt_.begin(), dt_.end(), dt) != dt_.end();
 }
 
 std::vector<std::string> runs_named_by(const Gate& gate) {

@@ -13,9 +13,6 @@ namespace rigor {
 // The same engine, method, options and track, however written.
 bool is_same_run(const RunName& a, const RunName& b);
 
-// "1/30" and "0.0333333333333333" are the same step.
-bool is_same_step(double dt, double other);
-
 class GateSelection {
  public:
   GateSelection(const Gate& gate, const std::vector<EngineInfo>& engines);

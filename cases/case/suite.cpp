@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "cases/case/case_reader.h"
+#include "cases/case/family.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
@@ -17,14 +19,17 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".toml";
 
-// The case files below a folder, sorted. A folder that cannot be entered is passed over.
+// The case files below a folder, sorted; a family's gates are none of them. A folder that cannot be entered is passed
+// over.
 std::vector<fs::path> case_files(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     std::error_code gone;
-    if (entry->path().extension() == kExtension && !entry->is_directory(gone)) files.push_back(entry->path());
+    const fs::path& path = entry->path();
+    if (path.extension() == kExtension && path.filename() != kFamilyFile && !entry->is_directory(gone))
+      files.push_back(path);
   }
   if (error) throw InputError(fmt::format("{}: cannot be searched for cases: {}", folder.string(), error.message()));
   std::sort(files.begin(), files.end());
@@ -41,16 +46,40 @@ std::string named_from(const fs::path& folder, const fs::path& path) {
 
 // Results say where a gate stands by a path from the current folder, which is what annotations of a repository need, or
 // from the suite: not where this machine keeps its files.
-void shorten_places(Case& definition, const std::string& path, const std::string& suite_dir) {
+void shorten_places(Case& definition, const std::string& folder, const std::string& suite_dir) {
   std::error_code error;
-  std::string shorter = named_from(fs::current_path(error), path);
-  if (shorter.empty()) shorter = named_from(suite_dir, path);
   const auto shorten = [&](std::string& where) {
-    if (!shorter.empty() && where.starts_with(path)) where.replace(0, path.size(), shorter);
+    const std::size_t dot = where.starts_with(folder) ? where.find(kExtension, folder.size()) : std::string::npos;
+    if (dot == std::string::npos) return;
+    const std::size_t end = dot + std::string(kExtension).size();
+    const std::string path = where.substr(0, end);
+    std::string shorter = named_from(fs::current_path(error), path);
+    if (shorter.empty()) shorter = named_from(suite_dir, path);
+    if (!shorter.empty()) where.replace(0, end, shorter);
   };
   shorten(definition.truth_where);
   for (Gate& gate : definition.gates) shorten(gate.where);
 }
+
+// The family.toml of each folder that a case was found in, read once.
+class Families {
+ public:
+  explicit Families(const Vocabulary& words) : words_(words) {}
+  void add_gates(const std::string& case_path, Case& definition) {
+    const fs::path path = fs::path(case_path).parent_path() / kFamilyFile;
+    auto found = families_.find(path.string());
+    if (found == families_.end()) {
+      std::error_code error;
+      const bool is_there = fs::exists(fs::symlink_status(path, error));
+      found = families_.emplace(path.string(), is_there ? read_family(path.string(), words_) : Family{}).first;
+    }
+    add_family_gates(found->second, words_, definition);
+  }
+
+ private:
+  const Vocabulary& words_;
+  std::map<std::string, Family> families_;
+};
 
 // A case's file, and the id by which it goes.
 struct Found {
@@ -135,6 +164,8 @@ std::vector<Found> find_on_disk(const std::string& word, const Suite& suite) {
   if (fs::exists(status)) {
     if (fs::path(word).extension() != kExtension)
       throw InputError(fmt::format("{}: is not a {} file", word, kExtension));
+    if (fs::path(word).filename() == kFamilyFile)
+      throw InputError(fmt::format("{}: states the gates of the cases beside it and is none itself", word));
     return {suite.found_at(word)};
   }
   throw InputError(fmt::format("there is no case, family, file or folder '{}'{}; 'rigor list cases' names the cases",
@@ -154,7 +185,8 @@ std::vector<Found> find_cases(const std::string& word, const Suite& suite) {
 
 std::vector<std::string> suite_ids(const std::string& suite_dir) { return Suite(suite_dir).ids(); }
 
-std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir) {
+std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir,
+                               const Vocabulary& vocabulary) {
   const Suite suite(suite_dir);
   std::vector<Found> selected;
   for (const std::string& id : suite.ids()) {
@@ -167,11 +199,13 @@ std::vector<Case> select_cases(const std::vector<std::string>& words, const std:
 
   std::vector<Case> cases;
   std::set<std::string> seen;  // by file, however it was named
+  Families families(vocabulary);
   for (const Found& found : selected) {
     std::error_code error;
     if (!seen.insert(fs::weakly_canonical(found.path, error).string()).second) continue;
-    cases.push_back(read_case(found.path, found.id));
-    shorten_places(cases.back(), found.path, suite_dir);
+    cases.push_back(read_case(found.path, found.id, vocabulary));
+    families.add_gates(found.path, cases.back());
+    shorten_places(cases.back(), fs::path(found.path).parent_path().string(), suite_dir);
   }
   return cases;
 }

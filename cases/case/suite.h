@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cases/case/case.h"
+#include "cases/case/vocabulary.h"
 
 namespace rigor {
 
@@ -14,7 +15,8 @@ std::vector<std::string> suite_ids(const std::string& suite_dir);
 // The cases that the words name, each once: a case's id, the last part of one if only one case has it, a family (its
 // folder), a .toml file, or a folder of them. No words: the whole suite. Throws InputError with a near match for a word
 // that names nothing, and for a folder without cases.
-std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir);
+std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir,
+                               const Vocabulary& vocabulary);
 
 std::string default_suite_dir();
 

@@ -91,6 +91,12 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
         ->type_name("F")
         ->capture_default_str();
   }
+  if (takes("--regression")) {
+    command
+        .add_option("--regression", line.regression,
+                    "print what the regressions found of this engine instead, for adapters/ENGINE/regression.jsonl")
+        ->type_name("ENGINE");
+  }
   if (takes("--quick"))
     command.add_flag("--quick", line.quick, "only gates whose cells take a moment; for each change, not each night");
   if (takes("--resume"))
@@ -105,9 +111,20 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
   }
 }
 
-// An option without its value would take the next option for one.
-std::string refuse_option_as_value(std::string& value) {
+// An option without its value would take the next option for one; and an empty value, which a variable that is not set
+// leaves behind, does not count as none.
+std::string refuse_empty_or_option(std::string& value) {
+  if (value.empty()) return "needs a value, and what is given is empty";
   return value.starts_with("--") ? fmt::format("needs a value, and '{}' follows", value) : "";
+}
+
+// "--out=" would take the next word for its value, and an empty word means no case.
+void refuse_empty_words(int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.starts_with("--") && word.ends_with("="))
+      throw InputError(fmt::format("{}: needs a value, and what is given is empty", word.substr(0, word.size() - 1)));
+  }
 }
 
 std::vector<std::string> command_names() {
@@ -143,8 +160,7 @@ const CommandRow* find_command(const std::string& name) {
 void read_typed(const Typed& typed, CommandLine& line) {
   for (const std::string& text : typed.dt) {
     const StepSize dt = parse_step_size(text, "--dt");
-    const auto is_it = [&](const StepSize& other) { return other.seconds == dt.seconds; };
-    if (std::none_of(line.dt.begin(), line.dt.end(), is_it)) line.dt.push_back(dt);
+    if (std::find(line.dt.begin(), line.dt.end(), dt) == line.dt.end()) line.dt.push_back(dt);
   }
   if (!typed.duration.empty()) line.duration = parse_step_size(typed.duration, "--duration").seconds;
   const int cores = std::max(1u, std::thread::hardware_concurrency());
@@ -171,9 +187,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     command->allow_extras();
     add_options(*command, row, line, typed);
     for (CLI::Option* option : command->get_options([](const CLI::Option* o) { return o->get_expected_max() > 0; })) {
-      option->check(CLI::Validator(refuse_option_as_value, ""));
+      option->check(CLI::Validator(refuse_empty_or_option, ""));
     }
   }
+  refuse_empty_words(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

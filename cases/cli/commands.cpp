@@ -29,7 +29,7 @@ const std::vector<CommandRow>& commands() {
        "print a result's short form, one line a cell, to keep and to compare with",
        "FILE",
        "a results.json",
-       {},
+       {"--regression"},
        baseline_command},
       {"trace",
        "print one run's trajectory as CSV",

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/engines.h"
 #include "cases/cli/command_line.h"
 
 namespace rigor {
@@ -16,20 +17,20 @@ struct CommandRow {
   std::string words;  // what its plain words are, "" if it takes none
   std::string words_summary;
   std::vector<std::string> options;
-  int (*run)(const CommandLine& line);  // returns an ExitCode
+  int (*run)(const CommandLine& line, const EngineTable& engines);  // returns an ExitCode
 };
 
 const std::vector<CommandRow>& commands();  // in the order of the README
 
-int list_command(const CommandLine& line);
-int run_command(const CommandLine& line);
-int gate_command(const CommandLine& line);
-int compare_command(const CommandLine& line);
-int baseline_command(const CommandLine& line);
-int trace_command(const CommandLine& line);
-int truth_command(const CommandLine& line);
+int list_command(const CommandLine& line, const EngineTable& engines);
+int run_command(const CommandLine& line, const EngineTable& engines);
+int gate_command(const CommandLine& line, const EngineTable& engines);
+int compare_command(const CommandLine& line, const EngineTable& engines);
+int baseline_command(const CommandLine& line, const EngineTable& engines);
+int trace_command(const CommandLine& line, const EngineTable& engines);
+int truth_command(const CommandLine& line, const EngineTable& engines);
 
 // The one case that the words of `trace` and `truth` name.
-Case the_case(const CommandLine& line);
+Case the_case(const CommandLine& line, const EngineTable& engines);
 
 }  // namespace rigor

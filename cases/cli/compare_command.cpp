@@ -1,14 +1,31 @@
 // rigor compare and rigor baseline: what changed between two results, and the short form of one to keep.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
+
+#include "adapters/engines.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/gates/regression.h"
 #include "cases/results/changes.h"
 #include "core/base/error.h"
+#include "core/base/near_match.h"
 
 namespace rigor {
+namespace {
 
-int compare_command(const CommandLine& line) {
+void check_engine(const std::string& name) {
+  std::vector<std::string> known;
+  for (const EngineInfo& engine : infos_of(engines())) known.push_back(engine.name);
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw InputError(fmt::format("--regression: there is no engine '{}'{}; there is: {}", name,
+                                 did_you_mean(name, known), listed(known)));
+}
+
+}  // namespace
+
+int compare_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 2) {
     throw InputError(
         fmt::format("rigor compare: takes two files, OLD and NEW, and found {}; each is a results.json or a "
@@ -17,12 +34,19 @@ int compare_command(const CommandLine& line) {
   }
   const Outcomes before = read_outcomes(line.words[0]), after = read_outcomes(line.words[1]);
   const Changes changes = changes_between(before, after, line.factor);
-  print(text_of(changes, line.factor));
+  print_table(text_of(changes, line.factor));
   return changes.is_worse() ? kGateFailed : kGood;
 }
 
-int baseline_command(const CommandLine& line) {
+int baseline_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 1) throw InputError("rigor baseline: takes one file, a results.json");
+  if (!line.regression.empty()) {
+    check_engine(line.regression);
+    const RegressionText found = regression_text(line.words[0], line.regression);
+    print(found.text);
+    if (found.left_out > 0) fmt::print(stderr, "rigor: {} cells have no value to record\n", found.left_out);
+    return kGood;
+  }
   print(baseline_text(read_outcomes(line.words[0])));
   return kGood;
 }

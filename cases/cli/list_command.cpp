@@ -7,7 +7,9 @@
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/vocabulary.h"
 #include "cases/metrics/metric.h"
+#include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
@@ -17,9 +19,10 @@ namespace {
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
-Rows case_rows(const CommandLine& line) {
+Rows case_rows(const CommandLine& line, const EngineTable& engines) {
   Rows rows;
-  for (const Case& definition : select_cases({}, line.suite_dir)) rows.emplace_back(definition.id, definition.title);
+  for (const Case& definition : select_cases({}, line.suite_dir, vocabulary_of(engines.infos())))
+    rows.emplace_back(definition.id, definition.title);
   return rows;
 }
 
@@ -35,31 +38,32 @@ std::string method_text(const MethodInfo& method) {
   return text;
 }
 
-Rows engine_rows(const CommandLine&) {
+Rows engine_rows(const CommandLine&, const EngineTable& engines) {
   Rows rows;
-  for (const EngineInfo& engine : infos_of(engines())) {
+  for (const EngineInfo& engine : engines.infos()) {
     std::vector<std::string> methods;
     for (const MethodInfo& method : engine.methods) methods.push_back(method.name);
     rows.emplace_back(engine.name,
                       fmt::format("{}, {} precision; methods: {}", engine.version, engine.precision, listed(methods)));
     for (const MethodInfo& method : engine.methods) {
-      if (engine.name != "core") rows.emplace_back("  " + engine.name + ":" + method.name, method_text(method));
+      if (!engine.is_in_house) rows.emplace_back("  " + engine.name + ":" + method.name, method_text(method));
     }
-    if (engine.name == "core") rows.back().second += " (see integrators)";
+    if (engine.is_in_house) rows.back().second += " (see integrators)";
   }
   return rows;
 }
 
-Rows integrator_rows(const CommandLine&) {
+Rows integrator_rows(const CommandLine&, const EngineTable& engines) {
   Rows rows;
-  for (const EngineInfo& engine : infos_of(engines())) {
-    if (engine.name != "core") continue;
-    for (const MethodInfo& method : engine.methods) rows.emplace_back("core:" + method.name, method_text(method));
+  for (const EngineInfo& engine : engines.infos()) {
+    if (!engine.is_in_house) continue;
+    for (const MethodInfo& method : engine.methods)
+      rows.emplace_back(engine.name + ":" + method.name, method_text(method));
   }
   return rows;
 }
 
-Rows metric_rows(const CommandLine&) {
+Rows metric_rows(const CommandLine&, const EngineTable&) {
   Rows rows;
   for (const MetricRow& metric : metrics())
     rows.emplace_back(metric.name, fmt::format("[{}] {}", metric.unit, metric.summary));
@@ -68,15 +72,16 @@ Rows metric_rows(const CommandLine&) {
   return rows;
 }
 
-Rows truth_rows(const CommandLine&) {
+Rows truth_rows(const CommandLine&, const EngineTable&) {
   Rows rows;
-  for (const TruthRow& truth : truths()) rows.emplace_back(truth.name, truth.summary);
+  for (const TruthRow& truth : truths())
+    rows.emplace_back(truth.name, fmt::format("{}; {}", truth.summary, provenance_of(truth.name)));
   return rows;
 }
 
 struct Kind {
   std::string name;
-  Rows (*rows)(const CommandLine& line);
+  Rows (*rows)(const CommandLine& line, const EngineTable& engines);
 };
 const std::vector<Kind> kKinds = {{"cases", case_rows},
                                   {"engines", engine_rows},
@@ -94,7 +99,7 @@ std::string table(const Rows& rows) {
 
 }  // namespace
 
-int list_command(const CommandLine& line) {
+int list_command(const CommandLine& line, const EngineTable& engines) {
   std::vector<std::string> names;
   for (const Kind& kind : kKinds) names.push_back(kind.name);
   for (const std::string& word : line.words) {
@@ -107,9 +112,10 @@ int list_command(const CommandLine& line) {
   for (const Kind& kind : kKinds) {
     const bool is_wanted =
         line.words.empty() || std::find(line.words.begin(), line.words.end(), kind.name) != line.words.end();
-    if (is_wanted) text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", kind.name, table(kind.rows(line)));
+    if (is_wanted)
+      text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", kind.name, table(kind.rows(line, engines)));
   }
-  print(text);
+  print_table(text);
   return kGood;
 }
 

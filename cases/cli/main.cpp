@@ -1,7 +1,5 @@
 // rigor: parse, run, answer with an exit code: 0 good, 1 a gate failed, 2 bad usage or input, 3 an engine or Rigor
 // failed.
-#include <fmt/format.h>
-
 #include <csignal>
 #include <exception>
 
@@ -15,9 +13,9 @@ namespace {
 
 int answer(int argc, const char* const* argv) {
   const rigor::CommandLine line = rigor::parse_command_line(argc, argv);
-  if (!line.printed.empty()) return rigor::print(line.printed), rigor::kGood;
+  if (!line.printed.empty()) return rigor::print_table(line.printed), rigor::kGood;
   for (const rigor::CommandRow& row : rigor::commands()) {
-    if (row.name == line.command) return row.run(line);
+    if (row.name == line.command) return row.run(line, rigor::built_in_engines());
   }
   throw std::logic_error("a command that is not in the table");
 }
@@ -25,21 +23,20 @@ int answer(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);
+  // Such a write then fails with a reason, which is said.
+  std::signal(SIGPIPE, SIG_IGN), std::signal(SIGXFSZ, SIG_IGN);
   try {
+    rigor::take_standard_streams();
     return answer(argc, argv);
   } catch (const rigor::InputError& error) {
-    fmt::print(stderr, "rigor: {}\n", error.what());
+    rigor::say(error.what());
     return rigor::kBadInput;
-  } catch (const rigor::ReaderGone&) {
-    return rigor::kGood;
   } catch (const rigor::Interrupted& interruption) {
-    fmt::print(stderr,
-               "\nrigor: interrupted; no output was changed. What was computed is kept: --resume goes on from it\n");
+    rigor::say("interrupted; no output was changed. What was computed is kept: --resume goes on from it");
     std::signal(interruption.signal, SIG_DFL);
     std::raise(interruption.signal);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "rigor: {}\n", error.what());
+    rigor::say(error.what());
   }
   return rigor::kBroken;
 }

@@ -1,18 +1,71 @@
 #include "cases/cli/output.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
 namespace rigor {
+namespace {
+
+// Bytes of the UTF-8 character that begins at `at`, 0 where none does.
+std::size_t length_of_character(const std::string& text, std::size_t at) {
+  const unsigned char first = text[at];
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xc2 ? 0
+                             : first < 0xe0 ? 2
+                             : first < 0xf0 ? 3
+                             : first < 0xf5 ? 4
+                                            : 0;
+  if (length == 0 || text.size() - at < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return 0;
+  }
+  return length;
+}
+
+// C0 and DEL, and C1, of which some terminals obey the single bytes too: those are no UTF-8.
+bool is_control(const std::string& text, std::size_t at) {
+  const unsigned char first = text[at];
+  return first < 0x20 || first == 0x7f || (first == 0xc2 && static_cast<unsigned char>(text[at + 1]) < 0xa0);
+}
+
+}  // namespace
+
+void take_standard_streams() {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
+    if (fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
+    if (open("/dev/null", O_RDWR) != descriptor) throw std::runtime_error("/dev/null cannot be opened");
+  }
+}
+
+std::string harmless(const std::string& text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = length_of_character(text, at);
+    const bool is_good = length > 0 && (text[at] == '\n' || !is_control(text, at));
+    out += is_good ? text.substr(at, length) : " ";
+    at += length > 0 ? length : 1;
+  }
+  return out;
+}
 
 void print(const std::string& text) {
+  static const bool is_terminal = isatty(STDOUT_FILENO) == 1;
+  const std::string shown = is_terminal ? harmless(text) : text;
   errno = 0;
-  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-  if (is_written) return;
-  if (errno == EPIPE) throw ReaderGone();
-  throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
+  const bool is_written =
+      std::fwrite(shown.data(), 1, shown.size(), stdout) == shown.size() && std::fflush(stdout) == 0;
+  if (!is_written && errno != EPIPE)
+    throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
+}
+
+void say(const std::string& line) {
+  const std::string shown = "rigor: " + harmless(line) + "\n";
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
 }  // namespace rigor

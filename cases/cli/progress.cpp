@@ -21,7 +21,7 @@ bool wants_colour() {
 Progress::Progress() : is_terminal_(isatty(STDERR_FILENO) == 1), has_colour_(is_terminal_ && wants_colour()) {}
 
 Progress::~Progress() {
-  if (is_terminal_) fmt::print(stderr, "\r{:60}\r", ""), std::fflush(stderr);
+  if (is_terminal_) std::fputs(fmt::format("\r{:60}\r", "").c_str(), stderr);
 }
 
 void Progress::show(std::size_t done, std::size_t all) {
@@ -30,8 +30,8 @@ void Progress::show(std::size_t done, std::size_t all) {
   const std::size_t filled = all == 0 ? kWidth : done * kWidth / all;
   std::string bar(filled, '#');
   if (has_colour_) bar = "\x1b[32m" + bar + "\x1b[0m";
-  fmt::print(stderr, "\r[{}{}] {}/{}", bar, std::string(kWidth - filled, '.'), done, all);
-  std::fflush(stderr);
+  // Not fmt::print, which throws where stderr cannot be written.
+  std::fputs(fmt::format("\r[{}{}] {}/{}", bar, std::string(kWidth - filled, '.'), done, all).c_str(), stderr);
 }
 
 }  // namespace rigor

@@ -1,15 +1,17 @@
 // rigor run and rigor gate: the grid, its reports, its exit code.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
+#include "cases/case/run_selector.h"
+#include "cases/case/selection.h"
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress.h"
+#include "cases/cli/vocabulary.h"
 #include "cases/gates/deviations.h"
 #include "cases/gates/gates.h"
 #include "cases/gates/quick.h"
@@ -24,13 +26,12 @@
 namespace rigor {
 namespace {
 
-std::vector<RunName> runs_asked_for(const CommandLine& line) {
-  const auto infos = infos_of(engines());
+std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<EngineInfo>& infos) {
   if (line.engines.empty()) return default_runs(infos);
   std::vector<RunName> runs;
   for (const std::string& name : line.engines) {
     RunName run = parse_run_name(name, infos);
-    const auto is_it = [&](const RunName& other) { return other.text == run.text; };
+    const auto is_it = [&](const RunName& other) { return is_same_run(other, run); };
     if (std::none_of(runs.begin(), runs.end(), is_it)) runs.push_back(std::move(run));
   }
   return runs;
@@ -39,42 +40,82 @@ std::vector<RunName> runs_asked_for(const CommandLine& line) {
 // A gate wants what its gates judge, and no more than that unless engines or steps are named.
 bool is_gate(const CommandLine& line) { return line.command == "gate"; }
 
-Results planned(const CommandLine& line, const std::vector<KnownDeviation>& deviations) {
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir);
-  if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, infos_of(engines()));
+Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
+  if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
   for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
-  if (line.quick) cases = quick_selection(cases, infos_of(engines()));
-  const std::vector<RunName> runs = runs_asked_for(line);
+  if (line.quick) cases = quick_selection(cases, engines.infos());
+  const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
   // Who names engines wants these and no others.
-  const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, infos_of(engines())) : std::vector<RunName>();
+  const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, engines.infos()) : std::vector<RunName>();
   const Scope scope{!is_gate(line), is_gate(line) && line.engines.empty() && line.dt.empty()};
-  return plan_grid(cases, runs, engines(), scope, of_gates);
+  return plan_grid(cases, runs, engines, scope, of_gates);
 }
 
-Results simulated_and_written(const CommandLine& line) {
-  const auto deviations = read_known_deviations(line.adapters_dir, infos_of(engines()));
-  Results grid = planned(line, deviations);
+void run_and_judge(Results& grid, const CommandLine& line, const EngineTable& engines,
+                   const RecordedValues& recorded, const std::vector<KnownDeviation>& deviations,
+                   const OutputFolder& folder) {
+  {
+    Progress progress;
+    run_grid(grid, engines,
+             {line.jobs, line.limit, recorders_for(grid, folder.trajectories()), !is_gate(line), !is_gate(line),
+              folder.journals()},
+             [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+  }
+  for (CaseResult& result : grid.cases) {
+    check_gates(result, grid, recorded);
+    apply_known_deviations(result, grid, deviations);
+  }
+}
+
+// Each report by itself, then all that could be written into place. Returns what could not, a sentence each; then the
+// folder keeps what was computed, for another run to go on from.
+std::vector<std::string> write_reports(const Results& grid, OutputFolder& folder) {
+  std::vector<std::string> faults, trajectories;
+  for (const ReportRow& report : reports()) {
+    try {
+      folder.write(report.file_name, report.write(grid));
+    } catch (const std::exception& error) {
+      faults.push_back(fmt::format("{} was not written: {}", report.file_name, error.what()));
+    }
+  }
+  if (!faults.empty()) folder.keep();
+  if (faults.size() == reports().size()) {
+    faults.push_back("no report was written, so no output was changed; --resume goes on from what was computed");
+    return faults;
+  }
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) {
+      if (!cell.trajectory.empty() && cell.status != Status::unsupported) trajectories.push_back(cell.trajectory);
+    }
+  }
+  folder.publish(trajectories);
+  if (!faults.empty()) faults.push_back("the other outputs are in place; --resume writes all of them again");
+  return faults;
+}
+
+struct Written {
+  Results grid;
+  bool is_whole = true;  // every report could be written
+};
+
+Written simulated_and_written(const CommandLine& line, const EngineTable& engines) {
+  const auto deviations = read_known_deviations(line.adapters_dir, engines.infos());
+  const RecordedValues recorded = read_recorded_values(line.adapters_dir, engines.infos());
+  Written out{planned(line, engines, deviations)};
   std::vector<std::string> file_names;
   for (const ReportRow& report : reports()) file_names.push_back(report.file_name);
   OutputFolder folder(line.out, file_names, line.resume);
   try {
-    Progress progress;
-    run_grid(grid, engines(),
-             {line.jobs, line.limit, folder.trajectories(), !is_gate(line), !is_gate(line), folder.journals()},
-             [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-  } catch (const Interrupted&) {
+    run_and_judge(out.grid, line, engines, recorded, deviations, folder);
+    const auto faults = write_reports(out.grid, folder);
+    for (const std::string& fault : faults) say(fault);
+    out.is_whole = faults.empty();
+  } catch (...) {  // Interrupted, too
     folder.keep();
     throw;
   }
-  std::vector<std::string> trajectories;
-  for (CaseResult& result : grid.cases) {
-    check_gates(result, grid);
-    apply_known_deviations(result, grid, deviations);
-    for (const Cell& cell : result.cells) trajectories.push_back(cell.trajectory);
-  }
-  for (const ReportRow& report : reports()) folder.write(report.file_name, report.write(grid));
-  folder.publish(trajectories);
-  return grid;
+  return out;
 }
 
 // A cell that crashed or ran out of time. The search for a stable step may take longer than it is given, which leaves a
@@ -90,40 +131,58 @@ bool something_broke(const Results& grid) {
 }
 
 // What `run` answers with, gates aside.
-int ending_of(const Results& grid) {
+int ending_of(const Written& written) {
+  const Results& grid = written.grid;
   for (const CaseResult& result : grid.cases) {
-    if (result.error_is_input) return fmt::print(stderr, "rigor: {}\n", result.error), kBadInput;
+    if (result.error_is_input) return say(result.error), kBadInput;
   }
-  return something_broke(grid) ? kBroken : kGood;
+  int ending = written.is_whole && !something_broke(grid) ? kGood : kBroken;
+  for (const CaseResult& result : grid.cases) {
+    if (!result.error.empty()) say(fmt::format("{}: {}", result.definition.id, result.error)), ending = kBroken;
+  }
+  return ending;
 }
 
 // On a GitHub runner: annotations on stdout, where it looks for them, and the job's summary.
 void tell_the_runner(const Results& grid, const std::vector<Shortfall>& rows) {
   const char *is_one = std::getenv("GITHUB_ACTIONS"), *summary = std::getenv("GITHUB_STEP_SUMMARY");
-  if (is_one && std::string(is_one) == "true") print(annotations(rows));
+  if (is_one && std::string(is_one) == "true") print_table(annotations(rows));
   if (!summary || !*summary) return;
   std::ofstream file(summary, std::ios::binary | std::ios::app);
   file << job_summary(grid);
   file.close();
-  if (!file) fmt::print(stderr, "rigor: the job's summary could not be written to '{}'\n", summary);
+  if (!file) say(fmt::format("the job's summary could not be written to '{}'", summary));
+}
+
+// Of the whole suite each gate of a family has to meet something; of a part of it, another part may be meant.
+std::vector<Shortfall> unmet_of_whole_suite(const CommandLine& line, const Results& grid) {
+  std::vector<Shortfall> rows;
+  if (!line.words.empty() || !line.engines.empty() || !line.dt.empty() || line.quick) return rows;
+  for (const Gate& gate : unmet_family_gates(grid))
+    rows.push_back(
+        {"the suite", "", "", gate.metric, "", "", "", "no cell of any case has it for this gate", gate.where});
+  return rows;
 }
 
 }  // namespace
 
-int run_command(const CommandLine& line) {
-  const Results grid = simulated_and_written(line);
-  const int ending = ending_of(grid);
-  print(console_table(grid));
+int run_command(const CommandLine& line, const EngineTable& engines) {
+  const Written written = simulated_and_written(line, engines);
+  const int ending = ending_of(written);
+  print_table(console_table(written.grid));
   return ending;
 }
 
-int gate_command(const CommandLine& line) {
-  const Results grid = simulated_and_written(line);
-  const int ending = ending_of(grid);
-  const std::vector<Shortfall> rows = shortfalls(grid);
-  print(console_table(grid) + gate_summary(grid) + shortfalls_text(rows));
+int gate_command(const CommandLine& line, const EngineTable& engines) {
+  const Written written = simulated_and_written(line, engines);
+  const Results& grid = written.grid;
+  const int ending = ending_of(written);
+  std::vector<Shortfall> rows = shortfalls(grid);
+  const std::vector<Shortfall> unmet = unmet_of_whole_suite(line, grid);
+  rows.insert(rows.end(), unmet.begin(), unmet.end());
+  print_table(console_table(grid) + gate_summary(grid) + shortfalls_text(rows));
   tell_the_runner(grid, rows);
-  return ending == kGood && !all_gates_hold(grid) ? int{kGateFailed} : ending;
+  return ending == kGood && !(all_gates_hold(grid) && unmet.empty()) ? int{kGateFailed} : ending;
 }
 
 }  // namespace rigor

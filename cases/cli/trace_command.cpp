@@ -7,10 +7,12 @@
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/vocabulary.h"
 #include "cases/report/csv/trajectory_csv.h"
 #include "cases/runner/grid.h"
 #include "cases/runner/process_pool.h"
 #include "cases/runner/simulate.h"
+#include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 
@@ -27,7 +29,7 @@ int print_from_child(const std::string& what, double limit, const std::function<
   int code = kGood;
   const auto on_message = [](std::size_t, const std::string& message) {
     if (message.starts_with(kNote)) {
-      fmt::print(stderr, "rigor: {}\n", message.substr(1));
+      say(message.substr(1));
     } else {
       print(message);
     }
@@ -35,7 +37,7 @@ int print_from_child(const std::string& what, double limit, const std::function<
   const auto on_end = [&](std::size_t, const JobEnd& end) {
     if (end.how == Ending::finished) return;
     if (end.how == Ending::refused) throw InputError(end.text);
-    fmt::print(stderr, "rigor: {}: {}\n", what, sentence_of(end, limit));
+    say(fmt::format("{}: {}", what, sentence_of(end, limit)));
     code = kBroken;
   };
   run_jobs({{work, limit}}, 1, on_message, on_end);
@@ -81,23 +83,23 @@ std::vector<double> times_of_run(const Case& definition) {
 
 }  // namespace
 
-Case the_case(const CommandLine& line) {
+Case the_case(const CommandLine& line, const EngineTable& engines) {
   if (line.words.empty()) throw InputError(fmt::format("rigor {}: which case? see rigor list cases", line.command));
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir);
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
   if (cases.size() == 1) return cases.front();
   throw InputError(
       fmt::format("rigor {}: takes one case, and {} names {} of them", line.command, line.words.front(), cases.size()));
 }
 
-int trace_command(const CommandLine& line) {
-  Case definition = the_case(line);
+int trace_command(const CommandLine& line, const EngineTable& engines) {
+  Case definition = the_case(line, engines);
   if (line.engines.size() != 1) throw InputError("rigor trace: takes exactly one --engine; see rigor list engines");
   if (line.dt.size() != 1) throw InputError("rigor trace: takes exactly one --dt");
   override_run(definition, {line.dt, line.duration});
-  const RunName run = parse_run_name(line.engines.front(), infos_of(engines()));
-  const Engine& engine = find_engine(engines(), run.engine);
+  const RunName run = parse_run_name(line.engines.front(), engines.infos());
+  const Engine& engine = engines.find(run.engine);
   const double dt = line.dt.front().seconds;
-  const std::string why = why_unsupported(engine.info(), run.settings, definition.scene, dt);
+  const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt);
   if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
   return print_from_child(run.text, line.limit, [&](const Channel& channel) {
     send_trajectory(simulate(engine, run.settings, definition.scene, dt, definition.duration), definition.scene,
@@ -105,14 +107,15 @@ int trace_command(const CommandLine& line) {
   });
 }
 
-int truth_command(const CommandLine& line) {
-  Case definition = the_case(line);
+int truth_command(const CommandLine& line, const EngineTable& engines) {
+  Case definition = the_case(line, engines);
   if (definition.truth == "none")
     throw InputError(fmt::format("{}: the case states no truth (truth.kind is \"none\")", definition.id));
   if (line.duration) definition.duration = *line.duration;
   std::vector<double> times = line.times;
   if (times.empty()) override_run(definition, {}), times = times_of_run(definition);
   const double end = std::max(definition.duration, *std::max_element(times.begin(), times.end()));
+  fmt::print(stderr, "rigor: the truth '{}' is {}\n", definition.truth, provenance_of(definition.truth));
   return print_from_child("the truth of " + definition.id, line.limit, [&](const Channel& channel) {
     send_truth(*make_truth(definition.truth, definition.scene, end), definition.scene, times, channel);
   });

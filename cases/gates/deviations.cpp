@@ -14,8 +14,8 @@ bool names_run(const KnownDeviation& row, const RunName& run) {
   return std::any_of(row.runs.begin(), row.runs.end(), [&](const RunName& own) { return is_same_run(own, run); });
 }
 
-bool names_step(const KnownDeviation& row, double dt) {
-  return row.dt.empty() || std::any_of(row.dt.begin(), row.dt.end(), [&](double own) { return is_same_step(own, dt); });
+bool names_step(const KnownDeviation& row, const StepSize& dt) {
+  return row.dt.empty() || std::find(row.dt.begin(), row.dt.end(), dt) != row.dt.end();
 }
 
 bool can_meet(const KnownDeviation& row, const Gate& gate, const Case& definition,
@@ -23,10 +23,9 @@ bool can_meet(const KnownDeviation& row, const Gate& gate, const Case& definitio
   const GateSelection selection(gate, engines);
   const bool has_run =
       std::any_of(row.runs.begin(), row.runs.end(), [&](const RunName& run) { return selection.takes(run); });
-  const bool has_step = std::any_of(definition.dt.begin(), definition.dt.end(), [&](const StepSize& dt) {
-    return selection.takes(dt) && names_step(row, dt.seconds);
-  });
-  return gate.metric == row.metric && has_run && has_step;
+  const bool has_step = std::any_of(definition.dt.begin(), definition.dt.end(),
+                                    [&](const StepSize& dt) { return selection.takes(dt) && names_step(row, dt); });
+  return !gate.regression && gate.metric == row.metric && has_run && has_step;
 }
 
 const RunName* run_called(const Results& grid, const std::string& name) {
@@ -36,12 +35,13 @@ const RunName* run_called(const Results& grid, const std::string& name) {
 
 bool speaks_of(const KnownDeviation& row, const GateResult& answer, const CaseResult& result, const Results& grid) {
   const RunName* run = run_called(grid, answer.engine);
+  if (result.definition.gates[answer.gate].regression) return false;  // guards what is known as well
   if (row.case_id != result.definition.id || row.metric != result.definition.gates[answer.gate].metric) return false;
   if (!run || !names_run(row, *run)) return false;
   if (answer.dt.empty()) return row.dt.empty();
   const auto& steps = result.definition.dt;
   const auto step = std::find_if(steps.begin(), steps.end(), [&](const StepSize& s) { return s.text == answer.dt; });
-  return step != steps.end() && names_step(row, step->seconds);
+  return step != steps.end() && names_step(row, *step);
 }
 
 void apply(const KnownDeviation& row, GateResult& answer) {

@@ -14,7 +14,7 @@ struct KnownDeviation {
   std::string case_id;
   std::string metric;         // of the gate that fails
   std::vector<RunName> runs;  // of one engine
-  std::vector<double> dt;     // s; empty: every step, and the gates over several of them
+  std::vector<StepSize> dt;   // empty: every step, and the gates over several of them
   std::string reason;
   std::string where;  // "file:line:column"
 };

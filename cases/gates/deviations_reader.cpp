@@ -43,8 +43,10 @@ KnownDeviation read_row(const TableReader& table, const std::string& engine, con
     row.runs.push_back(parse_run_name(engine, engines));
   }
   if (const auto steps = table.find("dt")) {
-    for (const TomlValue& step : steps->items())
-      row.dt.push_back(step.is_text() ? parse_step_size(step.text(), step.label()).seconds : step.positive());
+    for (const TomlValue& step : steps->items()) {
+      row.dt.push_back(step.is_text() ? parse_step_size(step.text(), step.label())
+                                      : StepSize{step.positive(), fmt::format("{}", step.positive())});
+    }
   }
   row.reason = table.at("reason").text();
   return row;

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "cases/report/console/console_table.h"
-
 namespace rigor {
 namespace {
 
@@ -22,8 +20,10 @@ std::string unit_of(const std::string& metric) {
 
 std::string limit_of(const Gate& gate) {
   const std::string unit = unit_of(gate.metric);
+  if (gate.declares_order) return "the order that its method declares, less a tenth";
   if (gate.at_least_order) return fmt::format("order at least {:g}", *gate.at_least_order);
   if (gate.equals) return fmt::format("equal to {:.17g}{}", *gate.equals, unit);
+  if (gate.regression) return fmt::format("within {:g} times the recorded value", *gate.regression);
   if (!gate.better_than.empty()) return "better than " + gate.better_than;
   std::string text;
   if (gate.min) text = fmt::format("at least {:g}{}", *gate.min, unit);
@@ -45,12 +45,17 @@ Shortfall of_gate(const CaseResult& result, const GateResult& answer) {
   row.found = answer.value ? fmt::format("{:.6g}{}", *answer.value, unit) : word_of(answer.answer);
   row.worst = worst_text(answer, result.definition.scene);
   row.because = answer.answer == GateAnswer::failed && answer.value ? gate.because : answer.text;
+  if (gate.regression) row.what += " (regression)";
   if (answer.answer == GateAnswer::unexpected_pass) row.what += ", unexpected pass";
   return row;
 }
 
-bool came_to_nothing(Status status) {
-  return status == Status::crashed || status == Status::timed_out || status == Status::invalid;
+// A cell that is invalid may be one of which nobody expects a result.
+bool came_to_nothing(const Cell& cell, const CaseResult& result, const Results& results) {
+  if (cell.status != Status::invalid) return cell.status == Status::crashed || cell.status == Status::timed_out;
+  return std::any_of(result.gates.begin(), result.gates.end(), [&](const GateResult& answer) {
+    return answer.engine == results.runs[cell.run].text && answer.dt == cell.dt.text && falls_short(answer.answer);
+  });
 }
 
 }  // namespace
@@ -62,34 +67,15 @@ std::vector<Shortfall> shortfalls(const Results& results) {
     if (!result.error.empty())
       rows.push_back({definition.id, "", "", "truth", "", "", "", result.error, definition.truth_where});
     for (const Cell& cell : result.cells) {
-      if (came_to_nothing(cell.status) && result.error.empty())
+      if (came_to_nothing(cell, result, results) && result.error.empty())
         rows.push_back({definition.id, results.runs[cell.run].text, cell.dt.text, word_of(cell.status), "", "", "",
                         cell.reason, ""});
     }
     for (const GateResult& answer : result.gates) {
-      if (answer.answer != GateAnswer::held && answer.answer != GateAnswer::known_deviation)
-        rows.push_back(of_gate(result, answer));
+      if (falls_short(answer.answer)) rows.push_back(of_gate(result, answer));
     }
   }
   return rows;
-}
-
-std::string shortfalls_text(const std::vector<Shortfall>& rows) {
-  if (rows.empty()) return "";
-  std::string text = fmt::format("what fell short: {}\n", rows.size());
-  for (const Shortfall& row : rows) {
-    std::string line = row.case_id;
-    if (!row.engine.empty()) line += fmt::format(", {}", row.engine);
-    if (!row.dt.empty()) line += fmt::format(", dt = {} s", row.dt);
-    line += fmt::format(": {}", row.what);
-    if (!row.found.empty()) line += fmt::format(" {}", row.found);
-    if (!row.limit.empty()) line += fmt::format("; wanted: {}", row.limit);
-    if (!row.worst.empty()) line += fmt::format("; worst {}", row.worst);
-    if (!row.because.empty()) line += fmt::format("; because: {}", row.because);
-    if (!row.where.empty()) line += fmt::format(" [{}]", row.where);
-    text += "  " + wrapped(line, 4) + "\n";
-  }
-  return text;
 }
 
 }  // namespace rigor

@@ -20,7 +20,4 @@ struct Shortfall {
 
 std::vector<Shortfall> shortfalls(const Results& results);
 
-// For the console: a paragraph each, worst things first.
-std::string shortfalls_text(const std::vector<Shortfall>& rows);
-
 }  // namespace rigor

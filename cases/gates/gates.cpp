@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
-#include "cases/analysis/observed_order.h"
 #include "cases/case/selection.h"
+#include "cases/results/observed_order.h"
+#include "cases/truth/provenance.h"
 
 namespace rigor {
 namespace {
@@ -30,9 +32,10 @@ bool is_higher_better(const std::string& metric) {
 // One gate over one case.
 class GateCheck {
  public:
-  GateCheck(CaseResult& result, const Results& grid, std::size_t index)
+  GateCheck(CaseResult& result, const Results& grid, const RecordedValues& recorded, std::size_t index)
       : result_(result),
         grid_(grid),
+        recorded_(recorded),
         index_(index),
         gate_(result.definition.gates[index]),
         selection_(gate_, grid.engines),
@@ -50,20 +53,26 @@ class GateCheck {
       for (std::size_t run = 0; run < grid_.runs.size(); ++run) check_order(run);
     } else {
       for (Cell& cell : result_.cells) {
-        if (selects(cell)) gate_.better_than.empty() ? check_cell(cell) : check_ranking(cell);
+        if (!selects(cell)) continue;
+        gate_.regression ? check_regression(cell) : gate_.better_than.empty() ? check_cell(cell) : check_ranking(cell);
       }
     }
-    if (result_.gates.size() == before) {
+    if (result_.gates.size() == before && !gate_.is_of_family) {
       add("", "", GateAnswer::not_checked,
           fmt::format("{}: no cell that ran has {} for this gate to judge", gate_.where, gate_.metric));
     }
   }
 
  private:
-  bool selects(std::size_t run) const { return selection_.takes(grid_.runs[run]); }
+  bool selects(std::size_t run) const { return selection_.takes(grid_.runs[run]) && !is_made_like_truth(run); }
   bool selects(const StepSize& dt) const { return selection_.takes(dt); }
   bool selects(const Cell& cell) const {
     return cell.status != Status::unsupported && selects(cell.run) && selects(cell.dt);
+  }
+  // A gate that names no runs passes over those that come from the same code as the truth.
+  bool is_made_like_truth(std::size_t run) const {
+    const Case& of = result_.definition;
+    return is_held_to_itself(of.truth, gate_.metric, grid_.runs[run], of.scene);
   }
   const std::string& name_of(const Cell& cell) const { return grid_.runs[cell.run].text; }
 
@@ -101,11 +110,33 @@ class GateCheck {
         metric->value, metric->worst);
   }
 
+  // A run that blew up, or did not do what its method promises, has no value to hold or to record.
+  void check_regression(Cell& cell) {
+    const std::string head = fmt::format("{} of {} at dt = {}", gate_.metric, name_of(cell), cell.dt.text);
+    const auto was = recorded_.find(result_.definition.id, grid_.runs[cell.run], cell.dt.seconds, gate_.metric);
+    if (!was && cell.status == Status::invalid)
+      return add(name_of(cell), cell.dt.text, GateAnswer::not_recorded, head + " is none, and none is recorded");
+    const MetricValue* metric = value_to_judge(cell, head);
+    if (!metric) return;
+    const bool blew_up = cell.status == Status::diverged;
+    if (!was) {
+      return add(name_of(cell), cell.dt.text, GateAnswer::not_recorded,
+                 fmt::format("{} is {:.6g}{}, and none is recorded", head, metric->value, unit_),
+                 blew_up ? std::nullopt : std::optional(metric->value), metric->worst);
+    }
+    const std::string change =
+        blew_up ? "of no meaning, for the run is " + cell.reason : change_from(*was, metric->value, *gate_.regression);
+    const std::string both = fmt::format("{} is {:.6g}{}, was {:.6g}{}", head, metric->value, unit_, *was, unit_);
+    if (!change.empty())
+      return fail(cell, fmt::format("{}: {}; {}{}", both, change, worst_of(*metric), because()), *metric);
+    add(name_of(cell), cell.dt.text, GateAnswer::held, both, metric->value, metric->worst);
+  }
+
   // A run that blew up is worse than any that did not; of two that did neither is better.
   void check_ranking(Cell& cell) {
     const RunName other_run = parse_run_name(gate_.better_than, grid_.engines);
     const auto other = std::find_if(result_.cells.begin(), result_.cells.end(), [&](const Cell& c) {
-      return is_same_run(grid_.runs[c.run], other_run) && c.dt.seconds == cell.dt.seconds;
+      return is_same_run(grid_.runs[c.run], other_run) && c.dt == cell.dt;
     });
     if (other == result_.cells.end() || other->status == Status::unsupported) return;
     const std::string head = fmt::format("{} of {} at dt = {}", gate_.metric, name_of(cell), cell.dt.text);
@@ -189,7 +220,7 @@ class GateCheck {
     if (!selects(spread.first) || !selects(spread.second) || !selects(spread.dt)) return;
     const bool both_have_results = std::all_of(result_.cells.begin(), result_.cells.end(), [&](const Cell& cell) {
       const bool is_of_pair = cell.run == spread.first || cell.run == spread.second;
-      return !is_of_pair || cell.dt.seconds != spread.dt.seconds || has_result(cell);
+      return !is_of_pair || cell.dt != spread.dt || has_result(cell);
     });
     if (!both_have_results) return;
     const Furthest& worst = gate_.metric == "spread" ? spread.distance : spread.angle;
@@ -199,7 +230,28 @@ class GateCheck {
            fmt::format("worst at {:.6g} s: {}", worst.time, result_.definition.scene.body_name(worst.body)));
   }
 
+  // What an order has to be at least: the gate's own, or what the method declares. An adaptive one declares none.
+  std::optional<double> wanted_order(std::size_t run) const {
+    if (!gate_.declares_order) return gate_.at_least_order;
+    const RunName& name = grid_.runs[run];
+    for (const EngineInfo& engine : grid_.engines) {
+      if (engine.name != name.engine) continue;
+      const MethodInfo& method = method_of(engine, name.settings);
+      if (!method.adaptive) return method.order - *gate_.at_least_order;
+    }
+    return std::nullopt;
+  }
+
+  // A gate that speaks of every method has to leave aside the steps at which one is not yet near its limit, and those
+  // at which only roundings are left.
+  bool shows_order(double error) const {
+    constexpr double kLarge = 0.03, kRoundings = 1e-10;  // m, rad: the second after thousands of steps
+    return !gate_.declares_order || (error < kLarge && error > std::max(kRoundings, 100 * error_floor(result_)));
+  }
+
   void check_order(std::size_t run) {
+    const std::optional<double> wanted = wanted_order(run);
+    if (!wanted) return;
     std::vector<double> dt, values;
     std::string table;
     const Cell* worst = nullptr;
@@ -207,12 +259,15 @@ class GateCheck {
       if (cell.run != run || !selects(cell)) continue;
       const auto found = cell.metrics.find(gate_.metric);
       if (found != cell.metrics.end() && !found->second.not_applicable.empty()) continue;
+      // A step that is too long for a method says nothing of the order that it declares.
+      if (gate_.declares_order && cell.status == Status::diverged) continue;
       if (found == cell.metrics.end() || (cell.status != Status::pass && cell.status != Status::fail)) {
         add(grid_.runs[run].text, "", GateAnswer::failed,
             fmt::format("the order of {} of {} cannot be judged, for the cell at dt = {} is {}: {}", gate_.metric,
                         grid_.runs[run].text, cell.dt.text, word_of(cell.status), cell.reason));
         return;
       }
+      if (!shows_order(found->second.value)) continue;
       dt.push_back(cell.dt.seconds), values.push_back(found->second.value);
       table += fmt::format("{}{:.4g} at {}", table.empty() ? "" : ", ", found->second.value, cell.dt.text);
       if (!worst || found->second.value > worst->metrics.at(gate_.metric).value) worst = &cell;
@@ -221,18 +276,18 @@ class GateCheck {
     const double order = fitted_order(dt, values);
     const std::string head =
         fmt::format("the observed order of {} of {} is {:.3g} ({})", gate_.metric, grid_.runs[run].text, order, table);
-    if (order >= *gate_.at_least_order) {
+    if (order >= *wanted) {
       add(grid_.runs[run].text, "", GateAnswer::held, head, order);
     } else {
       add(grid_.runs[run].text, "", GateAnswer::failed,
-          fmt::format("{}, below {:g}; {}{}", head, *gate_.at_least_order, worst_of(worst->metrics.at(gate_.metric)),
-                      because()),
+          fmt::format("{}, below {:g}; {}{}", head, *wanted, worst_of(worst->metrics.at(gate_.metric)), because()),
           order, worst->metrics.at(gate_.metric).worst);
     }
   }
 
   CaseResult& result_;
   const Results& grid_;
+  const RecordedValues& recorded_;
   std::size_t index_;
   const Gate& gate_;
   GateSelection selection_;
@@ -241,17 +296,32 @@ class GateCheck {
 
 }  // namespace
 
-void check_gates(CaseResult& result, const Results& grid) {
+void check_gates(CaseResult& result, const Results& grid, const RecordedValues& recorded) {
   result.gates.clear();
-  for (std::size_t i = 0; i < result.definition.gates.size(); ++i) GateCheck(result, grid, i).check();
+  for (std::size_t i = 0; i < result.definition.gates.size(); ++i) GateCheck(result, grid, recorded, i).check();
 }
 
 bool all_gates_hold(const Results& grid) {
   return std::all_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& result) {
-    return result.error.empty() && std::all_of(result.gates.begin(), result.gates.end(), [](const GateResult& gate) {
-             return gate.answer == GateAnswer::held || gate.answer == GateAnswer::known_deviation;
-           });
+    return result.error.empty() && std::none_of(result.gates.begin(), result.gates.end(),
+                                                [](const GateResult& gate) { return falls_short(gate.answer); });
   });
+}
+
+std::vector<Gate> unmet_family_gates(const Results& grid) {
+  std::map<std::string, const Gate*> unmet;  // by where it stands and its metric
+  const auto key = [](const Gate& gate) { return gate.where + " " + gate.metric; };
+  for (const CaseResult& result : grid.cases) {
+    for (const Gate& gate : result.definition.gates) {
+      if (gate.is_of_family) unmet.emplace(key(gate), &gate);
+    }
+  }
+  for (const CaseResult& result : grid.cases) {
+    for (const GateResult& answer : result.gates) unmet.erase(key(result.definition.gates[answer.gate]));
+  }
+  std::vector<Gate> gates;
+  for (const auto& [name, gate] : unmet) gates.push_back(*gate);
+  return gates;
 }
 
 }  // namespace rigor

@@ -1,6 +1,7 @@
 // Holds the results of a case against the gates its file states.
 #pragma once
 
+#include "cases/gates/regression.h"
 #include "cases/results/results.h"
 
 namespace rigor {
@@ -11,10 +12,13 @@ inline constexpr double kRounding = 1e-9;
 
 // Fills in result.gates, and turns a cell that did `pass` into `fail` where a gate says so. A gate on a cell that
 // crashed, timed out or is invalid fails; one that is unsupported or has no such metric it does not meet. A gate that
-// met no cell is `not_checked`, once.
-void check_gates(CaseResult& result, const Results& grid);
+// met no cell is `not_checked`, once; a family's says nothing then, see unmet_family_gates.
+void check_gates(CaseResult& result, const Results& grid, const RecordedValues& recorded = {});
 
 // Whether every gate was checked and held, and every case could be judged.
 bool all_gates_hold(const Results& grid);
+
+// Those of families that no cell of any case met: of a whole suite there should be none.
+std::vector<Gate> unmet_family_gates(const Results& grid);
 
 }  // namespace rigor

@@ -1,7 +1,3 @@
-// Drifting: the energy, with the velocities brought to the positions' time, has moved away from what it should be by
-// more than 1 % of the largest kinetic energy between the first and the last tenth of what can be compared
-// (energy_series.h says what it should be and how far). Means of tenths, because a bounded oscillation of the energy is
-// no drift.
 #include "cases/metrics/stability.h"
 
 #include <fmt/format.h>
@@ -9,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/metrics/measures/energy_in_play.h"
 #include "cases/metrics/measures/energy_series.h"
-#include "cases/metrics/measures/momentum_series.h"
 #include "core/dynamics/model/energy.h"
 #include "core/dynamics/model/system.h"
 #include "core/scene/contact_laws.h"
@@ -18,40 +14,7 @@
 namespace rigor {
 namespace {
 
-constexpr double kBlownUp = 10;                             // times the energy in play
-constexpr double kDrifting = 0.01;                          // of the largest kinetic energy
-constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
-constexpr double kStepPrecision = 1.01;                     // 1 %
-
-// From one step tried to the next. Springs resonate with a step in narrow bands of it; bodies that touch and have none
-// do not: 333 of 334 searches of the suite found the same at 20 % as at 3 %.
-double sweep_of(const Scene& scene) { return anything_can_touch(scene) && scene.springs.empty() ? 1.2 : 1.03; }
-
-// Friction and impacts may take any amount of energy, as on a long slope: there only a rise is a blow-up. False, too,
-// where the energy is not a number.
-bool is_bounded(double change, double largest, bool may_lose) {
-  return may_lose ? change <= kBlownUp * largest : std::abs(change) <= kBlownUp * largest;
-}
-
-// Every body sped up straight by gravity and the timed forces on it, and what the springs store on top.
-double most_kinetic_energy_from(const Scene& scene, double duration) {
-  BodyTable start(scene.bodies.size());
-  set_initial_state(scene, start.columns());
-  Scene springs_alone = scene;
-  springs_alone.gravity.setZero();
-  double sum = potential_energy(springs_alone, start.columns());
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.fixed) continue;
-    double gained = scene.gravity.norm() * duration;
-    for (const TimedForce& force : scene.forces) {
-      if (force.body == static_cast<int>(i)) gained += acting_time(force, duration) * force.force.norm() / body.mass;
-    }
-    const double speed = body.velocity.norm();
-    sum += kinetic_energy_of(scene, start.columns(), i) + 0.5 * body.mass * gained * (2 * speed + gained);
-  }
-  return sum;
-}
+constexpr double kBlownUp = 10;  // times the energy in play
 
 int liveliest_body(const Scene& scene, BodyColumns bodies) {
   int liveliest = kWorld;
@@ -80,73 +43,22 @@ std::optional<Stability> energy_explosion(const Scene& scene, const Trajectory& 
   return {};
 }
 
-// The mean deviation of the last tenth of the samples less that of the first, in J.
-double secular_change(const EnergySeries& energies) {
-  const std::size_t count = energies.expected.size(), tenth = std::max<std::size_t>(1, count / 10);
-  const auto mean_from = [&](std::size_t first) {
-    double sum = 0;
-    for (std::size_t n = first; n < first + tenth; ++n) sum += energies.found[n] - energies.expected[n];
-    return sum / static_cast<double>(tenth);
-  };
-  return mean_from(count - tenth) - mean_from(0);
-}
-
-Stability drift(const JudgedRun& run, double largest) {
-  const EnergySeries energies = energy_series(run, run.leapfrog_stagger);
-  if (!energies.not_applicable.empty()) {
-    return {Verdict::stable, 0, kWorld,
-            "the energy stays bounded; whether it drifts is not known: " + energies.not_applicable};
-  }
-  const double change = secular_change(energies), share = largest > 0 ? change / largest : 0;
-  const Verdict verdict = std::abs(share) > kDrifting ? Verdict::drifting : Verdict::stable;
-  return {
-      verdict, 0, kWorld,
-      fmt::format("from the first to the last tenth of {:.4g} s the energy moved by {:+.3g} % of the largest kinetic "
-                  "energy from where it should be",
-                  run.trajectory.samples[energies.expected.size() - 1].time, 100 * share)};
-}
-
-bool survives(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double horizon,
-              double largest) {
-  const std::unique_ptr<World> world = engine.load(scene, settings);
-  Snapshot now;
-  world->read(now);
-  const double start = energy(scene, now.bodies());
-  const bool may_lose = contact_may_lose(scene);
-  const long whole = steps_in(horizon, dt),
-             steps = static_cast<double>(whole) * dt < horizon * (1 - 1e-9) ? whole + 1 : whole;
-  for (long n = 0; n < steps; ++n) {
-    world->step(dt);
-    world->read(now);
-    if (!is_bounded(energy(scene, now.bodies()) - start, largest, may_lose)) return false;
-  }
-  return true;
 }
 
 }  // namespace
 
-std::string word_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::stable:
-      return "stable";
-    case Verdict::drifting:
-      return "drifting";
-    case Verdict::blown_up:
-      return "blown up";
-  }
-  return "";
+bool is_bounded(double change, double energy_in_play, bool may_lose) {
+  return may_lose ? change <= kBlownUp * energy_in_play : std::abs(change) <= kBlownUp * energy_in_play;
 }
 
-Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy,
-                          double leapfrog_stagger, const TruthSamples* truth, double largest_energy_change) {
+Stability judge_stability(const JudgedRun& run, const std::optional<NotFinite>& not_finite,
+                          double largest_kinetic_energy, double largest_energy_change) {
   const double in_play = std::max(largest_kinetic_energy, largest_energy_change);
-  if (const auto explosion = energy_explosion(scene, run.trajectory, in_play)) return *explosion;
-  if (run.not_finite) {
-    return {Verdict::blown_up, run.not_finite->time, run.not_finite->body,
-            fmt::format("at {:.4g} s the state of '{}' is no longer finite", run.not_finite->time,
-                        scene.body_name(run.not_finite->body))};
-  }
-  return drift({scene, run.trajectory, truth, leapfrog_stagger}, largest_kinetic_energy);
+  if (const auto explosion = energy_explosion(run.scene, run.trajectory, in_play)) return *explosion;
+  if (!not_finite) return verdict_on(run);
+  return {Verdict::blown_up, not_finite->time, not_finite->body,
+          fmt::format("at {:.4g} s the state of '{}' is no longer finite", not_finite->time,
+                      run.scene.body_name(not_finite->body))};
 }
 
 double largest_kinetic_energy(const Scene& scene, const Truth* truth, double duration) {
@@ -158,7 +70,7 @@ double largest_kinetic_energy(const Scene& scene, const Truth* truth, double dur
     truth->at(duration * n / kSamples, bodies.columns());
     largest = std::max(largest, kinetic_energy(scene, bodies.columns()));
   }
-  return largest > 0 ? largest : most_kinetic_energy_from(scene, duration);
+  return largest > 0 ? largest : energy_in_play(scene, duration);
 }
 
 double largest_energy_change(const Scene& scene, const Truth* truth, double duration) {
@@ -173,33 +85,6 @@ double largest_energy_change(const Scene& scene, const Truth* truth, double dura
     largest = std::max(largest, std::abs(now - start));
   }
   return largest;
-}
-
-StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
-                             double energy_in_play) {
-  const auto stable = [&](double dt) { return survives(engine, settings, scene, dt, horizon, energy_in_play); };
-  // Down by halves, for an unstable run ends early, until a step and its double are stable.
-  double good = kLargestStep;
-  int stable_in_a_row = 0;
-  for (; good >= kSmallestStep; good *= 0.5) {
-    stable_in_a_row = stable(good) ? stable_in_a_row + 1 : 0;
-    if (stable_in_a_row == 2) break;
-  }
-  if (stable_in_a_row == 0) return {kSmallestStep, false, true};
-  if (stable_in_a_row == 1) good *= 2;  // only the last one tried
-  // Up by small steps to the first that is not, and between the two by bisection.
-  const double sweep = sweep_of(scene);
-  double unstable = good * sweep;
-  for (; unstable <= kLargestStep && stable(unstable); unstable *= sweep) good = unstable;
-  if (unstable > kLargestStep) {
-    if (stable(kLargestStep)) return {kLargestStep, true, false};
-    unstable = kLargestStep;
-  }
-  while (unstable > kStepPrecision * good) {
-    const double middle = std::sqrt(unstable * good);
-    (stable(middle) ? good : unstable) = middle;
-  }
-  return {good, false, false};
 }
 
 }  // namespace rigor

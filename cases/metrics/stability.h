@@ -1,51 +1,31 @@
-// The verdict on a run's stability, and the largest step at which it is not lost.
+// The verdict on a run's stability.
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "cases/metrics/metric.h"
-#include "cases/runner/simulate.h"
+#include "cases/metrics/verdict.h"
 #include "cases/truth/truth.h"
+#include "core/engine/simulation.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
 
-enum class Verdict { stable, drifting, blown_up };
-std::string word_of(Verdict verdict);  // "stable", "drifting", "blown up"
-
-struct Stability {
-  Verdict verdict = Verdict::stable;
-  double time = 0;    // s, when it blew up
-  int body = kWorld;  // where: the first not finite, or the one with the most kinetic energy then
-  std::string why;    // a sentence
-};
-
 // Blown up: a number is not finite, or |E - E0| > 10 x the energy that the truth has in play: its largest kinetic
 // energy or, where that is more, the largest change of its energy. A weight that dampers let creep back to rest moves
-// little and loses much. Drifting: see stability.cpp; the truth says there what energy is left in a scene with dampers
-// or timed forces.
-Stability judge_stability(const Scene& scene, const Simulation& run, double largest_kinetic_energy,
-                          double leapfrog_stagger, const TruthSamples* truth = nullptr,
-                          double largest_energy_change = 0);
+// little and loses much. Else verdict.h judges. `not_finite`: where the simulation ended for it.
+Stability judge_stability(const JudgedRun& run, const std::optional<NotFinite>& not_finite,
+                          double largest_kinetic_energy, double largest_energy_change = 0);
 
-// J, of the truth over [0, duration]; without a truth, or where it never moves, a bound on what the start, the springs'
-// stored energy, gravity and the timed forces can give by then.
+// J, of the truth over [0, duration]; without a truth, or where it never moves, the scene's energy in play
+// (energy_in_play.h).
 double largest_kinetic_energy(const Scene& scene, const Truth* truth, double duration);
 
 // J, the largest |E - E0| of the truth over [0, duration]; 0 without a truth.
 double largest_energy_change(const Scene& scene, const Truth* truth, double duration);
 
-// The largest step at which `engine` does not blow up over `horizon` seconds, to 1 % by bisection in log dt. The limit
-// is ragged: steps above the first bad one may hold again by luck. So it is the largest below which none tried is bad,
-// steps being tried 3 % apart, or 20 % among bodies that touch and have no springs, over at least a factor of two below
-// it.
-struct StableStep {
-  double dt = 0;          // s
-  bool is_cap = false;    // still stable at the largest step tried: dt is that one
-  bool is_floor = false;  // blows up at the smallest step tried: dt is that one
-};
-StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
-                             double energy_in_play);
+// Whether the energy's change from its start [J] is what a run that has not blown up may show. Friction and impacts may
+// take any amount, as on a long slope: there only a rise is bounded. False, too, where the energy is not a number.
+bool is_bounded(double change, double energy_in_play, bool may_lose);
 
 }  // namespace rigor

@@ -1,5 +1,8 @@
 #include "cases/report/reports.h"
 
+#include "cases/report/csv/trajectory_csv.h"
+#include "cases/report/html/playback.h"
+
 namespace rigor {
 
 // One row a writer, alphabetical.
@@ -13,6 +16,14 @@ const std::vector<ReportRow>& reports() {
     {"markdown", "report.md", markdown_report},
   };
   return table;
+}
+
+Recorders recorders_for(const Results& grid, const std::string& folder) {
+  Recorders recorders = {std::make_shared<TrajectoryRecorder>(folder)};
+#if RIGOR_HTML_REPORT
+  recorders.push_back(std::make_shared<PlaybackRecorder>(grid));
+#endif
+  return recorders;
 }
 
 }  // namespace rigor

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/results/results.h"
+#include "cases/runner/recorder.h"
 
 namespace rigor {
 
@@ -15,6 +15,9 @@ struct ReportRow {
 };
 
 const std::vector<ReportRow>& reports();  // alphabetical
+
+// What the reports of a planned grid need of each run; trajectories go to `folder`.
+Recorders recorders_for(const Results& grid, const std::string& folder);
 
 std::string html_report(const Results& results);  // only in a build with RIGOR_HTML_REPORT
 std::string json_report(const Results& results);

@@ -2,26 +2,28 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 #include <vector>
 
 #include "cases/metrics/metric.h"
+#include "cases/metrics/verdict.h"
 #include "cases/results/changes.h"
+#include "cases/results/input_file.h"
+#include "cases/results/results.h"
 #include "core/base/error.h"
 
 namespace rigor {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-constexpr const char* kTitle = "# Rigor baseline 1";
-constexpr int kSchema = 1;
+constexpr const char* kTabForm = "# Rigor baseline 1";
+constexpr const char* kTitleKey = "rigor_baseline";
+constexpr int kForm = 2;
+constexpr int kOldestSchema = 1, kSchema = 2;  // of results.json; in the first what is not finite is null
 
 // A time is measured anew each run; a shift in time has a sign; and of two metrics more is better.
 bool is_compared(const std::string& metric) {
@@ -34,91 +36,133 @@ bool is_compared(const std::string& metric) {
 
 std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, "\t")); }
 
+std::vector<std::string> split(const std::string& key, const std::string& between) {
+  std::vector<std::string> parts;
+  std::size_t at = 0;
+  for (std::size_t end; (end = key.find(between, at)) != std::string::npos; at = end + between.size())
+    parts.push_back(key.substr(at, end - at));
+  parts.push_back(key.substr(at));
+  return parts;
+}
+
 std::string text_at(const Json& json, const char* key) { return json.at(key).get<std::string>(); }
 
-Outcomes::Cell cell_from(const Json& json) {
-  Outcomes::Cell cell{text_at(json, "status"), {}};
-  for (const auto& [name, metric] : json.at("metrics").items()) {
-    if (!is_compared(name) || !metric.contains("value")) continue;
-    const Json& value = metric.at("value");
-    cell.metrics[name] = value.is_null() ? HUGE_VAL : value.get<double>();  // null: it was not finite
+// A word of one of the enumerations; `place` is where it stands.
+template <typename Word>
+std::string word_at(const Json& json, const char* key, Word last, const std::string& place) {
+  const std::string word = text_at(json, key);
+  for (int i = 0; i <= static_cast<int>(last); ++i) {
+    if (word_of(static_cast<Word>(i)) == word) return word;
+  }
+  throw InputError(fmt::format("{}: there is no {} '{}'", place, key, word));
+}
+std::string status_at(const Json& json, const std::string& place) {
+  return word_at(json, "status", Status::invalid, place);
+}
+std::string answer_at(const Json& json, const std::string& place) {
+  return word_at(json, "answer", GateAnswer::not_recorded, place);
+}
+
+std::string verdict_at(const Json& json, const char* key, const std::string& place) {
+  try {
+    return word_of(verdict_of(text_at(json, key)));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", place, error.what()));
+  }
+}
+
+// What was not finite is worse than any number.
+double value_from(const Json& value, const std::string& place) {
+  if (value.is_number()) return value.get<double>();
+  const bool is_not_finite = value.is_null() || value == "inf" || value == "-inf" || value == "nan";
+  if (!is_not_finite) throw InputError(fmt::format("{}: found {}; allowed: a number", place, value.dump()));
+  return HUGE_VAL;
+}
+
+const Json& object_at(const Json& json, const char* key, const std::string& place) {
+  const Json& found = json.at(key);
+  if (!found.is_object())
+    throw InputError(fmt::format("{}: {}: found {}; allowed: an object", place, key, found.dump()));
+  return found;
+}
+
+Outcomes::Cell cell_from(const Json& json, const std::string& place) {
+  Outcomes::Cell cell{status_at(json, place), "", {}, {}};
+  if (const Json& verdict = json.at("verdict"); !verdict.is_null()) cell.verdict = verdict_at(verdict, "word", place);
+  for (const auto& [name, metric] : object_at(json, "metrics", place).items()) {
+    if (!is_compared(name)) continue;
+    if (!metric.contains("value")) {
+      if (text_at(metric, "not_applicable").starts_with("not measured")) cell.not_asked.insert(name);
+      continue;
+    }
+    cell.metrics[name] = value_from(metric.at("value"), fmt::format("{}: {}", place, name));
   }
   return cell;
 }
 
-// A gate's answers by what it asks, for its number changes with the file; the worst where several ask the same.
-void add_gates(const Json& json, Outcomes& out) {
+// A gate's answers by what it asks, for its number changes with the file; the worst where several ask the same. That a
+// regression has nothing to hold a cell against says nothing of the cell.
+void add_gates(const Json& json, const std::string& place, Outcomes& out) {
   for (const Json& gate : json.at("gates")) {
     for (const Json& answer : gate.at("answers")) {
-      std::string& word = out.gates[joined(
+      const std::string word = answer_at(answer, fmt::format("{}: gate of {}", place, text_at(gate, "metric")));
+      if (word == word_of(GateAnswer::not_recorded)) continue;
+      std::string& worst = out.gates[joined(
           {text_at(json, "id"), text_at(gate, "metric"), text_at(answer, "engine"), text_at(answer, "dt")})];
-      if (word.empty() || word == "held") word = text_at(answer, "answer");
+      if (worst.empty() || worst == word_of(GateAnswer::held)) worst = word;
     }
   }
 }
 
+void check_schema(const Json& json) {
+  const int schema = json.at("schema").get<int>();
+  if (schema < kOldestSchema || schema > kSchema)
+    throw InputError(fmt::format("its schema is {}; allowed: {} to {}", schema, kOldestSchema, kSchema));
+}
+
 Outcomes from_json(const Json& json) {
-  if (json.at("schema").get<int>() != kSchema)
-    throw InputError(fmt::format("its schema is {}; allowed: {}", json.at("schema").dump(), kSchema));
+  check_schema(json);
   Outcomes out;
   std::map<std::string, std::set<std::string>> settings;
+  std::size_t index = 0;
   for (const Json& cell : json.at("cells")) {
-    const std::string engine = text_at(cell, "engine");
-    out.cells[joined({text_at(cell, "case"), engine, text_at(cell, "dt")})] = cell_from(cell);
+    const std::string engine = text_at(cell, "engine"), place = fmt::format("cells[{}]", index++);
+    const std::string key = joined({text_at(cell, "case"), engine, text_at(cell, "dt")});
+    if (!out.cells.emplace(key, cell_from(cell, place)).second)
+      throw InputError(fmt::format("{}: is there twice: {}", place, key));
     for (const auto& [name, value] : cell.at("settings").items())
       settings[joined({engine, name})].insert(value.get<std::string>());
   }
   for (const auto& [key, values] : settings) out.settings[key] = fmt::format("{}", fmt::join(values, kBetweenValues));
+  index = 0;
   for (const Json& one : json.at("cases")) {
-    add_gates(one, out);
+    add_gates(one, fmt::format("cases[{}]", index++), out);
     if (!one.at("error").is_null()) out.case_errors[text_at(one, "id")] = text_at(one, "error");
   }
   return out;
 }
 
-double number(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw InputError(fmt::format("'{}' is no number", text));
-  return value;
-}
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> parts;
-  std::size_t at = 0;
-  for (std::size_t tab; (tab = line.find('\t', at)) != std::string::npos; at = tab + 1)
-    parts.push_back(line.substr(at, tab - at));
-  parts.push_back(line.substr(at));
-  return parts;
-}
-
-void add_cell(const std::vector<std::string>& parts, Outcomes& out) {
-  Outcomes::Cell cell{parts[4], {}};
-  for (std::size_t i = 5; i < parts.size(); ++i) {
-    const std::size_t equals = parts[i].find('=');
-    if (equals == std::string::npos) throw InputError(fmt::format("'{}' is no metric=value", parts[i]));
-    cell.metrics[parts[i].substr(0, equals)] = number(parts[i].substr(equals + 1));
-  }
-  out.cells[joined({parts[1], parts[2], parts[3]})] = cell;
-}
-
-void add_line(const std::string& line, Outcomes& out) {
-  if (line.empty() || line[0] == '#') return;
-  const std::vector<std::string> parts = split(line);
-  const auto is = [&](const char* word, std::size_t least) { return parts[0] == word && parts.size() >= least; };
-  if (is("cell", 5)) {
-    add_cell(parts, out);
-  } else if (is("gate", 6)) {
-    out.gates[joined({parts[1], parts[2], parts[3], parts[4]})] = parts[5];
-  } else if (is("setting", 4)) {
-    out.settings[joined({parts[1], parts[2]})] = parts[3];
-  } else if (is("metric", 2)) {
-    out.left_out.insert(parts[1]);
-  } else if (is("error", 3)) {
-    out.case_errors[parts[1]] = parts[2];
+// One line of a baseline: the title, or a setting, an error, a gate's answer or a cell.
+void add_line(const Json& json, Outcomes& out) {
+  if (json.contains(kTitleKey)) {
+    if (json.at(kTitleKey) != kForm) throw InputError(fmt::format("{} is not {}", kTitleKey, kForm));
+    for (const Json& name : json.at("metrics")) out.left_out.insert(name.get<std::string>());
+  } else if (json.contains("setting")) {
+    const auto values = json.at("values").get<std::vector<std::string>>();
+    out.settings[joined({text_at(json, "engine"), text_at(json, "setting")})] =
+        fmt::format("{}", fmt::join(values, kBetweenValues));
+  } else if (json.contains("error")) {
+    out.case_errors[text_at(json, "case")] = text_at(json, "error");
+  } else if (json.contains("gate")) {
+    out.gates[joined({text_at(json, "case"), text_at(json, "gate"), text_at(json, "engine"), text_at(json, "dt")})] =
+        answer_at(json, "gate");
   } else {
-    throw InputError("it is no line of a baseline");
+    Outcomes::Cell cell{status_at(json, "cell"), "", {}, {}};
+    if (json.contains("verdict")) cell.verdict = verdict_at(json, "verdict", "cell");
+    for (const auto& [name, value] : object_at(json, "metrics", "cell").items())
+      cell.metrics[name] = value_from(value, name);
+    const std::string key = joined({text_at(json, "case"), text_at(json, "engine"), text_at(json, "dt")});
+    if (!out.cells.emplace(key, cell).second) throw InputError("is there twice: " + key);
   }
 }
 
@@ -129,56 +173,71 @@ Outcomes from_baseline(const std::string& text) {
   for (std::string line; std::getline(lines, line);) {
     ++count;
     try {
-      add_line(line, out);
+      add_line(Json::parse(line), out);
     } catch (const InputError& error) {
       throw InputError(fmt::format("line {}: {}", count, error.what()));
+    } catch (const Json::exception& error) {
+      throw InputError(fmt::format("line {}: is no line of a baseline: {}", count, error.what()));
     }
   }
   return out;
 }
 
-// In a line of its own, with nothing in it that ends a part or the line.
-std::string tidy(std::string text) {
-  for (char& c : text) {
-    if (c == '\t' || c == '\n' || c == '\r') c = ' ';
+bool is_baseline(const std::string& text) {
+  const Json first = Json::parse(text.substr(0, text.find('\n')), nullptr, false);
+  return first.is_object() && first.contains(kTitleKey);
+}
+
+std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+double rounded_to_four(double value) { return std::stod(fmt::format("{:.4g}", value)); }
+
+Json json_of(const std::string& key, const Outcomes::Cell& cell) {
+  const auto parts = split(key, "\t");
+  Json json = {{"case", parts[0]}, {"engine", parts[1]}, {"dt", parts[2]}, {"status", cell.status}};
+  json["metrics"] = Json::object();
+  for (const auto& [name, value] : cell.metrics) {
+    if (!std::isfinite(value))
+      json["metrics"][name] = "inf";
+    else if (value > kNoise)
+      json["metrics"][name] = rounded_to_four(value);
   }
-  return text;
+  return json;
 }
 
 }  // namespace
 
 Outcomes read_outcomes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw InputError(fmt::format("{}: cannot be read; give a results.json or a baseline", path));
+  const std::string text = read_input_file(path, "a results.json or a baseline");
   try {
-    return text.starts_with(kTitle) ? from_baseline(text) : from_json(Json::parse(text));
+    if (text.starts_with(kTabForm))
+      throw InputError("is a baseline of an older form; make it anew by `rigor baseline`");
+    return is_baseline(text) ? from_baseline(text) : from_json(Json::parse(text));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path, error.what()));
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: neither a results.json nor a baseline: {}", path, tidy(error.what())));
+    throw InputError(fmt::format("{}: neither a results.json nor a baseline: {}", path, error.what()));
   }
 }
 
 std::string baseline_text(const Outcomes& outcomes) {
-  std::string text = fmt::format("{}: made by `rigor baseline`, read by `rigor compare`\n", kTitle);
-  for (const auto& [key, values] : outcomes.settings) text += fmt::format("setting\t{}\t{}\n", key, tidy(values));
-  for (const auto& [key, error] : outcomes.case_errors) text += fmt::format("error\t{}\t{}\n", key, tidy(error));
   std::set<std::string> names = outcomes.left_out;
   for (const auto& [key, cell] : outcomes.cells) {
     for (const auto& [name, value] : cell.metrics) names.insert(name);
   }
-  for (const std::string& name : names) text += fmt::format("metric\t{}\n", name);
-  for (const auto& [key, cell] : outcomes.cells) {
-    text += fmt::format("cell\t{}\t{}", key, cell.status);
-    for (const auto& [name, value] : cell.metrics) {
-      if (value > kNoise) text += fmt::format("\t{}={:.4g}", name, value);
-    }
-    text += "\n";
+  std::string text = line_of({{kTitleKey, kForm}, {"metrics", names}});
+  for (const auto& [key, values] : outcomes.settings) {
+    const auto parts = split(key, "\t");
+    text += line_of({{"engine", parts[0]}, {"setting", parts[1]}, {"values", split(values, kBetweenValues)}});
   }
+  for (const auto& [id, error] : outcomes.case_errors) text += line_of({{"case", id}, {"error", error}});
+  for (const auto& [key, cell] : outcomes.cells) text += line_of(json_of(key, cell));
   // A gate on one cell that holds follows from the cell's status.
   for (const auto& [key, answer] : outcomes.gates) {
-    if (answer != "held" || key.ends_with('\t')) text += fmt::format("gate\t{}\t{}\n", key, answer);
+    if (answer == word_of(GateAnswer::held) && !key.ends_with('\t')) continue;
+    const auto parts = split(key, "\t");
+    text +=
+        line_of({{"case", parts[0]}, {"gate", parts[1]}, {"engine", parts[2]}, {"dt", parts[3]}, {"answer", answer}});
   }
   return text;
 }

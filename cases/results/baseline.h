@@ -1,5 +1,5 @@
 // What a run of the grid came to, in short: the part of results.json that two runs are compared by. A baseline is the
-// same as text, one line a cell, so that it is small and its differences can be read.
+// same as JSON lines, one a cell, so that it is small and its differences can be read.
 #pragma once
 
 #include <map>
@@ -13,7 +13,9 @@ inline constexpr const char* kBetweenValues = " | ";
 struct Outcomes {
   struct Cell {
     std::string status;                     // "pass", "fail", ...
-    std::map<std::string, double> metrics;  // lower is better in all of them; none that is a measured time
+    std::string verdict;                    // "stable", "gaining", ...; empty if there is none, or it is not known
+    std::map<std::string, double> metrics;  // lower is better in all of them; none that is a measured time; or infinite
+    std::set<std::string> not_asked;        // metrics that were not measured because nobody asked for them
   };
   // Keys are made of parts parted by tabs, in this order; no name holds a tab.
   std::map<std::string, Cell> cells;               // case, engine, dt
@@ -23,7 +25,8 @@ struct Outcomes {
   std::map<std::string, std::string> case_errors;  // case -> why it could not be judged at all
 };
 
-// Of a results.json or of a baseline. Throws InputError for a file that cannot be read or is neither.
+// Of a results.json or of a baseline. Throws InputError, with the line or the place in the JSON, for a file that cannot
+// be read, is neither, or holds a status, an answer or a value that there is not.
 Outcomes read_outcomes(const std::string& path);
 
 // Numbers have four digits: what changes less than that is not worth a line in a difference.

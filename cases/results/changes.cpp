@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "cases/metrics/verdict.h"
+
 namespace rigor {
 namespace {
 
@@ -45,6 +47,8 @@ void compare_errors(const std::string& key, const Outcomes& before, const Outcom
   }
   for (const std::string& name : names) {
     const auto was = value_of(before, old_cell, name), is = value_of(after, new_cell, name);
+    if (was && !is && !new_cell.not_asked.contains(name) && *was > kNoise)
+      out.lost.push_back(fmt::format("{}: {} is missing, was {:.4g}", named(key), name, *was));
     if (!was || !is) continue;
     const double low = std::max(kNoise, std::min(*was, *is)), high = std::max(*was, *is);
     if (!(high > factor * low)) continue;
@@ -53,14 +57,24 @@ void compare_errors(const std::string& key, const Outcomes& before, const Outcom
   }
 }
 
+// An older result may know fewer verdicts, or none.
+void compare_verdicts(const std::string& key, const Outcomes& before, const Outcomes& after, Changes& out) {
+  const std::string &was = before.cells.at(key).verdict, &is = after.cells.at(key).verdict;
+  if (was.empty() || is.empty() || was == is) return;
+  (verdict_of(is) > verdict_of(was) ? out.newly_failing : out.newly_passing)
+      .push_back(fmt::format("{}: its verdict is {}, was {}", named(key), is, was));
+}
+
 void compare_cells(const std::string& key, const Outcomes& before, const Outcomes& after, double factor, Changes& out) {
   const std::string &was = before.cells.at(key).status, &is = after.cells.at(key).status;
   if (badness(was) != badness(is)) {
     (badness(is) > badness(was) ? out.newly_failing : out.newly_passing)
         .push_back(fmt::format("{}: {}, was {}", named(key), is, was));
   }
-  // Numbers of a run that failed mean little.
-  if (badness(was) == 0 && badness(is) == 0) compare_errors(key, before, after, factor, out);
+  // Numbers and verdicts of a run that failed mean little.
+  if (badness(was) != 0 || badness(is) != 0) return;
+  compare_verdicts(key, before, after, out);
+  compare_errors(key, before, after, factor, out);
 }
 
 std::set<std::string> cases_of(const Outcomes& outcomes) {
@@ -152,6 +166,7 @@ std::string text_of(const Changes& changes, double factor) {
   std::string text = section("newly failing", changes.newly_failing) + section("newly passing", changes.newly_passing);
   text += section(fmt::format("errors grown by more than {:g} times", factor), changes.grown);
   text += section(fmt::format("errors shrunk by more than {:g} times", factor), changes.shrunk);
+  text += section("no longer measured", changes.lost);
   text += section("settings that differ", changes.settings);
   text += section("gone", changes.gone) + section("added", changes.added);
   if (text.empty()) text = fmt::format("nothing changed by more than {:g} times\n", factor);

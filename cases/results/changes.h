@@ -17,9 +17,10 @@ struct Changes {
   // A sentence each, sorted.
   std::vector<std::string> newly_failing, newly_passing;
   std::vector<std::string> grown, shrunk;  // errors, by more than the factor
+  std::vector<std::string> lost;           // errors that are measured no longer, though nobody asked for that
   std::vector<std::string> settings;       // that differ
   std::vector<std::string> added, gone;    // cases, and runs or steps of a case
-  bool is_worse() const { return !newly_failing.empty() || !grown.empty() || !gone.empty(); }
+  bool is_worse() const { return !newly_failing.empty() || !grown.empty() || !lost.empty() || !gone.empty(); }
 };
 
 Changes changes_between(const Outcomes& old_outcomes, const Outcomes& new_outcomes, double factor = kDefaultFactor);

@@ -1,7 +1,10 @@
 #include "cases/results/result_json.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace rigor {
 namespace {
@@ -15,14 +18,25 @@ std::string unit_of(const std::string& metric) {
   return "";
 }
 
-double number(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+constexpr const char *kInfinite = "inf", *kMinusInfinite = "-inf", *kNoNumber = "nan";
+
+const char* word_of_not_finite(double value) {
+  return std::isnan(value) ? kNoNumber : value > 0 ? kInfinite : kMinusInfinite;
+}
+
+void spell_not_finite(Json& json) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>())) {
+    json = word_of_not_finite(json.get<double>());
+  } else if (json.is_structured()) {
+    for (Json& part : json) spell_not_finite(part);
+  }
 }
 
 int body_index(const Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (scene.bodies[i].name == name) return static_cast<int>(i);
   }
+  if (name != scene.body_name(kWorld)) throw std::runtime_error("no such body: " + name);
   return kWorld;
 }
 
@@ -48,11 +62,12 @@ MetricValue metric_from(const Json& json, const Scene& scene) {
     return metric;
   }
   const Json& worst = json.at("worst");
-  metric.value = number(json.at("value"));
-  metric.first_second = number(json.at("first_second"));
-  metric.worst = {number(worst.at("time")), body_index(scene, worst.at("body").get<std::string>()),
-                  worst.at("component").get<std::string>(), number(worst.at("found")), number(worst.at("expected"))};
-  metric.compared_until = number(json.at("compared_until"));
+  metric.value = number_of(json.at("value"));
+  metric.first_second = number_of(json.at("first_second"));
+  metric.worst = {number_of(worst.at("time")), body_index(scene, worst.at("body").get<std::string>()),
+                  worst.at("component").get<std::string>(), number_of(worst.at("found")),
+                  number_of(worst.at("expected"))};
+  metric.compared_until = number_of(json.at("compared_until"));
   return metric;
 }
 
@@ -83,41 +98,44 @@ SchemeFindings scheme_from(const Json& json, const Scene& scene) {
           metrics_from(json.at("without_gyroscopic_term"), scene)};
 }
 
-Verdict verdict_of(const std::string& word) {
-  for (Verdict verdict : {Verdict::stable, Verdict::drifting, Verdict::blown_up}) {
-    if (word_of(verdict) == word) return verdict;
-  }
-  throw std::runtime_error("no such verdict: " + word);
-}
-
 void fill_in(Cell& cell, const Json& json, const Scene& scene) {
   cell.status = status_of(json.at("status").get<std::string>());
   cell.reason = json.at("reason").get<std::string>();
-  cell.cpu_seconds = number(json.at("cpu_seconds"));
-  cell.wall_seconds = number(json.at("wall_seconds"));
+  cell.cpu_seconds = number_of(json.at("cpu_seconds"));
+  cell.wall_seconds = number_of(json.at("wall_seconds"));
   cell.trajectory = json.at("trajectory").is_null() ? "" : json.at("trajectory").get<std::string>();
   if (!json.at("verdict").is_null()) {
     const Json& verdict = json.at("verdict");
-    cell.stability = {verdict_of(verdict.at("word").get<std::string>()), number(verdict.at("time")),
-                      body_index(scene, verdict.at("body").get<std::string>()), verdict.at("why").get<std::string>()};
+    cell.stability = {verdict_of(verdict.at("word").get<std::string>()), number_of(verdict.at("time")),
+                      body_index(scene, verdict.at("body").get<std::string>()), verdict.at("why").get<std::string>(),
+                      number_of(verdict.at("amount"))};
   }
   cell.metrics = metrics_from(json.at("metrics"), scene);
   cell.scheme = scheme_from(json.at("by_scheme"), scene);
+  cell.settings.clear();
   for (const auto& [name, value] : json.at("settings").items())
     cell.settings.emplace_back(name, value.get<std::string>());
 }
 
 Json json_of(const Furthest& furthest) { return {furthest.value, furthest.time, furthest.body}; }
 
-Furthest furthest_from(const Json& json) { return {number(json.at(0)), number(json.at(1)), json.at(2).get<int>()}; }
+Furthest furthest_from(const Json& json, const Scene& scene) {
+  const std::size_t body = json.at(2).get<std::size_t>();
+  if (body >= std::max<std::size_t>(1, scene.bodies.size())) throw std::runtime_error("no such body: " + std::to_string(body));
+  return {number_of(json.at(0)), number_of(json.at(1)), static_cast<int>(body)};
+}
 
-Spread spread_from(const Json& json) {
+Spread spread_from(const Json& json, const CaseResult& of) {
+  const Scene& scene = of.definition.scene;
+  const std::size_t runs = of.stable_steps.size();
   Spread spread;
   spread.first = json.at("first").get<std::size_t>(), spread.second = json.at("second").get<std::size_t>();
-  spread.dt = {json.at("dt_seconds").get<double>(), json.at("dt").get<std::string>()};
-  spread.distance = furthest_from(json.at("distance")), spread.angle = furthest_from(json.at("angle"));
-  if (!json.at("parted_at").is_null()) spread.parted_at = json.at("parted_at").get<double>();
-  spread.compared_until = json.at("compared_until").get<double>();
+  if (spread.first >= runs || spread.second >= runs) throw std::runtime_error("a spread of runs that there are not");
+  spread.dt = {number_of(json.at("dt_seconds")), json.at("dt").get<std::string>()};
+  spread.distance = furthest_from(json.at("distance"), scene);
+  spread.angle = furthest_from(json.at("angle"), scene);
+  if (!json.at("parted_at").is_null()) spread.parted_at = number_of(json.at("parted_at"));
+  spread.compared_until = number_of(json.at("compared_until"));
   return spread;
 }
 
@@ -125,7 +143,7 @@ void fill_in(StableStepResult& result, const Json& json) {
   result.status = status_of(json.at("status").get<std::string>());
   result.reason = json.at("reason").get<std::string>();
   if (result.status != Status::pass) return;
-  result.step = {number(json.at("dt")), json.at("is_cap").get<bool>(), json.at("is_floor").get<bool>()};
+  result.step = {number_of(json.at("dt")), json.at("is_cap").get<bool>(), json.at("is_floor").get<bool>()};
 }
 
 }  // namespace
@@ -139,7 +157,9 @@ Json json_of(const Cell& cell, const Scene& scene) {
     json["verdict"] = {{"word", word_of(stability.verdict)},
                        {"time", stability.time},
                        {"body", scene.body_name(stability.body)},
-                       {"why", stability.why}};
+                       {"why", stability.why},
+                       {"amount", stability.amount},
+                       {"phrase", phrase_of(stability)}};
   }
   json["metrics"] = json_of(cell.metrics, scene);
   json["by_scheme"] = json_of(cell.scheme, scene);
@@ -158,19 +178,29 @@ Json json_of(const StableStepResult& result) {
   return json;
 }
 
-std::string text_of(const Json& value, int indent) {
+double number_of(const Json& value) {
+  if (value.is_number()) return value.get<double>();
+  const std::string word = value.get<std::string>();
+  for (const double number : {HUGE_VAL, -HUGE_VAL, std::numeric_limits<double>::quiet_NaN()}) {
+    if (word == word_of_not_finite(number)) return number;
+  }
+  throw std::runtime_error("no such number: " + word);
+}
+
+std::string text_of(Json value, int indent) {
+  spell_not_finite(value);
   return value.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string message_of_truth(const TruthFacts& facts) {
   return text_of({{"truth",
                    {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy, facts.largest_energy_change,
-                    facts.playback}}},
+                    facts.recordings}}},
                  -1);
 }
 
 std::string message_of_cell(std::size_t index, const Cell& cell, const Scene& scene) {
-  return text_of({{"cell", index}, {"result", json_of(cell, scene)}, {"playback", cell.playback}}, -1);
+  return text_of({{"cell", index}, {"result", json_of(cell, scene)}, {"recordings", cell.recordings}}, -1);
 }
 
 std::string message_of_stable_step(std::size_t run, const StableStepResult& result) {
@@ -192,26 +222,34 @@ std::string message_of_spreads(const std::vector<Spread>& spreads) {
   return text_of({{"spreads", all}}, -1);
 }
 
-bool apply_message(CaseResult& result, const std::string& message) {
+MessageSubject apply_message(CaseResult& result, const std::string& message) {
+  using Part = MessageSubject::Part;
   const Json json = Json::parse(message);
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
-    result.truth = {number(facts.at(0)), number(facts.at(1)), number(facts.at(2)), number(facts.at(3)),
-                    facts.at(4).get<std::vector<std::string>>()};
-    return false;
+    result.truth = {number_of(facts.at(0)), number_of(facts.at(1)), number_of(facts.at(2)), number_of(facts.at(3)),
+                    facts.at(4).get<Recordings>()};
+    return {Part::truth};
   }
   if (json.contains("spreads")) {
-    for (const Json& spread : json.at("spreads")) result.spreads.push_back(spread_from(spread));
-    return false;
+    std::vector<Spread> spreads;
+    for (const Json& spread : json.at("spreads")) spreads.push_back(spread_from(spread, result));
+    result.spreads = std::move(spreads);
+    return {Part::spreads};
   }
   if (json.contains("cell")) {
-    Cell& cell = result.cells.at(json.at("cell").get<std::size_t>());
+    const std::size_t index = json.at("cell").get<std::size_t>();
+    Cell cell = result.cells.at(index);
     fill_in(cell, json.at("result"), result.definition.scene);
-    cell.playback = json.at("playback").get<std::vector<std::string>>();
-  } else {
-    fill_in(result.stable_steps.at(json.at("stable_step").get<std::size_t>()), json.at("result"));
+    cell.recordings = json.at("recordings").get<Recordings>();
+    result.cells[index] = std::move(cell);
+    return {Part::cell, index};
   }
-  return true;
+  const std::size_t run = json.at("stable_step").get<std::size_t>();
+  StableStepResult stable = result.stable_steps.at(run);
+  fill_in(stable, json.at("result"));
+  result.stable_steps[run] = std::move(stable);
+  return {Part::stable_step, run};
 }
 
 }  // namespace rigor

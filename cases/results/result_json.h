@@ -13,12 +13,23 @@ std::string message_of_cell(std::size_t index, const Cell& cell, const Scene& sc
 std::string message_of_spreads(const std::vector<Spread>& spreads);
 std::string message_of_stable_step(std::size_t run, const StableStepResult& result);
 
-// Fills in what the message says. True if it ends a cell or a stable step.
-bool apply_message(CaseResult& result, const std::string& message);
+// What a message is about. `index`: of the cell, or of the stable step's run.
+struct MessageSubject {
+  enum class Part { truth, spreads, cell, stable_step } part = Part::truth;
+  std::size_t index = 0;
+  bool operator==(const MessageSubject&) const = default;
+};
 
-// Numbers that are not finite become null. Text that is not UTF-8 is written with replacement characters.
+// Fills in what the message says. Throws std::exception, and then has changed nothing, for one that is garbled: that is
+// no JSON, that lacks a part, names a cell, a status or a verdict that there is not.
+MessageSubject apply_message(CaseResult& result, const std::string& message);
+
 nlohmann::ordered_json json_of(const Cell& cell, const Scene& scene);
 nlohmann::ordered_json json_of(const StableStepResult& result);
-std::string text_of(const nlohmann::ordered_json& value, int indent);
+
+// JSON has no word for numbers that are not finite: they are written as "inf", "-inf" and "nan". All others come back
+// with the same bits. Text that is not UTF-8 is written with replacement characters.
+std::string text_of(nlohmann::ordered_json value, int indent);
+double number_of(const nlohmann::ordered_json& value);  // throws std::exception for what is neither
 
 }  // namespace rigor

@@ -1,24 +1,25 @@
 #include "cases/results/results.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 
 namespace rigor {
 namespace {
 // In the order of the enumeration.
 constexpr const char* kStatusWords[] = {"pass",     "fail",    "known-deviation", "unexpected-pass", "unsupported",
                                         "diverged", "crashed", "timed-out",       "invalid"};
-constexpr const char* kAnswerWords[] = {"held", "failed", "not checked", "known deviation", "unexpected pass"};
+constexpr const char* kAnswerWords[] = {"held",        "failed", "not checked", "known deviation", "unexpected pass",
+                                        "not recorded"};
 }  // namespace
 
 std::string word_of(Status status) { return kStatusWords[static_cast<int>(status)]; }
 
 Status status_of(const std::string& word) {
   const auto found = std::find(std::begin(kStatusWords), std::end(kStatusWords), word);
-  assert(found != std::end(kStatusWords));
+  if (found == std::end(kStatusWords)) throw std::runtime_error("no such status: " + word);
   return static_cast<Status>(found - std::begin(kStatusWords));
 }
 
@@ -35,6 +36,21 @@ MetricValue condensed(const MetricResult& result, const Trajectory& trajectory) 
   return out;
 }
 
+bool falls_short(GateAnswer answer) {
+  return answer == GateAnswer::failed || answer == GateAnswer::not_checked || answer == GateAnswer::unexpected_pass;
+}
+
 std::string word_of(GateAnswer answer) { return kAnswerWords[static_cast<int>(answer)]; }
+
+StepSize coarsest_dt(const CaseResult& result) {
+  return *std::max_element(result.definition.dt.begin(), result.definition.dt.end(),
+                           [](const StepSize& a, const StepSize& b) { return a.seconds < b.seconds; });
+}
+
+bool is_in_house(const Results& results, std::size_t run) {
+  return std::any_of(results.engines.begin(), results.engines.end(), [&](const EngineInfo& engine) {
+    return engine.name == results.runs[run].engine && engine.is_in_house;
+  });
+}
 
 }  // namespace rigor

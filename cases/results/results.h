@@ -18,7 +18,7 @@ namespace rigor {
 // that did not converge) in a run that did not blow up; one that did is `diverged`, whatever it complained of.
 enum class Status { pass, fail, known_deviation, unexpected_pass, unsupported, diverged, crashed, timed_out, invalid };
 std::string word_of(Status status);
-Status status_of(const std::string& word);
+Status status_of(const std::string& word);  // throws std::runtime_error for a word that is none
 
 // A metric of one cell, without its series over time.
 struct MetricValue {
@@ -40,9 +40,11 @@ struct SchemeFindings {
 };
 
 // A gate's answer for one cell, or for an order fitted over several. known_deviation: it failed where the adapter's
-// known_deviations.toml says that it does; unexpected_pass: it held there.
-enum class GateAnswer { held, failed, not_checked, known_deviation, unexpected_pass };
+// known_deviations.toml says that it does; unexpected_pass: it held there. not_recorded: of a regression, where there
+// is no value to hold the cell's against.
+enum class GateAnswer { held, failed, not_checked, known_deviation, unexpected_pass, not_recorded };
 std::string word_of(GateAnswer answer);
+bool falls_short(GateAnswer answer);  // whether `rigor gate` may not answer with exit code 0
 struct GateResult {
   std::size_t gate = 0;  // index in Case::gates
   std::string engine;    // a run's name; empty if the gate met no cell at all
@@ -52,6 +54,10 @@ struct GateResult {
   std::optional<double> value = {};   // in the metric's unit; none where there was nothing to judge
   std::optional<Instant> worst = {};  // where the metric has one
 };
+
+// What a recorder kept (runner/recorder.h): texts that only the report it belongs to reads.
+using Recording = std::vector<std::string>;
+using Recordings = std::map<std::string, Recording>;  // by the recorder's name
 
 // case × engine × dt.
 struct Cell {
@@ -64,9 +70,15 @@ struct Cell {
   SchemeFindings scheme;
   SettingsInForce settings;
   double cpu_seconds = 0;
-  double wall_seconds = 0;            // of the whole cell: simulated, judged and written
-  std::string trajectory;             // file name in trajectories/; empty if there is none
-  std::vector<std::string> playback;  // its thinned motion and series, see cases/report/html/playback.h; may be empty
+  double wall_seconds = 0;  // of the whole cell: simulated, judged and written
+  std::string trajectory;   // file name in trajectories/; empty if there is none
+  Recordings recordings;
+};
+
+struct StableStep {
+  double dt = 0;          // s
+  bool is_cap = false;    // still stable at the largest step tried: dt is that one
+  bool is_floor = false;  // blows up at the smallest step tried: dt is that one
 };
 
 // The largest stable dt of a case and engine.
@@ -78,11 +90,11 @@ struct StableStepResult {
 
 // The truth of a case, in numbers.
 struct TruthFacts {
-  double error_at_end = 0;                 // of the truth itself: m and rad
-  double horizon = 0;                      // s, to which that error stays below kHorizonTolerance
-  double largest_kinetic_energy = 0;       // J
-  double largest_energy_change = 0;        // J, from its start
-  std::vector<std::string> playback = {};  // its thinned motion, as a cell's
+  double error_at_end = 0;            // of the truth itself: m and rad
+  double horizon = 0;                 // s, to which that error stays below kHorizonTolerance
+  double largest_kinetic_energy = 0;  // J
+  double largest_energy_change = 0;   // J, from its start
+  Recordings recordings = {};
 };
 inline constexpr double kHorizonTolerance = 1e-6;  // m and rad
 
@@ -97,11 +109,16 @@ struct CaseResult {
   std::vector<GateResult> gates;
 };
 
+// The coarsest step of a case's run: the headline.
+StepSize coarsest_dt(const CaseResult& result);
+
 struct Results {
   std::vector<RunName> runs;
   std::vector<EngineInfo> engines;
   std::vector<CaseResult> cases;
   double wall_seconds = 0;
 };
+
+bool is_in_house(const Results& results, std::size_t run);  // see EngineInfo
 
 }  // namespace rigor

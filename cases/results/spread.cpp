@@ -1,12 +1,12 @@
 #include "cases/results/spread.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
 
-#include "cases/runner/simulate.h"
+#include "core/engine/simulation.h"
 
 namespace rigor {
 namespace {
@@ -56,13 +56,18 @@ std::string packed(const Path& path) {
 
 Path unpacked(const std::string& bytes) {
   std::uint64_t counts[2];
-  assert(bytes.size() >= sizeof counts);
-  std::memcpy(counts, bytes.data(), sizeof counts);
   Path path;
+  const auto refuse = [] { throw std::runtime_error("the bytes of a path are not whole"); };
+  if (bytes.size() < sizeof counts) refuse();
+  std::memcpy(counts, bytes.data(), sizeof counts);
+  const std::size_t left = bytes.size() - sizeof counts;
+  // Divided rather than multiplied: a garbled count may be any number.
+  if (counts[1] > left / sizeof(double)) refuse();
+  const std::size_t of_times = counts[1] * sizeof(double), of_poses = left - of_times;
+  if (counts[1] > 0 && counts[0] > of_poses / sizeof(path.poses[0]) / counts[1]) refuse();
   path.bodies = counts[0];
   path.times.resize(counts[1]), path.poses.resize(counts[0] * counts[1]);
-  const std::size_t of_times = counts[1] * sizeof(double), of_poses = path.poses.size() * sizeof(path.poses[0]);
-  assert(bytes.size() == sizeof counts + of_times + of_poses);
+  if (path.poses.size() * sizeof(path.poses[0]) != of_poses) refuse();
   if (of_times > 0) std::memcpy(path.times.data(), bytes.data() + sizeof counts, of_times);
   if (of_poses > 0) std::memcpy(path.poses.data(), bytes.data() + sizeof counts + of_times, of_poses);
   return path;

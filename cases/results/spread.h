@@ -23,8 +23,8 @@ struct Path {
 inline constexpr double kLargestPath = 512e3;
 Path path_of(const Trajectory& trajectory, double duration, std::size_t bodies);
 
-std::string packed(const Path& path);  // bytes, for a pipe between processes of one program
-Path unpacked(const std::string& bytes);
+std::string packed(const Path& path);     // bytes, for a pipe between processes of one program
+Path unpacked(const std::string& bytes);  // throws std::runtime_error for bytes that are no path
 
 // Two runs have parted once a body of one is further than this from the same body of the other.
 inline constexpr double kPartedBy = 1e-3;      // m

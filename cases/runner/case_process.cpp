@@ -10,11 +10,12 @@
 #include <map>
 #include <set>
 
-#include "cases/report/csv/trajectory_csv.h"
-#include "cases/report/html/playback.h"
 #include "cases/results/result_json.h"
+#include "cases/runner/build_identity.h"
+#include "cases/runner/executor.h"
 #include "cases/runner/journal.h"
 #include "cases/runner/simulate.h"
+#include "cases/runner/stable_step.h"
 #include "cases/runner/twin_run.h"
 #include "core/base/error.h"
 
@@ -111,7 +112,7 @@ class CaseJobs {
         options_(options),
         truth_(truth),
         facts_(facts),
-        limit_(grid) {
+        heard_(planned) {
     const Case& definition = planned.definition;
     if (searches_steps(planned, options) && truth) {
       const double horizon = stability_horizon(definition);
@@ -120,63 +121,111 @@ class CaseJobs {
     } else if (searches_steps(planned, options)) {
       stable_energy_ = largest_kinetic_energy(definition.scene, nullptr, stability_horizon(definition));
     }
-    for (std::size_t i = 0; i < planned.stable_steps.size(); ++i) {
-      if (planned.stable_steps[i].status != Status::unsupported) add_stable_step(i);
+    const std::size_t of_case = static_cast<std::size_t>(&planned - grid.cases.data());
+    for (std::size_t run = 0; run < planned.stable_steps.size(); ++run) {
+      if (planned.stable_steps[run].status != Status::unsupported)
+        jobs_.push_back({JobSpec::Kind::stable_step, of_case, options.limit, run, grid.runs[run].text});
     }
     for (std::size_t i = 0; i < planned.cells.size(); ++i) {
-      if (planned.cells[i].status != Status::unsupported) add_cell(i);
+      const Cell& cell = planned.cells[i];
+      if (cell.status != Status::unsupported)
+        jobs_.push_back({JobSpec::Kind::cell, of_case, options.limit, i, grid.runs[cell.run].text, cell.dt});
     }
   }
 
   // Those in the journal have run already.
   void run(const Channel& channel, Journal& journal) {
     std::vector<std::size_t> left;
-    std::vector<Job> jobs;
+    std::vector<JobSpec> jobs;
     for (std::size_t job = 0; job < jobs_.size(); ++job) {
       const auto kept = journal.found().find(job);
       if (kept == journal.found().end()) {
         left.push_back(job), jobs.push_back(jobs_[job]);
-        continue;
+      } else {
+        hear(job, kept->second), channel.send(kept->second.message);
       }
-      channel.send(kept->second.message);
-      if (!kept->second.path.empty()) keep_path(job, kept->second.path);
     }
-    std::vector<std::string> answers(jobs_.size());
+    std::map<std::size_t, std::string> flaws;  // by job; empty for one whose answer is good
     const auto on_message = [&](std::size_t index, const std::string& message) {
       const std::size_t job = left[index];
-      const bool is_path = !answers[job].empty();
-      if (is_path) keep_path(job, message);
-      if (!is_path) answers[job] = message, channel.send(message);
-      if (is_path || !cell_of_job_.contains(job)) journal.add(job, {answers[job], is_path ? message : ""});
+      if (flaws.contains(job)) return;  // a job answers once
+      const Journal::Record record = parted(message);
+      try {
+        hear(job, record);
+        flaws[job] = "";
+      } catch (const std::exception& error) {
+        flaws[job] = fmt::format("its message could not be read: {}", error.what());
+        return;
+      }
+      channel.send(record.message), journal.add(job, record);
     };
-    const auto on_end = [&](std::size_t index, const JobEnd& end) {
-      if (answers[left[index]].empty()) channel.send(on_failure_[left[index]](end));
+    const auto on_end = [&](std::size_t index, JobEnd end) {
+      const auto flaw = flaws.find(left[index]);
+      if (flaw != flaws.end() && flaw->second.empty()) return;
+      if (flaw != flaws.end()) end.how = Ending::threw, end.text = flaw->second;
+      channel.send(message_of_failure(jobs_[left[index]], end));
     };
-    run_jobs(jobs, options_.jobs, on_message, on_end);
+    const auto work = [&](const JobSpec& job, const Channel& to) {
+      is_cell(job) ? do_cell(job, to) : do_stable_step(job, to);
+    };
+    ProcessExecutor(options_.jobs).run(jobs, work, on_message, on_end);
     channel.send(message_of_spreads(spreads()));
   }
 
  private:
   const RunName& run_of(std::size_t index) const { return grid_.runs[index]; }
 
-  void add_stable_step(std::size_t run) {
-    jobs_.push_back({[this, run](const Channel& channel) {
-                       const Case& definition = planned_.definition;
-                       StableStepResult found;
-                       found.step = largest_stable_dt(find_engine(engines_, run_of(run).engine), run_of(run).settings,
-                                                      definition.scene, stability_horizon(definition), stable_energy_);
-                       found.status = Status::pass, found.reason.clear();
-                       channel.send(message_of_stable_step(run, found));
-                     },
-                     options_.limit});
-    on_failure_.push_back([this, run](const JobEnd& end) {
-      const Cell failed = cell_that_ended({}, end, options_.limit);
-      return message_of_stable_step(run, {failed.status, failed.reason, {}});
-    });
+  static bool is_cell(const JobSpec& job) { return job.kind == JobSpec::Kind::cell; }
+  static MessageSubject subject_of(const JobSpec& job) {
+    return {is_cell(job) ? MessageSubject::Part::cell : MessageSubject::Part::stable_step, job.part};
   }
 
-  // A cell's second and last message; a stable step has only one.
-  void keep_path(std::size_t job, const std::string& message) { paths_[cell_of_job_.at(job)] = unpacked(message); }
+  void do_stable_step(const JobSpec& job, const Channel& channel) const {
+    const Case& definition = planned_.definition;
+    const RunName& run = run_of(job.part);
+    StableStepResult found;
+    found.step = largest_stable_dt(find_engine(engines_, run.engine), run.settings, definition.scene,
+                                   stability_horizon(definition), stable_energy_);
+    found.status = Status::pass, found.reason.clear();
+    channel.send(message_of_stable_step(job.part, found));
+  }
+
+  void do_cell(const JobSpec& job, const Channel& channel) const {
+    const Cell& cell = planned_.cells[job.part];
+    const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_);
+    channel.send(joined({message_of_cell(job.part, judged.cell, planned_.definition.scene), packed(judged.path)}));
+  }
+
+  std::string message_of_failure(const JobSpec& job, const JobEnd& end) const {
+    const Cell planned = is_cell(job) ? planned_.cells[job.part] : Cell();
+    const Cell failed = cell_that_ended(planned, end, job.limit);
+    if (!is_cell(job)) return message_of_stable_step(job.part, {failed.status, failed.reason, {}});
+    for (const auto& recorder : options_.recorders) recorder->discard(planned);
+    return message_of_cell(job.part, failed, planned_.definition.scene);
+  }
+
+  // A job's one message: what it came to and, behind a zero byte, which no JSON holds, the path.
+  static std::string joined(const Journal::Record& record) { return record.message + '\0' + record.path; }
+  static Journal::Record parted(const std::string& message) {
+    const std::size_t zero = std::min(message.find('\0'), message.size());
+    return {message.substr(0, zero), message.substr(std::min(zero + 1, message.size()))};
+  }
+
+  // Throws for an answer that the grid's process could not read, or that is about another job than its own. Keeps a
+  // path.
+  void hear(std::size_t job, const Journal::Record& record) {
+    const MessageSubject subject = apply_message(heard_, record.message);
+    if (subject != subject_of(jobs_[job])) throw std::runtime_error("it is about another cell");
+    if (subject.part != MessageSubject::Part::cell) return;
+    const Cell &planned = planned_.cells[subject.index], &heard = heard_.cells[subject.index];
+    if (!heard.trajectory.empty() && heard.trajectory != planned.trajectory)
+      throw std::runtime_error("it names another trajectory");
+    heard_.cells[subject.index] = planned;  // its recordings are large
+    if (record.path.empty()) return;
+    Path path = unpacked(record.path);
+    if (path.bodies != planned_.definition.scene.bodies.size()) throw std::runtime_error("its path has other bodies");
+    paths_[subject.index] = std::move(path);
+  }
 
   // Every pair of runs at the same dt that both left a path.
   std::vector<Spread> spreads() const {
@@ -184,7 +233,7 @@ class CaseJobs {
     for (const auto& [a, path_a] : paths_) {
       for (auto later = paths_.upper_bound(a); later != paths_.end(); ++later) {
         const Cell &one = planned_.cells[a], &other = planned_.cells[later->first];
-        if (one.dt.seconds != other.dt.seconds) continue;
+        if (one.dt != other.dt) continue;
         Spread spread = spread_between(path_a, later->second);
         spread.first = one.run, spread.second = other.run, spread.dt = one.dt;
         found.push_back(spread);
@@ -193,37 +242,15 @@ class CaseJobs {
     return found;
   }
 
-  void add_cell(std::size_t index) {
-    cell_of_job_[jobs_.size()] = index;
-    const Cell& cell = planned_.cells[index];
-    jobs_.push_back({[this, index, &cell](const Channel& channel) {
-                       const std::size_t limit = options_.folder.empty() ? 0 : limit_.of(planned_, &cell.dt);
-                       const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_,
-                                                          facts_, options_, limit);
-                       channel.send(message_of_cell(index, judged.cell, planned_.definition.scene));
-                       channel.send(packed(judged.path));
-                     },
-                     options_.limit});
-    on_failure_.push_back([this, index, &cell](const JobEnd& end) {
-      if (!options_.folder.empty()) {
-        std::error_code no_matter;
-        std::filesystem::remove(std::filesystem::path(options_.folder) / cell.trajectory, no_matter);
-      }
-      return message_of_cell(index, cell_that_ended(cell, end, options_.limit), planned_.definition.scene);
-    });
-  }
-
   const Results& grid_;
   const CaseResult& planned_;
   const EngineTable& engines_;
   const GridOptions& options_;
   const Truth* truth_;
   TruthFacts facts_;
-  PlaybackLimit limit_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
-  std::vector<Job> jobs_;
-  std::vector<std::function<std::string(const JobEnd&)>> on_failure_;
-  std::map<std::size_t, std::size_t> cell_of_job_;
+  std::vector<JobSpec> jobs_;
+  CaseResult heard_;                   // of what is heard, to see whether it can be read
   std::map<std::size_t, Path> paths_;  // by index of the cell
 };
 
@@ -240,30 +267,43 @@ std::string journal_of(const CaseResult& planned, const Results& grid, const Gri
 
 // All that the case's results depend on: another program, too, makes other results.
 std::string plan_of(const Results& grid, const CaseResult& planned, const GridOptions& options) {
-  std::error_code no_matter;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", no_matter);
-  const auto written = std::filesystem::last_write_time(program, no_matter).time_since_epoch().count();
   const Case& definition = planned.definition;
-  std::string plan =
-      fmt::format("{} {}\n{}\n{}\n{:.17g} {} {} {}\n", program.string(), written, definition.id, definition.text,
-                  definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
+  std::string plan = fmt::format("{}\n{}\n{}\n{:.17g} {} {} {}\n", build_identity(), definition.id, definition.text,
+                                 definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
+  for (const auto& recorder : options.recorders) plan += recorder->name() + "\n";
   for (const RunName& run : grid.runs) plan += run.text + "\n";
+  for (const Gate& gate : definition.gates) plan += gate.metric + "\n";  // some metrics are measured for a gate alone
   for (const Cell& cell : planned.cells)
     plan += fmt::format("{} {:.17g} {} {}\n", cell.run, cell.dt.seconds, word_of(cell.status), cell.trajectory);
   for (const StableStepResult& stable : planned.stable_steps) plan += word_of(stable.status) + "\n";
   return plan;
 }
 
+// Not believed: what cannot be read, and a cell whose trajectory is no longer there.
+void forget_what_is_wrong(Journal& journal, const CaseResult& planned, const GridOptions& options) {
+  CaseResult scratch = planned;
+  journal.forget_if([&](const Journal::Record& record) {
+    try {
+      const MessageSubject subject = apply_message(scratch, record.message);
+      if (subject.part != MessageSubject::Part::cell) return false;
+      const std::string& trajectory = scratch.cells[subject.index].trajectory;
+      return !trajectory.empty() && !options.folder.empty() &&
+             !std::filesystem::exists(std::filesystem::path(options.folder) / trajectory);
+    } catch (const std::exception&) {
+      return true;
+    }
+  });
+}
+
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
-                    std::size_t limit_of_playback) {
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
   const Engine& engine = find_engine(engines, run_name.engine);
-  const double leapfrog_stagger = method_of(engine.info(), run_name.settings).leapfrog_stagger;
+  const double leapfrog_stagger = method_of(engines.info_of(run_name.engine), run_name.settings).leapfrog_stagger;
   const bool is_timed = options.is_thorough || has_gate_on(definition, {"cost"});
   const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed);
   cell.settings = run.settings;
@@ -277,19 +317,16 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   JudgedRun judged{
       scene,           run.trajectory, samples ? &*samples : nullptr, leapfrog_stagger, twin ? &*twin : nullptr,
       cell.cpu_seconds};
-  cell.stability = judge_stability(scene, run, facts.largest_kinetic_energy, leapfrog_stagger, judged.truth,
-                                   facts.largest_energy_change);
   judged.duration = definition.duration;
+  cell.stability = judge_stability(judged, run.not_finite, facts.largest_kinetic_energy, facts.largest_energy_change);
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   std::vector<NamedSeries> series;
   cell.metrics = measured(judged, definition, options, series);
-  if (limit_of_playback > 0) {
-    cell.playback = packed_run(judged, series, facts.largest_kinetic_energy, limit_of_playback);
-  }
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
-  if (!options.folder.empty()) {
-    write_trajectory((std::filesystem::path(options.folder) / cell.trajectory).string(), scene, run.trajectory);
+  for (const auto& recorder : options.recorders) {
+    Recording kept = recorder->of_run(definition, cell, judged, series, facts);
+    if (!kept.empty()) cell.recordings[recorder->name()] = std::move(kept);
   }
   cell.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
@@ -299,6 +336,7 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
               const Channel& channel) {
   const Case& definition = planned.definition;
   Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, options));
+  forget_what_is_wrong(journal, planned, options);
   const auto known_truth = journal.found().find(Journal::kTruth);
   const bool is_done = known_truth != journal.found().end() && journal.found().size() == 1 + jobs_in(planned);
   if (is_done) {
@@ -308,9 +346,9 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const double seconds = searches_steps(planned, options) ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
-  if (truth && !options.folder.empty()) {
-    facts.playback = packed_truth(definition.scene, *truth, definition.duration, facts.largest_kinetic_energy,
-                                  PlaybackLimit(grid).of(planned, nullptr));
+  for (const auto& recorder : options.recorders) {
+    Recording kept = truth ? recorder->of_truth(definition, *truth, facts) : Recording();
+    if (!kept.empty()) facts.recordings[recorder->name()] = std::move(kept);
   }
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts);
   const std::string message = message_of_truth(facts);

@@ -10,15 +10,13 @@ namespace rigor {
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel);
 
-// Simulates and judges one cell: everything but its gates. `truth` may be null. Writes the trajectory below
-// options.folder if that is named, and keeps up to `limit_of_playback` characters of the run for the page. The path is
-// what the cell's spread from others is found by.
+// Simulates, judges and records one cell: everything but its gates. `truth` may be null. The path is what the cell's
+// spread from others is found by.
 struct JudgedCell {
   Cell cell;
   Path path;
 };
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
-                    std::size_t limit_of_playback = 0);
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options);
 
 }  // namespace rigor

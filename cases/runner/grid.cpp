@@ -9,8 +9,8 @@
 
 #include "cases/case/selection.h"
 #include "cases/results/result_json.h"
+#include "cases/runner/build_identity.h"
 #include "cases/runner/case_process.h"
-#include "cases/runner/process_pool.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -82,7 +82,7 @@ CaseResult plan_case(const Case& definition, const Results& grid, std::size_t as
       result.stable_steps.push_back({Status::unsupported, "not asked for", {}});
       continue;
     }
-    const EngineInfo info = find_engine(engines, grid.runs[run].engine).info();
+    const EngineInfo& info = engines.info_of(grid.runs[run].engine);
     double shortest = definition.duration;
     for (const StepSize& dt : definition.dt) {
       if (only_judged && !is_judged(definition, grid.runs[run], dt, grid.engines)) continue;
@@ -130,17 +130,25 @@ std::vector<std::size_t> longest_first(const Results& grid) {
 
 // Why the case's own process came to no good end: then no cell of it can be trusted that has not been heard of.
 void note_case_end(CaseResult& result, const JobEnd& end, double limit) {
-  if (end.how == Ending::finished) return;
   const bool is_input = end.how == Ending::refused;
-  const std::string what = is_input ? result.definition.truth_where + ": " : "the truth of this case was not found: ";
-  result.error = what + sentence_of(end, limit);
-  result.error_is_input = is_input;
+  if (end.how != Ending::finished) {
+    const std::string what = is_input       ? result.definition.truth_where + ": "
+                             : result.truth ? "the process of this case broke off: "
+                                            : "the truth of this case was not found: ";
+    result.error = what + sentence_of(end, limit);
+    result.error_is_input = is_input;
+  }
+  if (result.error.empty()) return;
   const Status status = is_input ? Status::invalid : end.how == Ending::timed_out ? Status::timed_out : Status::crashed;
-  const auto give_up = [&](Status& of, std::string& reason) {
-    if (of == Status::crashed && reason == Cell().reason) of = status, reason = result.error;
+  const auto is_unheard = [](const auto& part) {
+    return part.status == Status::crashed && part.reason == Cell().reason;
   };
-  for (Cell& cell : result.cells) give_up(cell.status, cell.reason);
-  for (StableStepResult& stable : result.stable_steps) give_up(stable.status, stable.reason);
+  for (Cell& cell : result.cells) {
+    if (is_unheard(cell)) cell.status = status, cell.reason = result.error, cell.trajectory.clear();
+  }
+  for (StableStepResult& stable : result.stable_steps) {
+    if (is_unheard(stable)) stable.status = status, stable.reason = result.error;
+  }
 }
 
 }  // namespace
@@ -149,21 +157,6 @@ void override_run(Case& definition, const Overrides& overrides) {
   if (overrides.duration) definition.duration = *overrides.duration;
   if (!overrides.dt.empty()) definition.dt = overrides.dt;
   for (const StepSize& dt : definition.dt) check_steps(definition, dt);
-}
-
-std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines) {
-  std::vector<RunName> runs;
-  for (const EngineInfo& engine : engines) {
-    if (engine.name == "core") {
-      for (const MethodInfo& method : engine.methods) {
-        if (method.twin_of.empty()) runs.push_back(parse_run_name(engine.name + ":" + method.name, engines));
-      }
-    } else {
-      runs.push_back(parse_run_name(engine.name, engines));
-      runs.push_back(parse_run_name(engine.name + "@stock", engines));
-    }
-  }
-  return runs;
 }
 
 std::vector<RunName> runs_of_gates(const std::vector<Case>& cases, const std::vector<RunName>& but,
@@ -205,24 +198,32 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   const auto start = std::chrono::steady_clock::now();
   const std::size_t all = cells_to_run(grid);
   std::size_t done = 0;
+  if (!options.journals.empty()) build_identity();  // read before there are processes that would each read it
   const std::vector<std::size_t> order = longest_first(grid);
   const int at_once = std::min<int>(options.jobs, static_cast<int>(order.size()));
   GridOptions of_case = options;
   of_case.jobs = options.jobs / std::max(1, at_once);
-  std::vector<Job> jobs;
-  for (const std::size_t index : order) {
-    jobs.push_back({[&grid, &engines, &of_case, index](const Channel& channel) {
-                      run_case(grid, grid.cases[index], engines, of_case, channel);
-                    },
-                    options.limit});
-  }
+  std::vector<JobSpec> jobs;
+  for (const std::size_t index : order) jobs.push_back({JobSpec::Kind::whole_case, index, options.limit});
+  const auto work = [&](const JobSpec& job, const Channel& channel) {
+    run_case(grid, grid.cases[job.of_case], engines, of_case, channel);
+  };
   const auto on_message = [&](std::size_t job, const std::string& message) {
-    if (apply_message(grid.cases[order[job]], message)) on_progress(++done, all);
+    using Part = MessageSubject::Part;
+    CaseResult& result = grid.cases[order[job]];
+    try {
+      const Part part = apply_message(result, message).part;
+      if (part == Part::cell || part == Part::stable_step) on_progress(++done, all);
+    } catch (const std::exception& error) {
+      result.error = fmt::format("a message of this case's process could not be read: {}", error.what());
+    }
   };
   const auto on_end = [&](std::size_t job, const JobEnd& end) {
     note_case_end(grid.cases[order[job]], end, options.limit);
   };
-  run_jobs(jobs, at_once, on_message, on_end);
+  const ProcessExecutor processes(at_once);
+  const Executor& executor = options.executor ? *options.executor : processes;
+  executor.run(jobs, work, on_message, on_end);
   grid.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -8,6 +8,8 @@
 
 #include "adapters/engines.h"
 #include "cases/results/results.h"
+#include "cases/runner/executor.h"
+#include "cases/runner/recorder.h"
 
 namespace rigor {
 
@@ -20,16 +22,14 @@ struct Overrides {
 // Throws InputError for a step longer than the run, or so short that the run would never end.
 void override_run(Case& definition, const Overrides& overrides);
 
-// Every method of the in-house core but the twins of other engines, and every other engine on both tracks.
-std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines);
-
 struct GridOptions {
-  int jobs = 1;               // children at once
-  double limit = 60;          // s of CPU time, for each cell, each stable step and each truth
-  std::string folder;         // where the trajectories go; empty: nowhere
-  bool stable_steps = true;   // find the largest stable dt as well
-  bool is_thorough = true;    // times each run and repeats it by its twin, also where no gate asks for it
-  std::string journals = {};  // folder of what cases have come to so far (journal.h); empty: it is not kept
+  int jobs = 1;                        // children at once
+  double limit = 60;                   // s of CPU time, for each cell, each stable step and each truth
+  Recorders recorders;                 // of every run
+  bool stable_steps = true;            // find the largest stable dt as well
+  bool is_thorough = true;             // times each run and repeats it by its twin, also where no gate asks for it
+  std::string journals = {};           // folder of what cases have come to so far (journal.h); empty: it is not kept
+  const Executor* executor = nullptr;  // of the cases; null: processes of this machine
 };
 
 // Which of all cells are in the grid.

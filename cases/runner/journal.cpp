@@ -10,22 +10,17 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/base/content_hash.h"
+
 namespace rigor {
 namespace {
-
-// FNV-1a, 64 bits.
-std::uint64_t hash_of(const std::string& bytes) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
-}
 
 // Before each record; then its message and its path.
 struct Head {
   std::uint64_t job, message, path, hash;
 };
 
-std::string title_of(const std::string& plan) { return fmt::format("rigor journal {:016x}\n", hash_of(plan)); }
+std::string title_of(const std::string& plan) { return fmt::format("rigor journal {:016x}\n", content_hash(plan)); }
 
 // The record at `at`, which is moved behind it; false if there is no whole one.
 bool take_record(const std::string& bytes, std::size_t& at, std::size_t& job, Journal::Record& record) {
@@ -35,7 +30,7 @@ bool take_record(const std::string& bytes, std::size_t& at, std::size_t& job, Jo
   const std::size_t left = bytes.size() - at - sizeof head;
   if (head.message > left || head.path > left - head.message) return false;
   const std::size_t begin = at + sizeof head;
-  if (hash_of(bytes.substr(begin, head.message + head.path)) != head.hash) return false;
+  if (content_hash(bytes.substr(begin, head.message + head.path)) != head.hash) return false;
   job = head.job;
   record = {bytes.substr(begin, head.message), bytes.substr(begin + head.message, head.path)};
   at = begin + head.message + head.path;
@@ -65,6 +60,10 @@ Journal::~Journal() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
+void Journal::forget_if(const std::function<bool(const Record&)>& is_wrong) {
+  std::erase_if(found_, [&](const auto& one) { return is_wrong(one.second); });
+}
+
 void Journal::append(const std::string& bytes) {
   for (std::size_t at = 0; descriptor_ >= 0 && at < bytes.size();) {
     const ssize_t count = write(descriptor_, bytes.data() + at, bytes.size() - at);
@@ -75,7 +74,7 @@ void Journal::append(const std::string& bytes) {
 
 void Journal::add(std::size_t job, const Record& record) {
   const std::string text = record.message + record.path;
-  const Head head{job, record.message.size(), record.path.size(), hash_of(text)};
+  const Head head{job, record.message.size(), record.path.size(), content_hash(text)};
   append(std::string(reinterpret_cast<const char*>(&head), sizeof head) + text);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -24,6 +25,8 @@ class Journal {
 
   const std::map<std::size_t, Record>& found() const { return found_; }  // by job
   void add(std::size_t job, const Record& record);
+  // As if these had never been found. A later record of the same job counts instead.
+  void forget_if(const std::function<bool(const Record&)>& is_wrong);
 
  private:
   void append(const std::string& bytes);

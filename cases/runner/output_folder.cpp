@@ -1,17 +1,28 @@
+// Inside the hidden folder:
+//   lock           held by flock as long as a process of the run lives, in whatever container
+//   journals/ trajectories/   the run's own and nobody else's; what is published of them are links
+//   staged/        all that is to be put into place, and `ready` once it is whole
 #include "cases/runner/output_folder.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <stdexcept>
+#include <system_error>
+#include <thread>
 
 #include "core/base/error.h"
 
@@ -19,33 +30,42 @@ namespace rigor {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kPartial = ".partial-";
+constexpr const char *kPartial = ".rigor-partial", *kTrajectories = "trajectories", *kReady = "ready";
 
-// What runs that were killed left behind: their number is in the name.
-std::vector<fs::path> leftovers(const fs::path& folder) {
-  std::error_code no_matter;
-  std::vector<fs::path> found;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, no_matter)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(kPartial)) continue;
-    const int process = std::atoi(name.c_str() + std::string(kPartial).size());
-    const bool is_running = process > 0 && kill(process, 0) == 0;
-    if (process > 0 && !is_running) found.push_back(entry.path());
-  }
-  return found;
+[[noreturn]] void fail(int number, const fs::path& path) {
+  throw fs::filesystem_error("", path, std::error_code(number, std::generic_category()));
 }
 
-// The latest of them becomes `partial`; the others go.
-void take_over(std::vector<fs::path> left, const fs::path& partial, bool resume) {
-  std::error_code no_matter;
-  std::sort(left.begin(), left.end(), [&](const fs::path& a, const fs::path& b) {
-    return fs::last_write_time(a, no_matter) < fs::last_write_time(b, no_matter);
-  });
-  if (resume && !left.empty()) {
-    fs::rename(left.back(), partial, no_matter);
-    if (!no_matter) left.pop_back();
+ino_t inode_of(const fs::path& path) {
+  struct stat about {};
+  return stat(path.c_str(), &about) == 0 ? about.st_ino : 0;
+}
+
+// The lock's descriptor; none if another run holds it. A lock file that its holder has removed meanwhile locks nothing.
+std::optional<int> try_to_lock(const fs::path& partial) {
+  const fs::path file = partial / "lock";
+  for (;;) {
+    fs::create_directories(partial);
+    const int lock = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock < 0 && errno == ENOENT) continue;
+    if (lock < 0) fail(errno, file);
+    const int failure = flock(lock, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+    struct stat about {};
+    if (failure == 0 && fstat(lock, &about) == 0 && about.st_ino == inode_of(file)) return lock;
+    close(lock);
+    if (failure == EWOULDBLOCK) return {};
+    if (failure != 0) fail(failure, file);
   }
-  for (const fs::path& path : left) fs::remove_all(path, no_matter);
+}
+
+// A run that was killed an instant ago may still have children, or be putting its outputs into place.
+std::optional<int> lock_within_seconds(const fs::path& partial) {
+  constexpr int kTries = 100;
+  for (int i = 0; i < kTries; ++i) {
+    if (const auto lock = try_to_lock(partial)) return lock;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return {};
 }
 
 // case--engine--dt.csv, as the grid names them.
@@ -55,84 +75,143 @@ bool is_trajectory(const fs::path& path) {
   return path.extension() == ".csv" && first != std::string::npos && name.find("--", first + 2) != std::string::npos;
 }
 
-// Both names exist, and at no time does either not; where the file system cannot do that, one after the other.
-void exchange(const fs::path& one, const fs::path& other) {
-  if (renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0) return;
-  const fs::path aside = one.string() + ".old";
-  fs::rename(other, aside), fs::rename(one, other), fs::rename(aside, one);
-}
-
-}  // namespace
-
-OutputFolder::OutputFolder(const std::string& path, const std::vector<std::string>& file_names, bool resume)
-    : folder_(path), partial_(folder_ / fmt::format("{}{}", kPartial, getpid())) {
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(
-        fmt::format("--out {}: cannot be written: {}; give a folder that can be made or written", path, why));
-  };
-  if (path.empty()) refuse("the name is empty");
-  try {
-    fs::create_directories(folder_ / "trajectories");
-    take_over(leftovers(folder_), partial_, resume);
-    fs::create_directories(partial_ / "trajectories");
-    fs::create_directories(partial_ / "journals");
-  } catch (const fs::filesystem_error& error) {
-    refuse(error.code().message());
-  }
-  for (const std::string& name : file_names) {
-    if (fs::exists(folder_ / name) && !fs::is_regular_file(folder_ / name)) {
-      fs::remove_all(partial_);
-      refuse(fmt::format("'{}' in it is no file", name));
-    }
-  }
-}
-
-OutputFolder::~OutputFolder() {
-  std::error_code no_matter;
-  if (!is_kept_) fs::remove_all(partial_, no_matter);
-}
-
-void OutputFolder::write(const std::string& file_name, const std::string& text) {
-  std::ofstream file(partial_ / file_name, std::ios::binary);
+void write_file(const fs::path& path, const std::string& text) {
+  errno = 0;
+  std::ofstream file(path, std::ios::binary);
   file << text;
   file.close();
-  if (!file) throw std::runtime_error(fmt::format("'{}' could not be written to '{}'", file_name, folder_.string()));
+  if (!file) throw std::runtime_error(errno == 0 ? "it could not be written" : std::strerror(errno));
 }
 
-void OutputFolder::rename_into_place() const {
-  exchange(partial_ / "trajectories", folder_ / "trajectories");
-  for (const fs::directory_entry& entry : fs::directory_iterator(partial_)) {
-    if (entry.is_regular_file()) fs::rename(entry.path(), folder_ / entry.path().filename());
-  }
+// At no time is there no folder of trajectories; where the file system cannot exchange two, one goes before the other
+// comes.
+void exchange(const fs::path& fresh, const fs::path& old) {
+  if (renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (fs::exists(old)) fs::rename(old, fresh.string() + ".old");
+  fs::rename(fresh, old);
 }
 
-void OutputFolder::publish(const std::vector<std::string>& trajectories) {
-  const std::set<std::string> wanted(trajectories.begin(), trajectories.end());
-  for (const fs::directory_entry& entry : fs::directory_iterator(partial_ / "trajectories")) {
-    if (!wanted.contains(entry.path().filename().string())) fs::remove_all(entry.path());
-  }
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "trajectories")) {
-    const fs::path there = partial_ / "trajectories" / entry.path().filename();
-    if (!is_trajectory(entry.path()) && !fs::exists(there))
-      fs::copy(entry.path(), there, fs::copy_options::recursive | fs::copy_options::copy_symlinks);
-  }
-  // A process of its own, in a session of its own, so that whoever kills this one does not stop it half-way.
+// Whoever was stopped in here can be followed by another that begins again: a file that is in place is no longer
+// staged, and the staged folder of trajectories is told from the one it was exchanged for by the inode in `ready`.
+void put_into_place(const fs::path& staged, const fs::path& folder) {
+  std::ifstream ready(staged / kReady);
+  ino_t fresh = 0;
+  ready >> fresh;
+  if (inode_of(staged / kTrajectories) == fresh) exchange(staged / kTrajectories, folder / kTrajectories);
+  for (const fs::directory_entry& entry : fs::directory_iterator(staged / "reports"))
+    fs::rename(entry.path(), folder / entry.path().filename());
+  for (std::string not_written; ready >> not_written;) fs::remove(folder / not_written);
+  fs::remove(staged / kReady);
+}
+
+// In a process of its own, in a session of its own, so that whoever kills this one does not stop it half-way.
+void put_into_place_unstopped(const fs::path& staged, const fs::path& folder) {
   const pid_t child = fork();
+  if (child < 0) return put_into_place(staged, folder);
   if (child == 0) {
     setsid();
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
     try {
-      rename_into_place();
+      put_into_place(staged, folder);
       _exit(0);
     } catch (const std::exception&) {
       _exit(1);
     }
   }
   int status = 1;
-  if (child > 0) waitpid(child, &status, 0);
-  if (child < 0) rename_into_place();
-  if (child > 0 && status != 0)
-    throw std::runtime_error(fmt::format("the outputs could not be renamed into '{}'", folder_.string()));
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (status != 0) throw std::runtime_error(fmt::format("the outputs could not be renamed into '{}'", folder.string()));
+}
+
+void check_what_stands_there(const fs::path& folder, const std::vector<std::string>& file_names) {
+  std::error_code no_matter;
+  for (const std::string& name : file_names) {
+    if (fs::exists(folder / name, no_matter) && !fs::is_regular_file(folder / name))
+      throw InputError(fmt::format("'{}' in it is no file", name));
+  }
+  for (const char* name : {kTrajectories, kPartial}) {
+    if (fs::exists(folder / name, no_matter) && !fs::is_directory(folder / name))
+      throw InputError(fmt::format("'{}' in it is no folder", name));
+  }
+}
+
+void clear_all_but(const fs::path& folder, const std::set<std::string>& names) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (!names.contains(entry.path().filename().string())) fs::remove_all(entry.path());
+  }
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const std::string& path, const std::vector<std::string>& file_names, bool resume)
+    : folder_(path), partial_(folder_ / kPartial), staged_(partial_ / "staged"), file_names_(file_names) {
+  try {
+    if (path.empty()) throw InputError("the name is empty");
+    check_what_stands_there(folder_, file_names);
+    const auto lock = lock_within_seconds(partial_);
+    if (!lock) throw InputError("another run is writing to it");
+    lock_ = *lock;
+    if (fs::exists(staged_ / kReady)) put_into_place_unstopped(staged_, folder_);
+    clear_all_but(partial_,
+                  resume ? std::set<std::string>{"lock", "journals", kTrajectories} : std::set<std::string>{"lock"});
+    for (const fs::path& inside :
+         {partial_ / kTrajectories, partial_ / "journals", staged_ / kTrajectories, staged_ / "reports"})
+      fs::create_directories(inside);
+  } catch (const std::exception& error) {
+    if (lock_ >= 0) close(lock_);
+    const auto* of_files = dynamic_cast<const fs::filesystem_error*>(&error);
+    throw InputError(fmt::format("--out {}: cannot be written: {}; give a folder that can be made or written", path,
+                                 of_files ? of_files->code().message() : error.what()));
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code no_matter;
+  if (is_kept_) {
+    if (!fs::exists(staged_ / kReady, no_matter)) fs::remove_all(staged_, no_matter);
+  } else {
+    // First what says that the trajectories are whole, last what keeps others out.
+    for (const char* name : {"journals", "staged", kTrajectories, kReady}) fs::remove_all(partial_ / name, no_matter);
+    fs::remove(partial_ / "lock", no_matter), fs::remove(partial_, no_matter);
+  }
+  close(lock_);
+}
+
+void OutputFolder::write(const std::string& file_name, const std::string& text) {
+  const fs::path file = staged_ / "reports" / file_name;
+  try {
+    write_file(file, text);
+  } catch (const std::exception&) {
+    std::error_code no_matter;
+    fs::remove(file, no_matter);
+    throw;
+  }
+}
+
+void OutputFolder::stage_trajectories(const std::vector<std::string>& trajectories) const {
+  for (const std::string& name : trajectories) {
+    std::error_code not_linked;
+    fs::create_hard_link(partial_ / kTrajectories / name, staged_ / kTrajectories / name, not_linked);
+    if (not_linked) fs::copy_file(partial_ / kTrajectories / name, staged_ / kTrajectories / name);
+  }
+  if (!fs::exists(folder_ / kTrajectories)) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / kTrajectories)) {
+    const fs::path there = staged_ / kTrajectories / entry.path().filename();
+    if (!is_trajectory(entry.path()) && !fs::exists(there))
+      fs::copy(entry.path(), there, fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+  }
+}
+
+void OutputFolder::publish(const std::vector<std::string>& trajectories) {
+  stage_trajectories(trajectories);
+  std::string ready = fmt::format("{}\n", inode_of(staged_ / kTrajectories));
+  for (const std::string& name : file_names_) {
+    if (!fs::exists(staged_ / "reports" / name)) ready += name + "\n";
+  }
+  write_file(partial_ / kReady, ready);
+  fs::rename(partial_ / kReady, staged_ / kReady);  // there as a whole, or not at all
+  put_into_place_unstopped(staged_, folder_);
 }
 
 }  // namespace rigor

@@ -19,6 +19,7 @@
 #include <memory>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "core/base/error.h"
 
@@ -33,6 +34,10 @@ volatile std::sig_atomic_t caught_signal = 0;
 // A limit is one of CPU time, so that no verdict depends on what else the machine does; a job that sleeps ends too,
 // after so many times its limit by the clock.
 constexpr double kWaits = 10;
+
+// A job that has sent something may go on for as long as it says something from time to time: within so many times its
+// limit by the clock, twice what the longest of its own children may take. One that was stopped says nothing.
+constexpr double kSilence = 2 * kWaits;
 
 // While it lives, the first SIGINT, SIGTERM or SIGHUP is noted; a second one acts as if Rigor had not asked.
 class SignalWatch {
@@ -67,6 +72,7 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   int number() const { return number_; }
   void reset(int number) { close(), number_ = number; }
+  void take(Descriptor& from) { reset(std::exchange(from.number_, -1)); }
   void close() {
     if (number_ >= 0) ::close(number_);
     number_ = -1;
@@ -101,6 +107,7 @@ void drain(Descriptor& from, std::string& into) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);                                           // it died before the line above
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);  // the parent's handlers are not for it
+  std::signal(SIGXFSZ, SIG_IGN);  // but a file that grows too large is a write that fails
   const rlimit no_core_file{0, 0};
   setrlimit(RLIMIT_CORE, &no_core_file);
   dup2(words.write.number(), STDOUT_FILENO);
@@ -140,8 +147,7 @@ class Child {
     pid_ = fork();
     if (pid_ < 0) fail("starting a child process");
     if (pid_ == 0) be_the_child(work, messages, words, parent);
-    messages_.reset(dup(messages.read.number()));
-    words_.reset(dup(words.read.number()));
+    messages_.take(messages.read), words_.take(words.read);
   }
   ~Child() {
     if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
@@ -182,7 +188,8 @@ class Child {
   }
 
   bool is_late() const {
-    return !has_sent_ && !closing_kind_ && (cpu_seconds() > limit_ || Time::now() - begin_ > seconds(kWaits * limit_));
+    if (closing_kind_ || has_sent_) return Time::now() - last_heard_ > seconds(kSilence * limit_);
+    return cpu_seconds() > limit_ || Time::now() - begin_ > seconds(kWaits * limit_);
   }
   void stop() {
     kill(pid_, SIGKILL);
@@ -196,10 +203,10 @@ class Child {
     end.last_words = last_line(spoken_);
     end.text = closing_text_;
     end.seconds = std::chrono::duration<double>(Time::now() - begin_).count();
-    if (timed_out_) {
-      end.how = Ending::timed_out;
-    } else if (closing_kind_) {
+    if (closing_kind_) {
       end.how = closing_kind_ == 'd' ? Ending::finished : closing_kind_ == 'i' ? Ending::refused : Ending::threw;
+    } else if (timed_out_) {
+      end.how = Ending::timed_out;
     } else {
       end.how = WIFSIGNALED(status_) ? Ending::killed : Ending::exited;
       end.code = WIFSIGNALED(status_) ? WTERMSIG(status_) : WEXITSTATUS(status_);
@@ -223,6 +230,7 @@ class Child {
 
   template <typename OnMessage>
   void take_frame(char kind, const std::string& text, const OnMessage& on_message) {
+    last_heard_ = Time::now();
     if (kind != 'm') {
       closing_kind_ = kind, closing_text_ = text;
     } else {
@@ -231,7 +239,7 @@ class Child {
     }
   }
 
-  Time::time_point begin_ = Time::now();
+  Time::time_point begin_ = Time::now(), last_heard_ = begin_;
   double limit_;  // s
   pid_t pid_ = -1;
   int status_ = 0;
@@ -276,7 +284,7 @@ std::string sentence_of(const JobEnd& end, double limit) {
   const std::string words = end.last_words.empty() ? "" : fmt::format("; its last words: {}", end.last_words);
   switch (end.how) {
     case Ending::finished:
-      return "finished";
+      return "ended without an answer";
     case Ending::refused:
       return end.text;
     case Ending::threw:

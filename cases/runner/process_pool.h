@@ -22,11 +22,11 @@ class Channel {
 
 struct Job {
   std::function<void(const Channel&)> work;  // runs in the child
-  double limit;                              // s, CPU time until its first message; none after that
+  double limit;  // s, CPU time until its first message; after that it ends only where it falls silent for long
 };
 
 // finished: `work` returned. refused: it threw InputError. threw: another exception. killed: by a signal.
-// exited: the child left, without a word, by exit(). timed_out: no message within the limit.
+// exited: the child left, without a word, by exit(). timed_out: no message within the limit, or none any more.
 enum class Ending { finished, refused, threw, killed, exited, timed_out };
 
 struct JobEnd {

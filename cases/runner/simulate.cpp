@@ -9,9 +9,10 @@
 namespace rigor {
 namespace {
 
-double thread_cpu_seconds() {
+// Of all threads, or an engine that has its work done by others would look free.
+double cpu_seconds_so_far() {
   timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
@@ -21,8 +22,8 @@ double cost_of_reading_the_clock() {
     constexpr int kPairs = 1000;
     std::vector<double> costs;
     for (int i = 0; i < kPairs; ++i) {
-      const double begin = thread_cpu_seconds();
-      costs.push_back(thread_cpu_seconds() - begin);
+      const double begin = cpu_seconds_so_far();
+      costs.push_back(cpu_seconds_so_far() - begin);
     }
     std::nth_element(costs.begin(), costs.begin() + kPairs / 2, costs.end());
     return costs[kPairs / 2];
@@ -50,11 +51,6 @@ long steps_per_sample(long steps, BodyColumns bodies) {
 
 }  // namespace
 
-long steps_in(double duration, double dt) {
-  constexpr double kRounding = 1e-9, kMost = 9e18;
-  return static_cast<long>(std::min(std::floor(duration / dt + kRounding), kMost));
-}
-
 Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
                     std::optional<long> steps_per_sample_told, bool is_timed) {
   const std::unique_ptr<World> world = engine.load(scene, settings);
@@ -76,9 +72,9 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     if (n % every == 0 || n == steps) run.trajectory.samples.push_back({now.time, BodyTable(now.bodies())});
     if (n == steps) return run;
 
-    const double begin = is_timed ? thread_cpu_seconds() : 0;
+    const double begin = is_timed ? cpu_seconds_so_far() : 0;
     world->step(dt);
-    if (is_timed) run.cpu_seconds += std::max(0.0, thread_cpu_seconds() - begin - cost_of_reading_the_clock());
+    if (is_timed) run.cpu_seconds += std::max(0.0, cpu_seconds_so_far() - begin - cost_of_reading_the_clock());
     world->read(now);
     if (run.solver_warning.empty()) {
       run.solver_warning = world->solver_warning();
@@ -97,9 +93,9 @@ double timed_again(const Engine& engine, const Settings& settings, const Scene& 
   double quickest = run.cpu_seconds, spent = 0;
   for (int repeat = 0; repeat < kMost && spent < kEnough; ++repeat) {
     const std::unique_ptr<World> world = engine.load(scene, settings);
-    const double begin = thread_cpu_seconds();
+    const double begin = cpu_seconds_so_far();
     for (long n = 0; n < steps; ++n) world->step(dt);
-    const double seconds = thread_cpu_seconds() - begin;
+    const double seconds = cpu_seconds_so_far() - begin;
     quickest = repeat == 0 ? seconds : std::min(quickest, seconds);
     spent += seconds;
   }

@@ -2,30 +2,10 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
-#include "core/engine/engine.h"
-#include "core/engine/trajectory.h"
+#include "core/engine/simulation.h"
 
 namespace rigor {
-
-struct NotFinite {
-  double time;  // s, of the first sample with a number that is not finite
-  int body;
-};
-
-struct Simulation {
-  Trajectory trajectory;  // finite samples only, t = 0 first
-  SettingsInForce settings;
-  std::optional<NotFinite> not_finite;
-  std::string solver_warning;      // the first one of the world, with its time; empty if none
-  double solver_warning_time = 0;  // s
-  double cpu_seconds = 0;          // of the steps alone, without recording; not a number if nobody timed them
-  long steps_per_sample = 1;
-};
-
-// Steps that fit into the duration, one that ends within rounding (1e-9 of a step) of it included.
-long steps_in(double duration, double dt);
 
 // Every step is recorded, or every n-th where the whole would pass kLargestTrajectory bytes; or as told.
 inline constexpr double kLargestTrajectory = 512e6;

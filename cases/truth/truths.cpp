@@ -21,6 +21,7 @@ TruthRow pushed_truth();
 TruthRow reference_truth();
 TruthRow rolling_truth();
 TruthRow sliding_truth();
+TruthRow sprung_ball_truth();
 TruthRow steady_precession_truth();
 
 const std::vector<TruthRow>& truths() {
@@ -37,6 +38,7 @@ const std::vector<TruthRow>& truths() {
       reference_truth(),
       rolling_truth(),
       sliding_truth(),
+      sprung_ball_truth(),
       steady_precession_truth(),
   };
   return table;

@@ -55,6 +55,7 @@ struct EngineInfo {
   Features features = {};                                                  // what it expresses; see features.h
   std::vector<MethodInfo> methods = {};                                    // the first is the default
   double max_rotation_per_step = std::numeric_limits<double>::infinity();  // rad; beyond it the engine clamps
+  bool is_in_house = false;  // Rigor's own: all its methods take part by default, and others are held against the best
 };
 
 struct Settings {

@@ -14,7 +14,7 @@ inline std::string word_option(const Settings& settings, const std::string& name
 
 inline double number_option(const Settings& settings, const std::string& name, double otherwise) {
   const auto found = settings.options.find(name);
-  return found == settings.options.end() ? otherwise : std::stod(found->second);
+  return found == settings.options.end() ? otherwise : std::strtod(found->second.c_str(), nullptr);
 }
 
 }  // namespace rigor

@@ -31,9 +31,10 @@ const auto& find_row(const Rows& rows, const std::string& name, const std::strin
                                known.empty() ? "none" : listed(known)));
 }
 
-void check_value(const OptionInfo& option, const std::string& value, const std::string& run) {
+// The value as it is always written: "5e1" and "50" are one.
+std::string checked_value(const OptionInfo& option, const std::string& value, const std::string& run) {
   if (!option.choices.empty()) {
-    if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return;
+    if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return value;
     throw InputError(fmt::format("'{}': {} cannot be '{}'{}; it is one of: {}", run, option.name, value,
                                  did_you_mean(value, option.choices), listed(option.choices)));
   }
@@ -46,6 +47,7 @@ void check_value(const OptionInfo& option, const std::string& value, const std::
     throw InputError(fmt::format("'{}': {} cannot be '{}'; it is a {} from {} to {}", run, option.name, value,
                                  option.whole ? "whole number" : "number", option.min, option.max));
   }
+  return fmt::format("{}", number);
 }
 
 Track parse_track(const std::string& word, const std::string& run) {
@@ -72,9 +74,9 @@ void parse_options(std::string rest, const MethodInfo& method, RunName& run, con
     std::string key = pair;
     const std::string value = cut_tail(key, '=');
     if (key == pair) throw InputError(fmt::format("'{}': '{}' has no value; a run is named {}", text, pair, kForm));
-    check_value(find_row(method.options, key, fmt::format("option of {}:{} called", run.engine, method.name), text),
-                value, text);
-    if (!run.settings.options.emplace(key, value).second) {
+    const OptionInfo& option =
+        find_row(method.options, key, fmt::format("option of {}:{} called", run.engine, method.name), text);
+    if (!run.settings.options.emplace(key, checked_value(option, value, text)).second) {
       throw InputError(fmt::format("'{}': '{}' is given twice", text, key));
     }
   }

@@ -9,6 +9,7 @@
 #include "core/scene/turned.h"
 #include "tests/adapters/seam_runs.h"
 #include "tests/cases/judged.h"
+#include "tests/cases/vocabulary.h"
 
 using namespace rigor;
 
@@ -131,7 +132,7 @@ bool is_taken_out_by_bullet(const std::string& id, const std::string& run) {
 BOOST_AUTO_TEST_CASE(in_every_smooth_case_of_the_suite_an_engine_does_what_its_scheme_does) {
   const auto infos = infos_of(engines());
   int compared = 0;
-  for (const Case& definition : select_cases({}, default_suite_dir())) {
+  for (const Case& definition : select_cases({}, default_suite_dir(), test::words())) {
     const Scene& scene = definition.scene;
     const StepSize dt = *std::max_element(definition.dt.begin(), definition.dt.end(),
                                           [](const auto& a, const auto& b) { return a.seconds < b.seconds; });

@@ -15,7 +15,7 @@ inline Results priced_results(const std::vector<std::pair<std::string, std::vect
                               const std::string& metric = "position_error") {
   Results grid;
   EngineTable table;
-  for (const auto& [name, cells] : runs) table.push_back(std::make_unique<FaultyEngine>(name, [](double&) {}));
+  for (const auto& [name, cells] : runs) table.add(std::make_unique<FaultyEngine>(name, [](double&) {}));
   grid.engines = infos_of(table);
   CaseResult result;
   result.definition = drifting_body("family/case");

@@ -9,12 +9,14 @@
 #include <set>
 #include <tuple>
 
+#include "cases/case/run_selector.h"
 #include "cases/case/suite.h"
 #include "cases/gates/deviations.h"
 #include "cases/gates/gates.h"
 #include "cases/gates/quick.h"
 #include "cases/runner/grid.h"
 #include "core/base/error.h"
+#include "tests/cases/vocabulary.h"
 
 using namespace rigor;
 using rigor::test::BrokenEngine;
@@ -28,7 +30,7 @@ EngineTable broken_table(const std::string& name, const Fault& fault) {
   // Each is wrapped, so that the table owns no engine of the shipped one; all but one by a fault that is none.
   EngineTable table;
   for (const auto& engine : engines())
-    table.push_back(std::make_unique<BrokenEngine>(*engine, engine->info().name == name ? fault : Fault{}));
+    table.add(std::make_unique<BrokenEngine>(*engine, engine->info().name == name ? fault : Fault{}));
   return table;
 }
 
@@ -66,11 +68,12 @@ std::vector<std::pair<std::string, GateResult>> failures(const std::vector<Case>
   const auto named = runs_of(engine, runs_of_gates(cases, default_runs(infos), infos));
   if (fault.step) std::erase_if(runs, remembers);
   Results grid = plan_grid(cases, runs, table, {false, true}, named);
-  run_grid(grid, table, {2, 60, "", false, false}, [](std::size_t, std::size_t) {});
+  run_grid(grid, table, {2, 60, {}, false, false}, [](std::size_t, std::size_t) {});
   const auto known = read_known_deviations(default_adapters_dir(), infos);
+  const RecordedValues recorded = read_recorded_values(default_adapters_dir(), infos);
   std::vector<std::pair<std::string, GateResult>> found;
   for (CaseResult& result : grid.cases) {
-    check_gates(result, grid);
+    check_gates(result, grid, recorded);
     apply_known_deviations(result, grid, known);
     for (const GateResult& answer : result.gates) {
       if (answer.answer == GateAnswer::failed && !answer.engine.empty())
@@ -81,7 +84,7 @@ std::vector<std::pair<std::string, GateResult>> failures(const std::vector<Case>
 }
 
 Case case_called(const std::string& id, const std::string& engine) {
-  return of_engine(select_cases({id}, default_suite_dir()).front(), engine);
+  return of_engine(select_cases({id}, default_suite_dir(), test::words()).front(), engine);
 }
 
 // Empty if no gate finds the fault; else the message of the first that points at it. The quick gates are asked first.

@@ -33,4 +33,17 @@ std::string why_not_built_at_rest(const JudgedRun& run) {
   return "";
 }
 
+std::optional<Instant> collapse_of(const JudgedRun& run) {
+  const BodyColumns start = run.trajectory.samples.front().bodies.columns();
+  for (const Sample& sample : run.trajectory.samples) {
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      if (run.scene.bodies[i].fixed) continue;
+      const double moved = (sample.bodies.columns().position(i) - start.position(i)).norm();
+      if (moved > 0.5 * bounding_radius(*run.scene.bodies[i].shape))
+        return Instant{sample.time, static_cast<int>(i), "displacement", moved, 0};
+    }
+  }
+  return {};
+}
+
 }  // namespace rigor

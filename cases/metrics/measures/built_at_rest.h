@@ -2,6 +2,7 @@
 // creep and collapse_time.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cases/metrics/metric.h"
@@ -10,5 +11,9 @@ namespace rigor {
 
 // Why the run's scene is not one of them, or its truth moves; empty if it is and does not.
 std::string why_not_built_at_rest(const JudgedRun& run);
+
+// The first instant at which a body of such a scene has moved by more than half the radius of the sphere round it; none
+// if all of them stand.
+std::optional<Instant> collapse_of(const JudgedRun& run);
 
 }  // namespace rigor

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/metrics/measures/energy_in_play.h"
 #include "cases/metrics/measures/measuring.h"
 #include "cases/metrics/measures/synchronised.h"
 #include "core/dynamics/model/energy.h"
@@ -21,18 +22,6 @@ Exchange exchange_of(const Scene& scene) {
   return damped ? Exchange::damping : Exchange::none;
 }
 
-std::vector<double> energies(const JudgedRun& run, double lag) {
-  Synchroniser synchroniser(run.scene, run.trajectory.dt, lag);
-  std::vector<double> found;
-  BodyTable bodies;
-  for (const Sample& sample : run.trajectory.samples) {
-    bodies = sample.bodies.columns();
-    synchroniser.apply(sample.time, bodies.columns());
-    found.push_back(energy(run.scene, bodies.columns()));
-  }
-  return found;
-}
-
 std::vector<double> truths_energies(const JudgedRun& run, std::size_t count) {
   std::vector<double> energies;
   for (std::size_t n = 0; n < count; ++n) energies.push_back(energy(run.scene, run.truth->bodies[n].columns()));
@@ -46,13 +35,33 @@ bool stays(const std::vector<double>& energies, double scale) {
   });
 }
 
+}  // namespace
+
+std::vector<double> energies_of(const JudgedRun& run, double lag) {
+  Synchroniser synchroniser(run.scene, run.trajectory.dt, lag);
+  std::vector<double> found;
+  BodyTable bodies;
+  for (const Sample& sample : run.trajectory.samples) {
+    bodies = sample.bodies.columns();
+    synchroniser.apply(sample.time, bodies.columns());
+    found.push_back(energy(run.scene, bodies.columns()));
+  }
+  return found;
+}
+
 std::vector<double> lowest_so_far(const std::vector<double>& found) {
   std::vector<double> lowest = found;
   for (std::size_t n = 1; n < lowest.size(); ++n) lowest[n] = std::min(lowest[n - 1], found[n]);
   return lowest;
 }
 
-}  // namespace
+std::vector<double> rises_of(const std::vector<double>& as_read, const std::vector<double>& synchronised) {
+  const std::vector<double> lowest_read = lowest_so_far(as_read), lowest = lowest_so_far(synchronised);
+  std::vector<double> rises(as_read.size());
+  for (std::size_t n = 0; n < rises.size(); ++n)
+    rises[n] = std::min(as_read[n] - lowest_read[n], synchronised[n] - lowest[n]);
+  return rises;
+}
 
 // The default law counts even where each pair has its own: that can only make the judgement milder.
 bool contact_may_lose(const Scene& scene) {
@@ -68,14 +77,7 @@ bool may_change_energy(const Scene& scene) { return exchange_of(scene) != Exchan
 double energy_scale(const JudgedRun& run) {
   if (run.truth && run.truth->largest_kinetic_energy > 0) return run.truth->largest_kinetic_energy;
   const auto& samples = run.trajectory.samples;
-  const double kinetic = kinetic_energy(run.scene, samples.front().bodies.columns());
-  if (kinetic > 0) return kinetic;
-  const double start = potential_energy(run.scene, samples.front().bodies.columns());
-  double lowest = start;
-  for (const Sample& sample : samples) {
-    lowest = std::min(lowest, potential_energy(run.scene, sample.bodies.columns()));
-  }
-  return lowest < start ? start - lowest : 1;
+  return energy_in_play(run.scene, std::max(run.duration, samples.empty() ? 0 : samples.back().time));
 }
 
 EnergySeries energy_series(const JudgedRun& run, double lag) {
@@ -87,13 +89,13 @@ EnergySeries energy_series(const JudgedRun& run, double lag) {
   series.scale = energy_scale(run);
   const Exchange exchange = exchange_of(run.scene);
   const bool is_lag_known = exchange != Exchange::driving || !contact_may_lose(run.scene);
-  series.found = energies(run, is_lag_known ? lag : 0);
+  series.found = energies_of(run, is_lag_known ? lag : 0);
   const auto truth = truths_energies(run, samples_within(run, kTruthNeededPosition));
   const bool conserved = exchange == Exchange::none || (exchange == Exchange::contact && stays(truth, series.scale));
   if (conserved) {
     series.expected.assign(series.found.size(), series.found.front());
   } else if (exchange == Exchange::contact || (exchange == Exchange::damping && truth.empty())) {
-    series.expected = lowest_so_far(series.found);
+    series.expected = lowest_so_far(series.found), series.only_gains_count = true;
   } else if (!truth.empty()) {
     series.found.resize(truth.size());
     for (const double e : truth) series.expected.push_back(series.found.front() + e - truth.front());

@@ -39,7 +39,7 @@ class Flight {
 
  private:
   const Body& body(int i) const { return scene_->bodies[i]; }
-  Pose pose(const BodyState& state, int i, double after) const {
+  BodyPose pose(const BodyState& state, int i, double after) const {
     const Quat q = state.orientation.normalized();
     if (body(i).fixed) return {state.position, q};
     return {state.position + after * state.velocity + 0.5 * after * after * scene_->gravity,

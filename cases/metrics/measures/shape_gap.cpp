@@ -23,11 +23,11 @@ struct Cuboid {
   Vec3 half;  // m, along them
 };
 
-Rod rod_of(const Sphere& s, const Pose& pose) { return {pose.position, Vec3::Zero(), s.radius}; }
-Rod rod_of(const Capsule& c, const Pose& pose) {
+Rod rod_of(const Sphere& s, const BodyPose& pose) { return {pose.position, Vec3::Zero(), s.radius}; }
+Rod rod_of(const Capsule& c, const BodyPose& pose) {
   return {pose.position, pose.orientation * Vec3(0, 0, c.length / 2), c.radius};
 }
-Cuboid cuboid_of(const Box& b, const Pose& pose) {
+Cuboid cuboid_of(const Box& b, const BodyPose& pose) {
   return {pose.position, pose.orientation.toRotationMatrix(), b.size / 2};
 }
 
@@ -107,14 +107,14 @@ struct Extent {
   int body;
 };
 
-Pose pose_of(BodyColumns bodies, int i) { return {bodies.position(i), bodies.orientation(i).normalized()}; }
+BodyPose pose_of(BodyColumns bodies, int i) { return {bodies.position(i), bodies.orientation(i).normalized()}; }
 
 bool is_plane(const Body& body) { return std::holds_alternative<Plane>(*body.shape); }
 
 }  // namespace
 
-double shape_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-  const auto with = [](const auto& shape, const Pose& pose, const auto& then) {
+double shape_gap(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
+  const auto with = [](const auto& shape, const BodyPose& pose, const auto& then) {
     if (const auto* s = std::get_if<Sphere>(&shape)) return then(rod_of(*s, pose));
     if (const auto* c = std::get_if<Capsule>(&shape)) return then(rod_of(*c, pose));
     return then(cuboid_of(std::get<Box>(shape), pose));
@@ -131,6 +131,13 @@ double bounding_radius(const Shape& shape) {
   if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
   if (const auto* c = std::get_if<Capsule>(&shape)) return c->radius + c->length / 2;
   if (const auto* b = std::get_if<Box>(&shape)) return b->size.norm() / 2;
+  return kInfinity;
+}
+
+double inradius(const Shape& shape) {
+  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
+  if (const auto* c = std::get_if<Capsule>(&shape)) return c->radius;
+  if (const auto* b = std::get_if<Box>(&shape)) return b->size.minCoeff() / 2;
   return kInfinity;
 }
 

@@ -9,7 +9,7 @@
 
 namespace rigor {
 
-struct Pose {
+struct BodyPose {
   Vec3 position = Vec3::Zero();         // m, p_WB
   Quat orientation = Quat::Identity();  // unit, B to W
 };
@@ -17,9 +17,10 @@ struct Pose {
 // m. Exact for every pair of sphere, box, capsule and plane, but for two: boxes apart, where it is the widest gap along
 // any axis of a face or across two edges, which is the distance unless two corners are nearest; and a capsule whose
 // axis runs inside a box, where it is how deep the deepest point of it lies.
-double shape_gap(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
+double shape_gap(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b);
 
 double bounding_radius(const Shape& shape);  // m, round the body's origin; infinite for a plane
+double inradius(const Shape& shape);  // m, of the largest sphere inside: half its thickness; infinite for a plane
 
 // Calls `visit(a, b, gap)` for each pair of the scene's colliding bodies, of which one can move, that may be nearer to
 // each other than `reach` [m]: neighbours are found by sorting along one axis.

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "cases/analysis/findings.h"
-#include "cases/analysis/verdict_matrix.h"
-#include "cases/report/console/console_table.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/verdict_matrix.h"
+#include "cases/report/wording/wording.h"
 
 namespace rigor {
 namespace {
@@ -39,13 +39,15 @@ std::string short_quantity(double value, const std::string& metric) {
   return fmt::format("{:.3g}p{}", size / 1e-12, unit);
 }
 
-std::string cell_text(const Cell& cell, const std::string& metric) {
+// Between sign and number stands the shade: it takes no room.
+std::string cell_text(const CaseResult& result, const Cell& cell, const std::string& metric) {
   const std::string sign = sign_of(cell);
   if (cell.status == Status::diverged) return fmt::format("{} {:.2f}s", sign, cell.stability.time);
   const auto found = cell.metrics.find(metric);
   const bool has_number = found != cell.metrics.end() && found->second.not_applicable.empty();
   if (cell.status == Status::unsupported) return sign;
-  return sign + (has_number ? " " + short_quantity(found->second.value, metric) : word_of(cell.status));
+  return sign +
+         (has_number ? shade_of(result, cell) + short_quantity(found->second.value, metric) : word_of(cell.status));
 }
 
 // A run's name in lines of a column's width, broken behind ':' and before '@', at '-', ',' and '=', else anywhere.
@@ -97,13 +99,13 @@ std::string panel(const Results& results, const std::vector<std::size_t>& runs) 
     if (of != family) text += of + "\n", family = of;
     const StepSize dt = matrix_dt(result, headline);
     const std::string name = (slash == std::string::npos ? id : " " + id.substr(slash + 1)) +
-                             (dt.text == headline.text ? "" : fmt::format(" {}", dt.text));
+                             (dt == headline ? "" : fmt::format(" {}", dt.text));
     std::string row = fmt::format("{:<{}}", shortened(name, kCaseColumn), kCaseColumn);
     const std::string metric = main_error(result);
     for (const std::size_t run : runs) {
       const auto cell = std::find_if(result.cells.begin(), result.cells.end(),
-                                     [&](const Cell& c) { return c.run == run && c.dt.text == dt.text; });
-      row += right_aligned(cell == result.cells.end() ? "" : cell_text(*cell, metric), kColumn);
+                                     [&](const Cell& c) { return c.run == run && c.dt == dt; });
+      row += right_aligned(cell == result.cells.end() ? "" : cell_text(result, *cell, metric), kColumn);
     }
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + "\n";
@@ -124,7 +126,7 @@ std::vector<std::size_t> runs_to_show(const Results& results) {
     if (2 * cases_of[run] >= results.cases.size()) runs.push_back(run);
   }
   if (runs.empty()) runs.resize(results.runs.size()), std::iota(runs.begin(), runs.end(), std::size_t{0});
-  std::stable_partition(runs.begin(), runs.end(), [&](std::size_t run) { return results.runs[run].engine != "core"; });
+  std::stable_partition(runs.begin(), runs.end(), [&](std::size_t run) { return !is_in_house(results, run); });
   return runs;
 }
 
@@ -140,7 +142,9 @@ std::string console_matrix(const Results& results) {
                           "where there is no truth.",
                           headline_dt(results).text),
               0) +
-      "\n" + "✓ stable  ≈ drifting  ✕ blown up at that time, or gate failed  ◆ known deviation  – unsupported\n";
+      "\n" + "✓ stable  ≈ drifting  ∩ overlapping  ↑ gaining energy  ↓ collapsed  ✕ blown up at that time, or\n" +
+      "gate failed  ◆ known deviation  – unsupported\n" +
+      "position error in sizes of the case: ░ from 1e-3  ▒ 1e-2  ▓ 1e-1  █ 1\n";
   for (std::size_t first = 0; first < runs.size(); first += columns) {
     const auto begin = runs.begin() + static_cast<long>(first),
                end = runs.begin() + static_cast<long>(std::min(first + columns, runs.size()));

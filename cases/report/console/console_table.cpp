@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/analysis/comparison.h"
-#include "cases/analysis/explained_error.h"
-#include "cases/analysis/explanation.h"
-#include "cases/analysis/findings.h"
 #include "cases/report/console/console_matrix.h"
+#include "cases/report/wording/comparison.h"
+#include "cases/report/wording/explained_error.h"
+#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/wording.h"
+#include "cases/truth/provenance.h"
 
 namespace rigor {
 namespace {
 
-constexpr std::size_t kWidth = 100;
 const std::string kNoValue = "-";
 
 std::string metric_text(const Cell& cell, const std::string& name, double MetricValue::*part) {
@@ -43,7 +44,28 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
   if (cell.stability.verdict == Verdict::blown_up) {
     return fmt::format("blown up at {:.2f} s: {}", cell.stability.time, scene.body_name(cell.stability.body));
   }
-  return cell.status == Status::pass ? word_of(cell.stability.verdict) : word_of(cell.status);
+  return cell.status == Status::pass ? phrase_of(cell.stability) : word_of(cell.status);
+}
+
+// The first column of a table; a long name gets a line of its own.
+std::string engine_column(const std::string& name) {
+  constexpr std::size_t kColumn = 24;
+  if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
+  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a line of its own
+}
+
+std::string explained_text(const std::vector<ExplainedRow>& rows) {
+  if (rows.empty()) return "";
+  std::vector<ExplainedRow> lines = {
+      {"error explained", "all [m]", "scheme", "rest", "[rad]", "scheme", "rest", "until [s]"}};
+  lines.insert(lines.end(), rows.begin(), rows.end());
+  std::string text;
+  for (const ExplainedRow& row : lines) {
+    text += fmt::format("{} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {:>9}\n", engine_column(row.engine), row.total,
+                        row.by_scheme, row.unexplained, row.rotation, row.rotation_by_scheme, row.rotation_unexplained,
+                        row.until);
+  }
+  return text;
 }
 
 std::string table_line(const RowText& row) {
@@ -77,9 +99,9 @@ std::string row_line(const RowText& row) {
 std::string gate_lines(const CaseResult& result, bool with_unchecked) {
   std::string lines;
   for (const GateResult& gate : result.gates) {
-    if (gate.answer == GateAnswer::held || gate.answer == GateAnswer::known_deviation) continue;
-    if (gate.answer == GateAnswer::not_checked && !with_unchecked) continue;
-    lines += "  " + wrapped(fmt::format("gate {}: {}", word_of(gate.answer), gate.text), 4) + "\n";
+    if (!falls_short(gate.answer) || (gate.answer == GateAnswer::not_checked && !with_unchecked)) continue;
+    const std::string kind = kind_of(result.definition.gates[gate.gate]);
+    lines += "  " + wrapped(fmt::format("{} {}: {}", kind, word_of(gate.answer), gate.text), 4) + "\n";
   }
   return lines;
 }
@@ -95,7 +117,7 @@ std::string block(const Results& results, const CaseResult& result) {
   std::string text = wrapped(fmt::format("{}: {}", result.definition.id, result.definition.title), 2) + "\n";
   text += "  " + wrapped(truth_sentence(result), 2) + "\n" + header(dt);
   for (const Cell& cell : result.cells) {
-    if (cell.dt.seconds == dt.seconds) text += row_line(row_text(results, result, cell));
+    if (cell.dt == dt) text += row_line(row_text(results, result, cell));
   }
   text += explained_text(explained_rows(results, result, dt));
   for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
@@ -117,44 +139,6 @@ std::string count_line(const Results& results) {
 
 }  // namespace
 
-std::string wrapped(const std::string& text, std::size_t indent) {
-  const std::size_t width = kWidth - indent;
-  std::string out, rest = text;
-  while (rest.size() > width) {
-    std::size_t at = rest.rfind(' ', width);
-    if (at == std::string::npos || at == 0) at = rest.find(' ', width);
-    if (at == std::string::npos) break;
-    out += rest.substr(0, at) + "\n" + std::string(indent, ' ');
-    rest.erase(0, at + 1);
-  }
-  return out + rest;
-}
-
-std::string shortened(std::string text, std::size_t width) {
-  if (text.size() <= width) return text;
-  text.resize(width - 2);
-  while (!text.empty() && (text.back() & 0xc0) == 0x80) text.pop_back();
-  if (!text.empty() && (text.back() & 0x80)) text.pop_back();
-  return text + "..";
-}
-
-std::string rounded(double value) {
-  if (!std::isfinite(value)) return "not finite";
-  if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e4)) return fmt::format("{:.1e}", value);
-  return fmt::format("{:.3g}", value);
-}
-
-std::string engine_column(const std::string& name) {
-  constexpr std::size_t kColumn = 24;
-  if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
-  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a line of its own
-}
-
-StepSize coarsest_dt(const CaseResult& result) {
-  return *std::max_element(result.definition.dt.begin(), result.definition.dt.end(),
-                           [](const StepSize& a, const StepSize& b) { return a.seconds < b.seconds; });
-}
-
 std::string truth_sentence(const CaseResult& result) {
   const Case& definition = result.definition;
   if (!result.error.empty()) return result.error;
@@ -162,12 +146,13 @@ std::string truth_sentence(const CaseResult& result) {
   if (!result.truth) return fmt::format("truth: {}, not found.", definition.truth);
   const TruthFacts& facts = *result.truth;
   if (facts.horizon >= definition.duration) {
-    return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s.", definition.truth,
-                       facts.error_at_end, definition.duration);
+    return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s; it is {}.", definition.truth,
+                       facts.error_at_end, definition.duration, provenance_of(definition.truth));
   }
   return fmt::format(
-      "truth: {}, known to {:g} µm until {:.1f} s of the {:g} s; beyond that the motion is too sensitive.",
-      definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration);
+      "truth: {}, known to {:g} µm until {:.1f} s of the {:g} s; beyond that the motion is too sensitive. It is "
+      "{}.",
+      definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration, provenance_of(definition.truth));
 }
 
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell) {
@@ -194,17 +179,24 @@ RowText row_text(const Results& results, const CaseResult& result, const Cell& c
 }
 
 std::string gate_summary(const Results& results) {
-  std::map<GateAnswer, int> counts;
+  using Counts = std::map<GateAnswer, int>;
+  std::map<std::string, Counts> counts;
   for (const CaseResult& result : results.cases) {
-    for (const GateResult& gate : result.gates) ++counts[gate.answer];
+    for (const GateResult& answer : result.gates)
+      ++counts[kind_of(result.definition.gates[answer.gate])][answer.answer];
   }
-  std::string text = fmt::format("gates: {} held, {} failed, {} not checked", counts[GateAnswer::held],
-                                 counts[GateAnswer::failed], counts[GateAnswer::not_checked]);
-  for (const auto& [answer, words] : {std::pair{GateAnswer::known_deviation, "known deviations"},
-                                      {GateAnswer::unexpected_pass, "unexpected passes"}}) {
-    if (counts[answer] > 0) text += fmt::format(", {} {}", counts[answer], words);
-  }
-  return text + "\n";
+  const auto line = [](const std::string& what, Counts& of) {
+    std::string text = fmt::format("{}: {} held, {} failed, {} not checked", what, of[GateAnswer::held],
+                                   of[GateAnswer::failed], of[GateAnswer::not_checked]);
+    for (const auto& [answer, words] : {std::pair{GateAnswer::known_deviation, "known deviations"},
+                                        {GateAnswer::unexpected_pass, "unexpected passes"},
+                                        {GateAnswer::not_recorded, "without a recorded value"}}) {
+      if (of[answer] > 0) text += fmt::format(", {} {}", of[answer], words);
+    }
+    return text + "\n";
+  };
+  const std::string bounds = line("bounds", counts["bound"]);
+  return counts.contains("regression") ? bounds + line("regressions", counts["regression"]) : bounds;
 }
 
 std::string console_table(const Results& results) {
@@ -221,6 +213,24 @@ std::string console_table(const Results& results) {
     for (const Finding& found : findings(results)) text += wrapped(found.topic + ": " + found.text, 2) + "\n";
   }
   return text + count_line(results);
+}
+
+std::string shortfalls_text(const std::vector<Shortfall>& rows) {
+  if (rows.empty()) return "";
+  std::string text = fmt::format("what fell short: {}\n", rows.size());
+  for (const Shortfall& row : rows) {
+    std::string line = row.case_id;
+    if (!row.engine.empty()) line += fmt::format(", {}", row.engine);
+    if (!row.dt.empty()) line += fmt::format(", dt = {} s", row.dt);
+    line += fmt::format(": {}", row.what);
+    if (!row.found.empty()) line += fmt::format(" {}", row.found);
+    if (!row.limit.empty()) line += fmt::format("; wanted: {}", row.limit);
+    if (!row.worst.empty()) line += fmt::format("; worst {}", row.worst);
+    if (!row.because.empty()) line += fmt::format("; because: {}", row.because);
+    if (!row.where.empty()) line += fmt::format(" [{}]", row.where);
+    text += "  " + wrapped(line, 4) + "\n";
+  }
+  return text;
 }
 
 }  // namespace rigor

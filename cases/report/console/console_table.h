@@ -4,11 +4,15 @@
 
 #include <string>
 
+#include "cases/gates/failures.h"
 #include "cases/results/results.h"
 
 namespace rigor {
 
 std::string console_table(const Results& results);
+
+// What fell short, a paragraph each, worst things first.
+std::string shortfalls_text(const std::vector<Shortfall>& rows);
 
 // How many gates held, failed and were not checked.
 std::string gate_summary(const Results& results);
@@ -22,21 +26,5 @@ struct RowText {
 };
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell);
 std::string truth_sentence(const CaseResult& result);
-
-// Broken at spaces to the table's width; each line stands behind `indent` columns, the first behind whatever of that
-// width the caller has written already.
-std::string wrapped(const std::string& text, std::size_t indent);
-
-// Two or three significant digits: 0.0312, 1.3e-05, 490.
-std::string rounded(double value);
-
-// At most `width` bytes, cut between characters.
-std::string shortened(std::string text, std::size_t width);
-
-// The first column of a table; a long name gets a line of its own.
-std::string engine_column(const std::string& name);
-
-// The coarsest step of a case's run: the headline.
-StepSize coarsest_dt(const CaseResult& result);
 
 }  // namespace rigor

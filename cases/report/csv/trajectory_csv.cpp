@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -34,6 +37,7 @@ void append_csv_rows(std::string& out, const Scene& scene, double time, BodyColu
 }
 
 void write_trajectory(const std::string& path, const Scene& scene, const Trajectory& trajectory) {
+  errno = 0;
   std::ofstream file(path, std::ios::binary);
   std::string rows = csv_header() + "\n";
   for (const Sample& sample : trajectory.samples) {
@@ -43,7 +47,21 @@ void write_trajectory(const std::string& path, const Scene& scene, const Traject
   }
   file << rows;
   file.close();
-  if (!file) throw std::runtime_error(fmt::format("the trajectory could not be written to '{}'", path));
+  if (!file) {
+    throw std::runtime_error(fmt::format("the trajectory could not be written to '{}': {}", path,
+                                         errno == 0 ? "for no reason known" : std::strerror(errno)));
+  }
+}
+
+Recording TrajectoryRecorder::of_run(const Case& definition, const Cell& cell, const JudgedRun& run,
+                                     const std::vector<NamedSeries>&, const TruthFacts&) const {
+  write_trajectory(folder_ + "/" + cell.trajectory, definition.scene, run.trajectory);
+  return {};
+}
+
+void TrajectoryRecorder::discard(const Cell& cell) const {
+  std::error_code no_matter;
+  std::filesystem::remove(std::filesystem::path(folder_) / cell.trajectory, no_matter);
 }
 
 }  // namespace rigor

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "cases/runner/recorder.h"
 #include "core/engine/trajectory.h"
 #include "core/scene/scene.h"
 
@@ -18,5 +19,19 @@ void append_csv_rows(std::string& out, const Scene& scene, double time, BodyColu
 
 // Writes the whole of it to `path`. Throws std::runtime_error if that fails.
 void write_trajectory(const std::string& path, const Scene& scene, const Trajectory& trajectory);
+
+// Each cell's, to the file that it names in a folder.
+class TrajectoryRecorder : public Recorder {
+ public:
+  explicit TrajectoryRecorder(std::string folder) : folder_(std::move(folder)) {}
+  std::string name() const override { return "trajectories"; }
+  Recording of_truth(const Case&, const Truth&, const TruthFacts&) const override { return {}; }
+  Recording of_run(const Case& definition, const Cell& cell, const JudgedRun& run, const std::vector<NamedSeries>&,
+                   const TruthFacts&) const override;
+  void discard(const Cell& cell) const override;
+
+ private:
+  std::string folder_;
+};
 
 }  // namespace rigor

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "cases/report/html/packing.h"
@@ -19,11 +20,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Seven digits, more than the page shows anywhere: the rest would only be bytes.
+// Seven digits, more than the page shows anywhere: the rest would only be bytes. What is not finite the page does not
+// show. Read back by strtod, which takes a subnormal number for what it is.
 void round_numbers(Json& json) {
   if (json.is_number_float()) {
     const double value = json.get<double>();
-    if (std::isfinite(value)) json = std::stod(fmt::format("{:.7g}", value));
+    json = std::isfinite(value) ? Json(std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr)) : Json(nullptr);
   } else if (json.is_structured()) {
     for (Json& part : json) round_numbers(part);
   }

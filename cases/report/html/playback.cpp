@@ -228,12 +228,18 @@ Packings packed(const Scene& scene, const Trajectory& trajectory, const TruthSam
 
 // The coarsest step is the one that is looked at, and the truth beside each run; more bodies take more room, but each
 // of them less.
-double weight_of(const CaseResult& result, double seconds) {
+double weight_of(const Case& definition, double seconds) {
   double coarsest = 0;
-  for (const StepSize& step : result.definition.dt) coarsest = std::max(coarsest, step.seconds);
-  return std::pow(static_cast<double>(result.definition.scene.bodies.size()), 0.75) * (seconds < coarsest ? 1 : 4);
+  for (const StepSize& step : definition.dt) coarsest = std::max(coarsest, step.seconds);
+  return std::pow(static_cast<double>(definition.scene.bodies.size()), 0.75) * (seconds < coarsest ? 1 : 4);
 }
 constexpr double kTruth = std::numeric_limits<double>::infinity();  // stands for its dt
+
+const Packings& packings_in(const Recordings& recordings) {
+  static const Packings none;
+  const auto found = recordings.find(PlaybackRecorder::kName);
+  return found == recordings.end() ? none : found->second;
+}
 
 const std::string& finest_within(const Packings& packings, double size) {
   static const std::string none;
@@ -276,16 +282,26 @@ Packings packed_truth(const Scene& scene, const Truth& truth, double duration, d
 
 PlaybackLimit::PlaybackLimit(const Results& grid) {
   for (const CaseResult& one : grid.cases) {
-    weights_ += weight_of(one, kTruth);
+    weights_ += weight_of(one.definition, kTruth);
     for (const Cell& cell : one.cells) {
-      if (cell.status != Status::unsupported) weights_ += weight_of(one, cell.dt.seconds);
+      if (cell.status != Status::unsupported) weights_ += weight_of(one.definition, cell.dt.seconds);
     }
   }
 }
 
-std::size_t PlaybackLimit::of(const CaseResult& result, const StepSize* dt) const {
-  const double even = kOfAllRuns * weight_of(result, dt ? dt->seconds : kTruth) / weights_;
+std::size_t PlaybackLimit::of(const Case& definition, const StepSize* dt) const {
+  const double even = kOfAllRuns * weight_of(definition, dt ? dt->seconds : kTruth) / weights_;
   return static_cast<std::size_t>(std::min(kShares * even, static_cast<double>(kMost)));
+}
+
+Recording PlaybackRecorder::of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts) const {
+  return packed_truth(definition.scene, truth, definition.duration, facts.largest_kinetic_energy,
+                      limit_.of(definition, nullptr));
+}
+
+Recording PlaybackRecorder::of_run(const Case& definition, const Cell& cell, const JudgedRun& run,
+                                   const std::vector<NamedSeries>& series, const TruthFacts& facts) const {
+  return packed_run(run, series, facts.largest_kinetic_energy, limit_.of(definition, &cell.dt));
 }
 
 PlaybackChoice::PlaybackChoice(const Results& results, std::size_t budget) {
@@ -308,12 +324,13 @@ PlaybackChoice::PlaybackChoice(const Results& results, std::size_t budget) {
 }
 
 const std::string& PlaybackChoice::of(const CaseResult& result, const Cell& cell) const {
-  return finest_within(cell.playback, scale_ * weight_of(result, cell.dt.seconds));
+  return finest_within(packings_in(cell.recordings), scale_ * weight_of(result.definition, cell.dt.seconds));
 }
 
 const std::string& PlaybackChoice::of_truth(const CaseResult& result) const {
-  static const Packings none;
-  return finest_within(result.truth ? result.truth->playback : none, scale_ * weight_of(result, kTruth));
+  static const Recordings none;
+  return finest_within(packings_in(result.truth ? result.truth->recordings : none),
+                       scale_ * weight_of(result.definition, kTruth));
 }
 
 }  // namespace rigor

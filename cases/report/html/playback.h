@@ -7,17 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "cases/metrics/metric.h"
 #include "cases/results/results.h"
+#include "cases/runner/recorder.h"
 
 namespace rigor {
 
-struct NamedSeries {
-  std::string name;            // of the metric; or kEnergyChange
-  std::vector<double> values;  // one a sample, may be shorter than the trajectory
-};
-
-// (E - E at the start) / the truth's largest kinetic energy, with its sign, as read.
+// A series beside the metrics': (E - E at the start) / the truth's largest kinetic energy, with its sign, as read.
 inline constexpr const char* kEnergyChange = "energy_change";
 
 // The names that a packed course's number stands for.
@@ -25,7 +20,7 @@ const std::vector<std::string>& series_names();
 
 // Texts in base64, the finest first, each shorter than the one before. All but the finest leave out the series that
 // the page shows only when asked for more, the coarsest may have no motion.
-using Packings = std::vector<std::string>;
+using Packings = Recording;
 
 // Of one run, none longer than `limit` characters. `truth` may be null; a run that nobody could tell from it in the
 // picture keeps no motion of its own.
@@ -41,10 +36,24 @@ Packings packed_truth(const Scene& scene, const Truth& truth, double duration, d
 class PlaybackLimit {
  public:
   explicit PlaybackLimit(const Results& grid);
-  std::size_t of(const CaseResult& result, const StepSize* dt) const;
+  std::size_t of(const Case& definition, const StepSize* dt) const;
 
  private:
   double weights_ = 0;  // of the whole grid
+};
+
+class PlaybackRecorder : public Recorder {
+ public:
+  explicit PlaybackRecorder(const Results& grid) : limit_(grid) {}  // as planned
+  static constexpr const char* kName = "playback";
+  std::string name() const override { return kName; }
+  Recording of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts) const override;
+  Recording of_run(const Case& definition, const Cell& cell, const JudgedRun& run,
+                   const std::vector<NamedSeries>& series, const TruthFacts& facts) const override;
+  void discard(const Cell&) const override {}
+
+ private:
+  PlaybackLimit limit_;
 };
 
 // How fine each can be for all to be of at most `budget` characters.

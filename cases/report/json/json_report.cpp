@@ -4,21 +4,22 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cases/analysis/explanation.h"
-#include "cases/analysis/findings.h"
-#include "cases/analysis/verdict_matrix.h"
 #include "cases/report/json/comparison_json.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/json/scene_json.h"
 #include "cases/report/reports.h"
+#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/verdict_matrix.h"
 #include "cases/results/result_json.h"
+#include "cases/truth/provenance.h"
 
 namespace rigor {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSchema = 1;
+constexpr int kSchema = 2;
 
 Json machine_json() {
   const Machine machine = this_machine();
@@ -59,11 +60,13 @@ Json gates_json(const CaseResult& result) {
                          {"text", answer.text},
                          {"value", bound(answer.value)}});
     }
-    gates.push_back({{"metric", gate.metric},
+    gates.push_back({{"kind", kind_of(gate)},
+                     {"metric", gate.metric},
                      {"max", bound(gate.max)},
                      {"min", bound(gate.min)},
                      {"equals", bound(gate.equals)},
-                     {"at_least_order", bound(gate.at_least_order)},
+                     {"at_least_order", gate.declares_order ? Json("declared") : bound(gate.at_least_order)},
+                     {"regression", bound(gate.regression)},
                      {"better_than", gate.better_than.empty() ? Json(nullptr) : Json(gate.better_than)},
                      {"because", gate.because},
                      {"where", gate.where},
@@ -81,7 +84,7 @@ Json case_json(const Results& results, const CaseResult& result) {
                {"scene", json_of(definition.scene)},
                {"duration", definition.duration},
                {"dt", Json::array()},
-               {"truth", {{"kind", definition.truth}}},
+               {"truth", {{"kind", definition.truth}, {"provenance", provenance_of(definition.truth)}}},
                {"error", result.error.empty() ? Json(nullptr) : Json(result.error)}};
   for (const StepSize& step : definition.dt) json["dt"].push_back({{"text", step.text}, {"seconds", step.seconds}});
   if (result.truth && definition.truth != "none") {
@@ -90,6 +93,7 @@ Json case_json(const Results& results, const CaseResult& result) {
     json["truth"]["horizon_tolerance"] = kHorizonTolerance;
   }
   if (result.truth) json["largest_kinetic_energy"] = result.truth->largest_kinetic_energy;
+  json["size"] = size_of(definition.scene);
   json["main_error"] = main_error(result);
   json["observed_order"] = observed_orders_json(results, result);
   json["work_precision"] = work_precision_json(results, result);

@@ -1,5 +1,6 @@
 #include "cases/report/json/scene_json.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace rigor {
@@ -69,12 +70,13 @@ Json json_of(const Scene& scene) {
   }
   for (const Joint& joint : scene.joints) json["joints"].push_back(json_of_joint(joint, scene));
   for (const TimedForce& force : scene.forces) {
-    json["forces"].push_back({{"body", scene.body_name(force.body)},
-                              {"force", list(force.force)},
-                              {"torque", list(force.torque)},
-                              {"point", list(force.point)},
-                              {"from", force.from},
-                              {"until", force.until}});  // null: to the end
+    json["forces"].push_back(
+        {{"body", scene.body_name(force.body)},
+         {"force", list(force.force)},
+         {"torque", list(force.torque)},
+         {"point", list(force.point)},
+         {"from", force.from},
+         {"until", std::isfinite(force.until) ? Json(force.until) : Json(nullptr)}});  // null: to the end
   }
   return json;
 }

@@ -61,10 +61,6 @@ struct Suite {
   }
 };
 
-bool fell_short(GateAnswer answer) {
-  return answer == GateAnswer::failed || answer == GateAnswer::unexpected_pass || answer == GateAnswer::not_checked;
-}
-
 void add_line(TestCase& test, const std::string& line) {
   if (test.message.empty()) test.message = line;
   test.text += line + "\n";
@@ -78,11 +74,11 @@ TestCase of_cell(const Results& results, const CaseResult& result, const Cell& c
     test.kind = "error", test.type = word_of(cell.status), add_line(test, cell.reason);
   for (const GateResult& answer : result.gates) {
     if (answer.engine != run || answer.dt != cell.dt.text) continue;
-    const std::string& metric = result.definition.gates[answer.gate].metric;
-    if (fell_short(answer.answer)) {
+    const Gate& gate = result.definition.gates[answer.gate];
+    if (falls_short(answer.answer)) {
       if (test.kind != "error") test.kind = "failure";
-      if (test.type.empty()) test.type = metric;
-      add_line(test, answer.text);
+      if (test.type.empty()) test.type = gate.metric;
+      add_line(test, kind_of(gate) + ": " + answer.text);
     } else if (answer.answer == GateAnswer::known_deviation && test.kind.empty()) {
       test.kind = "skipped", add_line(test, "known deviation: " + answer.text);
     }
@@ -95,7 +91,8 @@ TestCase of_answer(const CaseResult& result, const GateResult& answer) {
   const Gate& gate = result.definition.gates[answer.gate];
   const std::string of = answer.engine.empty() ? "" : " " + answer.engine;
   TestCase test{fmt::format("gate {}{}", answer.gate + 1, of), result.definition.id, 0, "", "", "", ""};
-  if (fell_short(answer.answer)) test.kind = "failure", test.type = gate.metric, add_line(test, answer.text);
+  if (falls_short(answer.answer))
+    test.kind = "failure", test.type = gate.metric, add_line(test, kind_of(gate) + ": " + answer.text);
   if (answer.answer == GateAnswer::known_deviation) test.kind = "skipped", add_line(test, answer.text);
   return test;
 }

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
-#include "cases/analysis/comparison.h"
-#include "cases/analysis/explained_error.h"
-#include "cases/analysis/explanation.h"
-#include "cases/analysis/findings.h"
-#include "cases/analysis/verdict_matrix.h"
 #include "cases/report/console/console_table.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/markdown/markdown_text.h"
 #include "cases/report/reports.h"
+#include "cases/report/wording/comparison.h"
+#include "cases/report/wording/explained_error.h"
+#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/verdict_matrix.h"
 
 namespace rigor {
 namespace {
@@ -35,7 +35,7 @@ std::string table(const Results& results, const CaseResult& result, const StepSi
       "synchronised [%] | largest stable dt [s] | verdict |\n|---|---:|---:|---:|---:|---:|---:|---|\n",
       dt.text);
   for (const Cell& cell : result.cells) {
-    if (cell.dt.text != dt.text) continue;
+    if (cell.dt != dt) continue;
     const RowText row = row_text(results, result, cell);
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", plain(row.engine), row.first_second, row.whole,
                         row.orientation, row.energy, row.energy_synchronised, row.stable_dt, plain(row.verdict));
@@ -65,7 +65,9 @@ std::string headline(const Results& results, const CaseResult& result) {
   for (const std::string& sentence : explanations(results, result)) text += plain(sentence) + "\n\n";
   for (const std::string& sentence : work_precision_sentences(results, result)) text += plain(sentence) + "\n\n";
   for (const GateResult& gate : result.gates) {
-    if (gate.answer != GateAnswer::held) text += fmt::format("- gate {}: {}\n", word_of(gate.answer), plain(gate.text));
+    const std::string kind = kind_of(result.definition.gates[gate.gate]);
+    if (gate.answer != GateAnswer::held && gate.answer != GateAnswer::not_recorded)
+      text += fmt::format("- {} {}: {}\n", kind, word_of(gate.answer), plain(gate.text));
   }
   return text;
 }
@@ -74,7 +76,7 @@ std::string finer_steps(const Results& results, const CaseResult& result) {
   std::string text;
   const StepSize coarsest = coarsest_dt(result);
   for (const StepSize& dt : result.definition.dt) {
-    if (dt.text != coarsest.text)
+    if (dt != coarsest)
       text += fmt::format("### {}, dt = {} s\n\n", plain(result.definition.id), dt.text) + table(results, result, dt) +
               "\n";
   }
@@ -111,7 +113,7 @@ std::string markdown_report(const Results& results) {
     text += fmt::format("- **{}:** {}\n", found.topic, plain(found.text));
     if (!found.more.empty()) text += fmt::format("  <br>{}\n", plain(found.more));
   }
-  text += "\n" + table(verdict_matrix(results)) + "\n";
+  text += "\n" + table(verdict_matrix(results)) + "\n" + plain(gate_summary(results)) + "\n";
   for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
   text += "# Other step sizes\n\n";
   for (const CaseResult& result : results.cases) text += finer_steps(results, result);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "cases/truth/provenance.h"
 #include "cases/truth/solved/events_solver.h"
 #include "cases/truth/solved/solution_cache.h"
 #include "cases/truth/truth.h"
@@ -55,6 +56,13 @@ class Events final : public Truth {
   ReferenceSolution solution_;
 };
 
+// Whether the run is one of the core's with this contact, asked for or by default.
+bool is_by_events(const RunName& run, const Scene& scene) {
+  const auto& options = run.settings.options;
+  if (run.engine != "core") return false;
+  return options.contains("contact") ? options.at("contact") == "event" : contact_method_for(scene).name == "event";
+}
+
 std::unique_ptr<Truth> make_events(const Scene& scene, double duration) {
   if (!anything_can_touch(scene))
     throw InputError("the truth 'events' is for scenes with contacts; in this one nothing can touch: take 'reference'");
@@ -69,6 +77,15 @@ std::unique_ptr<Truth> make_events(const Scene& scene, double duration) {
 }
 
 }  // namespace
+
+Provenance events_provenance() {
+  return {
+      "events",
+      "solved by the core's own contact=event, in steps and integrators that differ: independent of every engine but "
+      "the core; it shares collision detection with the core's other runs, and with those by contact=event "
+      "everything, so that it judges none of these",
+      is_by_events};
+}
 
 TruthRow events_truth() {
   return {"events",

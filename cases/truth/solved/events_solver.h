@@ -2,14 +2,9 @@
 // ways that differ in step, integrator and the speed at which bounces end, and how far these are apart.
 #pragma once
 
-#include <cstdint>
-
 #include "cases/truth/solved/reference_solver.h"
 
 namespace rigor {
-
-// To be raised whenever a number of a solution could come out otherwise, see kReferenceVersion.
-inline constexpr std::uint64_t kEventsVersion = 3;
 
 // Of ReferenceSolution: a node every step, thirteen numbers a body as BodyTable lays them out, and one more: 1 if no
 // event lies before the next node. Complete or not, its errors say how far it may be relied on.

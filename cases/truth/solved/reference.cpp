@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "cases/truth/provenance.h"
 #include "cases/truth/solved/solution_cache.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
@@ -53,6 +54,10 @@ std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
 }
 
 }  // namespace
+
+Provenance reference_provenance() {
+  return {"reference", "solved twice from equations of motion of its own, independent of every engine and method"};
+}
 
 TruthRow reference_truth() {
   return {"reference", "any smooth scene, solved twice in high precision: the difference is its error", make_reference};

@@ -1,16 +1,11 @@
 // The numbers behind the truth 'reference': the motion of a smooth scene, solved twice, and how far the two are apart.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "cases/truth/solved/equations_of_motion.h"
 
 namespace rigor {
-
-// To be raised whenever a number of a solution could come out otherwise: what an older solver found, and was kept, is
-// then computed again.
-inline constexpr std::uint64_t kReferenceVersion = 2;
 
 inline constexpr Formulation kReferenceForm = Formulation::body_rates;
 

@@ -11,7 +11,7 @@
 #include <random>
 #include <sstream>
 
-#include "cases/truth/solved/events_solver.h"
+#include "solver_fingerprints.h"
 
 namespace rigor {
 namespace {
@@ -132,9 +132,11 @@ void add_shape(Writer& content, const Plane& plane) { content.add(plane.normal),
 
 }  // namespace
 
-std::string reference_content(const Scene& scene, double duration) {
+namespace {
+
+// What moves, and for how long.
+std::string motion_content(const Scene& scene, double duration) {
   Writer content;
-  content.add(kReferenceVersion), content.add(std::numeric_limits<long double>::digits);
   content.add(duration), content.add(scene.gravity);
   content.add(scene.bodies.size());
   for (const Body& body : scene.bodies) {
@@ -157,9 +159,25 @@ std::string reference_content(const Scene& scene, double duration) {
   return content.bytes();
 }
 
-std::string events_content(const Scene& scene, double duration) {
+}  // namespace
+
+std::string reference_content(const Scene& scene, double duration, const std::string& made_by) {
   Writer content;
-  content.add(std::string("events")), content.add(kEventsVersion), content.add(reference_content(scene, duration));
+  content.add(made_by), content.add(motion_content(scene, duration));
+  return content.bytes();
+}
+
+std::string reference_content(const Scene& scene, double duration) {
+  return reference_content(scene, duration, kReferenceMadeBy);
+}
+
+std::string events_content(const Scene& scene, double duration) {
+  return events_content(scene, duration, kEventsMadeBy);
+}
+
+std::string events_content(const Scene& scene, double duration, const std::string& made_by) {
+  Writer content;
+  content.add(std::string("events")), content.add(made_by), content.add(motion_content(scene, duration));
   for (const Body& body : scene.bodies) {
     content.add(body.collides);
     if (!body.collides) continue;

@@ -1,6 +1,6 @@
-// Reference solutions, kept from one run to the next: a file for each content of a scene, duration and version of the
-// solver, in $RIGOR_CACHE_DIR, else $XDG_CACHE_HOME/rigor, else ~/.cache/rigor. Nothing depends on it: what cannot be
-// read, or is not what was written, is as if it were not there, and what cannot be written is not kept. An empty
+// Reference solutions, kept from one run to the next: a file for each content of a scene, duration and sources of
+// the solver, in $RIGOR_CACHE_DIR, else $XDG_CACHE_HOME/rigor, else ~/.cache/rigor. Nothing depends on it: what cannot
+// be read, or is not what was written, is as if it were not there, and what cannot be written is not kept. An empty
 // RIGOR_CACHE_DIR switches it off.
 #pragma once
 
@@ -12,10 +12,13 @@
 namespace rigor {
 
 // All that a reference solution depends on, bit by bit: every number of the scene that its motion has to do with, the
-// duration, the solver. Names, shapes and contacts are not among it.
+// duration, and what it is made by: this program's sources and compiler (fingerprints.cmake), unless another is given.
+// Names, shapes and contacts are not among it.
 std::string reference_content(const Scene& scene, double duration);
+std::string reference_content(const Scene& scene, double duration, const std::string& made_by);
 // Likewise of a solution by events, with shapes and contacts.
 std::string events_content(const Scene& scene, double duration);
+std::string events_content(const Scene& scene, double duration, const std::string& made_by);
 
 std::optional<ReferenceSolution> kept_solution(const std::string& content);
 void keep_solution(const std::string& content, const ReferenceSolution& solution);

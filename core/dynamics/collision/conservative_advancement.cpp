@@ -14,17 +14,21 @@ struct SupportBound {
   BodyColumns state;
   int body;
   Vec3 n;
-  double acceleration;  // m/s², A
-  double t;             // s, may be negative
+  Bend bend;
+  double reach;  // m, round the centre
+  double t;      // s, may be negative
 
+  double centre() const {
+    return n.dot(state.position(body) + t * state.velocity(body)) + 0.5 * bend.of_centre * t * t;
+  }
   double point(const Vec3& arm) const {
     const Vec3 velocity = state.velocity(body) + state.angular_velocity(body).cross(arm);
-    return n.dot(state.position(body) + arm + t * velocity) + 0.5 * acceleration * t * t;
+    return n.dot(state.position(body) + arm + t * velocity) + 0.5 * bend.of_points * t * t;
   }
-  double operator()(const Sphere& sphere) const { return point(Vec3::Zero()) + sphere.radius; }
+  double operator()(const Sphere& sphere) const { return centre() + sphere.radius; }
   double operator()(const Capsule& capsule) const {
     const Vec3 arm = 0.5 * capsule.length * state.rotation(body).col(2);
-    return std::max(point(arm), point(-arm)) + capsule.radius;
+    return std::min(std::max(point(arm), point(-arm)) + capsule.radius, centre() + reach);
   }
   double operator()(const Box& box) const {
     const Mat3 R = state.rotation(body);
@@ -33,30 +37,19 @@ struct SupportBound {
       const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
       most = std::max(most, point(R * sign.cwiseProduct(box.size)));
     }
-    return most;
+    return std::min(most, centre() + reach);
   }
   // Only ever asked along its own normal.
   double operator()(const Plane& plane) const { return n.dot(plane.normal) * plane.offset; }
 };
 
-double acceleration_bound(const Collider& collider, BodyColumns from, BodyColumns to, double h) {
-  if (collider.fixed) return 0;
-  const int i = collider.body;
-  const double linear = 2 * (to.velocity(i) - from.velocity(i)).norm() / h;
-  if (std::holds_alternative<Sphere>(collider.shape)) return linear;
-  const double w = std::max(from.angular_velocity(i).norm(), to.angular_velocity(i).norm());
-  const double angular = 2 * (to.angular_velocity(i) - from.angular_velocity(i)).norm() / h;
-  return linear + (w * w + angular) * collider.bounding_radius;
-}
-
 }  // namespace
 
-bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to, double h) {
-  const double acceleration_a = acceleration_bound(a, from.state, to.state, h),
-               acceleration_b = acceleration_bound(b, from.state, to.state, h);
+bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to, const Bend& bend_a,
+                const Bend& bend_b, double h) {
   const auto is_clear = [&](const SeparatingAxis& at, double t) {
-    const double to_b = std::visit(SupportBound{at.state, a.body, -at.n, acceleration_a, t}, a.shape);
-    const double to_a = std::visit(SupportBound{at.state, b.body, at.n, acceleration_b, t}, b.shape);
+    const double to_b = std::visit(SupportBound{at.state, a.body, -at.n, bend_a, a.bounding_radius, t}, a.shape);
+    const double to_a = std::visit(SupportBound{at.state, b.body, at.n, bend_b, b.bounding_radius, t}, b.shape);
     return to_a + to_b <= kMissed;
   };
   return is_clear(from, 0.5 * h) && is_clear(to, -0.5 * h);

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "core/dynamics/joints/joints.h"
+
 namespace rigor {
 
 namespace {
@@ -27,18 +29,22 @@ void ClassicalRungeKutta::step(MutableBodyColumns state, double t, double dt) {
   }
   parts_.system.loads.for_each_smooth_part(t, dt,
                                            [&](double from, double length) { smooth_part(state, from, length); });
+  if (parts_.joints) parts_.joints->project(state);
 }
 
 void ClassicalRungeKutta::smooth_part(MutableBodyColumns state, double t, double dt) {
   const BodyConstants& bodies = parts_.system.constants;
-  if (parts_.system.loads.empty()) {
+  if (parts_.system.loads.empty() && !parts_.joints) {
     bodies.for_each_block([&](const Bodies& block) {
       for (std::size_t s = 0; s < kStages; ++s) take_stage(s, block, state, nullptr, dt);
     });
     return;
   }
   for (std::size_t s = 0; s < kStages; ++s) {
-    const double* const wrench = loads_.over_step(s == 0 ? state : stage_.columns(), t, dt);
+    const BodyColumns at = s == 0 ? state : stage_.columns();
+    const double* wrench = loads_.over_step(at, t, dt);
+    if (parts_.joints)
+      wrench = parts_.joints->hold(at, wrench, s == 0 ? Joints::Rows::chosen_anew : Joints::Rows::as_chosen);
     bodies.for_each_block([&](const Bodies& block) { take_stage(s, block, state, wrench, dt); });
   }
 }

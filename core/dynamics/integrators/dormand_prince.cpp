@@ -9,6 +9,7 @@
 
 #include "core/dynamics/integrators/dormand_prince_tableau.h"
 #include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/motion_equations.h"
 #include "core/engine/option_values.h"
 
@@ -24,7 +25,7 @@ class DormandPrince : public Stepper {
   explicit DormandPrince(const StepperParts& parts)
       : parts_(parts),
         tolerance_(number_option(parts.settings, "tolerance", kDefaultTolerance)),
-        equations_(parts.system),
+        equations_(parts.system, parts.joints),
         y_(parts.system.size()),
         next_(parts.system.size()),
         estimate_(parts.system.size()) {
@@ -40,6 +41,7 @@ class DormandPrince : public Stepper {
     equations_.begin(state, y_);
     parts_.system.loads.for_each_smooth_part(t, dt, [&](double from, double length) { smooth_part(from, length); });
     equations_.write(y_, state);
+    if (parts_.joints) parts_.joints->project(state);
   }
 
   std::string solver_warning() const override { return solver_warning_; }
@@ -49,7 +51,7 @@ class DormandPrince : public Stepper {
   void smooth_part(double t, double length) {
     double left = length, longest = std::abs(length);
     int tries = 0;
-    equations_.rates(y_, t, length, equations_.rates_of_stage(0));
+    equations_.rates(y_, t, length, equations_.rates_of_stage(0), ConstraintForces::Rows::chosen_anew);
     while (left != 0) {
       const double count = std::ceil(std::abs(left) / longest), h = left / count;
       take_stages(t, length, h);
@@ -58,7 +60,8 @@ class DormandPrince : public Stepper {
       if (error <= 1 || given_up) {
         std::swap(y_, next_);
         left = count == 1 || given_up ? 0 : left - h;
-        if (left != 0) equations_.rates(y_, t, length, equations_.rates_of_stage(0));
+        if (left != 0)
+          equations_.rates(y_, t, length, equations_.rates_of_stage(0), ConstraintForces::Rows::chosen_anew);
       }
       if (given_up) {
         solver_warning_ = fmt::format(
@@ -119,6 +122,7 @@ const Integrator kDormandPrince = {
     .leapfrog_stagger = 0,
     .default_orientation = "",
     .adaptive = true,
+    .takes_joints = true,
     .options = {{.name = "tolerance",
                  .meaning =
                      fmt::format("error of an inner step, relative to 1 + the value in m, rad, m/s, rad/s; default {}",

@@ -2,6 +2,7 @@
 //   x1 = x0 + dt v0,  R1 = R0 turned by dt w0,  v1 = v0 + dt F0/m,  w1 = w0 + dt I⁻¹(tau0 - w0 x I w0)
 // On an undamped oscillation of frequency f [rad/s] each step multiplies the energy by 1 + (f dt)²: it always blows up.
 #include "core/dynamics/integrators/euler_passes.h"
+#include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {
@@ -12,9 +13,11 @@ class ExplicitEuler : public Stepper {
   explicit ExplicitEuler(const StepperParts& parts) : parts_(parts), passes_(parts), wrenches_(parts.system) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
-    const double* const wrench = wrenches_.over_step(state, t, dt);
+    const double* wrench = wrenches_.over_step(state, t, dt);
+    if (parts_.joints) wrench = parts_.joints->hold(state, wrench, Joints::Rows::chosen_anew);
     parts_.system.constants.for_each_block(
         [&](const Bodies& block) { passes_.kick_and_drift_at_once(block, state, wrench, dt); });
+    if (parts_.joints) parts_.joints->project(state);
     if (parts_.contact) parts_.contact->resolve(state);
   }
 
@@ -34,6 +37,7 @@ const Integrator kExplicitEuler = {
     .symplectic = false,
     .leapfrog_stagger = 0,
     .default_orientation = "quaternion-exponential",
+    .takes_joints = true,
     .make = make_stepper<ExplicitEuler>,
 };
 

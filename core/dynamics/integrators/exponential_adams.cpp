@@ -105,7 +105,7 @@ class ExponentialAdams : public Stepper {
     }
     write(instants_[index_behind(ahead_)], state);
     last_.ended(state, t + dt, dt);
-    if (ahead_ == 0) choose_new_frames(dt);
+    if (ahead_ == 0) choose_new_frames(t, dt);
   }
 
   std::string solver_warning() const override { return solver_warning_; }
@@ -241,8 +241,8 @@ class ExponentialAdams : public Stepper {
     }
   }
 
-  // For bodies that have turned far from their own; what is remembered is told anew in them.
-  void choose_new_frames(double dt) {
+  // For bodies that have turned far from their own in the step [t, t + dt]; what is remembered is told anew in them.
+  void choose_new_frames(double t, double dt) {
     constexpr double kFarthest = 1;  // rad
     const auto is_far = [&](std::size_t i) { return instants_[newest_][i].u.segment<3>(3).norm() > kFarthest; };
     std::vector<bool> far(frames_.size());
@@ -258,7 +258,7 @@ class ExponentialAdams : public Stepper {
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       if (far[i]) set_frame(i, now.position(i), now.orientation(i));
     }
-    linearise(now, 0, dt, [&](std::size_t i) { return far[i]; });
+    linearise(now, t, dt, [&](std::size_t i) { return far[i]; });
     for (int n = 0; n < kNodes; ++n) {
       for (std::size_t i = 0; i < frames_.size(); ++i) {
         if (!far[i]) continue;

@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/contact/velocity_correction.h"
 #include "core/dynamics/integrators/orientation_updates.h"
+#include "core/dynamics/integrators/velocity_correction.h"
 #include "core/dynamics/model/system.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
+
+class Joints;
 
 // Steps one system. The state is all there is: what a stepper remembers of earlier steps may serve it only as long as
 // the state and the instant are those that it left.
@@ -34,20 +36,23 @@ struct StepperParts {
   Contact* contact;                      // null where nothing can touch
   const OrientationUpdate* orientation;  // for methods with that option; null for the others
   Settings settings = {};                // with the values of the row's own options
+  Joints* joints = nullptr;              // null where nothing holds the bodies together
 };
 
 struct Integrator {
   std::string name;
   std::string summary;
-  int order;                             // the global error falls as dt^order on smooth scenes
-  bool symplectic;                       // on undamped smooth scenes
-  bool symmetric = false;                // see MethodInfo
-  double leapfrog_stagger;               // in steps, see MethodInfo
-  std::string default_orientation;       // "" where the method has one way only
-  bool adaptive = false;                 // see MethodInfo; it then has an option "tolerance"
-  bool takes_contact = true;             // false: an impact would make what it remembers worthless
-  std::vector<OptionInfo> options = {};  // of this method alone
-  std::string twin_of = "";              // see MethodInfo
+  int order;                        // the global error falls as dt^order on smooth scenes
+  bool symplectic;                  // on undamped smooth scenes
+  bool symmetric = false;           // see MethodInfo
+  double leapfrog_stagger;          // in steps, see MethodInfo
+  std::string default_orientation;  // "" where the method has one way only
+  bool adaptive = false;            // see MethodInfo; it then has an option "tolerance"
+  bool takes_contact = true;        // false: an impact would make what it remembers worthless
+  bool takes_joints = false;
+  bool takes_dampers_with_joints = true;  // of those that take joints
+  std::vector<OptionInfo> options = {};   // of this method alone
+  std::string twin_of = "";               // see MethodInfo
   std::unique_ptr<Stepper> (*make)(const StepperParts& parts);
 };
 

@@ -5,26 +5,14 @@
 
 namespace rigor {
 
-extern const Integrator kAdams, kBulletTwin, kDormandPrince, kExplicitEuler, kExponentialAdams, kImplicitMidpoint,
-    kLinearlyImplicitEuler, kMoserVeselov, kOdeTwin, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8,
+extern const Integrator kAdams, kDormandPrince, kExplicitEuler, kExponentialAdams, kImplicitMidpoint,
+    kLinearlyImplicitEuler, kMoserVeselov, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8,
     kVelocityVerlet;
 
 const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = {
-      kAdams,
-      kBulletTwin,
-      kDormandPrince,
-      kExplicitEuler,
-      kExponentialAdams,
-      kImplicitMidpoint,
-      kLinearlyImplicitEuler,
-      kMoserVeselov,
-      kOdeTwin,
-      kRk4,
-      kRkmk4,
-      kSemiImplicitEuler,
-      kSymplectic4,
-      kSymplectic8,
+      kAdams,          kDormandPrince, kExplicitEuler, kExponentialAdams,  kImplicitMidpoint, kLinearlyImplicitEuler,
+      kMoserVeselov,   kRk4,           kRkmk4,         kSemiImplicitEuler, kSymplectic4,      kSymplectic8,
       kVelocityVerlet,
   };
   return table;

@@ -3,7 +3,7 @@
 namespace rigor {
 
 LeapfrogComposition::LeapfrogComposition(const StepperParts& parts, std::span<const double> weights)
-    : parts_(parts), weights_(weights), kick_(parts.system) {}
+    : parts_(parts), weights_(weights), kick_(parts.system), drift_(parts) {}
 
 void LeapfrogComposition::step(MutableBodyColumns state, double t, double dt) {
   solver_warning_.clear();
@@ -11,7 +11,7 @@ void LeapfrogComposition::step(MutableBodyColumns state, double t, double dt) {
     parts_.system.wrenches(state, t, dt, wrenches_);
     resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
   }
-  if (parts_.system.loads.empty()) return free_step(state, dt);
+  if (parts_.system.loads.empty() && drift_.is_free()) return free_step(state, dt);
   kick_.begin(state);
   parts_.system.loads.for_each_smooth_part(t, dt,
                                            [&](double from, double length) { smooth_part(state, from, length); });
@@ -43,11 +43,14 @@ void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double
       owed = 0;
     }
     kick(state, owed + half, t, dt);
-    parts_.system.constants.for_each_block(
-        [&](const Bodies& block) { kernels().free_drift(block, state.column(0), kick_.carried(), weight * dt); });
+    drift_.drift(state, kick_.carried_columns(), weight * dt, [&](MutableBodyColumns at, const double* carried) {
+      parts_.system.constants.for_each_block(
+          [&](const Bodies& block) { kernels().free_drift(block, at.column(0), carried, weight * dt); });
+    });
     owed = half;
   }
   kick(state, owed, t, dt);
+  drift_.settle(state, kick_.carried_columns());
 }
 
 void LeapfrogComposition::kick(MutableBodyColumns state, double h, double t, double dt) {

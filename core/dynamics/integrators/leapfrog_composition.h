@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "core/dynamics/integrators/constrained_drift.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/integrators/symmetric_kick.h"
 
@@ -27,6 +28,7 @@ class LeapfrogComposition : public Stepper {
   StepperParts parts_;
   std::span<const double> weights_;
   SymmetricKick kick_;
+  ConstrainedDrift drift_;
   Wrenches wrenches_;
   std::string solver_warning_;
 };

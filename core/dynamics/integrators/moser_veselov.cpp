@@ -4,6 +4,7 @@
 //   dt [Rᵀ L]x = F J_d - J_d Fᵀ,   J_d = tr(J)/2 - J,
 // which for F = (1 + [f]x) (1 - [f]x)⁻¹ is  2 (J f + f x J f) = (1 + |f|²) dt Rᵀ L,  solved by Newton's method.
 // About a principal axis it says sin(angle) = dt w: there is no solution once a body turns by about a radian a step.
+#include "core/dynamics/integrators/constrained_drift.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/integrators/symmetric_kick.h"
 
@@ -12,16 +13,19 @@ namespace {
 
 class MoserVeselov : public Stepper {
  public:
-  explicit MoserVeselov(const StepperParts& parts) : parts_(parts), kick_(parts.system) {}
+  explicit MoserVeselov(const StepperParts& parts) : parts_(parts), kick_(parts.system), drift_(parts) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     solver_warning_.clear();
     kick_.begin(state);
     kick(state, t, dt);
     if (parts_.contact) resolve_contact(state);
-    if (!kernels().moser_veselov_drift(parts_.system.constants.all(), state.column(0), kick_.carried(), dt))
-      solver_warning_ = "the discrete Moser-Veselov equation has no solution for so much rotation in a step";
+    drift_.drift(state, kick_.carried_columns(), dt, [&](MutableBodyColumns at, const double* carried) {
+      if (!kernels().moser_veselov_drift(parts_.system.constants.all(), at.column(0), carried, dt))
+        solver_warning_ = "the discrete Moser-Veselov equation has no solution for so much rotation in a step";
+    });
     kick(state, t, dt);
+    drift_.settle(state, kick_.carried_columns());
     kick_.end(state);
   }
 
@@ -40,6 +44,7 @@ class MoserVeselov : public Stepper {
 
   StepperParts parts_;
   SymmetricKick kick_;
+  ConstrainedDrift drift_;
   std::string solver_warning_;
 };
 
@@ -54,6 +59,8 @@ const Integrator kMoserVeselov = {
     .symmetric = true,
     .leapfrog_stagger = 0,
     .default_orientation = "",
+    .takes_joints = true,
+    .takes_dampers_with_joints = false,
     .make = make_stepper<MoserVeselov>,
 };
 

@@ -13,6 +13,7 @@ const Integrator kRk4 = {
     .symplectic = false,
     .leapfrog_stagger = 0,
     .default_orientation = "",
+    .takes_joints = true,
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
       return std::make_unique<ClassicalRungeKutta>(parts, OrientationChart::quaternion);
     },

@@ -2,8 +2,9 @@
 //   v1 = v0 + dt F0/m,  w1 = w0 + dt I⁻¹(tau0 - w0 x I w0),  x1 = x0 + dt v1,  R1 = R0 turned by dt w1
 // The course's rule for contact acts between the two. Its velocities belong half a step before its positions. On an
 // oscillation of frequency f it is stable while f dt < 2. The gyroscopic term is explicit, so that a free body's spin
-// is not symplectic.
+// is not symplectic. With joints the velocities also get the impulses that close all joints at the step's end (SHAKE).
 #include "core/dynamics/integrators/euler_passes.h"
+#include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {
@@ -16,6 +17,7 @@ class SemiImplicitEuler : public Stepper {
   void step(MutableBodyColumns state, double t, double dt) override {
     const BodyConstants& bodies = parts_.system.constants;
     const double* const wrench = wrenches_.over_step(state, t, dt);
+    if (parts_.joints) return constrained_step(state, wrench, dt);
     if (!parts_.contact) {
       bodies.for_each_block([&](const Bodies& block) {
         passes_.kick(block, state, wrench, dt);
@@ -29,9 +31,22 @@ class SemiImplicitEuler : public Stepper {
   }
 
  private:
+  void constrained_step(MutableBodyColumns state, const double* wrench, double dt) {
+    const BodyConstants& bodies = parts_.system.constants;
+    bodies.for_each_block([&](const Bodies& block) { passes_.kick(block, state, wrench, dt); });
+    parts_.joints->close(state, dt, [&](const double* impulse) -> BodyColumns {
+      end_ = BodyColumns(state);
+      parts_.joints->push(impulse, end_.columns());
+      bodies.for_each_block([&](const Bodies& block) { passes_.drift(block, end_.columns(), dt); });
+      return end_.columns();
+    });
+    copy_columns(end_.columns(), state);
+  }
+
   StepperParts parts_;
   EulerPasses passes_;
   WrenchColumns wrenches_;
+  BodyTable end_;
 };
 
 }  // namespace
@@ -44,6 +59,7 @@ const Integrator kSemiImplicitEuler = {
     .symplectic = true,
     .leapfrog_stagger = 0.5,
     .default_orientation = "quaternion-exponential",
+    .takes_joints = true,
     .make = make_stepper<SemiImplicitEuler>,
 };
 

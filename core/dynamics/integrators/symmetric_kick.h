@@ -23,6 +23,7 @@ class SymmetricKick {
   void begin(BodyColumns state);
   void end(MutableBodyColumns state) const;
   double* carried() { return carried_.data(); }  // columns of CarriedColumn
+  Columns& carried_columns() { return carried_; }
 
   // Over h, inside the step [t, t + dt] in which timed forces count with their mean. False where the equations for the
   // velocities are singular (an h < 0 with strong damping); the state is then left as it is.

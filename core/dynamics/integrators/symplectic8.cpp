@@ -26,6 +26,8 @@ const Integrator kSymplectic8 = {
     .symmetric = true,
     .leapfrog_stagger = 0,
     .default_orientation = "",
+    .takes_joints = true,
+    .takes_dampers_with_joints = false,  // its damped kick is not yet solved together with the joints' impulse
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
       return std::make_unique<LeapfrogComposition>(parts, kWeights);
     },

@@ -1,6 +1,8 @@
 // Velocity Verlet: half a kick, a drift, half a kick, for v and for the angular momentum L.
 //   v += dt/2 F/m, L += dt/2 tau;   x += dt v, R by free_rotation.h;   the same kick at the new positions
 // With dampers the second kick needs the velocity at its own end: one predictor and one corrector keep second order.
+// With joints it is RATTLE (constrained_drift.h).
+#include "core/dynamics/integrators/constrained_drift.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/model/wrench_columns.h"
 
@@ -10,11 +12,12 @@ namespace {
 class VelocityVerlet : public Stepper {
  public:
   explicit VelocityVerlet(const StepperParts& parts)
-      : parts_(parts), wrenches_(parts.system), carried_(kCarriedColumns, parts.system.size()) {}
+      : parts_(parts), wrenches_(parts.system), drift_(parts), carried_(kCarriedColumns, parts.system.size()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     const BodyConstants& bodies = parts_.system.constants;
     const double* const wrench = wrenches_.over_step(state, t, dt);
+    if (!drift_.is_free()) return constrained_step(state, wrench, t, dt);
     if (parts_.contact) {
       bodies.for_each_block([&](const Bodies& block) {
         first_kick(block, state, wrench, dt);
@@ -35,6 +38,17 @@ class VelocityVerlet : public Stepper {
   }
 
  private:
+  void constrained_step(MutableBodyColumns state, const double* wrench, double t, double dt) {
+    const BodyConstants& bodies = parts_.system.constants;
+    bodies.for_each_block([&](const Bodies& block) { first_kick(block, state, wrench, dt); });
+    drift_.drift(state, carried_, dt, [&](MutableBodyColumns at, const double* carried) {
+      bodies.for_each_block([&](const Bodies& block) { kernels().free_drift(block, at.column(0), carried, dt); });
+    });
+    kernels().velocity_of(bodies.all(), state.column(0), carried_.data());
+    second_kick(state, t, dt);
+    drift_.settle(state, carried_);
+  }
+
   void first_kick(const Bodies& block, MutableBodyColumns state, const double* wrench, double dt) {
     kernels().momentum_of(block, state.column(0), carried_.data());
     kernels().momentum_kick(block, state.column(0), carried_.data(), wrench, 0.5 * dt);
@@ -52,6 +66,7 @@ class VelocityVerlet : public Stepper {
       predicted_ = BodyColumns(state);
       predicted_momenta_ = carried_;
       kick(predicted_.columns(), predicted_momenta_, wrench, dt);
+      drift_.settle(predicted_.columns(), predicted_momenta_);
       wrench = wrenches_.over_step(predicted_.columns(), t, dt);
     }
     kick(state, carried_, wrench, dt);
@@ -66,6 +81,7 @@ class VelocityVerlet : public Stepper {
 
   StepperParts parts_;
   WrenchColumns wrenches_;
+  ConstrainedDrift drift_;
   Columns carried_, predicted_momenta_;  // of CarriedColumn
   BodyTable predicted_;
 };
@@ -81,6 +97,7 @@ const Integrator kVelocityVerlet = {
     .symmetric = true,
     .leapfrog_stagger = 0,
     .default_orientation = "",
+    .takes_joints = true,
     .make = make_stepper<VelocityVerlet>,
 };
 

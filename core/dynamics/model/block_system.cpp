@@ -1,6 +1,34 @@
 #include "core/dynamics/model/block_system.h"
 
+#include <cmath>
+#include <limits>
+
 namespace rigor {
+namespace {
+
+// From what Skeel's condition number max_i (|A| |A⁻¹| |r|)_i / |r|_i leaves no digit of a solution: a factorisation of
+// a singular matrix goes through all the same, for a rounding stands where its last pivot would be zero. Scaling a row
+// or a column changes nothing, so that masses and stiffnesses may differ as they like.
+constexpr double kSingular = 1e-2 / std::numeric_limits<double>::epsilon();
+
+// Whether A is singular but for roundings, by one more right side: one as large as A's rows, and along no direction
+// that a system of bodies could have for its own.
+bool is_singular(const auto& A, const auto& lu) {
+  const auto magnitudes = A.cwiseAbs();
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(A.cols());
+  const Eigen::VectorXd rows = magnitudes * ones;
+  if (!(rows.minCoeff() > 0)) return true;
+  Eigen::VectorXd probe = rows;
+  for (Eigen::Index i = 0; i < probe.size(); ++i) {
+    probe[i] *= 1.5 + std::sin(static_cast<double>(i * i + 1));  // from 0.5 to 2.5
+  }
+  const Eigen::VectorXd answer = lu.solve(probe);
+  if (!answer.allFinite()) return true;
+  const Eigen::VectorXd spread = magnitudes * answer.cwiseAbs();
+  return spread.cwiseQuotient(probe).maxCoeff() > kSingular;
+}
+
+}  // namespace
 
 BlockSystem::BlockSystem(std::size_t bodies) : size_(6 * static_cast<Eigen::Index>(bodies)) {
   if (is_dense()) dense_.resize(size_, size_);
@@ -32,10 +60,11 @@ void BlockSystem::add(std::size_t row, std::size_t column, const Mat6& block) {
 bool BlockSystem::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
   if (is_dense()) {
     dense_lu_.compute(dense_);
+    if (is_singular(dense_, dense_lu_)) return false;
     solution = dense_lu_.solve(right_side);
     return solution.allFinite();
   }
-  if (!factorise_sparse()) return false;
+  if (!factorise_sparse() || is_singular(sparse_, sparse_lu_)) return false;
   solution = sparse_lu_.solve(right_side);
   return solution.allFinite();
 }

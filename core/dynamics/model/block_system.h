@@ -17,7 +17,7 @@ class BlockSystem {
   explicit BlockSystem(std::size_t bodies);
   void clear();
   void add(std::size_t row, std::size_t column, const Mat6& block);
-  // False if the matrix is singular.
+  // False if the matrix is singular, or so nearly that no digit of a solution would be right.
   bool solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution);
 
  private:

@@ -1,6 +1,6 @@
 #include "core/dynamics/model/body_constants.h"
 
-#include "core/dynamics/integrators/free_rotation.h"
+#include "core/dynamics/model/free_rotation.h"
 
 namespace rigor {
 

@@ -1,5 +1,7 @@
 #include "core/dynamics/model/energy.h"
 
+#include "core/dynamics/model/joint_coordinate.h"
+
 namespace rigor {
 namespace {
 
@@ -37,6 +39,11 @@ double potential_energy(const Scene& scene, BodyColumns bodies) {
         point_in_world(bodies, spring.b, spring.point_b) - point_in_world(bodies, spring.a, spring.point_a);
     const double stretch = line.norm() - spring.rest_length;
     sum += 0.5 * spring.stiffness * stretch * stretch;
+  }
+  for (const Joint& joint : scene.joints) {
+    if (joint.stiffness == 0) continue;
+    const double stretch = JointCoordinate(scene, joint).at(bodies).x - joint.rest;
+    sum += 0.5 * joint.stiffness * stretch * stretch;
   }
   return sum;
 }

@@ -8,7 +8,8 @@ namespace rigor {
 
 double kinetic_energy_of(const Scene& scene, BodyColumns bodies, std::size_t i);  // J, of one body; 0 if fixed
 double kinetic_energy(const Scene& scene, BodyColumns bodies);                    // J
-double potential_energy(const Scene& scene, BodyColumns bodies);  // J, gravity (zero at W's origin) and springs
+double potential_energy(const Scene& scene,
+                        BodyColumns bodies);  // J, gravity (zero at W's origin), springs, joints' springs
 inline double energy(const Scene& scene, BodyColumns bodies) {
   return kinetic_energy(scene, bodies) + potential_energy(scene, bodies);
 }

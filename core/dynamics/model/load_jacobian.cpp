@@ -80,11 +80,11 @@ void visit_spring(const Spring& spring, BodyColumns bodies, const std::function<
 void visit_load_jacobian(const Loads& loads, BodyColumns bodies, double t, double dt,
                          const std::function<void(const WrenchDerivative&)>& visit) {
   for (const Spring& spring : loads.springs()) visit_spring(spring, bodies, visit);
-  for (const TimedForce& force : loads.forces()) {
+  loads.for_each_acting(t, dt, [&](const TimedForce& force, double share) {
     const auto body = static_cast<std::size_t>(force.body);
     const Vec3 arm = bodies.rotation(body) * force.point;
-    visit({body, body, turning_arm(share_of_step(force, t, dt) * force.force, arm), Mat6::Zero()});
-  }
+    visit({body, body, turning_arm(share * force.force, arm), Mat6::Zero()});
+  });
 }
 
 }  // namespace rigor

@@ -1,6 +1,7 @@
 #include "core/dynamics/model/loads.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rigor {
 namespace {
@@ -9,6 +10,12 @@ void add_force(int body, const Vec3& force, const Vec3& arm, Wrenches& out) {
   if (body == kWorld) return;
   out[body].force += force;
   out[body].torque += arm.cross(force);
+}
+
+void add_wrench(int body, const Vec3& force, const Vec3& torque, Wrenches& out) {
+  if (body == kWorld) return;
+  out[body].force += force;
+  out[body].torque += torque;
 }
 
 // The force on b's point. Where the two points meet the line has no direction, and a spring of some rest length no
@@ -30,15 +37,34 @@ PointMotion point_motion(BodyColumns bodies, int body, const Vec3& point) {
   return {arm, bodies.position(body) + arm, bodies.velocity(body) + bodies.angular_velocity(body).cross(arm)};
 }
 
-double share_of_step(const TimedForce& force, double t, double dt) {
-  if (dt == 0) return t >= force.from && t < force.until ? 1 : 0;
-  const double overlap = std::min(force.until, t + dt) - std::max(force.from, t);
-  return std::clamp(overlap / dt, 0.0, 1.0);
+double share_of_step(double from, double until, double t, double dt) {
+  if (dt == 0) return t >= from && t < until ? 1 : 0;
+  const double first = std::min(t, t + dt), last = std::max(t, t + dt);
+  return std::clamp((std::min(until, last) - std::max(from, first)) / std::abs(dt), 0.0, 1.0);
 }
 
-Loads::Loads(const Scene& scene) : gravity_(scene.gravity), springs_(scene.springs), forces_(scene.forces) {
+double JointDrive::effort(const JointCoordinate::Value& at, double t, double dt) const {
+  double sum = -stiffness * (at.x - rest) - damping * at.rate;
+  for (const Motor& motor : motors) sum += share_of_step(motor.from, motor.until, t, dt) * motor.effort;
+  return sum;
+}
+
+Loads::Loads(const Scene& scene)
+    : gravity_(scene.gravity), springs_(scene.springs), forces_(scene.forces), schedule_(scene.forces) {
   for (const Body& body : scene.bodies) masses_.push_back(body.fixed ? 0 : body.mass);
-  damped_ = std::any_of(springs_.begin(), springs_.end(), [](const Spring& s) { return s.damping > 0; });
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) add_drive(scene, k);
+  const auto damps = [](const auto& row) { return row.damping > 0; };
+  damped_ = std::any_of(springs_.begin(), springs_.end(), damps) || std::any_of(drives_.begin(), drives_.end(), damps);
+}
+
+void Loads::add_drive(const Scene& scene, std::size_t k) {
+  const Joint& joint = scene.joints[k];
+  std::vector<Motor> motors;
+  for (const Motor& motor : scene.motors) {
+    if (motor.joint == static_cast<int>(k) && !motor.speed) motors.push_back(motor);
+  }
+  if (joint.stiffness == 0 && joint.damping == 0 && motors.empty()) return;
+  drives_.push_back({JointCoordinate(scene, joint), joint.stiffness, joint.damping, joint.rest, std::move(motors)});
 }
 
 void Loads::evaluate(BodyColumns bodies, double t, double dt, Wrenches& out) const {
@@ -50,11 +76,15 @@ void Loads::evaluate(BodyColumns bodies, double t, double dt, Wrenches& out) con
     add_force(spring.a, -force, a.arm, out);
     add_force(spring.b, force, b.arm, out);
   }
-  for (const TimedForce& force : forces_) {
-    const double share = share_of_step(force, t, dt);
-    if (share == 0) continue;
+  for_each_acting(t, dt, [&](const TimedForce& force, double share) {
     add_force(force.body, share * force.force, bodies.rotation(force.body) * force.point, out);
     out[force.body].torque += share * force.torque;
+  });
+  for (const JointDrive& drive : drives_) {
+    const JointCoordinate::Value at = drive.coordinate.at(bodies);
+    const double effort = drive.effort(at, t, dt);
+    add_wrench(drive.coordinate.a(), -effort * at.force, effort * at.torque_a, out);
+    add_wrench(drive.coordinate.b(), effort * at.force, effort * at.torque_b, out);
   }
 }
 
@@ -64,9 +94,12 @@ void Loads::evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenc
 }
 
 double Loads::next_switch(double t, double end) const {
-  for (const TimedForce& force : forces_) {
-    for (const double s : {force.from, force.until}) {
-      if ((s - t) * (end - s) > 0) end = s;
+  end = schedule_.next_switch(t, end);
+  for (const JointDrive& drive : drives_) {
+    for (const Motor& motor : drive.motors) {
+      for (const double s : {motor.from, motor.until}) {
+        if ((s - t) * (end - s) > 0) end = s;
+      }
     }
   }
   return end;

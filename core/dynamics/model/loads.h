@@ -1,9 +1,12 @@
-// The forces and torques that a scene's gravity, springs and timed forces put on its bodies. Used by the core's own
-// integrators and, before each step, by every adapter whose engine has no such spring: the same law for all.
+// The forces and torques that a scene's gravity, springs, timed forces, and the springs, dampers and motors of its
+// joints put on its bodies; not what holds joints together. Used by the core's own integrators and, before each step,
+// by every adapter whose engine has no such spring: the same law for all.
 #pragma once
 
 #include <vector>
 
+#include "core/dynamics/model/force_schedule.h"
+#include "core/dynamics/model/joint_coordinate.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
@@ -24,20 +27,33 @@ struct PointMotion {
 };
 PointMotion point_motion(BodyColumns bodies, int body, const Vec3& point);
 
-// The share of the step [t, t + dt] in which the force acts; at dt = 0, whether it does.
-double share_of_step(const TimedForce& force, double t, double dt);
+// The share of the step from t to t + dt, which may go backward, in which the force acts; at dt = 0, whether it does.
+double share_of_step(double from, double until, double t, double dt);
+inline double share_of_step(const TimedForce& force, double t, double dt) {
+  return share_of_step(force.from, force.until, t, dt);
+}
+
+// What acts on a joint's coordinate x: -stiffness (x - rest) - damping x', and the efforts of its motors.
+struct JointDrive {
+  JointCoordinate coordinate;
+  double stiffness, damping, rest;
+  std::vector<Motor> motors = {};  // that give an effort
+
+  double effort(const JointCoordinate::Value& at, double t, double dt) const;
+};
 
 class Loads {
  public:
   explicit Loads(const Scene& scene);
 
-  // Springs and timed forces, without gravity, over a step [t, t + dt] that begins with `bodies`. A timed force counts
+  // All but gravity, over a step [t, t + dt] that begins with `bodies`. A timed force counts
   // with its mean over the step, so that its impulse is right whatever dt is. dt = 0 takes its value at t.
   void evaluate(BodyColumns bodies, double t, double dt, Wrenches& out) const;
   // The same, with m g added for every body that is not fixed.
   void evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenches& out) const;
 
-  // The first instant strictly between t and `end` at which a timed force begins or ends; `end` if there is none.
+  // The first instant strictly between t and `end` at which a timed force or motor begins or ends; `end` if there is
+  // none.
   double next_switch(double t, double end) const;
   // Calls part(from, length) for each part of the step [t, t + dt] in which no timed force begins or ends, in order, so
   // that a method of high order does not step across a jump.
@@ -53,18 +69,37 @@ class Loads {
 
   const std::vector<Spring>& springs() const { return springs_; }
   const std::vector<TimedForce>& forces() const { return forces_; }
+  // Calls visit(force, share) for each timed force that acts in the step [t, t + dt], in their order.
+  template <typename Visit>
+  void for_each_acting(double t, double dt, const Visit& visit) const {
+    const auto visit_one = [&](const TimedForce& force) {
+      const double share = share_of_step(force, t, dt);
+      if (share != 0) visit(force, share);
+    };
+    constexpr std::size_t kFew = 32;  // to look at each of so many takes less than to find those that act
+    if (forces_.size() <= kFew) {
+      for (const TimedForce& force : forces_) visit_one(force);
+    } else {
+      for (const std::size_t i : schedule_.acting(t, t + dt)) visit_one(forces_[i]);
+    }
+  }
   // Gives one of the timed forces other values, from the next step on.
   void set_force(std::size_t index, const Vec3& force, const Vec3& torque) {
     forces_[index].force = force, forces_[index].torque = torque;
   }
-  bool empty() const { return springs_.empty() && forces_.empty(); }
+  const std::vector<JointDrive>& drives() const { return drives_; }
+  bool empty() const { return springs_.empty() && forces_.empty() && drives_.empty(); }
   bool damped() const { return damped_; }
 
  private:
+  void add_drive(const Scene& scene, std::size_t joint);
+
   Vec3 gravity_;
   std::vector<double> masses_;  // kg; 0 for a fixed body
   std::vector<Spring> springs_;
   std::vector<TimedForce> forces_;
+  ForceSchedule schedule_;
+  std::vector<JointDrive> drives_;
   bool damped_ = false;
 };
 

@@ -4,8 +4,12 @@
 
 namespace rigor {
 
-MotionEquations::MotionEquations(const System& system)
-    : system_(system), loads_(system), stage_(system.size()), carried_(kCarriedColumns, system.size()) {}
+MotionEquations::MotionEquations(const System& system, ConstraintForces* constraints)
+    : system_(system),
+      constraints_(constraints),
+      loads_(system),
+      stage_(system.size()),
+      carried_(kCarriedColumns, system.size()) {}
 
 void MotionEquations::keep_stages(std::size_t count) {
   rates_.assign(count, BodyTable(system_.size()));
@@ -20,11 +24,12 @@ void MotionEquations::begin(BodyColumns state, BodyTable& y) {
     std::copy_n(carried_.column(kMomentum + k), system_.size(), y.columns().column(kAngularVelocity + k));
 }
 
-void MotionEquations::rates(const BodyTable& y, double t, double dt, BodyTable& out) {
+void MotionEquations::rates(const BodyTable& y, double t, double dt, BodyTable& out, ConstraintForces::Rows rows) {
   double* const stage = stage_.columns().column(0);
   system_.constants.for_each_block(
       [&](const Bodies& block) { kernels().motion_of(block, y.columns().column(0), y.columns().stride(), stage); });
-  const double* const wrench = loads_.over_step(stage_.columns(), t, dt);
+  const double* wrench = loads_.over_step(stage_.columns(), t, dt);
+  if (constraints_) wrench = constraints_->hold(stage_.columns(), wrench, rows);
   system_.constants.for_each_block(
       [&](const Bodies& block) { kernels().rates_at(block, stage, wrench, out.columns().column(0)); });
 }

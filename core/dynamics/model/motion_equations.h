@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "core/dynamics/model/constraint_forces.h"
 #include "core/dynamics/model/system.h"
 #include "core/dynamics/model/wrench_columns.h"
 
@@ -13,12 +14,14 @@ namespace rigor {
 
 class MotionEquations {
  public:
-  explicit MotionEquations(const System& system);
+  // `constraints` is null where nothing holds the bodies.
+  explicit MotionEquations(const System& system, ConstraintForces* constraints = nullptr);
 
   // Reads y from `state`.
   void begin(BodyColumns state, BodyTable& y);
-  // f(y), with the timed forces' mean over the step [t, t + dt].
-  void rates(const BodyTable& y, double t, double dt, BodyTable& out);
+  // f(y), with the timed forces' mean over the step [t, t + dt]. For `rows` see ConstraintForces.
+  void rates(const BodyTable& y, double t, double dt, BodyTable& out,
+             ConstraintForces::Rows rows = ConstraintForces::Rows::as_chosen);
   // Writes y to the state.
   void write(const BodyTable& y, MutableBodyColumns state) const;
 
@@ -34,6 +37,7 @@ class MotionEquations {
 
  private:
   const System& system_;
+  ConstraintForces* constraints_;
   WrenchColumns loads_;
   BodyTable stage_;
   Columns carried_;

@@ -63,8 +63,9 @@ const double* WrenchColumns::over_step(BodyColumns state, double t, double dt) {
     });
     bodies_.for_each_share(bodies_.size(), [&](std::size_t first, std::size_t last) { sum_pulls(first, last); });
   }
-  const bool acts = add_forces(state, t, dt, has_springs);
-  return has_springs || acts ? wrenches_.data() : nullptr;
+  bool acts = add_forces(state, t, dt, has_springs) || has_springs;
+  if (!loads_.drives().empty()) add_drives(state, t, dt, acts), acts = true;
+  return acts ? wrenches_.data() : nullptr;
 }
 
 void WrenchColumns::sum_pulls(std::size_t first, std::size_t last) {
@@ -90,9 +91,7 @@ void WrenchColumns::sum_pulls(std::size_t first, std::size_t last) {
 // Says whether any force acts; if none does, columns that are not clear are left as they are.
 bool WrenchColumns::add_forces(BodyColumns state, double t, double dt, bool is_clear) {
   bool acts = false;
-  for (const TimedForce& force : loads_.forces()) {
-    const double share = share_of_step(force, t, dt);
-    if (share == 0) continue;
+  loads_.for_each_acting(t, dt, [&](const TimedForce& force, double share) {
     if (!acts && !is_clear) std::fill_n(wrenches_.data(), kWrenchColumns * wrenches_.stride(), 0.0);
     acts = true;
     const Vec3 F = share * force.force;
@@ -101,8 +100,25 @@ bool WrenchColumns::add_forces(BodyColumns state, double t, double dt, bool is_c
       wrenches_.column(kForce + c)[force.body] += F[c];
       wrenches_.column(kTorque + c)[force.body] += torque[c];
     }
-  }
+  });
   return acts;
+}
+
+void WrenchColumns::add_drives(BodyColumns state, double t, double dt, bool is_clear) {
+  if (!is_clear) std::fill_n(wrenches_.data(), kWrenchColumns * wrenches_.stride(), 0.0);
+  const auto add = [&](int body, double effort, const Vec3& force, const Vec3& torque) {
+    if (body == kWorld) return;
+    for (int c = 0; c < 3; ++c) {
+      wrenches_.column(kForce + c)[body] += effort * force[c];
+      wrenches_.column(kTorque + c)[body] += effort * torque[c];
+    }
+  };
+  for (const JointDrive& drive : loads_.drives()) {
+    const JointCoordinate::Value at = drive.coordinate.at(state);
+    const double effort = drive.effort(at, t, dt);
+    add(drive.coordinate.a(), effort, -at.force, at.torque_a);
+    add(drive.coordinate.b(), effort, at.force, at.torque_b);
+  }
 }
 
 }  // namespace rigor

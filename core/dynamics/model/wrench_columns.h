@@ -1,4 +1,4 @@
-// The loads of a system, springs and timed forces without gravity, in columns for the kernels: Loads::evaluate() in
+// The loads of a system, all but gravity, in columns for the kernels: Loads::evaluate() in
 // other words. Springs are taken several at a time; each body then sums its own in their order, so that the result does
 // not depend on how many were.
 #pragma once
@@ -22,6 +22,7 @@ class WrenchColumns {
   void list_pulls_on_bodies();
   void sum_pulls(std::size_t first, std::size_t last);
   bool add_forces(BodyColumns state, double t, double dt, bool is_clear);
+  void add_drives(BodyColumns state, double t, double dt, bool is_clear);
 
   const Loads& loads_;
   const BodyConstants& bodies_;

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "core/base/unit_vector.h"
 #include "core/scene/toml/table_reader.h"
 
 namespace rigor {
@@ -113,11 +114,9 @@ std::string read_name(const TableReader& row) {
 
 Quat read_orientation(const TomlValue& value) {
   const auto q = value.numbers({4});
-  const Eigen::Vector4d wxyz(q[0], q[1], q[2], q[3]);
-  if (wxyz.isZero(0))
-    value.refuse("found the zero quaternion, which is no rotation; allowed: [w, x, y, z] of any other length");
-  const Eigen::Vector4d unit = wxyz.stableNormalized();
-  return {unit[0], unit[1], unit[2], unit[3]};
+  const auto unit = unit_vector(Eigen::Vector4d(q[0], q[1], q[2], q[3]));
+  if (!unit) value.refuse("found the zero quaternion, which is no rotation; allowed: [w, x, y, z] of any other length");
+  return {(*unit)[0], (*unit)[1], (*unit)[2], (*unit)[3]};
 }
 
 bool read_fixed(const TableReader& row, bool is_plane) {

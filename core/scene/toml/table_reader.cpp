@@ -9,8 +9,9 @@
 
 #include "core/base/error.h"
 #include "core/base/near_match.h"
+#include "core/base/unit_vector.h"
 #include "core/scene/toml/file_reader.h"
-#include "core/scene/toml/key_depth.h"
+#include "core/scene/toml/library_limits.h"
 
 namespace rigor {
 
@@ -151,9 +152,9 @@ Vec3 TomlValue::vector() const {
 }
 
 Vec3 TomlValue::direction() const {
-  const Vec3 value = vector();
-  if (value.isZero(0)) refuse("found [0, 0, 0], which points nowhere; allowed: a vector of any other length");
-  return value.stableNormalized();
+  const auto unit = unit_vector(vector());
+  if (!unit) refuse("found [0, 0, 0], which points nowhere; allowed: a vector of any other length");
+  return *unit;
 }
 
 std::string TomlValue::text() const {
@@ -248,9 +249,9 @@ TomlValue TableReader::at(std::string_view key) const {
 }
 
 TomlFile TomlFile::parse(std::string text, const std::string& path) {
-  if (const auto deep = key_too_deep(text)) {
+  if (const auto complaint = beyond_library(text)) {
     throw InputError(
-        fmt::format("{}:{}:{}: found a key of more than {} parts", path, deep->line, deep->column, kDeepestKey));
+        fmt::format("{}:{}:{}: {}", path, complaint->line, complaint->column, complaint->what));
   }
   TomlFile file;
   try {

@@ -191,4 +191,44 @@ BOOST_AUTO_TEST_CASE(a_scene_with_a_joint_is_not_loaded) {
   BOOST_CHECK_THROW(OdeEngine().load(scene, {"worldstep", {}, Track::matched}), InputError);
 }
 
+// m/s: far below what a game would have bounce.
+BOOST_AUTO_TEST_CASE(an_impact_of_five_millimetres_a_second_bounces_and_the_threshold_is_read_back) {
+  Scene scene;
+  scene.bodies.resize(2);
+  Body &ball = scene.bodies[0], &ground = scene.bodies[1];
+  ball.shape = Sphere{0.1}, ball.collides = true, ball.position = {0, 0, 0.10001}, ball.velocity = {0, 0, -0.005};
+  ground.shape = Plane{{0, 0, 1}, 0}, ground.collides = ground.fixed = true;
+  scene.contact_default = {1, 0};
+  for (const char* run : {"ode", "ode:quickstep"}) {
+    const auto world = load_run(run, scene);
+    BOOST_TEST(std::abs(body_after(*world, 1e-3, 20).velocity.z() - 0.005) < 1e-5, run);
+    const SettingsInForce settings = world->settings_in_force();
+    const auto threshold =
+        std::find_if(settings.begin(), settings.end(), [](const auto& row) { return row.first == "bounce threshold"; });
+    BOOST_TEST_REQUIRE((threshold != settings.end()));
+    BOOST_TEST(threshold->second == "0 m/s");
+  }
+}
+
+// A box that lies across another touches it at eight points. Pressed down anywhere inside of these it stays; were some
+// left out, it would tip over the others.
+BOOST_AUTO_TEST_CASE(no_contact_of_two_boxes_is_left_out) {
+  for (int k = 0; k < 16; ++k) {
+    const double angle = 2 * kPi * k / 16;
+    Scene scene;
+    scene.gravity = {0, 0, -9.81};
+    scene.bodies.resize(2);
+    for (Body& body : scene.bodies)
+      body.shape = Box{{1, 1, 0.2}}, body.inertia = inertia_of(*body.shape, 1), body.collides = true;
+    scene.bodies[0].position = {0, 0, 0.2}, scene.bodies[0].orientation = rotation_by({0, 0, kPi / 4});
+    scene.bodies[1].fixed = true;
+    // 0.46 m from the middle; the eight corners' octagon begins at half a metre, a square of four of them at 0.38 m.
+    const Vec3 point = scene.bodies[0].orientation.conjugate() * (0.46 * Vec3(std::cos(angle), std::sin(angle), 0));
+    scene.forces = {{.body = 0, .force = {0, 0, -500}, .torque = Vec3::Zero(), .point = point}};
+    scene.contact_default = {0, 1};
+    const BodyState after = body_after(*load_run("ode", scene), 1.0 / 240, 60);
+    BOOST_TEST(angle_between(after.orientation, scene.bodies[0].orientation) < 0.01, "pressed at " << angle << " rad");
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

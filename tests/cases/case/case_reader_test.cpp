@@ -6,6 +6,7 @@
 #include "cases/case/suite.h"
 #include "cases/metrics/metric.h"
 #include "cases/truth/truth.h"
+#include "tests/cases/vocabulary.h"
 #include "tests/core/scene/toml/refusal.h"
 #include "tests/folder.h"
 
@@ -106,16 +107,52 @@ BOOST_FIXTURE_TEST_SUITE(cases_case_case_reader, Folder)
 BOOST_AUTO_TEST_CASE(each_case_that_cannot_be_is_refused) {
   const auto check = [&](const Refusal& row, const std::string& before) {
     const std::string file = write("case.toml", before + row.text);
-    check_refusal(row, file, [&] { read_case(file, "x"); });
+    check_refusal(row, file, [&] { read_case(file, "x", test::words()); });
   };
   for (const Refusal& row : kBadCases) check(row, "");
   for (const Refusal& row : kBadRuns) check(row, "title = 'x'\nscene.body = [{ name = 'a', fixed = true }]\n[run]\n");
   for (const Refusal& row : kBadJudgements) check(row, kStart);
 }
 
+// What the truth 'events' is made by agrees with it however wrong both are.
+BOOST_AUTO_TEST_CASE(a_gate_that_holds_a_run_to_itself_is_refused) {
+  const std::string start = R"(title = "A test"
+scene.body = [{ name = "box", mass = 1, position = [0, 0, 2], shape = { type = "box", size = [1, 1, 1] } },
+  { name = "ground", shape = { type = "plane", normal = [0, 0, 1], offset = 0 } }]
+[run]
+duration = 1
+dt = 0.01
+[truth]
+kind = 'TRUTH'
+[[gate]]
+metric = 'METRIC'
+because = 'x'
+)";
+  const auto refused = [&](const std::string& truth, const std::string& metric, const std::string& rest) {
+    std::string text = start + rest;
+    text.replace(text.find("TRUTH"), 5, truth), text.replace(text.find("METRIC"), 6, metric);
+    const std::string file = write("case.toml", text);
+    const std::string message = refusal_of([&] { read_case(file, "x", words()); });
+    return message.starts_with(file) ? message.substr(file.size()) : message;
+  };
+  const std::string itself = "max = 1\nengines = ['ode', 'core:rk4,contact=event']";
+  BOOST_TEST(refused("events", "position_error", itself)
+                 .starts_with(":13:19: gate.engines[1]: found core:rk4,contact=event, whose own code makes the truth "
+                              "'events' that position_error is measured against; allowed: "));
+  BOOST_TEST(refused("events", "energy_drift", itself).starts_with(":13:19: "));
+  BOOST_TEST(refused("events", "observed_order", itself).starts_with(":13:19: "));
+  BOOST_TEST(refused("events", "position_error", "engines = 'ode'\nbetter_than = 'core:rk4,contact=event'")
+                 .starts_with(":13:15: gate.better_than: found core:rk4,contact=event"));
+  // By itself a core that is not told how to treat contacts takes 'impulse' for boxes.
+  BOOST_TEST(refused("events", "position_error", "max = 1\nengines = ['core:rk4', 'ode']") == "");
+  BOOST_TEST(refused("events", "penetration", itself) == "");
+  BOOST_TEST(refused("none", "position_error", itself) == "");
+}
+
 BOOST_AUTO_TEST_CASE(an_error_in_the_scene_names_the_file) {
   const std::string file = write("case.toml", "title = 'x'\nscene.body = [{ name = 'a' }]");
-  BOOST_TEST(refusal_of([&] { read_case(file, "x"); }).starts_with(file + ":2:15: scene.body.mass: missing"));
+  BOOST_TEST(
+      refusal_of([&] { read_case(file, "x", test::words()); }).starts_with(file + ":2:15: scene.body.mass: missing"));
 }
 
 BOOST_AUTO_TEST_CASE(a_case_is_read_with_all_it_says) {
@@ -138,7 +175,7 @@ engines = "bullet"
 equals = -1
 because = "why not")";
   const std::string file = write("case.toml", text);
-  const Case read = read_case(file, "tests/case");
+  const Case read = read_case(file, "tests/case", test::words());
   BOOST_TEST(read.id == "tests/case");
   BOOST_TEST(read.title == "A test");
   BOOST_TEST(read.source == "");
@@ -169,15 +206,15 @@ because = "why not")";
 }
 
 BOOST_AUTO_TEST_CASE(a_case_without_a_truth_has_none) {
-  BOOST_TEST(read_case(write("case.toml", kStart), "x").truth == "none");
-  BOOST_TEST(read_case(write("case.toml", kStart + "[truth]\nkind = 'none'"), "x").truth == "none");
+  BOOST_TEST(read_case(write("case.toml", kStart), "x", test::words()).truth == "none");
+  BOOST_TEST(read_case(write("case.toml", kStart + "[truth]\nkind = 'none'"), "x", test::words()).truth == "none");
 }
 
 BOOST_AUTO_TEST_CASE(a_duration_may_be_a_fraction_and_one_step_size_needs_no_array) {
   const Case read =
       read_case(write("case.toml",
                       "title = 'x'\nscene.body = [{ name = 'a', fixed = true }]\n[run]\nduration = '7/2'\ndt = '1/2'"),
-                "x");
+                "x", test::words());
   BOOST_TEST(read.duration == 3.5);
   BOOST_TEST(read.dt.at(0).seconds == 0.5);
 }
@@ -185,18 +222,19 @@ BOOST_AUTO_TEST_CASE(a_duration_may_be_a_fraction_and_one_step_size_needs_no_arr
 BOOST_AUTO_TEST_CASE(every_metric_and_truth_there_is_can_be_named) {
   for (const MetricRow& metric : metrics()) {
     const std::string gate = "[[gate]]\nmetric = '" + metric.name + "'\nmax = 1\nbecause = 'x'";
-    BOOST_TEST(read_case(write("case.toml", kStart + gate), "x").gates.at(0).metric == metric.name);
+    BOOST_TEST(read_case(write("case.toml", kStart + gate), "x", test::words()).gates.at(0).metric == metric.name);
   }
   for (const CrossMetricRow& metric : cross_metrics()) {
     const std::string gate = "[[gate]]\nmetric = '" + metric.name + "'\nbecause = 'x'\n";
-    BOOST_TEST(read_case(write("case.toml", kStart + gate + "min = 1"), "x").gates.at(0).metric == metric.name);
+    BOOST_TEST(read_case(write("case.toml", kStart + gate + "min = 1"), "x", test::words()).gates.at(0).metric ==
+               metric.name);
     const std::string refusal =
-        refusal_of([&] { read_case(write("case.toml", kStart + gate + "at_least_order = 1"), "x"); });
+        refusal_of([&] { read_case(write("case.toml", kStart + gate + "at_least_order = 1"), "x", test::words()); });
     BOOST_TEST(refusal.find("order") != std::string::npos, refusal);
   }
   for (const TruthRow& truth : truths()) {
     const std::string kind = "[truth]\nkind = '" + truth.name + "'";
-    BOOST_TEST(read_case(write("case.toml", kStart + kind), "x").truth == truth.name);
+    BOOST_TEST(read_case(write("case.toml", kStart + kind), "x", test::words()).truth == truth.name);
   }
 }
 
@@ -206,7 +244,7 @@ BOOST_AUTO_TEST_CASE(every_method_of_every_engine_can_be_named_in_a_gate) {
       const std::string name = engine.name + ":" + method.name;
       const std::string gate = "[[gate]]\nmetric = 'energy_drift'\nengines = '" + name + "'\nmax = 1\nbecause = 'x'";
       BOOST_TEST_CONTEXT(name) {
-        BOOST_TEST(read_case(write("case.toml", kStart + gate), "x").gates.at(0).engines.size() == 1u);
+        BOOST_TEST(read_case(write("case.toml", kStart + gate), "x", test::words()).gates.at(0).engines.size() == 1u);
       }
     }
   }
@@ -218,7 +256,7 @@ BOOST_AUTO_TEST_CASE(a_case_cut_anywhere_is_read_or_refused) {
   int refused = 0;
   for (std::size_t length = 0; length < text.size(); ++length) {
     const std::string file = write("case.toml", text.substr(0, length));
-    refused += !refusal_of([&] { read_case(file, "x"); }).empty();
+    refused += !refusal_of([&] { read_case(file, "x", test::words()); }).empty();
   }
   BOOST_TEST(refused > 100);  // whatever ends before the run, and every half-finished table after it
 }
@@ -226,7 +264,7 @@ BOOST_AUTO_TEST_CASE(a_case_cut_anywhere_is_read_or_refused) {
 BOOST_AUTO_TEST_CASE(every_case_of_the_suite_is_read) {
   for (const std::string& id : suite_ids(default_suite_dir())) {
     BOOST_TEST_CONTEXT(id) {
-      BOOST_TEST(refusal_of([&] { read_case(default_suite_dir() + "/" + id + ".toml", id); }) == "");
+      BOOST_TEST(refusal_of([&] { read_case(default_suite_dir() + "/" + id + ".toml", id, test::words()); }) == "");
     }
   }
 }

@@ -18,6 +18,7 @@
 #include "cases/case/suite.h"
 #include "core/base/error.h"
 #include "tests/folder.h"
+#include "tests/cases/vocabulary.h"
 
 using namespace rigor;
 using Json = nlohmann::ordered_json;
@@ -84,7 +85,7 @@ Words allowed_by_reader(const Json& of_case) {
   for (const auto& [key, value] : of_case.items()) text += key + " = " + as_toml(value) + "\n";
   const Folder folder;
   try {
-    read_case(folder.write("case.toml", text), "case");
+    read_case(folder.write("case.toml", text), "case", words());
   } catch (const InputError& error) {
     const std::string said = error.what();
     const std::size_t at = said.rfind("; allowed: ");
@@ -256,12 +257,12 @@ Json broken_cases() {
 BOOST_AUTO_TEST_CASE(every_case_of_the_suite_is_valid_and_broken_ones_are_not,
                      *boost::unit_test::enable_if<RIGOR_HTML_REPORT>()) {
   Json valid = Json::object();
-  for (const Case& one : select_cases({}, default_suite_dir())) valid[one.id] = as_json(toml::parse(one.text));
+  for (const Case& one : select_cases({}, default_suite_dir(), words())) valid[one.id] = as_json(toml::parse(one.text));
   for (const Json& one : broken_cases()) {
     std::string text;
     for (const auto& [key, value] : one.items()) text += key + " = " + as_toml(value) + "\n";
     const Folder folder;
-    BOOST_TEST_CONTEXT(text) { BOOST_CHECK_THROW(read_case(folder.write("case.toml", text), "case"), InputError); }
+    BOOST_TEST_CONTEXT(text) { BOOST_CHECK_THROW(read_case(folder.write("case.toml", text), "case", words()), InputError); }
   }
   const Folder folder;
   const std::string files =

@@ -18,6 +18,19 @@ BOOST_AUTO_TEST_CASE(a_step_size_is_a_number_or_a_fraction_and_keeps_its_text) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_step_is_the_same_however_it_is_written_and_another_is_not) {
+  const auto step = [](const std::string& text) { return parse_step_size(text, "--dt"); };
+  for (const std::string text : {"0.033333333333333", "0.03333333333", "33.3333333333e-3", "2/60"}) {
+    BOOST_TEST((step("1/30") == step(text)), text);
+    BOOST_TEST((step(text) == step("1/30")), text);
+  }
+  for (const std::string text : {"0.0333333", "1/31", "1/3000", "0.0333333334", "1/30.0000001"}) {
+    BOOST_TEST((step("1/30") != step(text)), text);
+    BOOST_TEST((step(text) != step("1/30")), text);
+  }
+  BOOST_TEST((step("5e-324") != step("1e-323")));
+}
+
 BOOST_AUTO_TEST_CASE(anything_else_is_refused_with_what_was_found) {
   for (const std::string text :
        {"",      " ",      "0",   "-1",  "nan",    "inf",          "-inf",         "1e999", "1e-999",  "abc",

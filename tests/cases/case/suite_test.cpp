@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "tests/cases/vocabulary.h"
 #include "tests/core/scene/toml/refusal.h"
 #include "tests/folder.h"
 
@@ -28,11 +29,11 @@ struct TwoFolders : Folder {
 
   std::string ids_of(const std::vector<std::string>& words) const {
     std::string ids;
-    for (const Case& c : select_cases(words, suite)) ids += (ids.empty() ? "" : " ") + c.id;
+    for (const Case& c : select_cases(words, suite, test::words())) ids += (ids.empty() ? "" : " ") + c.id;
     return ids;
   }
   std::string refusal(const std::string& word) const {
-    return refusal_of([&] { select_cases({word}, suite); });
+    return refusal_of([&] { select_cases({word}, suite, test::words()); });
   }
 };
 
@@ -94,14 +95,15 @@ BOOST_AUTO_TEST_CASE(a_folder_or_file_without_a_case_is_refused) {
   const std::string empty = (path / "empty").string(), notes = suite + "/springs/notes.md";
   BOOST_TEST(refusal(empty) == empty + ": there is no case, no .toml file, in this folder");
   BOOST_TEST(refusal(notes) == notes + ": is not a .toml file");
-  BOOST_TEST(refusal_of([&] { select_cases({}, empty); }) == empty + ": there is no case in the suite's folder");
-  BOOST_TEST(refusal_of([&] { select_cases({}, empty + "/none"); }) ==
+  BOOST_TEST(refusal_of([&] { select_cases({}, empty, test::words()); }) ==
+             empty + ": there is no case in the suite's folder");
+  BOOST_TEST(refusal_of([&] { select_cases({}, empty + "/none", test::words()); }) ==
              empty + "/none: there is no case in the suite's folder");
 }
 
 BOOST_AUTO_TEST_CASE(a_file_can_be_given_where_there_is_no_suite) {
   const std::string file = other + "/a.toml";
-  BOOST_TEST(select_cases({file}, suite + "/none").at(0).id == file);
+  BOOST_TEST(select_cases({file}, suite + "/none", test::words()).at(0).id == file);
 }
 
 BOOST_AUTO_TEST_CASE(a_broken_case_is_refused_with_its_place) {

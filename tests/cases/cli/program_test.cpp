@@ -1,11 +1,13 @@
 // The program itself, run as a process, with its suite in a folder of the test.
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <boost/test/unit_test.hpp>
 #include <chrono>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -65,8 +67,11 @@ struct Fixture {
     folder.write("suite/air/strict.toml", text_with("1e-30"));
   }
 
-  pid_t start(std::vector<std::string> words) const {
-    words.insert(words.begin(), RIGOR_PROGRAM);
+  // `before`: what the process does to itself before it becomes the program.
+  pid_t start(
+      std::vector<std::string> words, const std::function<void()>& before = [] {},
+      const std::string& program = RIGOR_PROGRAM) const {
+    words.insert(words.begin(), program);
     const bool takes_suite = words.size() > 1 && words[1] != "compare" && words[1] != "baseline";
     if (takes_suite && !words[1].starts_with("-")) words.insert(words.end(), {"--suite", suite});
     std::vector<char*> argv;
@@ -79,6 +84,7 @@ struct Fixture {
     dup2(open(stdout_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     dup2(open(stderr_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
+    before();
     execv(argv[0], argv.data());
     _exit(127);
   }
@@ -88,7 +94,19 @@ struct Fixture {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), content(folder.path / "stdout"),
             content(folder.path / "stderr")};
   }
-  Answer run(const std::vector<std::string>& words) const { return wait_for(start(words)); }
+  Answer run(
+      const std::vector<std::string>& words, const std::function<void()>& before = [] {}) const {
+    return wait_for(start(words, before));
+  }
+  // Through a shell, with `around` in place of the program's own words: "%s | true".
+  int shell(const std::string& around, const std::string& words) const {
+    std::string command = around;
+    command.replace(command.find("%s"), 2,
+                    std::string(RIGOR_PROGRAM) + " " + words + " --suite " + suite + " --out " + out);
+    const int answer = std::system(("bash -o pipefail -c '" + command + "'").c_str());
+    return WIFEXITED(answer) ? WEXITSTATUS(answer) : -1;
+  }
+  nlohmann::json results() const { return nlohmann::json::parse(content(fs::path(out) / "results.json")); }
 };
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -175,6 +193,19 @@ BOOST_AUTO_TEST_CASE(bad_words_and_numbers_are_answered_on_stderr_with_exit_2_an
       {{"truth", "stone", "--times", "1,x"}, "--times"},
       {{"truth", "stone", "--times", "-1"}, "--times"},
       {{"truth", "stone", "--times", "1,,2"}, "--times"},
+      {{"truth", "stone", "--times", ""}, "--times: needs a value"},
+      {{"run", ""}, "needs a value"},
+      {{"run", "stone", "--engine", ""}, "--engine: needs a value"},
+      {{"run", "stone", "--dt", ""}, "--dt: needs a value"},
+      {{"run", "stone", "--duration", ""}, "--duration: needs a value"},
+      {{"run", "stone", "--jobs", ""}, "--jobs: needs a value"},
+      {{"run", "stone", "--timeout", ""}, "--timeout: needs a value"},
+      {{"run", "stone", "--out", ""}, "--out: needs a value"},
+      {{"run", "--jobs=", "stone"}, "--jobs: needs a value"},
+      {{"run", "--out=", "stone"}, "--out: needs a value"},
+      {{"gate", "stone", "--deviations", "", "--out", out}, "--deviations: needs a value"},
+      {{"list", "cases", "--suite", ""}, "--suite: needs a value"},
+      {{"compare", file, file, "--factor", ""}, "--factor: needs a value"},
   };
   for (const Row& row : rows) {
     std::vector<std::string> words = row.words;
@@ -232,11 +263,11 @@ BOOST_AUTO_TEST_CASE(gate_answers_with_its_exit_code) {
   BOOST_TEST(run({"gate", "stone", "--engine", "core:rk4", "--out", out}).code == 0);
   const Answer strict = run({"gate", "strict", "--engine", "core:rk4", "--out", out});
   BOOST_TEST(strict.code == 1);
-  BOOST_TEST(strict.out.find("gate failed") != std::string::npos, strict.out);
+  BOOST_TEST(strict.out.find("bound failed") != std::string::npos, strict.out);
   BOOST_TEST(run({"run", "strict", "--engine", "core:rk4", "--out", out}).code == 0);
   const Answer unchecked = run({"gate", "stone", "--engine", "ode", "--out", out});
   BOOST_TEST(unchecked.code == 1);
-  BOOST_TEST(unchecked.out.find("gate not checked") != std::string::npos, unchecked.out);
+  BOOST_TEST(unchecked.out.find("bound not checked") != std::string::npos, unchecked.out);
 }
 
 BOOST_AUTO_TEST_CASE(a_gate_runs_what_its_gates_judge_and_on_a_runner_points_at_them) {
@@ -317,6 +348,7 @@ BOOST_AUTO_TEST_CASE(truth_prints_states_at_any_time_with_their_error) {
   BOOST_TEST(answer.code == 0);
   BOOST_TEST_REQUIRE(lines.size() == 4u);
   BOOST_TEST(lines[0].ends_with(",wz,error"));
+  BOOST_TEST(answer.err.find("a closed form, independent of every engine") != std::string::npos);
   BOOST_TEST(std::abs(from_the_end(lines[2], 12) - -1.25) < 1e-12);
   BOOST_TEST(std::abs(from_the_end(lines[3], 12) - -45) < 1e-12);
   BOOST_TEST(from_the_end(lines[3], 0) < 1e-9);
@@ -331,11 +363,140 @@ BOOST_AUTO_TEST_CASE(a_reader_that_stops_reading_is_no_fault) {
   BOOST_TEST(content(folder.path / "stderr") == "");
 }
 
+// What is answered does not hang on whether anyone reads it, or on which streams there are.
+BOOST_AUTO_TEST_CASE(no_reader_and_no_stream_is_needed_for_the_exit_code) {
+  const std::string good = "gate stone --engine core:rk4", bad = "gate strict --engine core:rk4";
+  for (const char* around :
+       {"%s | true", "%s 2>&1 | true", "%s >&-", "%s <&- >&-", "%s >&- 2>&-", "%s <&- >&- 2>&-", "%s <&- >/dev/null",
+        "%s 2>&- >/dev/null", "%s <&- 2>&- >/dev/null", "%s 2>/dev/full >/dev/null"}) {
+    BOOST_TEST(shell(around, bad) == 1, around);
+    BOOST_TEST(shell(around, good) == 0, around);
+    for (const auto& cell : results().at("cells")) BOOST_TEST(cell.at("status") == "pass", around);
+  }
+  BOOST_TEST(shell("%s >&- 2>&-", "gate stone --engine nothing") == 2);
+  BOOST_TEST(shell("%s 2>/dev/full", "gate stone --engine nothing") == 2);
+  BOOST_TEST(shell("%s >/dev/full 2>/dev/null", good) == 3);  // it can be opened, but nothing can be written
+}
+
+BOOST_AUTO_TEST_CASE(what_a_terminal_would_obey_is_not_printed) {
+  const std::string nasty = "a\x1b[31m\x07\x9b\xc2\x9b\x7f b";
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"run", nasty},
+                                                {nasty},
+                                                {"run", "--" + nasty},
+                                                {"list", nasty},
+                                                {"run", "stone", "--engine", nasty},
+                                                {"run", "stone", "--out", out, "--jobs", nasty}}) {
+    const Answer answer = run(words);
+    BOOST_TEST(answer.code == 2);
+    BOOST_TEST(answer.err.find_first_of("\x1b\x07\x7f\x9b") == std::string::npos, answer.err);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(one_run_and_one_step_are_run_once_however_they_are_written) {
+  const Answer answer = run({"run", "stone", "--engine", "ode", "--engine", "ode:auto", "--engine", "ode@matched",
+                             "--dt", "1/10", "--dt", "0.1", "--dt", "0.100000000000001", "--out", out});
+  BOOST_TEST(answer.code == 0);
+  BOOST_TEST(results().at("cells").size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(numbers_of_any_size_do_not_lose_the_run) {
+  std::string text = text_with("1");
+  text.replace(text.find("[0, -10, 0]"), 11, "[1e-320, -10, 0]");
+  const std::string file = folder.write("subnormal.toml", text);
+  const Answer answer = run({"run", file, "--engine", "core:rk4", "--out", out});
+  BOOST_TEST(answer.code == 0, answer.err);
+  BOOST_TEST(results().at("cells").size() == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(a_report_that_cannot_be_written_costs_itself_and_resume_goes_on) {
+  const auto limit = [](rlim_t bytes) {
+    return [bytes] {
+      const rlimit small{bytes, RLIM_INFINITY};
+      setrlimit(RLIMIT_FSIZE, &small);
+    };
+  };
+  const std::vector<std::string> words = {"run", "stone", "--engine", "core:rk4", "--out", out};
+  folder.write("out/report.md", "old"), folder.write("out/results.json", "old");
+  BOOST_TEST(run(words, limit(0)).code == 3);  // not even a complaint can be written to the test's file
+  BOOST_TEST(content(fs::path(out) / "report.md") == "old");
+  BOOST_TEST(content(fs::path(out) / "results.json") == "old");
+  if (!RIGOR_HTML_REPORT) return;
+  const Answer some = run(words, limit(200'000));  // the page alone is larger
+  BOOST_TEST(some.code == 3);
+  BOOST_TEST(some.err.find("report.html was not written: File too large") != std::string::npos, some.err);
+  BOOST_TEST(some.err.find("results.json was not") == std::string::npos, some.err);
+  BOOST_TEST(results().at("cells").size() == 2u);
+  BOOST_TEST(!fs::exists(fs::path(out) / "report.html"));
+  std::vector<std::string> with_resume = words;
+  with_resume.push_back("--resume");
+  const fs::path journal = fs::path(out) / ".rigor-partial/journals/0.journal";
+  BOOST_TEST(content(journal).find("position_error") != std::string::npos);
+  BOOST_TEST(run(with_resume).code == 0);
+  BOOST_TEST(std::distance(fs::directory_iterator(out), {}) == std::ssize(reports()) + 1);  // and the trajectories
+}
+
+BOOST_AUTO_TEST_CASE(too_few_descriptors_end_with_3_and_a_sentence) {
+  for (const rlim_t count : {5, 6, 8, 10}) {
+    const Answer answer = run({"run", "stone", "--engine", "core:rk4", "--out", out}, [count] {
+      const rlimit few{count, count};
+      setrlimit(RLIMIT_NOFILE, &few);
+    });
+    if (answer.code == 0) continue;  // so many were enough
+    BOOST_TEST(count < 10u);
+    BOOST_TEST(answer.code == 3);
+    BOOST_TEST(answer.err != "", count << " descriptors");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_folder_that_another_run_writes_to_is_left_alone) {
+  const std::vector<std::string> endless = {"run", "stone", "--engine", "core:rk4", "--dt", "1e-8", "--out", out};
+  const pid_t first = start(endless);
+  const fs::path journals = fs::path(out) / ".rigor-partial/journals";
+  for (int i = 0; i < 500 && !fs::exists(journals); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const Answer second = run({"run", "stone", "--engine", "core:rk4", "--out", out, "--resume"});
+  BOOST_TEST(second.code == 2);
+  BOOST_TEST(second.err.find("another run is writing to it") != std::string::npos, second.err);
+  BOOST_TEST(kill(first, 0) == 0);
+  BOOST_TEST(fs::exists(journals));
+  BOOST_TEST(!fs::exists(fs::path(out) / "results.json"));
+  kill(first, SIGKILL), wait_for(first);
+}
+
+// The first of two cells is journalled, the second never ends. What is computed anew has another time on the wall.
+BOOST_AUTO_TEST_CASE(a_run_goes_on_from_its_own_build_alone) {
+  const fs::path program = folder.path / "rigor", journal = fs::path(out) / ".rigor-partial/journals/0.journal";
+  fs::copy_file(RIGOR_PROGRAM, program);
+  const auto written = fs::last_write_time(program);
+  for (const bool is_changed : {false, true}) {
+    const pid_t pid = start(
+        {"run", "stone", "--engine", "core:rk4", "--engine", "core:explicit-euler", "--dt", "1/10", "--dt", "1e-8",
+         "--jobs", "1", "--duration", "1", "--out", out},
+        [] {}, program.string());
+    const std::string key = "\"wall_seconds\":";
+    for (int i = 0; i < 1000 && content(journal).find(key) == std::string::npos; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    kill(pid, SIGKILL), wait_for(pid);
+    const std::string kept = content(journal);
+    BOOST_TEST_REQUIRE(kept.find(key) != std::string::npos);
+    const double was = std::strtod(kept.c_str() + kept.find(key) + key.size(), nullptr);
+    if (is_changed) std::ofstream(program, std::ios::binary | std::ios::app) << '\0';  // another build of the same age
+    fs::last_write_time(program, written);
+    const Answer resumed = wait_for(start(
+        {"run", "stone", "--engine", "core:rk4", "--engine", "core:explicit-euler", "--dt", "1/10", "--dt", "1e-8",
+         "--jobs", "1", "--duration", "1", "--timeout", "0.3", "--out", out, "--resume"},
+        [] {}, program.string()));
+    BOOST_TEST(resumed.code == 3);  // for the endless ones
+    bool is_found = false;
+    for (const auto& cell : results().at("cells")) is_found |= cell.at("wall_seconds") == was;
+    BOOST_TEST(is_found == !is_changed);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_killed_run_leaves_the_old_outputs_and_no_child) {
   folder.write("out/results.json", "old");
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     const pid_t pid = start({"run", "stone", "--engine", "core:rk4", "--dt", "1e-8", "--out", out});
-    const fs::path growing = fs::path(out) / (".partial-" + std::to_string(pid));
+    const fs::path growing = fs::path(out) / ".rigor-partial";
     for (int i = 0; i < 500 && !fs::exists(growing); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::milliseconds(200));  // its children are at work then
     BOOST_TEST(kill(pid, signal) == 0);
@@ -348,6 +509,29 @@ BOOST_AUTO_TEST_CASE(a_killed_run_leaves_the_old_outputs_and_no_child) {
     BOOST_TEST(is_empty);
     BOOST_TEST(content(fs::path(out) / "results.json") == "old");
     BOOST_TEST(fs::exists(growing));  // for --resume; any other run tidies it up
+  }
+}
+
+// A longer run over a shorter one's outputs, killed at about the instant at which its own appear.
+BOOST_AUTO_TEST_CASE(a_run_killed_while_it_publishes_goes_on_to_its_own_trajectories) {
+  const auto words = [&](const std::string& duration) -> std::vector<std::string> {
+    return {"run", "stone", "--engine", "core:rk4", "--dt", "1/100", "--duration", duration, "--out", out};
+  };
+  const fs::path file = fs::path(out) / "results.json";
+  for (int i = 0; i < 6; ++i) {
+    run(words("0.5"));
+    const std::string old = content(file);
+    const pid_t pid = start(words("1"));
+    for (int k = 0; k < 100'000 && content(file) == old; ++k)
+      std::this_thread::sleep_for(std::chrono::microseconds(100 + 200 * i));
+    kill(pid, SIGKILL), wait_for(pid);
+    std::vector<std::string> with_resume = words("1");
+    with_resume.push_back("--resume");
+    BOOST_TEST(run(with_resume).code == 0);
+    for (const auto& cell : results().at("cells")) {
+      const auto rows = lines_of(content(fs::path(out) / "trajectories" / cell.at("trajectory").get<std::string>()));
+      BOOST_TEST(rows.size() == 102u);  // its head, the start and a hundred steps
+    }
   }
 }
 
@@ -375,14 +559,20 @@ BOOST_AUTO_TEST_CASE(a_run_killed_at_any_moment_leaves_whole_files_and_goes_on_f
   }
   BOOST_TEST(kills > 3);
   BOOST_TEST(run(with_resume()).code == 0);
-  const auto resumed = nlohmann::json::parse(content(fs::path(out) / "results.json"));
+  const auto resumed = results();
+  const auto rows = [&](const nlohmann::json& cell) {
+    return content(fs::path(out) / "trajectories" / cell.at("trajectory").get<std::string>());
+  };
+  std::vector<std::string> resumed_rows;
+  for (const auto& cell : resumed.at("cells")) resumed_rows.push_back(rows(cell));
   run(words);
-  const auto anew = nlohmann::json::parse(content(fs::path(out) / "results.json"));
+  const auto anew = results();
   BOOST_TEST_REQUIRE(resumed.at("cells").size() == anew.at("cells").size());
   for (std::size_t i = 0; i < anew.at("cells").size(); ++i) {
     BOOST_TEST(resumed.at("cells")[i].at("status") == anew.at("cells")[i].at("status"));
     BOOST_TEST(resumed.at("cells")[i].at("metrics").at("position_error") ==
                anew.at("cells")[i].at("metrics").at("position_error"));
+    BOOST_TEST((resumed_rows[i] == rows(anew.at("cells")[i])), "the rows of cell " << i);
   }
   for (const auto& entry : fs::directory_iterator(out))
     BOOST_TEST(!entry.path().filename().string().starts_with("."), entry.path().string());

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/runner/faulty_engine.h"
+#include "tests/cases/vocabulary.h"
 #include "tests/folder.h"
 
 using namespace rigor;
@@ -118,7 +119,7 @@ BOOST_AUTO_TEST_CASE(a_row_that_no_gate_can_meet_is_refused) {
 // The shipped ones name cases of the suite, and are met by its gates.
 BOOST_AUTO_TEST_CASE(the_shipped_rows_speak_of_gates_that_there_are) {
   const auto rows = read_known_deviations(default_adapters_dir(), infos());
-  const auto cases = select_cases({}, default_suite_dir());
+  const auto cases = select_cases({}, default_suite_dir(), test::words());
   for (const KnownDeviation& row : rows) {
     BOOST_TEST(std::any_of(cases.begin(), cases.end(), [&](const Case& c) { return c.id == row.case_id; }), row.where);
   }

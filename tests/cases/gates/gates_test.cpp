@@ -18,7 +18,7 @@ struct Fixture {
 
   explicit Fixture(double order = 2) {
     EngineTable table;
-    for (const char* name : {"a", "b"}) table.push_back(std::make_unique<FaultyEngine>(name, [](double&) {}));
+    for (const char* name : {"a", "b"}) table.add(std::make_unique<FaultyEngine>(name, [](double&) {}));
     grid.engines = infos_of(table);
     for (const char* name : {"a", "b"}) grid.runs.push_back(parse_run_name(name, grid.engines));
     CaseResult result;
@@ -74,6 +74,19 @@ BOOST_AUTO_TEST_CASE(a_limit_is_held_against_every_cell_it_selects) {
   for (const std::string part : {"0.1 m", "0.05 m", "0.25 s", "stone", "position.x", "1.5", "1.25", "a reason"}) {
     BOOST_TEST(run.cell(2).reason.find(part) != std::string::npos, part << " in " << run.cell(2).reason);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_gate_passes_over_the_runs_that_the_truth_is_made_like) {
+  Fixture run;
+  run.grid.runs[1].engine = "core", run.grid.runs[1].settings.options["contact"] = "event";
+  run.result().definition.truth = "events";
+  Gate limit = gate("position_error");
+  limit.max = 0.001;  // none of them holds it
+  BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 2);
+  for (const GateResult& answer : run.result().gates) BOOST_TEST(answer.engine == "a");
+  run.result().definition.truth = "reference";
+  run.result().gates.clear();
+  BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 4);
 }
 
 BOOST_AUTO_TEST_CASE(engines_and_steps_narrow_a_gate) {
@@ -261,6 +274,63 @@ BOOST_AUTO_TEST_CASE(a_ranking_against_a_run_that_came_to_nothing_fails) {
   BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 1);
   run.cell(2).status = Status::unsupported;  // that is nobody's fault
   BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(an_order_is_fitted_over_all_of_the_steps) {
+  Fixture run(2);
+  CaseResult& result = run.result();
+  for (const std::size_t of : {0u, 1u}) {
+    Cell third = result.cells[of == 0 ? 1 : 3];
+    third.dt = {0.025, "1/40"};  // the error falls no more: over the first two steps alone the order is 2
+    result.cells.push_back(third);
+  }
+  Gate least = gate("position_error");
+  least.at_least_order = 1.5;
+  BOOST_TEST(count(run.check(least), GateAnswer::failed) == 2);
+  least.at_least_order = 0.99;  // by least squares over dt, dt/2, dt/4: (2 + 0)/2
+  BOOST_TEST(count(run.check(least), GateAnswer::held) == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_ranking_does_not_hold_where_both_are_the_same) {
+  Fixture run;
+  for (Cell& cell : run.result().cells) cell.metrics["position_error"].value = 0.01;
+  Gate ranking = gate("position_error");
+  ranking.engines = {"a"}, ranking.better_than = "b";
+  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_method_is_held_to_the_order_that_it_declares_where_its_errors_show_one) {
+  const auto answers_of = [](double order, int declared, double scale, bool adaptive) {
+    Fixture run(order);
+    for (EngineInfo& engine : run.grid.engines)
+      engine.methods.front().order = declared, engine.methods.front().adaptive = adaptive;
+    for (Cell& cell : run.result().cells) cell.metrics["position_error"].value *= scale;
+    Gate declares = gate("position_error");
+    declares.at_least_order = 0.1, declares.declares_order = true, declares.is_of_family = true;
+    declares.engines = {"a"};
+    return run.check(declares);
+  };
+  BOOST_TEST(count(answers_of(2, 2, 1, false), GateAnswer::held) == 1);
+  BOOST_TEST(count(answers_of(1.91, 2, 1, false), GateAnswer::held) == 1);
+  BOOST_TEST(count(answers_of(1.89, 2, 1, false), GateAnswer::failed) == 1);
+  BOOST_TEST(count(answers_of(2, 3, 1, false), GateAnswer::failed) == 1);
+  BOOST_TEST(answers_of(1, 2, 100, false).empty());    // 10 and 5 m: not yet near the limit
+  BOOST_TEST(answers_of(1, 2, 1e-10, false).empty());  // roundings
+  BOOST_TEST(answers_of(1, 8, 0.1, true).empty());     // an adaptive method's errors do not follow from dt
+}
+
+BOOST_AUTO_TEST_CASE(a_familys_gate_says_nothing_of_a_case_that_it_does_not_meet_but_of_a_whole_suite) {
+  Fixture run;
+  Gate limit = gate("creep");  // which no cell has
+  limit.max = 1, limit.is_of_family = true;
+  BOOST_TEST(run.check(limit).empty());
+  BOOST_TEST(all_gates_hold(run.grid));
+  const auto unmet = unmet_family_gates(run.grid);
+  BOOST_TEST_REQUIRE(unmet.size() == 1u);
+  BOOST_TEST(unmet.front().where == "case.toml:7:1");
+  limit.metric = "position_error", limit.max = 100;
+  run.check(limit);
+  BOOST_TEST(unmet_family_gates(run.grid).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -85,6 +85,20 @@ BOOST_AUTO_TEST_CASE(an_overlap_that_the_scene_starts_with_does_not_count) {
   BOOST_TEST(value_of("penetration", {scene, run, nullptr, 0}) == 0.01, boost::test_tools::tolerance(1e-12));
 }
 
+BOOST_AUTO_TEST_CASE(the_energy_gain_is_the_rise_above_the_lowest_before_and_not_above_the_start) {
+  // 2 kg over 5 m of fall, 100 J in play: it comes down to 1 m and is lifted to 3 m, which is below its start.
+  const Scene scene = ball_on_ground(5, 0, 0);
+  const auto height = [](double t) { return t < 0.3 ? 5.5 : t < 0.6 ? 1.5 : t < 0.9 ? 3.5 : 2.5; };
+  const Trajectory run = run_of(
+      scene,
+      [&](double t) {
+        return at({0, 0, height(t)});
+      },
+      100);
+  BOOST_TEST(value_of("energy_gain", {scene, run, nullptr, 0}) == 0.4, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(value_of("energy_gain", {scene, run, nullptr, 0.5}) == 0.4, boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_CASE(the_restitution_error_finds_what_an_impact_made_of_the_speed) {
   const Scene scene = ball_on_ground(5, 0.6, 0);
   for (const double speed : {6.0, 7.0, 3.0, 10.0}) {

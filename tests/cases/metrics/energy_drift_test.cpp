@@ -16,6 +16,7 @@ struct Coasting {
   Trajectory trajectory{1, {}};
   explicit Coasting(const std::vector<double>& speeds) {
     scene.bodies = {test::body("a", 2, {1, 1, 1})};
+    scene.bodies[0].velocity = {speeds.front(), 0, 0};
     for (const double speed : speeds) {
       BodyTable bodies(1);
       bodies.columns().set_body(0, {Vec3::Zero(), Quat::Identity(), {speed, 0, 0}, Vec3::Zero()});
@@ -44,7 +45,7 @@ BOOST_AUTO_TEST_CASE(where_contact_may_lose_energy_only_gains_count) {
   Coasting made({10, 9, 9.5, 5, 5});
   made.scene = test::dropped_sphere(0.5);
   made.scene.gravity.setZero();
-  made.scene.bodies[0].mass = 2;
+  made.scene.bodies[0].mass = 2, made.scene.bodies[0].velocity = {10, 0, 0};
   for (Sample& sample : made.trajectory.samples) {
     const BodyState moving = sample.bodies.columns().body(0);
     sample.bodies.resize(2);

@@ -99,6 +99,23 @@ BOOST_AUTO_TEST_CASE(adding_the_matrixs_change_loses_orthonormality_as_it_must) 
   BOOST_TEST(m.value == std::sqrt(2) * (std::pow(1 + 1.0 / 9, 30) - 1), boost::test_tools::tolerance(1e-10));
 }
 
+BOOST_AUTO_TEST_CASE(a_run_is_held_against_its_twin_until_roundings_alone_may_have_parted_them) {
+  AtRest made;
+  TwinRun twin{made.trajectory, {}, {}};
+  JudgedRun run = made.run();
+  run.twin = &twin;
+  const auto compared_until = [&](const std::vector<double>& rounding) {
+    twin.position_rounding = rounding;
+    return test::measured("unexplained_error", run).measurement->compared_until;
+  };
+  // 1e-10 of how far from W's origin the twin has come, sqrt(14) m = 3.742 m; and never past the truth, good up to 2 s.
+  BOOST_TEST(compared_until({0, 0, 0, 0}) == 2);
+  run.truth = nullptr;
+  BOOST_TEST(compared_until({0, 0, 0, 0}) == 3);
+  BOOST_TEST(compared_until({0, 1e-10, 3.74e-10, 3.75e-10}) == 2);
+  BOOST_TEST(compared_until({0, 3.75e-10, 3.75e-10, 3.75e-10}) == 0);
+}
+
 BOOST_AUTO_TEST_CASE(without_a_truth_only_what_needs_none_is_measured) {
   AtRest made;
   const JudgedRun run{made.scene, made.trajectory, nullptr, 0};

@@ -17,7 +17,7 @@ inline MetricValue sample_metric(double value, const Instant& worst) {
 inline Results sample_results() {
   Results grid;
   EngineTable table;
-  for (const char* name : {"good", "wild"}) table.push_back(std::make_unique<FaultyEngine>(name, [](double&) {}));
+  for (const char* name : {"good", "wild"}) table.add(std::make_unique<FaultyEngine>(name, [](double&) {}));
   grid.engines = infos_of(table);
   for (const char* name : {"good", "wild"}) grid.runs.push_back(parse_run_name(name, grid.engines));
   CaseResult result;

@@ -1,6 +1,12 @@
 #include "cases/results/changes.h"
 
+#include <sys/stat.h>
+
 #include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cases/gates/gates.h"
 #include "cases/report/reports.h"
@@ -52,6 +58,27 @@ BOOST_AUTO_TEST_CASE(nothing_has_changed_from_a_result_to_itself) {
     BOOST_TEST(text_of(changes, 1.25) == "nothing changed by more than 1.25 times\nnot worse\n");
     BOOST_TEST(!changes.is_worse());
   });
+}
+
+BOOST_AUTO_TEST_CASE(a_worse_verdict_is_worse_and_a_better_one_is_told) {
+  const Results stable = gated_results();
+  Results gaining = gated_results();
+  good_cell(gaining).stability = {Verdict::gaining, 0.5, kWorld, "it rose", 0.13};
+  both_ways(stable, gaining, [](const Changes& changes) {
+    BOOST_TEST_REQUIRE(changes.newly_failing.size() == 1);
+    BOOST_TEST(changes.newly_failing[0] == "family/case, good, 1/10: its verdict is gaining, was stable");
+    BOOST_TEST(changes.is_worse());
+  });
+  both_ways(gaining, stable, [](const Changes& changes) {
+    BOOST_TEST(changes.newly_passing.size() == 1);
+    BOOST_TEST(!changes.is_worse());
+  });
+}
+
+BOOST_AUTO_TEST_CASE(a_verdict_that_nobody_knows_is_refused) {
+  const Folder folder;
+  const std::string file = folder.write("b.txt", "# Rigor baseline 1\ncell\tc\te\t1/30\tpass\tverdict=fine\n");
+  BOOST_CHECK_EXCEPTION(read_outcomes(file), InputError, says("line 2: no such verdict: fine"));
 }
 
 BOOST_AUTO_TEST_CASE(an_error_that_grows_beyond_the_factor_is_worse_and_one_that_shrinks_is_told) {
@@ -128,10 +155,88 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_gone_is_worse_and_one_that_is_new_is_not) {
   });
 }
 
-BOOST_AUTO_TEST_CASE(a_baseline_is_text_and_says_the_same_when_written_again) {
+BOOST_AUTO_TEST_CASE(an_error_that_is_measured_no_longer_is_worse) {
+  Results lost = gated_results(), without_reason = gated_results();
+  good_cell(lost).metrics["position_error"].not_applicable = "the truth was not found";
+  good_cell(without_reason).metrics.erase("position_error");
+  for (const Results& after : {lost, without_reason}) {
+    both_ways(gated_results(), after, [](const Changes& changes) {
+      BOOST_TEST(changes.lost ==
+                 std::vector<std::string>{"family/case, good, 1/10: position_error is missing, was 0.25"});
+      BOOST_TEST(changes.is_worse());
+    });
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_error_that_is_not_finite_is_worse_than_any) {
+  for (const double value : {HUGE_VAL, std::nan("")}) {
+    Results after = gated_results();
+    good_cell(after).metrics["position_error"].value = value;
+    both_ways(gated_results(), after, [](const Changes& changes) {
+      BOOST_TEST(changes.grown.size() == 1u);
+      BOOST_TEST(changes.is_worse());
+    });
+    both_ways(after, gated_results(), [](const Changes& changes) {
+      BOOST_TEST(changes.shrunk.size() == 1u);
+      BOOST_TEST(!changes.is_worse());
+    });
+    both_ways(after, after, [](const Changes& changes) { BOOST_TEST(!changes.is_worse()); });
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_cell_that_runs_out_of_time_is_worse_than_one_that_cannot_run) {
+  Results before = gated_results(), after = gated_results();
+  good_cell(before).status = Status::unsupported, good_cell(after).status = Status::timed_out;
+  both_ways(before, after, [](const Changes& changes) { BOOST_TEST(changes.newly_failing.size() == 1u); });
+  both_ways(after, before, [](const Changes& changes) { BOOST_TEST(changes.newly_passing.size() == 1u); });
+}
+
+BOOST_AUTO_TEST_CASE(results_that_say_what_there_is_not_are_refused_with_the_place) {
+  const Folder folder;
+  const auto refusal = [&](const std::function<void(nlohmann::json&)>& change) {
+    auto json = nlohmann::json::parse(json_report(gated_results()));
+    change(json);
+    try {
+      read_outcomes(folder.write("results.json", json.dump()));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("read");
+  };
+  const auto check = [&](const std::string& part, const std::function<void(nlohmann::json&)>& change) {
+    const std::string text = refusal(change);
+    BOOST_TEST(text.find(part) != std::string::npos, part << ": " << text);
+  };
+  check("cells[1]: there is no status 'passed'", [](auto& json) { json["cells"][1]["status"] = "passed"; });
+  check("cells[0]: metrics: found null", [](auto& json) { json["cells"][0]["metrics"] = nullptr; });
+  check("cells[0]: position_error: found \"small\"",
+        [](auto& json) { json["cells"][0]["metrics"]["position_error"]["value"] = "small"; });
+  check("neither", [](auto& json) { json["cells"][0]["metrics"]["position_error"] = nlohmann::json::object(); });
+  check("neither", [](auto& json) { json["cells"][0]["status"] = nullptr; });
+  check("cases[0]: gate of position_error: there is no answer 'holds'",
+        [](auto& json) { json["cases"][0]["gates"][0]["answers"][0]["answer"] = "holds"; });
+  check("cells[4]: is there twice", [](auto& json) { json["cells"].push_back(json["cells"][0]); });
+  check("read", [](auto&) {});
+}
+
+BOOST_AUTO_TEST_CASE(a_baseline_is_lines_of_json_and_says_the_same_when_written_again) {
   const std::string text = baseline_text(outcomes_of(gated_results()));
-  BOOST_TEST(text.find("cell\tfamily/case\tgood\t1/10\tpass\tenergy_drift=0.5\tposition_error=0.25") !=
-             std::string::npos);
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  const auto title = nlohmann::json::parse(line);
+  BOOST_TEST(title.at("rigor_baseline") == 2);
+  bool has_cell = false;
+  while (std::getline(lines, line)) {
+    const auto json = nlohmann::json::parse(line);
+    if (!json.contains("status") || json.at("engine") != "good" || json.at("dt") != "1/10") continue;
+    has_cell = true;
+    BOOST_TEST(json.at("case") == "family/case");
+    BOOST_TEST(json.at("status") == "pass");
+    BOOST_TEST(json.at("metrics").at("position_error") == 0.25);
+    BOOST_TEST(json.at("metrics").at("energy_drift") == 0.5);
+  }
+  BOOST_TEST(has_cell, text);
   const Folder folder;
   BOOST_TEST(baseline_text(read_outcomes(folder.write("b", text))) == text);
 }
@@ -143,8 +248,24 @@ BOOST_AUTO_TEST_CASE(what_is_neither_is_refused_with_its_name) {
   for (const char* text : {"", "{}", "[1]", "not json", "{\"schema\": 1}", "{\"schema\": \"1\"}"})
     BOOST_CHECK_EXCEPTION(read(text), InputError, says("neither"));
   BOOST_CHECK_EXCEPTION(read("{\"schema\": 99}"), InputError, says("99"));
-  BOOST_CHECK_EXCEPTION(read("# Rigor baseline 1\ncell\ta\n"), InputError, says("line 2"));
-  BOOST_CHECK_EXCEPTION(read("# Rigor baseline 1\ncell\ta\tb\tc\tpass\tx=y\n"), InputError, says("'y'"));
+  BOOST_CHECK_EXCEPTION(read("# Rigor baseline 1\ncell\ta\n"), InputError, says("older form; make it anew"));
+  const std::string title = "{\"rigor_baseline\":2,\"metrics\":[]}\n",
+                    cell = "{\"case\":\"a\",\"engine\":\"b\",\"dt\":\"1\",";
+  BOOST_CHECK_EXCEPTION(read(title + "{\"case\":\"a\"}\n"), InputError, says("line 2"));
+  BOOST_CHECK_EXCEPTION(read(title + "not json\n"), InputError, says("line 2"));
+  BOOST_CHECK_EXCEPTION(read(title + cell + "\"status\":\"passed\",\"metrics\":{}}\n"), InputError, says("'passed'"));
+  BOOST_CHECK_EXCEPTION(read(title + cell + "\"status\":\"pass\",\"metrics\":{\"x\":\"y\"}}\n"), InputError,
+                        says("line 2: x: found \"y\""));
+  BOOST_CHECK_EXCEPTION(read("{\"rigor_baseline\":3,\"metrics\":[]}\n"), InputError, says("is not 2"));
+}
+
+// Neither may be read as a result, nor for ever.
+BOOST_AUTO_TEST_CASE(what_is_no_regular_file_is_refused) {
+  const Folder folder;
+  const std::string pipe = (folder.path / "pipe").string();
+  BOOST_REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  for (const std::string& path : {folder.path.string(), pipe, std::string("/dev/zero")})
+    BOOST_CHECK_EXCEPTION(read_outcomes(path), InputError, says("not a regular file"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -54,6 +54,19 @@ BOOST_AUTO_TEST_CASE(they_part_at_the_first_instant_beyond_either_tolerance) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(bytes_that_are_no_path_are_refused) {
+  const std::string good = packed(path_of(moving(1, 0, 3), 2, 2));
+  BOOST_TEST(packed(unpacked(good)) == good);
+  for (std::size_t size = 0; size < good.size(); ++size)
+    BOOST_CHECK_THROW(unpacked(good.substr(0, size)), std::runtime_error);
+  BOOST_CHECK_THROW(unpacked(good + "x"), std::runtime_error);
+  for (const std::size_t byte : {0, 7, 8, 15}) {  // of either count, the lowest and the highest
+    std::string garbled = good;
+    garbled[byte] = '\x7f';
+    BOOST_CHECK_THROW(unpacked(garbled), std::runtime_error);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_ended_early_is_compared_until_then) {
   const Spread spread = spread_of(moving(0, 0, 3), moving(1, 0, 8));
   BOOST_TEST(spread.compared_until == 0.75);

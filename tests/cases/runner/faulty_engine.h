@@ -19,6 +19,7 @@ class FaultyEngine : public Engine {
   EngineInfo info() const override {
     EngineInfo info;
     info.name = name_, info.version = "0", info.precision = "double";
+    info.is_in_house = name_ == "core";
     info.methods.push_back({"only", "stands still", 1, false, 0, {}});
     return info;
   }

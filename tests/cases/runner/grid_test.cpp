@@ -1,8 +1,12 @@
 #include "cases/runner/grid.h"
+#include "cases/report/csv/trajectory_csv.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +15,9 @@
 #include <set>
 #include <thread>
 
+#include "cases/results/result_json.h"
+#include "cases/runner/process_pool.h"
+#include "cases/case/run_selector.h"
 #include "core/base/error.h"
 #include "tests/cases/runner/faulty_engine.h"
 
@@ -26,20 +33,66 @@ void spin() {
   }
 }
 
-EngineTable faulty_engines() {
+// The pipe by which a cell's process answers: of those it can write to and does not print to, the one made last.
+int pipe_of_answers() {
+  struct stat printed {
+  }, about{};
+  fstat(STDOUT_FILENO, &printed);
+  int found = -1;
+  for (int descriptor = STDERR_FILENO + 1; descriptor < 256; ++descriptor) {
+    if (fstat(descriptor, &about) != 0 || !S_ISFIFO(about.st_mode) || about.st_ino == printed.st_ino) continue;
+    if ((fcntl(descriptor, F_GETFL) & O_ACCMODE) == O_WRONLY) found = descriptor;
+  }
+  return found;
+}
+
+// An engine whose memory errors write into its process's answers.
+void answer_before_rigor_does(const std::string& text) { Channel(pipe_of_answers()).send(text); }
+
+EngineTable faulty_engines(bool with_one_that_hangs = true) {
   EngineTable table;
-  const auto add = [&](auto&&... parts) { table.push_back(std::make_unique<FaultyEngine>(parts...)); };
+  const auto add = [&](auto&&... parts) { table.add(std::make_unique<FaultyEngine>(parts...)); };
   add("aborts", [](double&) { std::fputs("solver: matrix is singular\n", stderr), std::abort(); });
   add("complains", sit_still, "Newton's iteration did not converge");
   add("exits", [](double&) { std::exit(0); });
   add("good", sit_still);
-  add("hangs", [](double&) { spin(); });
+  if (with_one_that_hangs) add("hangs", [](double&) { spin(); });
   add("loses-numbers", [](double& x) { x = std::numeric_limits<double>::quiet_NaN(); });
   add("refuses", [](double&) { throw InputError("this scene is too small for me"); });
   add("segfaults", [](double&) { std::raise(SIGSEGV); });
   add("throws", [](double&) { throw std::runtime_error("no memory left for contacts"); });
   return table;
 }
+
+// Loses its numbers after 20 s, at steps of more than 0.1 s.
+class LateEngine : public FaultyEngine {
+ public:
+  LateEngine() : FaultyEngine("late", [this](double& x) { x = is_lost() ? std::nan("") : 0; }) {}
+  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {
+    time_ = 0;
+    return std::make_unique<LateWorld>(*this, FaultyEngine::load(scene, settings));
+  }
+
+ private:
+  class LateWorld : public World {
+   public:
+    LateWorld(const LateEngine& engine, std::unique_ptr<World> world) : engine_(engine), world_(std::move(world)) {}
+    void step(double dt) override {
+      engine_.dt_ = dt, engine_.time_ += dt;
+      world_->step(dt);
+    }
+    void read(Snapshot& out) const override { world_->read(out); }
+    SettingsInForce settings_in_force() const override { return world_->settings_in_force(); }
+    std::string solver_warning() const override { return ""; }
+
+   private:
+    const LateEngine& engine_;
+    std::unique_ptr<World> world_;
+  };
+
+  bool is_lost() const { return dt_ > 0.1 && time_ > 20; }
+  mutable double dt_ = 0, time_ = 0;  // s
+};
 
 std::vector<RunName> runs_of(const EngineTable& table) {
   std::vector<RunName> runs;
@@ -59,7 +112,7 @@ BOOST_AUTO_TEST_SUITE(cases_runner_grid)
 
 BOOST_AUTO_TEST_CASE(a_broken_engine_costs_its_own_cells_and_says_how) {
   const EngineTable table = faulty_engines();
-  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {2, 0.5, "", false});
+  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {2, 0.5, {}, false});
   const std::map<std::string, std::pair<Status, std::string>> expected = {
       {"aborts", {Status::crashed, "SIGABRT"}},
       {"complains", {Status::invalid, "Newton's iteration did not converge"}},
@@ -83,6 +136,48 @@ BOOST_AUTO_TEST_CASE(a_broken_engine_costs_its_own_cells_and_says_how) {
   BOOST_TEST(aborted.reason.find("solver: matrix is singular") != std::string::npos, aborted.reason);
 }
 
+BOOST_AUTO_TEST_CASE(a_garbled_answer_costs_its_cell_and_no_other) {
+  const Case definition = drifting_body("a");
+  Cell passing;
+  passing.status = Status::pass, passing.reason = "";
+  const std::vector<std::pair<std::string, std::string>> garbled = {
+      {"babbles", "{\"cell\":0, and so on"},
+      {"is-of-no-status", "{\"cell\":2,\"result\":{\"status\":\"psas\",\"reason\":\"\"},\"playback\":[]}"},
+      {"poses-as-another", message_of_cell(0, passing, definition.scene)},
+      {"is-far-off", message_of_cell(9999, passing, definition.scene)},
+      {"is-torn", message_of_cell(6, passing, definition.scene).substr(0, 40)},
+  };
+  EngineTable table;
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
+  for (const auto& [name, text] : garbled)
+    table.add(std::make_unique<FaultyEngine>(name, [text](double&) { answer_before_rigor_does(text); }));
+  const Results grid = run({definition}, table, {2, 20, "", false});
+  BOOST_TEST(grid.cases.front().error == "");
+  for (const Cell& cell : grid.cases.front().cells) {
+    const bool is_good = grid.runs[cell.run].engine == "good";
+    BOOST_TEST((cell.status == (is_good ? Status::pass : Status::crashed)), grid.runs[cell.run].engine);
+    if (!is_good) BOOST_TEST(cell.reason.find("its message could not be read") != std::string::npos, cell.reason);
+  }
+  BOOST_TEST(grid.cases.front().spreads.empty());  // only one engine left a path
+}
+
+BOOST_AUTO_TEST_CASE(a_case_whose_process_is_stopped_ends) {
+  EngineTable table;
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
+  table.add(std::make_unique<FaultyEngine>("stops-its-parent", [](double&) {
+    kill(getppid(), SIGSTOP);
+    pause();
+  }));
+  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {1, 0.1, "", false});
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) {
+      const bool is_good = grid.runs[cell.run].engine == "good";
+      BOOST_TEST((cell.status == (is_good ? Status::pass : Status::timed_out)), word_of(cell.status) + cell.reason);
+    }
+    BOOST_TEST(result.error.find("broke off") != std::string::npos, result.error);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(results_do_not_depend_on_how_many_run_at_once) {
   const auto no_time = [](const Results& grid) {
     std::string text;
@@ -100,19 +195,18 @@ BOOST_AUTO_TEST_CASE(results_do_not_depend_on_how_many_run_at_once) {
     }
     return text;
   };
-  EngineTable table = faulty_engines();
-  std::erase_if(table, [](const auto& engine) { return engine->info().name == "hangs"; });
-  const std::string one = no_time(run({drifting_body("a")}, table, {1, 60, "", false}));
-  BOOST_TEST(one == no_time(run({drifting_body("a")}, table, {5, 60, "", false})));
+  const EngineTable table = faulty_engines(false);
+  const std::string one = no_time(run({drifting_body("a")}, table, {1, 60, {}, false}));
+  BOOST_TEST(one == no_time(run({drifting_body("a")}, table, {5, 60, {}, false})));
 }
 
 BOOST_AUTO_TEST_CASE(each_pair_that_ran_has_its_spread_at_each_step) {
   EngineTable table;
-  const auto add = [&](auto&&... parts) { table.push_back(std::make_unique<FaultyEngine>(parts...)); };
+  const auto add = [&](auto&&... parts) { table.add(std::make_unique<FaultyEngine>(parts...)); };
   add("breaks", [](double&) { std::abort(); });
   add("creeps", [](double& x) { x += 0.25e-3; });
   add("stays", sit_still);
-  const Results grid = run({drifting_body("a")}, table, {2, 60, "", false});
+  const Results grid = run({drifting_body("a")}, table, {2, 60, {}, false});
   const auto& spreads = grid.cases.front().spreads;
   BOOST_TEST_REQUIRE(spreads.size() == 2u);  // one pair, two step sizes
   for (const Spread& spread : spreads) {
@@ -127,16 +221,30 @@ BOOST_AUTO_TEST_CASE(each_pair_that_ran_has_its_spread_at_each_step) {
   }
 }
 
+// However short the run is, a step has to hold for 30 s to be called stable.
+BOOST_AUTO_TEST_CASE(a_step_that_blows_up_late_is_not_stable) {
+  EngineTable table;
+  table.add(std::make_unique<LateEngine>());
+  const Results grid = run({drifting_body("a")}, table, {1, 60, "", true});
+  BOOST_TEST_REQUIRE(grid.cases.front().stable_steps.size() == 1u);
+  const StableStepResult& found = grid.cases.front().stable_steps.front();
+  BOOST_TEST((found.status == Status::pass), found.reason);
+  BOOST_TEST(!found.step.is_cap);
+  BOOST_TEST(found.step.dt <= 0.1);
+  BOOST_TEST(found.step.dt > 0.099);  // to 1 % of the limit
+  for (const Cell& cell : grid.cases.front().cells) BOOST_TEST((cell.status == Status::pass));
+}
+
 BOOST_AUTO_TEST_CASE(a_truth_that_does_not_fit_costs_one_case) {
   EngineTable table;
-  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
   Case wrong = drifting_body("wrong");
   wrong.truth = "projectile", wrong.truth_where = "wrong.toml:9:1";
   wrong.scene.springs.push_back({kWorld, 0, Vec3::Zero(), Vec3(1, 0, 0), 10, 0, 1});
   Results grid = plan_grid({wrong, drifting_body("right")}, runs_of(table), table, {false});
   for (Cell& cell : grid.cases.front().cells)
     cell.status = Status::crashed, cell.reason = Cell().reason;  // springs and all
-  run_grid(grid, table, {2, 60, "", false}, [](std::size_t, std::size_t) {});
+  run_grid(grid, table, {2, 60, {}, false}, [](std::size_t, std::size_t) {});
   BOOST_TEST(grid.cases[0].error_is_input);
   BOOST_TEST(grid.cases[0].error.starts_with("wrong.toml:9:1: "), grid.cases[0].error);
   for (const Cell& cell : grid.cases[0].cells) BOOST_TEST((cell.status == Status::invalid));
@@ -169,7 +277,7 @@ BOOST_AUTO_TEST_CASE(an_empty_selection_is_an_error) {
 
 BOOST_AUTO_TEST_CASE(trajectories_have_names_of_their_own) {
   EngineTable table;
-  table.push_back(std::make_unique<FaultyEngine>("good", sit_still));
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
   const std::vector<Case> alike = {drifting_body("a/b"),
                                    drifting_body("a-b"),
                                    drifting_body("a:b"),
@@ -192,7 +300,8 @@ BOOST_AUTO_TEST_CASE(only_cells_with_a_result_leave_a_trajectory) {
   const fs::path folder = fs::temp_directory_path() / ("rigor_grid_test_" + std::to_string(getpid()));
   fs::create_directories(folder);
   const EngineTable table = faulty_engines();
-  const Results grid = run({drifting_body("a")}, table, {2, 0.5, folder.string(), false});
+  const Results grid =
+      run({drifting_body("a")}, table, {2, 0.5, {std::make_shared<TrajectoryRecorder>(folder.string())}, false});
   std::set<std::string> written, named;
   for (const auto& entry : fs::directory_iterator(folder)) written.insert(entry.path().filename().string());
   for (const Cell& cell : grid.cases.front().cells) {
@@ -228,6 +337,31 @@ BOOST_AUTO_TEST_CASE(the_default_runs_are_all_core_methods_and_each_other_engine
   }
   BOOST_TEST(names.size() == default_runs(infos).size());
   for (const std::string& name : names) BOOST_TEST(name.find("twin") == std::string::npos, name);
+}
+
+BOOST_AUTO_TEST_CASE(any_executor_can_run_the_cases_and_is_told_each_as_data) {
+  class Recording : public ProcessExecutor {
+   public:
+    Recording() : ProcessExecutor(1) {}
+    void run(const std::vector<JobSpec>& jobs, const Work& work, const OnMessage& on_message,
+             const OnEnd& on_end) const override {
+      told = jobs;
+      ProcessExecutor::run(jobs, work, on_message, on_end);
+    }
+    mutable std::vector<JobSpec> told;
+  };
+  EngineTable table;
+  table.add(std::make_unique<FaultyEngine>("good", sit_still));
+  const Recording executor;
+  GridOptions options{1, 60, {}, false};
+  options.executor = &executor;
+  const Results grid = run({drifting_body("a"), drifting_body("b")}, table, options);
+  BOOST_TEST_REQUIRE(executor.told.size() == 2u);
+  for (const JobSpec& job : executor.told) BOOST_TEST((job.kind == JobSpec::Kind::whole_case));
+  BOOST_TEST(executor.told[0].of_case + executor.told[1].of_case == 1u);  // each once
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) BOOST_TEST((cell.status == Status::pass));
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

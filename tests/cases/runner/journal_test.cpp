@@ -63,6 +63,23 @@ BOOST_AUTO_TEST_CASE(a_journal_cut_anywhere_or_spoilt_keeps_its_whole_records) {
   BOOST_TEST(Journal(file, "plan").found().size() == 1u);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_forgotten_is_replaced_by_what_is_added) {
+  const Folder folder;
+  const std::string file = (folder.path / "journal").string();
+  {
+    Journal journal(file, "plan");
+    journal.add(0, {"good", ""}), journal.add(1, {"wrong", ""});
+  }
+  {
+    Journal journal(file, "plan");
+    journal.forget_if([](const Journal::Record& record) { return record.message == "wrong"; });
+    BOOST_TEST_REQUIRE(journal.found().size() == 1u);
+    BOOST_TEST(journal.found().contains(0));
+    journal.add(1, {"better", ""});
+  }
+  BOOST_TEST(Journal(file, "plan").found().at(1).message == "better");
+}
+
 BOOST_AUTO_TEST_CASE(without_a_place_nothing_is_kept_and_nothing_fails) {
   Journal none("", "plan");
   none.add(1, {"one", ""});

@@ -1,9 +1,14 @@
 #include "cases/runner/output_folder.h"
 
+#include <sys/ptrace.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <boost/test/unit_test.hpp>
+#include <csignal>
 #include <iterator>
+#include <set>
 
 #include "core/base/error.h"
 #include "tests/folder.h"
@@ -47,16 +52,28 @@ BOOST_AUTO_TEST_CASE(old_outputs_stay_until_the_new_are_published) {
 BOOST_AUTO_TEST_CASE(what_was_kept_is_taken_over_by_a_run_that_goes_on_and_by_no_other) {
   const Folder place;
   const std::string out = (place.path / "out").string();
-  place.write("out/.partial-999999999/journals/0.journal", "half a case");
-  {
-    OutputFolder folder(out, {}, true);
-    BOOST_TEST(content(fs::path(folder.journals()) / "0.journal") == "half a case");
+  const auto leave = [&] {
+    OutputFolder folder(out, {"results.json"});
+    std::ofstream(fs::path(folder.journals()) / "0.journal") << "half a case";
+    std::ofstream(fs::path(folder.trajectories()) / "a--b--c.csv") << "rows";
+    folder.write("results.json", "of half a run");
     folder.keep();
+  };
+  leave();
+  {
+    OutputFolder folder(out, {"results.json"}, true);
+    BOOST_TEST(content(fs::path(folder.journals()) / "0.journal") == "half a case");
+    BOOST_TEST(content(fs::path(folder.trajectories()) / "a--b--c.csv") == "rows");
+    folder.publish({});
   }
-  BOOST_TEST(entries(place.path / "out") == 2u);  // what was kept, and the folder of trajectories
-  fs::rename(place.path / ("out/.partial-" + std::to_string(getpid())), place.path / "out/.partial-999999999");
-  OutputFolder folder(out, {});
-  BOOST_TEST(!fs::exists(fs::path(folder.journals()) / "0.journal"));
+  BOOST_TEST(!fs::exists(place.path / "out/results.json"));  // what was written before does not count
+  leave();
+  {
+    OutputFolder folder(out, {"results.json"});
+    BOOST_TEST(entries(folder.journals()) == 0u);
+    BOOST_TEST(entries(folder.trajectories()) == 0u);
+  }
+  BOOST_TEST(!fs::exists(place.path / "out/.rigor-partial"));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_published_leaves_no_trace) {
@@ -64,16 +81,148 @@ BOOST_AUTO_TEST_CASE(what_is_not_published_leaves_no_trace) {
   place.write("out/results.json", "old");
   { OutputFolder((place.path / "out").string(), {"results.json"}).write("results.json", "new"); }
   BOOST_TEST(content(place.path / "out/results.json") == "old");
-  BOOST_TEST(entries(place.path / "out") == 2u);  // and the empty folder of trajectories
+  BOOST_TEST(entries(place.path / "out") == 1u);
 }
 
-BOOST_AUTO_TEST_CASE(what_a_killed_run_left_is_swept_away) {
+BOOST_AUTO_TEST_CASE(a_folder_that_another_run_writes_to_is_refused_and_untouched) {
   const Folder place;
-  place.write("out/.partial-999999999/results.json", "torn");
-  place.write("out/.partial-mine/notes", "not Rigor's");
-  { OutputFolder folder((place.path / "out").string(), {}); }
-  BOOST_TEST(!fs::exists(place.path / "out/.partial-999999999"));
-  BOOST_TEST(fs::exists(place.path / "out/.partial-mine/notes"));
+  const std::string out = (place.path / "out").string();
+  OutputFolder first(out, {"results.json"});
+  first.write("results.json", "of the first");
+  std::ofstream(fs::path(first.trajectories()) / "a--b--c.csv") << "rows";
+  for (const bool resume : {false, true}) {
+    // The lock is the file's: who holds it, and in what container, does not matter.
+    BOOST_CHECK_EXCEPTION(OutputFolder(out, {"results.json"}, resume), InputError, [](const InputError& error) {
+      return std::string(error.what()).find("another run is writing to it") != std::string::npos;
+    });
+  }
+  first.publish({"a--b--c.csv"});
+  BOOST_TEST(content(place.path / "out/results.json") == "of the first");
+  BOOST_TEST(content(place.path / "out/trajectories/a--b--c.csv") == "rows");
+}
+
+// As by a run that is killed: the kernel lets go of its lock.
+BOOST_AUTO_TEST_CASE(a_run_that_is_no_longer_there_holds_nothing) {
+  const Folder place;
+  const std::string out = (place.path / "out").string();
+  const pid_t child = fork();
+  if (child == 0) {
+    const OutputFolder folder(out, {});
+    std::ofstream(fs::path(folder.journals()) / "0.journal") << "half a case";
+    std::raise(SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  const OutputFolder folder(out, {}, true);
+  BOOST_TEST(content(fs::path(folder.journals()) / "0.journal") == "half a case");
+}
+
+BOOST_AUTO_TEST_CASE(a_report_that_cannot_be_written_is_missing_and_the_others_are_new) {
+  const Folder place;
+  place.write("out/report.md", "old"), place.write("out/results.json", "old");
+  const pid_t child = fork();
+  if (child == 0) {
+    int code = 1;
+    {
+      OutputFolder folder((place.path / "out").string(), {"report.md", "results.json"});
+      const rlimit small{4096, 4096};
+      std::signal(SIGXFSZ, SIG_IGN), setrlimit(RLIMIT_FSIZE, &small);
+      folder.write("results.json", "new");
+      try {
+        folder.write("report.md", std::string(100'000, 'x'));
+      } catch (const std::runtime_error& error) {
+        code = std::string(error.what()).find("File too large") != std::string::npos ? 0 : 2;
+      }
+      folder.publish({});
+    }
+    _exit(code);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  BOOST_TEST(status == 0);
+  BOOST_TEST(content(place.path / "out/results.json") == "new");
+  BOOST_TEST(!fs::exists(place.path / "out/report.md"));  // it would be of another run
+  BOOST_TEST(entries(place.path / "out") == 2u);          // and the trajectories
+}
+
+// Runs `work` in a child and kills it, and all that it has forked, at its n-th system call. False if it has not so
+// many.
+bool is_killed_at(int n, const std::function<void()>& work) {
+  const pid_t first = fork();
+  if (first == 0) {
+    ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+    std::raise(SIGSTOP);
+    work();
+    _exit(0);
+  }
+  waitpid(first, nullptr, 0);
+  constexpr long kOptions =
+      PTRACE_O_TRACEFORK | PTRACE_O_TRACEVFORK | PTRACE_O_TRACECLONE | PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL;
+  BOOST_TEST_REQUIRE(ptrace(PTRACE_SETOPTIONS, first, nullptr, kOptions) == 0);
+  std::set<pid_t> traced = {first};
+  ptrace(PTRACE_SYSCALL, first, nullptr, nullptr);
+  int count = 0, status = 0;
+  while (!traced.empty()) {
+    const pid_t stopped = waitpid(-1, &status, __WALL);
+    if (stopped < 0) break;
+    if (!WIFSTOPPED(status)) {
+      traced.erase(stopped);
+      continue;
+    }
+    traced.insert(stopped);
+    if (status >> 16 != 0) {  // it has forked; the new process may not have been seen yet
+      unsigned long forked = 0;
+      ptrace(PTRACE_GETEVENTMSG, stopped, nullptr, &forked);
+      traced.insert(static_cast<pid_t>(forked));
+    }
+    if (WSTOPSIG(status) == (SIGTRAP | 0x80) && ++count >= n) {
+      for (const pid_t each : traced) kill(each, SIGKILL);
+      for (const pid_t each : traced) waitpid(each, nullptr, __WALL);
+      return true;
+    }
+    ptrace(PTRACE_SYSCALL, stopped, nullptr, nullptr);
+  }
+  return false;
+}
+
+// At every one of its system calls, in the process that publishes and in the one that it leaves that to: whoever comes
+// next finds all of the old outputs or all of the new, and its own trajectories beside its journals.
+BOOST_AUTO_TEST_CASE(publishing_that_is_killed_anywhere_leaves_the_old_or_the_new) {
+  int kills = 0, old = 0;
+  for (int n = 1;; ++n, ++kills) {
+    const Folder place;
+    const std::string out = (place.path / "out").string();
+    for (const char* name :
+         {"out/results.json", "out/report.md", "out/trajectories/a--b--c.csv", "out/trajectories/d--e--f.csv"})
+      place.write(name, "old");
+    const std::vector<std::string> names = {"report.html", "report.md", "results.json"};
+    const auto work = [&] {
+      OutputFolder folder(out, names);
+      std::ofstream(fs::path(folder.trajectories()) / "a--b--c.csv") << "new";
+      std::ofstream(fs::path(folder.journals()) / "0.journal") << "whole";
+      for (const char* name : {"report.html", "results.json"}) folder.write(name, "new");
+      folder.publish({"a--b--c.csv"});
+    };
+    const bool was_killed = is_killed_at(n, work);
+    {
+      const OutputFolder next(out, names, true);
+      const fs::path journal = fs::path(next.journals()) / "0.journal", own = next.trajectories();
+      if (content(journal) == "whole") BOOST_TEST(content(own / "a--b--c.csv") == "new");
+      BOOST_TEST(!fs::exists(own / "d--e--f.csv"));
+    }
+    const std::string state = content(fs::path(out) / "results.json");
+    const bool is_old = state == "old";
+    BOOST_TEST((is_old || state == "new"), "after " << n << " calls");
+    BOOST_TEST(content(fs::path(out) / "report.md") == (is_old ? "old" : ""), "after " << n << " calls");
+    BOOST_TEST(content(fs::path(out) / "report.html") == (is_old ? "" : "new"), "after " << n << " calls");
+    BOOST_TEST(content(fs::path(out) / "trajectories/a--b--c.csv") == state, "after " << n << " calls");
+    BOOST_TEST(fs::exists(fs::path(out) / "trajectories/d--e--f.csv") == is_old, "after " << n << " calls");
+    BOOST_TEST(!fs::exists(fs::path(out) / ".rigor-partial"));
+    old += is_old;
+    if (!was_killed) break;
+  }
+  BOOST_TEST_MESSAGE(kills << " kills, " << old << " of which left the old outputs");
+  BOOST_TEST(old > 10);
+  BOOST_TEST(kills - old > 10);
 }
 
 BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written_is_refused) {
@@ -85,7 +234,8 @@ BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written_is_refused) {
                                   (place.path / "blocked").string(), (place.path / "taken").string()}) {
     BOOST_CHECK_THROW(OutputFolder(path, {"results.json"}), InputError);
   }
-  BOOST_TEST(entries(place.path / "taken") == 2u);
+  BOOST_TEST(entries(place.path / "taken") == 1u);
+  BOOST_TEST(entries(place.path / "blocked") == 1u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -111,6 +111,23 @@ BOOST_AUTO_TEST_CASE(the_limit_ends_with_the_first_message) {
   BOOST_TEST((outcome.end.how == Ending::finished));
 }
 
+// As a process that something stops with SIGSTOP, before its first word or after it.
+BOOST_AUTO_TEST_CASE(a_job_that_is_stopped_ends) {
+  for (const bool has_spoken : {false, true}) {
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = outcome_of(
+        [&](const Channel& channel) {
+          if (has_spoken) channel.send("a");
+          std::raise(SIGSTOP);
+        },
+        0.05);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    BOOST_TEST((outcome.end.how == Ending::timed_out));
+    BOOST_TEST(seconds >= (has_spoken ? 1 : 0.5));  // twenty and ten times the limit
+    BOOST_TEST(seconds < 30);                       // far above that, for a machine that is busy
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_last_words_are_kept_however_much_was_said) {
   const Outcome outcome = outcome_of([](const Channel&) {
     for (int i = 0; i < 200'000; ++i) std::fprintf(stderr, "line %d of a very long complaint\n", i);

@@ -1,6 +1,8 @@
 #include "cases/runner/simulate.h"
 
 #include <boost/test/unit_test.hpp>
+#include <ctime>
+#include <thread>
 
 #include "tests/cases/judged.h"
 #include "tests/cases/scripted_engine.h"
@@ -14,8 +16,14 @@ BOOST_AUTO_TEST_CASE(as_many_steps_are_taken_as_fit) {
     double duration, dt;
     long steps;
   };
-  for (const Row& row :
-       {Row{1, 0.1, 10}, {10, 1.0 / 30, 300}, {1, 0.3, 3}, {0.05, 0.1, 0}, {2, 2, 1}, {1, 1.0 / 990, 990}}) {
+  for (const Row& row : {Row{1, 0.1, 10},
+                         {10, 1.0 / 30, 300},
+                         {1, 0.3, 3},
+                         {0.3, 0.1, 3},
+                         {0.7, 0.1, 7},
+                         {0.05, 0.1, 0},
+                         {2, 2, 1},
+                         {1, 1.0 / 990, 990}}) {
     BOOST_TEST_CONTEXT(row.duration << " s by " << row.dt) BOOST_TEST(steps_in(row.duration, row.dt) == row.steps);
   }
   BOOST_TEST(steps_in(1, 1e-300) > 1'000'000'000'000'000'000);
@@ -85,6 +93,25 @@ BOOST_AUTO_TEST_CASE(the_steps_alone_are_timed) {
   BOOST_TEST(simulate(test::ScriptedEngine(script), {}, scene, 0.1, 10).cpu_seconds > 1e-4);
   // A hundred empty steps take microseconds.
   BOOST_TEST(simulate(test::ScriptedEngine({}), {}, scene, 0.1, 10).cpu_seconds < 1e-3);
+}
+
+// What the world's other threads spend is its cost as well, also where the one that steps only waits for them.
+BOOST_AUTO_TEST_CASE(the_time_of_every_thread_is_counted) {
+  double spent = 0;  // s, of the other thread
+  test::Script script;
+  script.play = [&](int step, MutableBodyColumns) {
+    if (step == 0) return;
+    std::thread([&] {
+      timespec now{};
+      volatile double sink = 0;
+      for (int i = 0; i < 1'000'000; ++i) sink = sink + 1;
+      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+      spent += static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    }).join();
+  };
+  const double counted = simulate(test::ScriptedEngine(script), {}, test::tumbling_body(), 0.1, 1).cpu_seconds;
+  BOOST_TEST(spent > 1e-3);
+  BOOST_TEST(counted >= 0.99 * spent);  // the clock's readings, microseconds a step, are taken off
 }
 
 BOOST_AUTO_TEST_CASE(short_steps_are_timed_again_without_a_pause_and_long_ones_are_not) {

@@ -6,17 +6,18 @@
 
 #include "cases/case/suite.h"
 #include "cases/truth/truth.h"
+#include "tests/cases/vocabulary.h"
 
 namespace rigor::test {
 
 inline std::vector<Case> suite_cases(const std::function<bool(const Case&)>& is_one) {
-  std::vector<Case> cases = select_cases({}, default_suite_dir());
+  std::vector<Case> cases = select_cases({}, default_suite_dir(), test::words());
   std::erase_if(cases, [&](const Case& c) { return !is_one(c); });
   return cases;
 }
 
-inline void check_sources_and_gates(const std::vector<Case>& cases, std::size_t at_least) {
-  BOOST_TEST(cases.size() >= at_least);
+inline void check_sources_and_gates(const std::vector<Case>& cases) {
+  BOOST_TEST_REQUIRE(!cases.empty());
   for (const Case& c : cases) {
     BOOST_TEST_CONTEXT(c.id) {
       BOOST_TEST(!c.source.empty());
@@ -27,7 +28,7 @@ inline void check_sources_and_gates(const std::vector<Case>& cases, std::size_t 
 
 // Each closed form that a case cites can be made, begins where the scene does, to its own error there (it computes that
 // instant as it does any other) and the velocities to roundings, and ends with no more of an error than `at_the_end`.
-inline void check_closed_forms(const std::vector<Case>& cases, double at_the_end, int at_least) {
+inline void check_closed_forms(const std::vector<Case>& cases, double at_the_end) {
   int cited = 0;
   for (const Case& c : cases) {
     if (c.truth == "none" || c.truth == "reference" || c.truth == "events") continue;
@@ -49,7 +50,7 @@ inline void check_closed_forms(const std::vector<Case>& cases, double at_the_end
     }
     ++cited;
   }
-  BOOST_TEST(cited >= at_least);
+  BOOST_TEST(cited > 0);
 }
 
 }  // namespace rigor::test

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "core/dynamics/integrators/free_rotation.h"
+#include "core/dynamics/model/free_rotation.h"
 
 namespace rigor::test {
 namespace {

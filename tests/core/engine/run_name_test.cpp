@@ -46,6 +46,13 @@ BOOST_AUTO_TEST_CASE(an_engine_alone_means_its_first_method_matched) {
   BOOST_TEST(parse_run_name("ode,iterations=3", two_engines()).settings.method == "quickstep");
 }
 
+BOOST_AUTO_TEST_CASE(a_number_is_the_same_value_however_it_is_written) {
+  for (const char* value : {"50", "050", "50.0", "5e1"}) {
+    const RunName run = parse_run_name(std::string("ode:quickstep,iterations=") + value, two_engines());
+    BOOST_TEST(run.settings.options.at("iterations") == "50");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_is_wrong_is_said_with_what_may_have_been_meant) {
   const std::pair<const char*, std::vector<const char*>> rows[] = {
       {"cor", {"no engine 'cor'", "did you mean 'core'", "core, ode"}},

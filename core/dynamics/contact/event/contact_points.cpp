@@ -14,19 +14,31 @@ Aabb joined(const Aabb& a, const Aabb& b) { return {a.low.cwiseMin(b.low), a.hig
 
 }  // namespace
 
-const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns from, BodyColumns to, double dt) {
+const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns from, BodyColumns to, double dt,
+                                                            const AccelerationBounds& bounds) {
   boxes_.clear();
   for (const Collider& collider : colliders_) {
-    // A path bends away from its chord by at most dt |dv| / 8 where the acceleration is even; twice that is allowed.
-    double margin = kAtOnce + 0.25 * dt * (to.velocity(collider.body) - from.velocity(collider.body)).norm();
+    const AccelerationBound& bound = bounds.of(collider.body);
+    // A path bends away from its chord by at most a dt²/8.
+    double margin = kAtOnce + 0.125 * dt * dt * bound.linear;
     // A body that turns on its way may reach as far as its furthest point.
-    const double turn =
-        dt * std::max(from.angular_velocity(collider.body).norm(), to.angular_velocity(collider.body).norm());
-    if (turn > 0 && std::isfinite(collider.bounding_radius))
-      margin += std::min(1.0, turn) * (collider.bounding_radius - collider.inradius);
+    if (bound.spin > 0 && std::isfinite(collider.bounding_radius))
+      margin += std::min(1.0, dt * bound.spin) * (collider.bounding_radius - collider.inradius);
     boxes_.push_back(joined(aabb_of(collider.shape, pose_of(from, collider.body), margin),
                             aabb_of(collider.shape, pose_of(to, collider.body), margin)));
   }
+  return overlapping_boxes();
+}
+
+const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns state) {
+  boxes_.clear();
+  for (const Collider& collider : colliders_) {
+    boxes_.push_back(aabb_of(collider.shape, pose_of(state, collider.body), kAtOnce));
+  }
+  return overlapping_boxes();
+}
+
+const std::vector<std::pair<int, int>>& ContactPoints::overlapping_boxes() {
   pairs_.clear();
   for (const auto& pair : finder_.overlaps(boxes_)) {
     if (!(colliders_[pair.first].fixed && colliders_[pair.second].fixed)) pairs_.push_back(pair);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/dynamics/collision/aabb_broad_phase.h"
+#include "core/dynamics/contact/event/acceleration_bounds.h"
 #include "core/dynamics/contact/event/cone_solver.h"
 #include "core/scene/contact_laws.h"
 
@@ -23,8 +24,12 @@ class ContactPoints {
   explicit ContactPoints(const Scene& scene) : colliders_(colliders_of(scene)), laws_(scene) {}
 
   const std::vector<Collider>& colliders() const { return colliders_; }
-  // The pairs that can touch while the bodies go from one state to the other within dt.
-  const std::vector<std::pair<int, int>>& candidates(BodyColumns from, BodyColumns to, double dt);
+  // The pairs that can touch while the bodies go from one state to the other within dt, accelerated by no more than the
+  // bounds, one for each body.
+  const std::vector<std::pair<int, int>>& candidates(BodyColumns from, BodyColumns to, double dt,
+                                                     const AccelerationBounds& bounds);
+  // Those that touch now, or nearly so.
+  const std::vector<std::pair<int, int>>& candidates(BodyColumns state);
   // Every point of the pair, whatever its gap.
   const Manifold& manifold(BodyColumns state, int a, int b);
   // Unit, from b to a: the separating axis of the largest gap, or the one of the least overlap.
@@ -39,7 +44,8 @@ class ContactPoints {
   bool follow(BodyColumns state, ContactPoint& contact);
 
  private:
-  void place(BodyColumns state, const ManifoldPoint& point, ContactPoint& contact) const;
+  const std::vector<std::pair<int, int>>& overlapping_boxes();
+  void place(BodyColumns state, const ContactPoint& point, ContactPoint& touch) const;
 
   std::vector<Collider> colliders_;
   ContactLaws laws_;

@@ -1,10 +1,10 @@
 // Contact by events. Inside a step the instants are found at which bodies meet and at which sliding ends, as roots of
 // gaps and of sliding speeds along the integrator's own sub-steps from the last such instant; there impacts are
-// resolved (impacts.h), and between them what touches stays in contact (persistent_contact.h). A sequence of bounces
-// ends by the rule of kRestitutionThreshold. Bodies that overlap at the start are moved apart at once, without
-// velocity. After kMostEvents in one step the rest of that step has no rebounds, after twice as many no events, and the
-// run says so. Where bodies are not sure to stay apart (conservative_advancement.h) the time is halved, so that nothing
-// passes through and no graze is missed.
+// resolved (impacts.h), and between them what touches is persistent (held_motion.h). A sequence of bounces ends by the rule
+// of kRestSpeed. Bodies that overlap at the start are moved apart at once, without velocity. After kMostEvents in one
+// step the rest of that step has no rebounds, after twice as many no events, and the run says so. Where bodies are not
+// sure to stay apart (conservative_advancement.h, acceleration_bounds.h) the time is halved, so that nothing passes
+// through and no graze is missed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,14 +39,14 @@ class EventStepper : public ContactStepper {
   EventStepper(const Scene& scene, const ContactParts& parts)
       : contact_points_(scene),
         persistent_contact_(scene, parts.integrator, parts.orientation, parts.settings, contact_points_),
-        impacts_(persistent_contact_.system(),
-                 number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)) {}
+        impacts_(persistent_contact_.system(), number_option(parts.settings, "rest-speed", kRestSpeed)),
+        bounds_(persistent_contact_.system()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     solver_warning_.clear();
     is_smooth_ = true;
     if (!(dt > 0)) return step_without_contact(state, t, dt);
-    pairs_ = contact_points_.candidates(state, state, 0);
+    pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
     double done = 0;
     for (int events = 0; done < dt; ++events) {
@@ -58,6 +58,7 @@ class EventStepper : public ContactStepper {
       part_ = {t, done, end == t + dt ? dt : end - t};
       done = events < 2 * kMostEvents ? advance(state) : finish(state);
     }
+    note(persistent_contact_.take_projection_warning());
   }
 
   std::string solver_warning() const override { return solver_warning_; }
@@ -90,7 +91,7 @@ class EventStepper : public ContactStepper {
 
   // Impacts now, and what stays in contact until the next event.
   void begin_part(MutableBodyColumns state, bool inelastic) {
-    pairs_ = contact_points_.candidates(state, state, 0);
+    pairs_ = contact_points_.candidates(state);
     touching_.clear();
     contact_points_.find(state, pairs_, kTouching, touching_);
     if (impacts_.resolve(state, touching_, inelastic)) is_smooth_ = false;
@@ -106,7 +107,8 @@ class EventStepper : public ContactStepper {
     part_.to = std::min(part_.to, part_.from + longest_);
     attempt(part_.length());
     shorten_until_settled();
-    pairs_ = contact_points_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length());
+    shorten_until_bounded();
+    pairs_ = contact_points_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length(), bounds_);
     clear_ = std::as_const(start_).columns();
     double clear = 0;
     ahead_ = {part_.length()};
@@ -114,7 +116,7 @@ class EventStepper : public ContactStepper {
       const double h = ahead_.back(), distance = pieces == 0 ? distance_from_event() : attempt(h);
       if (distance < 0) return locate(state, clear, h, distance);
       if (pieces > kMostPieces) note("two bodies passed too near each other to tell whether they touched");
-      if (pieces <= kMostPieces && !all_stay_apart(h - clear)) {
+      if (pieces <= kMostPieces && !all_stay_apart(clear, h - clear)) {
         ahead_.push_back(0.5 * (clear + h));
         continue;
       }
@@ -124,24 +126,28 @@ class EventStepper : public ContactStepper {
     return commit(state, part_.to);
   }
 
-  // Whether no pair can have touched between clear_ and end_, h after it. Points in persistent contact are no
-  // event, and what they let their bodies do shows at the end.
-  bool all_stay_apart(double h) {
+  // Whether no pair can have touched between clear_, the state after `clear`, and end_, h after it. Points that are
+  // persistent are no news, and what they let their bodies do shows at the end.
+  bool all_stay_apart(double clear, double h) {
+    if (!are_bounded(std::as_const(clear_).columns(), clear, h)) return false;
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
     return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
       const auto [a, b] = pair;
-      const auto is_of_pair = [&](const PersistentPoint& persistent) {
-        return persistent.at_end.a == a && persistent.at_end.b == b;
-      };
-      if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair))
-        return true;
-      return stay_apart(contact_points_.colliders()[a], contact_points_.colliders()[b],
-                        {from, contact_points_.separating_axis(from, a, b)},
-                        {to, contact_points_.separating_axis(to, a, b)}, h);
+      const auto is_of_pair = [&](const PersistentPoint& persistent) { return persistent.at_end.a == a && persistent.at_end.b == b; };
+      if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair)) return true;
+      const Collider &first = contact_points_.colliders()[a], &second = contact_points_.colliders()[b];
+      return stay_apart(first, second, {from, contact_points_.separating_axis(from, a, b)}, {to, contact_points_.separating_axis(to, a, b)},
+                        bend_of(first), bend_of(second), h);
     });
   }
 
-  // The forces in persistent contact turn with the bodies; in long steps they may not converge.
+  Bend bend_of(const Collider& collider) const {
+    if (collider.fixed) return {};
+    const AccelerationBound& bound = bounds_.of(collider.body);
+    return {bound.linear, bound.of_point(collider.bounding_radius)};
+  }
+
+  // The forces of what is persistent turn with it; in long steps they may find no end to that.
   void shorten_until_settled() {
     constexpr int kMostTimes = 20;
     longest_ = kInfinity;
@@ -150,6 +156,21 @@ class EventStepper : public ContactStepper {
       attempt(part_.length());
       longest_ = 2 * part_.length();  // of the next part
     }
+  }
+
+  // Of what a stiff spring may do within a long step there is no bound.
+  void shorten_until_bounded() {
+    constexpr int kMostTimes = 30;
+    for (int k = 0; k < kMostTimes && !are_bounded(start_.columns(), 0, part_.length()); ++k) {
+      part_.to = part_.from + 0.5 * part_.length();
+      attempt(part_.length());
+      longest_ = 2 * part_.length();  // of the next part
+    }
+  }
+
+  // The accelerations on the way from the state after `after` to end_, h after it.
+  bool are_bounded(BodyColumns from, double after, double h) {
+    return bounds_.find(from, std::as_const(end_).columns(), part_.t + part_.from + after, h);
   }
 
   // The state after h into end_. Positive before the first event, negative after it.
@@ -163,9 +184,8 @@ class EventStepper : public ContactStepper {
   double commit(MutableBodyColumns state, double done) {
     copy_columns(std::as_const(end_).columns(), state);
     note(persistent_contact_.solver_warning());
-    pairs_ = contact_points_.candidates(state, state, 0);
-    if (persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all))
-      persistent_contact_.stop_carrying_points(state);
+    pairs_ = contact_points_.candidates(state);
+    if (persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all)) persistent_contact_.stop_carrying_points(state);
     return done;
   }
 
@@ -243,6 +263,7 @@ class EventStepper : public ContactStepper {
   ContactPoints contact_points_;
   PersistentContact persistent_contact_;
   Impacts impacts_;
+  AccelerationBounds bounds_;
   Part part_;
   double longest_ = kInfinity;  // s, of the next part
   bool has_settled_ = true, is_smooth_ = true;

@@ -24,9 +24,8 @@ MassWeightedProjection::Side MassWeightedProjection::side_of(BodyColumns state, 
   return side;
 }
 
-// Lambda: one for each target, zero where it is not used.
-Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<ProjectionTarget>& targets,
-                                                    const std::vector<bool>& is_used) const {
+// One for each place, zero where it is not used, and everywhere if there is no solution.
+Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<ProjectionTarget>& targets, const std::vector<bool>& is_used) {
   const auto count = static_cast<Eigen::Index>(targets.size());
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<std::vector<std::pair<Eigen::Index, const Side*>>> of_body(system_.size());
@@ -47,8 +46,12 @@ Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<Projection
   for (Eigen::Index i = 0; i < count; ++i) regularised.coeffRef(i, i) += regularisation[i];
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(regularised);
   Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(count);
-  for (int round = 0; round < kRounds; ++round) multiplier += solver.solve(amounts - delassus * multiplier);
-  return multiplier;
+  if (solver.info() == Eigen::Success) {
+    for (int round = 0; round < kRounds; ++round) multiplier += solver.solve(amounts - delassus * multiplier);
+  }
+  if (solver.info() == Eigen::Success && multiplier.allFinite()) return multiplier;
+  solver_warning_ = "no motion of touching bodies closes the gaps between them: its equations are singular";
+  return Eigen::VectorXd::Zero(count);
 }
 
 const std::vector<PoseStep>& MassWeightedProjection::project(BodyColumns state,

@@ -5,6 +5,8 @@
 // of a speed.
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/dynamics/model/system.h"
@@ -25,8 +27,10 @@ using PoseStep = Eigen::Matrix<double, 6, 1>;
 class MassWeightedProjection {
  public:
   explicit MassWeightedProjection(const System& system) : system_(system) {}
-  // One step for each body of the system. Redundant targets are met in the least-squares sense.
+  // One step for each body of the system; none for any where that is impossible, and a solver warning.
   const std::vector<PoseStep>& project(BodyColumns state, const std::vector<ProjectionTarget>& targets);
+  // Of all since the last call.
+  std::string take_solver_warning() { return std::exchange(solver_warning_, {}); }
 
  private:
   struct Side {
@@ -34,11 +38,12 @@ class MassWeightedProjection {
     PoseStep by, to;  // the row of J; the column of M⁻¹ Jᵀ
   };
   Side side_of(BodyColumns state, int body, const Vec3& arm, const Vec3& direction) const;
-  Eigen::VectorXd multipliers(const std::vector<ProjectionTarget>& targets, const std::vector<bool>& is_used) const;
+  Eigen::VectorXd multipliers(const std::vector<ProjectionTarget>& targets, const std::vector<bool>& is_used);
 
   const System& system_;
   std::vector<std::array<Side, 2>> sides_;
   std::vector<PoseStep> motion_;
+  std::string solver_warning_;
 };
 
 }  // namespace rigor

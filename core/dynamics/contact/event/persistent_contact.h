@@ -39,6 +39,8 @@ class PersistentContact {
   // After that the points that carry a force have speeds again, for their arms have turned: takes these away.
   void stop_carrying_points(MutableBodyColumns state);
   long passes() const { return passes_; }  // steps of the integrator so far
+  // What went wrong in closing gaps and stopping points since the last call; empty if nothing did.
+  std::string take_projection_warning() { return projection_.take_solver_warning(); }
   // What did not settle in the last advance; empty if all did.
   std::string solver_warning() const { return solver_warning_.empty() ? stepper_->solver_warning() : solver_warning_; }
 

@@ -15,10 +15,10 @@ namespace {
 std::mt19937 random_numbers(7);
 double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_numbers); }
 Vec3 random_vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
-Pose random_pose(double size) { return {random_vector(size), rotation_by(random_vector(3))}; }
+BodyPose random_pose(double size) { return {random_vector(size), rotation_by(random_vector(3))}; }
 
 // Minkowski: two convex bodies are as far apart as the least of |x - y|; found by alternating projections onto each.
-Vec3 projected(const Shape& shape, const Pose& pose, const Vec3& point) {
+Vec3 projected(const Shape& shape, const BodyPose& pose, const Vec3& point) {
   const Vec3 p = pose.orientation.conjugate() * (point - pose.position);
   Vec3 near;
   if (const auto* box = std::get_if<Box>(&shape)) {
@@ -31,7 +31,7 @@ Vec3 projected(const Shape& shape, const Pose& pose, const Vec3& point) {
   }
   return pose.position + pose.orientation * near;
 }
-double distance_by_projections(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+double distance_by_projections(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
   Vec3 x = pose_a.position, y = pose_b.position;
   for (int n = 0; n < 20000; ++n) x = projected(a, pose_a, y), y = projected(b, pose_b, x);
   return (x - y).norm();
@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(bodies_apart_are_as_far_as_alternating_projections_say) {
     for (const Shape& b : kShapes) {
       const bool are_boxes = std::holds_alternative<Box>(a) && std::holds_alternative<Box>(b);
       for (int n = 0; n < 20; ++n) {
-        const Pose pose_a = random_pose(2), pose_b = random_pose(2);
+        const BodyPose pose_a = random_pose(2), pose_b = random_pose(2);
         const double expected = distance_by_projections(a, pose_a, b, pose_b);
         if (expected < 0.05) continue;
         const double found = shape_gap(a, pose_a, b, pose_b);
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(moved_by_its_depth_an_overlap_is_gone_and_by_less_it_is_not
   for (const Shape& a : kShapes) {
     for (const Shape& b : kShapes) {
       for (int n = 0; n < 20; ++n) {
-        const Pose pose_a = random_pose(0.3), pose_b = random_pose(0.3);
+        const BodyPose pose_a = random_pose(0.3), pose_b = random_pose(0.3);
         const double depth = -shape_gap(a, pose_a, b, pose_b);
         if (depth < 0.05) continue;
         double by_less = 1e9, by_more = 1e9;
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(moved_by_its_depth_an_overlap_is_gone_and_by_less_it_is_not
 }
 
 BOOST_AUTO_TEST_CASE(plain_poses_have_plain_gaps) {
-  const auto at = [](double x, double y, double z) { return Pose{{x, y, z}, Quat::Identity()}; };
+  const auto at = [](double x, double y, double z) { return BodyPose{{x, y, z}, Quat::Identity()}; };
   const Quat on_side = rotation_by({0, std::numbers::pi / 2, 0});
   const Box box{{1, 1, 1}};
   BOOST_TEST(shape_gap(box, at(0, 0, 0), box, at(0, 0, 0.9)) == -0.1, boost::test_tools::tolerance(1e-13));

@@ -42,6 +42,14 @@ BOOST_AUTO_TEST_CASE(a_cell_without_numbers_says_why) {
   BOOST_TEST(line.find("crashed: killed by SIGSEGV") != std::string::npos, line);
 }
 
+BOOST_AUTO_TEST_CASE(a_verdict_stands_with_its_amount_and_a_sentence_says_what_it_stands_on) {
+  Results results = sample_results();
+  results.cases.front().cells[0].stability = {Verdict::gaining, 0.3, kWorld, "it rose by 13 %", 0.13};
+  const std::string text = console_table(results);
+  BOOST_TEST(line_with(text, "  good ").find("  gaining 13 %") != std::string::npos, text);
+  BOOST_TEST(text.find("good is gaining: it rose by 13 %.") != std::string::npos, text);
+}
+
 BOOST_AUTO_TEST_CASE(every_line_fits_a_hundred_columns) {
   Results results = sample_results();
   std::string reason = "crashed because";
@@ -52,6 +60,7 @@ BOOST_AUTO_TEST_CASE(every_line_fits_a_hundred_columns) {
   results.cases.front().definition.scene.bodies.front().name = "a body of a name that no table was made for";
   results.runs[0].text = "core:explicit-euler,orientation=matrix-rodrigues";
   results.cases.front().definition.title = reason;
+  results.cases.front().definition.gates.resize(1);
   results.cases.front().gates.push_back({0, "good", "1/10", GateAnswer::failed, reason});
   std::istringstream lines(console_table(results));
   for (std::string line; std::getline(lines, line);) BOOST_TEST(line.size() <= 100u, line);
@@ -66,7 +75,9 @@ BOOST_AUTO_TEST_CASE(many_cases_stand_in_a_matrix_of_a_hundred_columns) {
     results.cases.back().definition.id = id;
   }
   results.cases[3].cells[0].metrics["position_error"].value = 0.9999e-3;
+  results.cases[2].cells[0].stability = {Verdict::gaining, 0.3, kWorld, "", 0.5};
   results.cases[4].cells[0].status = Status::known_deviation;
+  results.cases[5].definition.gates.resize(1);
   results.cases[5].gates.push_back({0, "good", "1/10", GateAnswer::failed, "too far"});
   results.cases[5].gates.push_back({0, "", "", GateAnswer::not_checked, "no cell"});
   while (results.runs.size() < 9) results.runs.push_back(results.runs.front());
@@ -82,14 +93,29 @@ BOOST_AUTO_TEST_CASE(many_cases_stand_in_a_matrix_of_a_hundred_columns) {
   for (std::string line; std::getline(lines, line);) {
     BOOST_TEST(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }) <= 100, line);
   }
-  BOOST_TEST(line_with(text, " other").find("✓ 250mm    ✕ 0.40s    ✓ 250mm") != std::string::npos, text);
-  BOOST_TEST(line_with(text, " case").find("✓ 250mm") != std::string::npos, text);
+  BOOST_TEST(line_with(text, " other").find("✓▓250mm    ✕ 0.40s    ✓▓250mm") != std::string::npos, text);
+  BOOST_TEST(line_with(text, " case").find("✓▓250mm") != std::string::npos, text);
   const std::string second = text.substr(text.find("\nsecond\n") + 1);
   BOOST_TEST(line_with(second, " case").find("✓ 1mm") != std::string::npos, text);  // 0.9999 mm
-  BOOST_TEST(line_with(text, " more").find("◆ 250mm") != std::string::npos, text);
-  BOOST_TEST(line_with(text, "  gate failed").find("too far") != std::string::npos, text);
+  BOOST_TEST(line_with(text, " of-a-name").find("↑▓250mm") != std::string::npos, text);
+  BOOST_TEST(line_with(text, " more").find("◆▓250mm") != std::string::npos, text);
+  BOOST_TEST(line_with(text, "  bound failed").find("too far") != std::string::npos, text);
   BOOST_TEST(text.find("not checked") == std::string::npos, text);
   BOOST_TEST(text.find("st|one") == std::string::npos, text);  // no block
+}
+
+BOOST_AUTO_TEST_CASE(bounds_and_regressions_are_counted_apart) {
+  Results results = sample_results();
+  CaseResult& result = results.cases.front();
+  result.definition.gates.resize(2);
+  result.gates = {{0, "good", "1/10", GateAnswer::held, ""}, {0, "good", "1/20", GateAnswer::known_deviation, ""}};
+  BOOST_TEST(gate_summary(results) == "bounds: 1 held, 0 failed, 0 not checked, 1 known deviations\n");
+  result.definition.gates[1].regression = 1.25;
+  for (const GateAnswer answer : {GateAnswer::held, GateAnswer::failed, GateAnswer::not_recorded})
+    result.gates.push_back({1, "good", "1/10", answer, "so much"});
+  const std::string text = gate_summary(results);
+  BOOST_TEST(text.ends_with("\nregressions: 1 held, 1 failed, 0 not checked, 1 without a recorded value\n"), text);
+  BOOST_TEST(line_with(console_table(results), "  regression failed").find("so much") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_truth_says_how_far_it_can_be_trusted) {

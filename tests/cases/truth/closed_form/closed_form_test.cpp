@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/dynamics/model/energy.h"
 #include "tests/cases/truth/closed_form/smooth/smooth_scenes.h"
+#include "tests/cases/vocabulary.h"
 
 using namespace rigor;
 using test::SmoothScene;
@@ -90,7 +91,7 @@ BOOST_AUTO_TEST_CASE(every_closed_form_agrees_with_the_reference) {
 
 BOOST_AUTO_TEST_CASE(so_does_that_of_every_case_of_the_suite_that_has_both) {
   int both = 0;
-  for (const Case& c : select_cases({}, default_suite_dir())) {
+  for (const Case& c : select_cases({}, default_suite_dir(), test::words())) {
     if (c.truth == "none" || c.truth == "reference" || !c.scene.joints.empty()) continue;
     bool has_contacts = false;
     for (const Body& body : c.scene.bodies) has_contacts |= body.collides;

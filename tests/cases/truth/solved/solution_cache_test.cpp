@@ -132,6 +132,19 @@ BOOST_AUTO_TEST_CASE(every_number_of_the_motion_counts_and_no_name) {
   BOOST_TEST(!changed([&](Scene& s) { s.bodies[0].name = "another"; }));
 }
 
+BOOST_AUTO_TEST_CASE(what_another_solver_kept_is_not_taken) {
+  const ReferenceSolution solution = solve_reference(kScene, 1);
+  const auto check = [&](const auto& content) {
+    keep_solution(content(kScene, 1, "an older solver"), solution);
+    BOOST_TEST(kept_solution(content(kScene, 1, "an older solver")).has_value());
+    BOOST_TEST(!kept_solution(content(kScene, 1, "another")).has_value());
+  };
+  check([](const auto&... of) { return reference_content(of...); });
+  check([](const auto&... of) { return events_content(of...); });
+  BOOST_TEST(!kept_solution(kContent).has_value());
+  BOOST_TEST(!kept_solution(events_content(kScene, 1)).has_value());
+}
+
 BOOST_AUTO_TEST_CASE(a_damaged_cut_or_foreign_file_is_as_if_it_were_not_there) {
   keep_solution(kContent, solve_reference(kScene, 1));
   const fs::path file = files().at(0);

@@ -120,7 +120,6 @@ BOOST_AUTO_TEST_CASE(every_instruction_set_gives_the_same_bits) {
   const auto tables = every_table();
   BOOST_TEST_MESSAGE("instruction sets here: " << tables.size());
   for (const Integrator& method : integrators()) {
-    if (!method.twin_of.empty()) continue;  // steps without kernels
     for (const auto& [what, scene] : scenes(true)) {
       if (scene.bodies.size() > 30 && method.name.starts_with("implicit")) continue;  // slow, and no other code
       const auto run = [&](const Kernels& table) {

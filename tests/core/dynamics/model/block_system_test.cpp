@@ -64,4 +64,29 @@ BOOST_AUTO_TEST_CASE(a_singular_system_is_said_to_be_so) {
   }
 }
 
+// Of a free body's own equations and its pull on the next, as a chain of springs has it: rows that add up to nothing.
+BOOST_AUTO_TEST_CASE(a_system_that_is_singular_but_for_roundings_is_said_to_be_so) {
+  Mat6 pull = Mat6::Identity() / 3;
+  pull(0, 1) = 0.1, pull(4, 2) = 0.7, pull(5, 0) = -0.3;
+  for (const std::size_t bodies : {2, 10, 30}) {
+    BlockSystem system(bodies);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies)), solution;
+    right.head<6>().setOnes(), right.tail<6>().setConstant(-1);  // what a singular system could still answer
+    const auto solves = [&](double held, double unit) {
+      system.clear();
+      for (std::size_t i = 0; i + 1 < bodies; ++i) {
+        const Mat6 k = unit * (1 + 0.1 * static_cast<double>(i)) * pull;
+        system.add(i, i, k), system.add(i + 1, i + 1, k), system.add(i, i + 1, -k), system.add(i + 1, i, -k);
+      }
+      system.add(0, 0, held * unit * Mat6::Identity());
+      return system.solve(right, solution);
+    };
+    for (const double unit : {1e-200, 1.0, 1e200}) {
+      BOOST_TEST(!solves(0, unit), bodies << " bodies, in units of " << unit);
+      BOOST_TEST(!solves(1e-17, unit), bodies << " bodies, in units of " << unit);
+      BOOST_TEST(solves(1e-8, unit), bodies << " bodies, in units of " << unit);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

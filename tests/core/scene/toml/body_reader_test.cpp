@@ -200,6 +200,11 @@ BOOST_AUTO_TEST_CASE(a_quaternion_of_any_length_is_made_a_unit_one) {
     // A norm and a division: a few roundings.
     BOOST_TEST((scene.bodies[0].orientation.coeffs() - expected).norm() < 1e-15);
   }
+  for (const char* extreme : {"1.7e308", "5e-324"}) {
+    const Scene scene = scene_of(
+        fmt::format("[[scene.body]]\nname = 'a'\nfixed = true\norientation_wxyz = [{0}, {0}, {0}, -{0}]", extreme));
+    BOOST_TEST((scene.bodies[0].orientation.coeffs() - Eigen::Vector4d(0.5, 0.5, -0.5, 0.5)).norm() < 1e-15, extreme);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,6 +1,9 @@
 #include "core/scene/toml/table_reader.h"
 
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <limits>
 
 #include "tests/core/scene/toml/refusal.h"
@@ -126,6 +129,14 @@ BOOST_AUTO_TEST_CASE(each_good_value_is_read_as_it_stands) {
   BOOST_TEST(root.at("table").table({"x"}).at("x").number() == 2.5);
 }
 
+BOOST_AUTO_TEST_CASE(a_direction_is_a_unit_vector_whatever_its_length) {
+  for (const char* length : {"5e-324", "1e-300", "1", "1.7e308"}) {
+    const TomlFile file = TomlFile::parse(fmt::format("position = [{0}, -{0}, {0}]", length), "f.toml");
+    // A division, a norm and a division: a few roundings.
+    BOOST_TEST((root_of(file).at("position").direction() - Vec3(1, -1, 1) / std::sqrt(3)).norm() < 1e-15, length);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(infinite_friction_may_be_a_word) {
   const TomlFile file = TomlFile::parse("friction = 'infinite'", "f.toml");
   BOOST_TEST(root_of(file).at("friction").non_negative_or_infinite() == std::numeric_limits<double>::infinity());
@@ -171,6 +182,35 @@ BOOST_AUTO_TEST_CASE(a_key_of_a_million_parts_is_refused) {
       {"x = '''\n\"\n''''' # '\n" + deep + " = 1", "4:64: found a key", {}},
   };
   for (const Refusal& row : rows) check_refusal(row, "f.toml", [&] { TomlFile::parse(row.text, "f.toml"); });
+}
+
+// Of these the library's behaviour is undefined: it looks them up where it has no entry, or takes a key for granted.
+BOOST_AUTO_TEST_CASE(what_the_library_has_no_answer_for_is_refused_with_its_place) {
+  const std::string name_begins = "where the name of a table begins", not_ascii = "that is not ASCII";
+  const std::string outside = "is not TOML: found a character outside of strings";
+  const std::vector<Refusal> rows = {
+      {"[ #", "1:3: is not TOML: found '#' " + name_begins, {}},
+      {"x = 1\n  [[\t=]]", "2:6: is not TOML: found '=' " + name_begins, {}},
+      {"[\n]", "1:2: is not TOML: found a character that no name has " + name_begins, {}},
+      {"x = [1,\n[2]]\n[.a]", "3:2: is not TOML: found '.' " + name_begins, {}},
+      {"[é]", "1:2: is not TOML: found ", {name_begins}},
+      {"é = 1", "1:1: " + outside, {not_ascii}},
+      {"x = 1 あ", "1:7: " + outside, {not_ascii}},
+      {"x = 1\u00a0", "1:6: " + outside, {not_ascii}},
+      {"x = ['é', é]", "1:11: " + outside, {not_ascii}},
+      {"x = \"\\é\"", "1:7: is not TOML: found a backslash before a character", {not_ascii}},
+      {"x = \"\"\"a\\\n é\"\"\"", "2:2: found a character " + not_ascii + " right behind a line's end", {}},
+  };
+  for (const Refusal& row : rows) check_refusal(row, "f.toml", [&] { TomlFile::parse(row.text, "f.toml"); });
+}
+
+BOOST_AUTO_TEST_CASE(characters_of_any_script_may_stand_in_strings_and_comments) {
+  const TomlFile file = TomlFile::parse(
+      "\xef\xbb\xbf# é [ あ\nname = \"é \\u00e9 \\\\あ\" # é\nunit = 'é\\é'\nshare = '''\né'''\n"
+      "table . \"é\" = [\n [ 1 ] ]\n [ rows . \"é\" ]",
+      "f.toml");
+  BOOST_TEST(root_of(file).at("name").text() == "é é \\あ");
+  BOOST_TEST(root_of(file).at("unit").text() == "é\\é");
 }
 
 BOOST_AUTO_TEST_CASE(dots_outside_of_keys_are_no_parts_of_one) {

@@ -109,30 +109,33 @@ export function limitText(gate, unit) {
   if (isNumber(gate.max)) parts.push(`at most ${value(gate.max)}`);
   if (isNumber(gate.equals)) parts.push(`equal to ${value(gate.equals)}`);
   if (isNumber(gate.at_least_order)) parts.push(`falls at least with order ${gate.at_least_order}`);
+  if (gate.at_least_order === "declared") parts.push("falls with the order that its method declares");
+  if (isNumber(gate.regression)) parts.push(`within ${gate.regression} times the recorded value`);
+  const said = ["kind", "metric", "min", "max", "equals", "at_least_order", "regression", "because", "where", "answers"];
   for (const [key, v] of Object.entries(gate)) {
-    if (
-      !["metric", "min", "max", "equals", "at_least_order", "because", "where", "answers"].includes(key) &&
-      (isNumber(v) || (typeof v === "string" && v))
-    )
-      parts.push(`${words(key)} ${v}`);
+    if (!said.includes(key) && (isNumber(v) || (typeof v === "string" && v))) parts.push(`${words(key)} ${v}`);
   }
   return parts.join(", ");
 }
 
 export function gatesTable({ results, one }) {
-  if (!one.gates.length) return el("p.fine", {}, "This case has no gates.");
+  // One of the family's that met no cell of this case says nothing about it.
+  const gates = one.gates.filter((gate) => gate.answers.length);
+  if (!gates.length) return el("p.fine", {}, "This case has no gates.");
   const marks = { held: ["good", "✓"], failed: ["bad", "✕"], "not checked": ["none", "–"] };
   return el(
     "div.gates",
     {},
-    one.gates.map((gate) => {
+    gates.map((gate) => {
       const count = (answer) => gate.answers.filter((a) => a.answer === answer).length;
       const failed = count("failed"),
-        unchecked = count("not checked");
+        unchecked = count("not checked"),
+        unrecorded = count("not recorded");
       const summary = [
         `${count("held")} held`,
         failed ? `${failed} failed` : "",
         unchecked ? `${unchecked} not checked` : "",
+        unrecorded ? `${unrecorded} not recorded` : "",
       ]
         .filter(Boolean)
         .join(", ");
@@ -146,6 +149,7 @@ export function gatesTable({ results, one }) {
           el("b", {}, words(gate.metric)),
           " ",
           limitText(gate, results.units[gate.metric] ?? ""),
+          el("span.fine", {}, ` ${gate.kind}`),
           el("span.fine", {}, ` ${summary}`),
           el("span.because", {}, gate.because),
         ),

@@ -141,7 +141,7 @@ export function judgement(cell) {
       return {
         kind: "bad",
         sign: "✕",
-        word: cell.verdict ? `blown up ${cell.verdict.time?.toFixed(2) ?? ""} s` : "blown up",
+        word: cell.verdict?.phrase ?? "blown up",
       };
     case "known-deviation":
       return { kind: "known", sign: "◆", word: "known deviation" };
@@ -154,9 +154,24 @@ export function judgement(cell) {
     default:
       return { kind: "bad", sign: "!", word: cell.status.replace("-", " ") };
   }
-  return cell.verdict?.word === "drifting"
-    ? { kind: "drift", sign: "≈", word: "drifting" }
-    : { kind: "good", sign: "✓", word: "stable" };
+  const word = cell.verdict?.phrase ?? "stable";
+  return { ...verdictKinds[cell.verdict?.word ?? "stable"], word };
+}
+
+const verdictKinds = {
+  stable: { kind: "good", sign: "✓" },
+  drifting: { kind: "drift", sign: "≈" },
+  overlapping: { kind: "bad", sign: "∩" },
+  gaining: { kind: "bad", sign: "↑" },
+  collapsed: { kind: "bad", sign: "↓" },
+};
+
+// How dark a cell of the matrix is: its position error in decades of the case's size, from 0 at 1e-4 of it to 1 at the
+// size itself. Nothing where there is no such error, or more to say than how large it is.
+export function shadeOf(one, cell) {
+  const error = cell?.status === "pass" ? metricOf(cell, "position_error") : null;
+  if (error === null || !(one.size > 0)) return null;
+  return Math.min(1, Math.max(0, (Math.log10(error / one.size) + 4) / 4));
 }
 
 export const hasNumbers = (cell) => cell && cell.status !== "diverged" && Object.keys(cell.metrics ?? {}).length > 0;

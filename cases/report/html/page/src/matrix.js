@@ -6,6 +6,7 @@ import {
   judgement,
   median,
   metricOf,
+  shadeOf,
   signedMetric,
   stableText,
   stepFor,
@@ -138,7 +139,11 @@ export class Matrix {
     return el(
       "tbody.summaries",
       {},
-      line("blown up or failed", "cells at this step that blew up, crashed or failed a gate, of those that ran", blown),
+      line(
+        "bad verdict or failed",
+        "cells at this step that blew up, fell, gained energy, overlapped, crashed or failed a gate, of those that ran",
+        blown,
+      ),
       line(
         "error ÷ the middle engine's",
         "geometric mean, over the cases, of the error that matters divided by that of the engine in the middle; below 1 is better than most",
@@ -197,12 +202,14 @@ export class Matrix {
     const rare = engine.isRare ? ".is-rare" : "";
     if (!cell) return el(`td.cell.is-absent${rare}`, {}, "");
     const title = `${one.id}, ${engine.name}, dt = ${dt.text} s: ${verdict.word}${cell.reason ? ` – ${cell.reason}` : ""}`;
+    const shade = shadeOf(one, cell),
+      style = shade === null ? {} : { "--shade": `${Math.round(100 * shade)}%` };
     return el(
-      `td.cell.is-${verdict.kind}${rare}`,
+      `td.cell.is-${verdict.kind}${shade === null ? "" : ".has-shade"}${rare}`,
       {},
       el(
         "a",
-        { href: address(changes), title, onclick: (event) => this.go(event, one, changes) },
+        { href: address(changes), title, style, onclick: (event) => this.go(event, one, changes) },
         el("span.value", {}, value),
         el("span.word", {}, note ?? `${verdict.sign} ${verdict.word}`),
       ),

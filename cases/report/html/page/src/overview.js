@@ -131,9 +131,13 @@ export class Overview {
       {},
       item("good", "✓", "stable"),
       item("drift", "≈", "drifting: its mean energy moved by more than 1 %, or an unexpected pass"),
+      item("bad", "∩", "two bodies overlap by a body's own size"),
+      item("bad", "↑", "gaining energy that nothing gives it"),
+      item("bad", "↓", "collapsed: it had to stand"),
       item("bad", "✕", "blown up, crashed, or a gate failed"),
       item("known", "◆", "known deviation"),
       item("none", "–", "cannot be run on this engine"),
+      el("span.key", {}, "A cell's colour: its position error beside the case's size, green at 1e-4 of it, red at all of it."),
     );
   }
 

@@ -1,0 +1,74 @@
+// The smooth step of ODE 0.16, to be held against ODE itself. Semi-implicit Euler with Lacoursière's implicit
+// gyroscopic term ("Stabilizing gyroscopic forces in rigid multibody simulations", 2006), that is, one linearised step
+// of L' = tau with L0 = I w0 held in the gyroscopic product, at the inertia I = R0 I_B R0ᵀ of the step's start:
+//   (I - dt [L0]x) w* = I w0,   w1 = w* + dt I⁻¹ tau,   v1 = v0 + dt F/m,   x1 = x0 + dt v1
+// and then a turn by dt w1: exact ("finite"), or q <- (q + dt/2 (0, w1) q) / |...| ("infinitesimal"), as
+// dBodySetFiniteRotationMode says. Loads are constant over the step. Nothing is damped unless it is asked for.
+#include "adapters/ode/ode_twin.h"
+
+#include <Eigen/LU>
+
+#include "core/engine/option_values.h"
+
+namespace rigor {
+namespace {
+
+class OdeTwin : public Stepper {
+ public:
+  explicit OdeTwin(const StepperParts& parts)
+      : parts_(parts),
+        is_gyroscopic_(word_option(parts.settings, "gyroscopic", "on") == "on"),
+        turn_(orientation_update(word_option(parts.settings, "rotation", "finite") == "finite"
+                                     ? "quaternion-exponential"
+                                     : "quaternion-additive")) {}
+
+  void step(MutableBodyColumns state, double t, double dt) override {
+    parts_.system.wrenches(state, t, dt, wrenches_);
+    for (std::size_t i = 0; i < state.size(); ++i) kick(state, i, dt);
+    if (parts_.contact) parts_.contact->resolve(state);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      state.set_position(i, state.position(i) + dt * state.velocity(i));
+      turn_.advance(state, i, state.angular_velocity(i), dt);
+    }
+  }
+
+ private:
+  void kick(MutableBodyColumns state, std::size_t i, double dt) const {
+    const Inertia& body = parts_.system.bodies[i];
+    if (body.fixed) return;
+    state.set_velocity(i, state.velocity(i) + dt * body.inverse_mass * wrenches_[i].force);
+    const Mat3 R = state.rotation(i);
+    Vec3 w = state.angular_velocity(i);
+    const Vec3 impulse = dt * (R * (body.inverse_inertia_B * (R.transpose() * wrenches_[i].torque)));
+    if (is_gyroscopic_) {
+      const Mat3 inertia = R * body.inertia_B * R.transpose();
+      const Vec3 L = inertia * w;
+      w = (inertia - dt * cross_matrix(L)).inverse() * L;
+    }
+    state.set_angular_velocity(i, w + impulse);
+  }
+
+  StepperParts parts_;
+  bool is_gyroscopic_;
+  const OrientationUpdate& turn_;
+  Wrenches wrenches_;
+};
+
+}  // namespace
+
+const Integrator kOdeTwin = {
+    .name = "ode-twin",
+    .summary = "repeats ODE's own smooth step, to explain its error",
+    .order = 1,
+    .symplectic = false,  // the gyroscopic term damps
+    .leapfrog_stagger = 0.5,
+    .default_orientation = "",
+    .options = {{"gyroscopic", "the implicit gyroscopic torque; default on", {"on", "off"}},
+                {"rotation",
+                 "update of the orientation: the exact turn (default), or an added quaternion rate",
+                 {"finite", "infinitesimal"}}},
+    .twin_of = "ode",
+    .make = make_stepper<OdeTwin>,
+};
+
+}  // namespace rigor

@@ -1,0 +1,22 @@
+// What was found in the results, as data: the reports say it in their own words.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cases/results/results.h"
+
+namespace rigor {
+
+struct Diagnosis {
+  std::string topic;              // a row of the table in the analysis that found it
+  std::vector<std::size_t> runs;  // indices in Results::runs
+  std::string of_case;            // its id
+  double value = 0;               // how bad, in the topic's unit
+  std::string cause = "";         // the engine's own setting that explains it; empty if it tells of none
+  std::vector<std::pair<StepSize, double>> over = {};  // the metric at each step, from the coarsest to the finest
+  Instant worst = {};                                  // of the step that `value` is of
+};
+
+}  // namespace rigor

@@ -1,0 +1,10 @@
+// The vocabulary of this program: every row of every table.
+#pragma once
+
+#include "cases/case/vocabulary.h"
+
+namespace rigor {
+
+Vocabulary vocabulary_of(std::vector<EngineInfo> engines);
+
+}  // namespace rigor

@@ -1,0 +1,139 @@
+#include "cases/report/wording/verdict_matrix.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/metrics/measures/shape_gap.h"
+#include "cases/report/wording/findings.h"
+#include "cases/report/wording/wording.h"
+
+namespace rigor {
+namespace {
+
+// Not a number where there is none.
+double value_of(const Cell& cell, const std::string& name) {
+  const auto found = cell.metrics.find(name);
+  return found == cell.metrics.end() || !found->second.not_applicable.empty() ? std::nan("") : found->second.value;
+}
+
+double worst_of(const CaseResult& result, const std::string& name) {
+  double worst = 0;
+  for (const Cell& cell : result.cells) worst = std::max(worst, value_of(cell, name));  // not a number never wins
+  return worst;
+}
+
+std::string error_text(const Cell& cell, const std::string& metric) {
+  const double value = value_of(cell, metric);
+  if (std::isnan(value)) return "";
+  if (metric == "position_error") return " " + rounded(value) + " m";
+  return metric == "orientation_error" ? " " + rounded(value) + " rad" : " " + rounded(100 * value) + " %";
+}
+
+std::string cell_text(const Cell& cell, const std::string& metric) {
+  std::string word = word_of(cell.status);
+  if (cell.status == Status::diverged) return sign_of(cell) + " " + phrase_of(cell.stability);
+  if (cell.status == Status::pass && !cell.metrics.empty()) word = phrase_of(cell.stability);
+  return fmt::format("{} {}{}", sign_of(cell), word, error_text(cell, metric));
+}
+
+std::string sign_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::stable:
+      return "✓";
+    case Verdict::drifting:
+      return "≈";
+    case Verdict::overlapping:
+      return "∩";
+    case Verdict::gaining:
+      return "↑";
+    case Verdict::collapsed:
+      return "↓";
+    case Verdict::blown_up:
+      return "✕";
+  }
+  return "!";
+}
+
+}  // namespace
+
+std::string sign_of(const Cell& cell) {
+  switch (cell.status) {
+    case Status::pass:
+      return sign_of(cell.stability.verdict);
+    case Status::diverged:
+    case Status::fail:
+      return "✕";
+    case Status::unsupported:
+      return "–";
+    case Status::known_deviation:
+      return "◆";
+    case Status::unexpected_pass:
+      return "◇";
+    default:
+      return "!";
+  }
+}
+
+double size_of(const Scene& scene) {
+  double size = 0;
+  Vec3 low = Vec3::Constant(HUGE_VAL), high = -low;
+  for (const Body& body : scene.bodies) {
+    if (body.fixed) continue;
+    low = low.cwiseMin(body.position), high = high.cwiseMax(body.position);
+    size = std::max(
+        size, 2 * (body.shape ? bounding_radius(*body.shape) : std::sqrt(0.5 * body.inertia.trace() / body.mass)));
+  }
+  for (const Spring& spring : scene.springs) size = std::max(size, spring.rest_length);
+  return low.x() <= high.x() ? std::max(size, (high - low).norm()) : size;
+}
+
+std::string shade_of(const CaseResult& result, const Cell& cell) {
+  const double share = value_of(cell, "position_error") / size_of(result.definition.scene);
+  if (cell.status == Status::diverged || !(share >= 1e-3)) return " ";
+  return share < 1e-2 ? "░" : share < 1e-1 ? "▒" : share < 1 ? "▓" : "█";
+}
+
+StepSize matrix_dt(const CaseResult& result, const StepSize& headline) {
+  const auto& steps = result.definition.dt;
+  const auto own = std::find(steps.begin(), steps.end(), headline);
+  return own != steps.end() ? *own : coarsest_dt(result);
+}
+
+std::string main_error(const CaseResult& result) {
+  constexpr double kMoves = 1e-9;  // m and rad: less is rounding
+  for (const char* name : {"position_error", "orientation_error"}) {
+    if (worst_of(result, name) > kMoves) return name;
+  }
+  const bool has_truth = std::any_of(result.cells.begin(), result.cells.end(),
+                                     [](const Cell& cell) { return !std::isnan(value_of(cell, "position_error")); });
+  return has_truth && worst_of(result, "energy_drift") < kMoves ? "position_error" : "energy_drift_synchronised";
+}
+
+TextTable verdict_matrix(const Results& results) {
+  const StepSize headline = headline_dt(results);
+  TextTable matrix{
+      fmt::format("dt = {} s: the verdict, and the largest error of the position [m]; of the orientation "
+                  "[rad] where nothing moves away; of the energy [%] where there is no truth. The darker "
+                  "the square, the larger the position's error beside the case's size: ░ from 1e-3, ▒ 1e-2, "
+                  "▓ 1e-1, █ 1",
+                  headline.text),
+      {{"case"}}};
+  for (const RunName& run : results.runs) matrix.rows[0].push_back(run.text);
+  for (const CaseResult& result : results.cases) {
+    const StepSize dt = matrix_dt(result, headline);
+    std::vector<std::string> row(results.runs.size() + 1, "");
+    row[0] = result.definition.id + (dt == headline ? "" : fmt::format(" (dt {})", dt.text));
+    const std::string metric = main_error(result);
+    for (const Cell& cell : result.cells) {
+      if (cell.dt != dt) continue;
+      const std::string shade = shade_of(result, cell);
+      row[cell.run + 1] = cell_text(cell, metric) + (shade == " " ? "" : " " + shade);
+    }
+    matrix.rows.push_back(row);
+  }
+  return matrix;
+}
+
+}  // namespace rigor

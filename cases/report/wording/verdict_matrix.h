@@ -1,0 +1,32 @@
+// The first thing to look at: cases by engines at one step size, a verdict in a word and the error that matters.
+#pragma once
+
+#include <string>
+
+#include "cases/report/wording/comparison.h"
+#include "cases/results/results.h"
+
+namespace rigor {
+
+// The error that a case is about: its runs' largest position error; where nothing moves away, the orientation's;
+// without a truth, the energy's drift.
+std::string main_error(const CaseResult& result);
+
+// At headline_dt(); a case that has no such step is shown at its coarsest, which its row says.
+TextTable verdict_matrix(const Results& results);
+
+// The step whose cells stand in a case's row: the headline's if the case has it, else its coarsest.
+StepSize matrix_dt(const CaseResult& result, const StepSize& headline);
+
+// One character for how a cell ended: of one that passed, its verdict's.
+std::string sign_of(const Cell& cell);
+
+// m: what a case's position errors are large or small against. The longest of the line across the bodies that can move,
+// at the start, the longest spring, and the diameter of the largest such body (without a shape: of gyration).
+double size_of(const Scene& scene);
+
+// How dark a cell is: its position error in decades of the case's size. " " below 1e-3 of it or where there is none to
+// show, "░" from there, "▒" from 1e-2, "▓" from 1e-1, "█" from the size on.
+std::string shade_of(const CaseResult& result, const Cell& cell);
+
+}  // namespace rigor

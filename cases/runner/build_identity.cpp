@@ -1,0 +1,44 @@
+#include "cases/runner/build_identity.h"
+
+#include <fmt/format.h>
+#include <link.h>
+
+#include <fstream>
+#include <vector>
+
+#include "core/base/content_hash.h"
+
+namespace rigor {
+namespace {
+
+// The program has no name among what is loaded, and the kernel's part of it no file.
+int add_file(dl_phdr_info* about, std::size_t, void* files) {
+  const std::string name = about->dlpi_name;
+  static_cast<std::vector<std::string>*>(files)->push_back(name.empty() ? "/proc/self/exe" : name);
+  return 0;
+}
+
+std::uint64_t hash_of_file(const std::string& path, std::uint64_t so_far) {
+  std::ifstream file(path, std::ios::binary);
+  std::string chunk(1 << 20, '\0');
+  while (file) {
+    file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    so_far = content_hash({chunk.data(), static_cast<std::size_t>(file.gcount())}, so_far);
+  }
+  return so_far;
+}
+
+}  // namespace
+
+const std::string& build_identity() {
+  static const std::string identity = [] {
+    std::vector<std::string> files;
+    dl_iterate_phdr(add_file, &files);
+    std::uint64_t hash = kHashOfNothing;
+    for (const std::string& file : files) hash = hash_of_file(file, content_hash(file, hash));
+    return fmt::format("{:016x}", hash);
+  }();
+  return identity;
+}
+
+}  // namespace rigor

@@ -1,0 +1,54 @@
+#include "cases/truth/provenance.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace rigor {
+
+// One declaration and one row a truth that is solved; each is defined in the file of its name.
+Provenance events_provenance();
+Provenance reference_provenance();
+
+namespace {
+
+const Provenance* row_of(const std::string& truth) {
+  static const std::vector<Provenance> table = {events_provenance(), reference_provenance()};
+  const auto row = std::find_if(table.begin(), table.end(), [&](const Provenance& one) { return one.truth == truth; });
+  return row == table.end() ? nullptr : &*row;
+}
+
+// What is measured by the scene, its shapes and laws, by other runs, or by the run itself.
+constexpr std::array kWithoutTruth = {"collapse_time",
+                                      "cost",
+                                      "creep",
+                                      "energy_gain",
+                                      "orthonormality_error",
+                                      "penetration",
+                                      "restitution_error",
+                                      "spread",
+                                      "spread_orientation",
+                                      "survival",
+                                      "unexplained_error",
+                                      "unexplained_rotation",
+                                      "unexplained_spin",
+                                      "unexplained_velocity"};
+
+}  // namespace
+
+std::string provenance_of(const std::string& truth) {
+  if (truth == "none") return "";
+  const Provenance* row = row_of(truth);
+  return row ? row->how : "a closed form, independent of every engine and method";
+}
+
+bool is_against_truth(const std::string& metric) {
+  return std::find(kWithoutTruth.begin(), kWithoutTruth.end(), metric) == kWithoutTruth.end();
+}
+
+bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene) {
+  const Provenance* row = row_of(truth);
+  return row && row->is_made_like && is_against_truth(metric) && row->is_made_like(run, scene);
+}
+
+}  // namespace rigor

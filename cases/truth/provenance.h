@@ -1,0 +1,29 @@
+// Where truths come from, and what they cannot judge: a run that the same code makes agrees with such a truth however
+// wrong both are.
+#pragma once
+
+#include <string>
+
+#include "core/engine/run_name.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// A row of the table in provenance.cpp, for a truth that is solved and no closed form.
+struct Provenance {
+  std::string truth;  // as truth.kind says
+  std::string how;    // is made, and of which engines and methods it is independent
+  // Whether the code that makes it makes this run of the scene too; null: of no run.
+  bool (*is_made_like)(const RunName& run, const Scene& scene) = nullptr;
+};
+
+// "a closed form, independent of every engine and method", or the row's own words; empty for "none".
+std::string provenance_of(const std::string& truth);
+
+// Whether a metric takes what it expects from the truth, always or in some scenes. One that is not known does.
+bool is_against_truth(const std::string& metric);
+
+// Whether a run, judged by this metric against this truth, is held to itself.
+bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene);
+
+}  // namespace rigor

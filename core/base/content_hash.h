@@ -1,0 +1,18 @@
+// Fowler, Noll and Vo's hash FNV-1a of 64 bits: it tells contents apart and notices damage, it does not guard against
+// an attacker.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace rigor {
+
+inline constexpr std::uint64_t kHashOfNothing = 14695981039346656037u;
+
+// `so_far`: the hash of what stands before these bytes.
+inline std::uint64_t content_hash(std::string_view bytes, std::uint64_t so_far = kHashOfNothing) {
+  for (const char c : bytes) so_far = (so_far ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return so_far;
+}
+
+}  // namespace rigor

@@ -1,0 +1,57 @@
+// The drift of a kick-drift-kick method with joints (RATTLE: H. C. Andersen, 1983; for rigid bodies whose free rotation
+// is split: A. Kol, B. B. Laird, B. J. Leimkuhler, 1997): an impulse at the start of each drift, along the joints' rows
+// there, closes all joints at its end, and one at the end of the step takes away the velocities that the joints do not
+// allow. Symplectic and symmetric as the drift is.
+#pragma once
+
+#include <algorithm>
+
+#include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/joints/joints.h"
+
+namespace rigor {
+
+class ConstrainedDrift {
+ public:
+  explicit ConstrainedDrift(const StepperParts& parts) : parts_(parts) {}
+
+  bool is_free() const { return parts_.joints == nullptr; }
+
+  // Calls move(state, carried) once, or with joints until it ends where they are closed. v and the momenta L in
+  // `carried` are those before the drift over h; w is not read.
+  template <typename Move>
+  void drift(MutableBodyColumns state, Columns& carried, double h, const Move& move) {
+    if (is_free()) return move(state, carried.data());
+    parts_.joints->close(state, h, [&](const double* impulse) -> BodyColumns {
+      end_ = BodyColumns(state);
+      momenta_ = carried;
+      kick(end_.columns(), momenta_, impulse);
+      move(end_.columns(), momenta_.data());
+      return end_.columns();
+    });
+    copy_columns(end_.columns(), state);
+    std::swap(carried, momenta_);
+  }
+
+  // Leaves v, L and w such as the joints allow at this pose.
+  void settle(MutableBodyColumns state, Columns& carried) {
+    if (is_free()) return;
+    kernels().velocity_of(parts_.system.constants.all(), state.column(0), carried.data());
+    kick(state, carried, parts_.joints->velocity_impulse(state));
+    kernels().velocity_of(parts_.system.constants.all(), state.column(0), carried.data());
+  }
+
+ private:
+  void kick(MutableBodyColumns state, Columns& carried, const double* impulse) const {
+    Bodies bodies = parts_.system.constants.all();
+    bodies.has_gravity = false;
+    std::fill_n(bodies.gravity, 3, 0.0);
+    kernels().momentum_kick(bodies, state.column(0), carried.data(), impulse, 1);
+  }
+
+  StepperParts parts_;
+  BodyTable end_;
+  Columns momenta_;
+};
+
+}  // namespace rigor

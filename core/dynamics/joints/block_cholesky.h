@@ -1,0 +1,80 @@
+// The factor of a symmetric matrix of blocks, S = L Lᵀ, one block row a joint, of which two meet where their joints
+// share a body. Which blocks there are does not change: the order of elimination (least degree first, so that a chain
+// or tree of joints fills in nothing) and the places of all products are found once; a factorisation allocates nothing
+// and takes a time linear in the number of joints of a chain.
+//
+// S may be singular because rows repeat others, as in closed loops of hinges. Each block then has a rank that is fixed
+// when the factor is made: choose() picks as many of its rows, those with the largest pivots, and the others are left
+// out. A fixed rank is smooth off the manifold where they repeat each other exactly; a threshold would not be.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/dynamics/joints/constraint_rows.h"
+
+namespace rigor {
+
+using Block6 = Eigen::Matrix<double, 6, 6>;  // of joints with fewer rows: the rest is the identity's
+
+class BlockCholesky {
+ public:
+  // `rows` of each joint, and the pairs of joints that share a body, in any order, also more than once.
+  BlockCholesky(std::vector<int> rows, const std::vector<std::pair<int, int>>& coupled);
+
+  std::size_t size() const { return rows_.size(); }
+  void clear();
+  Block6& diagonal(std::size_t joint) { return diagonal_[position_[joint]]; }
+  // The place of the block of two joints that share a body, and whether it is (second, first) that stands there.
+  struct Place {
+    std::int32_t index;
+    bool transposed;
+  };
+  Place place(int first, int second) const;
+  Block6& block(std::int32_t index) { return blocks_[static_cast<std::size_t>(index)]; }
+
+  // Finds each block's rank from the S that has been filled in, on the manifold: a pivot is zero if it is below kZero
+  // of the row's own diagonal element. Rounding leaves 1e-11 of it where masses and inertias differ by 1e5; a true one
+  // as small as kZero is a mechanism within 1e-4 rad of a singular position.
+  void find_ranks();
+  static constexpr double kZero = 1e-8;
+  int rank() const;  // of all blocks together
+  bool has_redundant_rows() const { return has_redundant_; }
+
+  // Below it a row's pivot, relative to its own diagonal element, is lost in the rounding of what was subtracted from
+  // it.
+  static constexpr double kLost = 1e-13;
+
+  // Factorises what has been filled in; S is lost. With `choose`, picks the rows anew.
+  void factorise(bool choose);
+  // The smallest pivot of a kept row relative to its own diagonal element, and the joint that has it: near zero the
+  // joints are in a singular position.
+  double smallest_pivot() const { return smallest_pivot_; }
+  std::size_t joint_of_smallest_pivot() const { return joint_of_smallest_; }
+  // Solves S x = b in place; a row left out gets 0.
+  void solve(std::vector<Vec6>& x) const;
+
+ private:
+  void order(const std::vector<std::pair<int, int>>& coupled);
+  void list_products();
+  void eliminate(std::size_t p, bool choose, bool find_rank);
+  void choose_rows(std::size_t p, bool find_rank);
+  void factorise_diagonal(std::size_t p, const Vec6& scale);
+
+  std::vector<int> rows_, rank_;       // by joint; by position
+  std::vector<std::size_t> joint_;     // by position in the order of elimination
+  std::vector<std::size_t> position_;  // by joint
+  std::vector<Block6> diagonal_;       // by position
+  std::vector<Vec6> scale_, kept_;     // by position: the diagonal before elimination; 1 for a row that counts, or 0
+  std::vector<std::int32_t> first_below_, row_below_;  // blocks below the diagonal, column by column, rows ascending
+  std::vector<Block6> blocks_;                         // in that order
+  std::vector<std::int32_t> target_;  // of the product of each two blocks of a column, in order: a block, or ~position
+  std::vector<std::size_t> first_target_;
+  bool has_redundant_ = false;
+  double smallest_pivot_ = 1;
+  std::size_t joint_of_smallest_ = 0;
+};
+
+}  // namespace rigor

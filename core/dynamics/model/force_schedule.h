@@ -1,0 +1,38 @@
+// When timed forces act: of many forces the few that act in a step, and the next instant at which one begins or ends,
+// without looking at all of them. A static interval tree over the forces in the order in which they begin (Cormen,
+// Leiserson, Rivest, Stein, Introduction to Algorithms, section 14.3), which keeps no state from one question to the
+// next: a question costs log n and what it finds.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+class ForceSchedule {
+ public:
+  explicit ForceSchedule(const std::vector<TimedForce>& forces);
+
+  // The indices, ascending, of every force that acts at some instant between two [s], in whatever order these are;
+  // those that only begin or end there may be among them.
+  std::vector<std::size_t> acting(double one, double other) const;
+  // The first instant strictly between t and `end`, which may lie before it, at which a force begins or ends; `end` if
+  // there is none.
+  double next_switch(double t, double end) const;
+
+ private:
+  struct Entry {
+    double from, until;
+    std::size_t index;
+  };
+  double latest_end_of(std::size_t first, std::size_t last);
+  void collect(std::size_t first, std::size_t last, double from, double to, std::vector<std::size_t>& out) const;
+
+  std::vector<Entry> entries_;      // by the instant at which they begin
+  std::vector<double> latest_end_;  // of the range of entries of which this one is the middle
+  std::vector<double> switches_;    // s, ascending, each once
+};
+
+}  // namespace rigor

@@ -1,0 +1,52 @@
+#include "core/dynamics/model/joint_coordinate.h"
+
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+struct EndState {
+  Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  Mat3 R = Mat3::Identity();
+
+  EndState(BodyColumns bodies, int body) {
+    if (body == kWorld) return;
+    const auto i = static_cast<std::size_t>(body);
+    position = bodies.position(i), velocity = bodies.velocity(i);
+    angular_velocity = bodies.angular_velocity(i), R = bodies.rotation(i);
+  }
+};
+
+}  // namespace
+
+JointCoordinate::JointCoordinate(const Scene& scene, const Joint& joint)
+    : a_(joint.a), b_(joint.b), turns_(std::holds_alternative<HingeJoint>(joint.type)) {
+  const BodyPose a = scene.pose(joint.a), b = scene.pose(joint.b);
+  const Vec3 axis = *free_axis(joint), across = axis.unitOrthogonal();
+  axis_a_ = a.orientation.conjugate() * axis;
+  reference_a_ = a.orientation.conjugate() * across;
+  reference_b_ = b.orientation.conjugate() * across;
+  start_ = axis.dot(b.position - a.position);
+}
+
+JointCoordinate::Value JointCoordinate::at(BodyColumns bodies) const {
+  const EndState a(bodies, a_), b(bodies, b_);
+  const Vec3 axis = a.R * axis_a_;
+  Value value;
+  if (turns_) {
+    const Vec3 from = a.R * reference_a_, to = b.R * reference_b_;
+    value.x = std::atan2(axis.dot(from.cross(to)), from.dot(to));
+    value.rate = axis.dot(b.angular_velocity - a.angular_velocity);
+    value.torque_a = -axis, value.torque_b = axis;
+    return value;
+  }
+  // The effort acts on both along the line through b's centre, so that the pair keeps its angular momentum.
+  const Vec3 line = b.position - a.position;
+  value.x = axis.dot(line) - start_;
+  value.torque_a = axis.cross(line);
+  value.rate = axis.dot(b.velocity - a.velocity) + a.angular_velocity.dot(value.torque_a);
+  value.force = axis;
+  return value;
+}
+
+}  // namespace rigor

@@ -1,0 +1,33 @@
+// The one coordinate x of a hinge or a slider, on which its spring, damper and motors act: the angle [rad] by which b
+// has turned against a about the axis since t = 0, from -pi to pi, or the way [m] that b's centre has come along it.
+#pragma once
+
+#include "core/engine/body_table.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+class JointCoordinate {
+ public:
+  // The joint has a free_axis().
+  JointCoordinate(const Scene& scene, const Joint& joint);
+
+  int a() const { return a_; }
+  int b() const { return b_; }
+
+  struct Value {
+    double x = 0, rate = 0;                                 // rad, rad/s or m, m/s
+    Vec3 force = Vec3::Zero();                              // of a unit of effort on b; the opposite on a. N/N, in W
+    Vec3 torque_a = Vec3::Zero(), torque_b = Vec3::Zero();  // about the centres of mass, in W
+  };
+  Value at(BodyColumns bodies) const;
+
+ private:
+  int a_, b_;
+  bool turns_;
+  Vec3 axis_a_;                     // unit, in a's frame
+  Vec3 reference_a_, reference_b_;  // across the axis, the same direction at t = 0; of a hinge
+  double start_ = 0;                // m: where b's centre is along the axis at t = 0; of a slider
+};
+
+}  // namespace rigor

@@ -1,0 +1,67 @@
+// What is said of contacts that come out wrong, and that nothing is said of those that do not.
+#include "cases/report/wording/contact_explanation.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/cases/report/sample_results.h"
+
+using namespace rigor;
+
+namespace {
+
+// The sample's first run at two steps, with these values of a metric at the coarser and the finer one.
+Results with(const std::string& metric, double coarse, double fine, const Instant& worst) {
+  Results grid = sample_results();
+  CaseResult& result = grid.cases.front();
+  BOOST_REQUIRE(result.cells[0].dt.seconds != result.cells[1].dt.seconds);
+  const bool first_is_coarse = result.cells[0].dt.seconds > result.cells[1].dt.seconds;
+  for (int i = 0; i < 2; ++i) {
+    result.cells[i].metrics[metric] = sample_metric((i == 0) == first_is_coarse ? coarse : fine, worst);
+    result.cells[i].settings = {{"erp", "0.2 of it"}, {"friction", "a pyramid"}, {"restitution", "across a gap"}};
+  }
+  return grid;
+}
+
+std::vector<std::string> said_of(const Results& grid) { return contact_explanations(grid, grid.cases.front()); }
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_report_wording_contact_explanation)
+
+BOOST_AUTO_TEST_CASE(restitution_that_gets_worse_with_dt_does_not_converge) {
+  const Instant bounce{0.5, 0, "restitution", 0.5, 1};
+  const auto said = said_of(with("restitution_error", 0.05, 0.5, bounce));
+  BOOST_REQUIRE(said.size() == 1);
+  BOOST_TEST(has(said[0], "does not converge"));
+  BOOST_TEST(has(said[0], "0.05 at"));
+  BOOST_TEST(has(said[0], "across a gap"));
+  BOOST_TEST(said_of(with("restitution_error", 0.5, 0.05, bounce)).empty());    // it does
+  BOOST_TEST(said_of(with("restitution_error", 0.001, 0.01, bounce)).empty());  // too little to say
+}
+
+BOOST_AUTO_TEST_CASE(bodies_that_part_after_a_dead_impact_have_been_pushed) {
+  const Instant pop{0.5, 0, "restitution", 0.14, 0};
+  const auto said = said_of(with("restitution_error", 0.01, 0.14, pop));
+  BOOST_REQUIRE(said.size() == 1);
+  BOOST_TEST(has(said[0], "0.14 of the speed"));
+  BOOST_TEST(has(said[0], "0.2 of it"));
+  BOOST_TEST(!has(said[0], "converge"));
+  const Instant through{0.5, 0, "restitution", 1, 0};  // it was not stopped at all: that is no pop
+  for (const std::string& sentence : said_of(with("restitution_error", 1, 1, through)))
+    BOOST_TEST(!has(sentence, "pushed out as speed"));
+}
+
+BOOST_AUTO_TEST_CASE(a_spread_over_directions_is_told_with_the_worst_way) {
+  const Instant short_one{2, 0, "distance", 1.8, 2.548};
+  const auto said = said_of(with("friction_anisotropy", 0.293, 0.293, short_one));
+  BOOST_REQUIRE(said.size() == 1);
+  BOOST_TEST(has(said[0], "1.8 m instead of 2.55"));
+  BOOST_TEST(has(said[0], "a pyramid"));
+  BOOST_TEST(said_of(with("friction_anisotropy", 0.3, 0.001, short_one)).empty());
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_said_where_nothing_was_measured) { BOOST_TEST(said_of(sample_results()).empty()); }
+
+BOOST_AUTO_TEST_SUITE_END()

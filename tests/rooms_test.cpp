@@ -1,0 +1,172 @@
+// The house: which room may include which. A room sees only those before it in its chain; a line that breaks this is
+// printed as the compiler would print it.
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+struct Include {
+  std::string file;  // from the source's top
+  int line;
+  std::string what;  // with its quotes or angle brackets taken off
+};
+
+// The rooms of a folder, each of which sees itself and those before it.
+struct Chain {
+  std::string folder;  // "" is the top
+  Names rooms;
+};
+
+const std::vector<Chain> kChains = {
+    {"", {"core", "adapters", "cases", "bench", "tests"}},
+    {"core", {"base", "scene", "engine", "dynamics"}},
+    {"core/dynamics", {"kernels", "model", "integrators", "collision", "contact"}},
+    {"cases", {"case", "truth", "metrics", "results", "runner", "gates", "analysis", "report", "cli"}},
+};
+
+const fs::path kTop = RIGOR_SOURCE_DIR;
+
+bool is_source(const fs::path& path) { return path.extension() == ".cpp" || path.extension() == ".h"; }
+
+// Below `folder`, as paths from the top.
+Names sources_in(const std::string& folder) {
+  Names files;
+  for (const auto& entry : fs::recursive_directory_iterator(kTop / folder)) {
+    if (is_source(entry.path())) files.push_back(fs::relative(entry.path(), kTop).string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<Include> includes_of(const std::string& file) {
+  std::vector<Include> found;
+  std::ifstream in(kTop / file);
+  std::string text;
+  for (int line = 1; std::getline(in, text); ++line) {
+    if (!text.starts_with("#include ")) continue;
+    const std::size_t first = text.find_first_of("\"<"), last = text.find_last_of("\">");
+    BOOST_TEST_REQUIRE((first != std::string::npos && last > first));
+    found.push_back({file, line, text.substr(first + 1, last - first - 1)});
+  }
+  return found;
+}
+
+std::vector<Include> all_includes() {
+  std::vector<Include> all;
+  for (const std::string& room : kChains[0].rooms) {
+    for (const std::string& file : sources_in(room)) {
+      for (Include& one : includes_of(file)) all.push_back(std::move(one));
+    }
+  }
+  return all;
+}
+
+// The room of a path in a chain: nothing for one that is not below its folder, "" for a file of the folder itself.
+std::optional<std::string> room_of(const std::string& path, const Chain& chain) {
+  const std::string start = chain.folder.empty() ? "" : chain.folder + "/";
+  if (!path.starts_with(start)) return {};
+  const std::size_t slash = path.find('/', start.size());
+  return slash == std::string::npos ? "" : path.substr(start.size(), slash - start.size());
+}
+
+// Whether a line of `from` may include a file of `to`.
+bool is_allowed(const std::string& from, const std::string& to, const Chain& chain) {
+  const auto a = std::find(chain.rooms.begin(), chain.rooms.end(), from),
+             b = std::find(chain.rooms.begin(), chain.rooms.end(), to);
+  if (a == chain.rooms.end() || b == chain.rooms.end()) return false;
+  return b <= a && !(from == "tests" && to == "bench");
+}
+
+// "file:line: #include what": those that `is_wrong`.
+std::string wrong_ones(const std::vector<Include>& includes, const std::function<bool(const Include&)>& is_wrong) {
+  std::string text;
+  for (const Include& one : includes) {
+    if (is_wrong(one)) text += one.file + ":" + std::to_string(one.line) + ": #include " + one.what + "\n";
+  }
+  return text;
+}
+
+std::string arrows_back(const std::vector<Include>& includes, const Chain& chain) {
+  return wrong_ones(includes, [&](const Include& one) {
+    const auto from = room_of(one.file, chain), to = room_of(one.what, chain);
+    const bool is_ours = to && (!chain.folder.empty() || fs::exists(kTop / one.what));
+    return from && is_ours && !is_allowed(*from, *to, chain);
+  });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(rooms)
+
+BOOST_AUTO_TEST_CASE(a_room_includes_only_rooms_before_it) {
+  const std::vector<Include> includes = all_includes();
+  BOOST_TEST(includes.size() > 1000u);  // they are found at all
+  for (const Chain& chain : kChains) {
+    BOOST_TEST_CONTEXT("in " << (chain.folder.empty() ? "the house" : chain.folder))
+    BOOST_TEST(arrows_back(includes, chain) == "");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_arrow_back_is_printed_with_its_line) {
+  const Chain& cases = kChains.back();
+  BOOST_TEST(arrows_back({{"cases/case/case_reader.cpp", 8, "cases/metrics/metric.h"}}, cases) ==
+             "cases/case/case_reader.cpp:8: #include cases/metrics/metric.h\n");
+  BOOST_TEST(arrows_back({{"cases/metrics/metrics.cpp", 3, "cases/metrics/metric.h"}}, cases) == "");
+  BOOST_TEST(arrows_back({{"cases/cli/main.cpp", 1, "cases/attic/old.h"}}, cases) != "");  // a room that is no room
+  BOOST_TEST(arrows_back({{"core/base/math.h", 1, "adapters/engines.h"}}, kChains[0]) != "");
+}
+
+BOOST_AUTO_TEST_CASE(only_readers_and_writers_include_the_toml_library) {
+  BOOST_TEST(wrong_ones(all_includes(), [](const Include& one) {
+               const bool may = one.file.ends_with("_reader.cpp") || one.file.ends_with("_writer.cpp");
+               return one.what.starts_with("toml++") && !may;
+             }) == "");
+}
+
+BOOST_AUTO_TEST_CASE(only_its_adapter_includes_an_engine) {
+  const std::map<std::string, Names> headers = {{"ode", {"ode/"}},
+                                                {"bullet", {"bullet/", "btBullet", "Bullet", "LinearMath/"}}};
+  std::size_t met = 0;
+  const std::string wrong = wrong_ones(all_includes(), [&](const Include& one) {
+    if (one.file.starts_with("tests/") || one.file.starts_with("bench/")) return false;  // they hold ours against it
+    return std::any_of(headers.begin(), headers.end(), [&](const auto& engine) {
+      const bool is_its = std::any_of(engine.second.begin(), engine.second.end(),
+                                      [&](const std::string& start) { return one.what.starts_with(start); });
+      met += is_its;
+      return is_its && !one.file.starts_with("adapters/" + engine.first + "/");
+    });
+  });
+  BOOST_TEST(wrong == "");
+  BOOST_TEST(met > 0u);
+  // One adapter knows nothing of another; the table alone knows all of them.
+  BOOST_TEST(wrong_ones(all_includes(), [](const Include& one) {
+               const Chain adapters{"adapters", {}};
+               const auto from = room_of(one.file, adapters), to = room_of(one.what, adapters);
+               return from && to && !from->empty() && !to->empty() && *from != *to;
+             }) == "");
+}
+
+BOOST_AUTO_TEST_CASE(no_folder_holds_more_than_a_reader_can_take_in) {
+  constexpr int kMost = 25;  // files, beside the rows of a table: sources without a header of their own
+  std::map<std::string, int> count;
+  for (const std::string& room : {"core", "cases"}) {
+    for (const std::string& file : sources_in(room)) {
+      const fs::path path = file;
+      const bool is_row = path.extension() == ".cpp" && !fs::exists(kTop / fs::path(file).replace_extension(".h"));
+      if (!is_row) ++count[path.parent_path().string()];
+    }
+  }
+  for (const auto& [folder, files] : count) BOOST_TEST_CONTEXT(folder) BOOST_TEST(files <= kMost);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
