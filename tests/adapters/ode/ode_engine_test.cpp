@@ -3,6 +3,7 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 

@@ -295,7 +295,8 @@ BOOST_AUTO_TEST_CASE(a_multistep_method_forgets_when_it_is_moved) {
 BOOST_AUTO_TEST_CASE(a_method_knows_no_time_but_that_of_its_forces) {
   constexpr double kLater = 128, dt = 1.0 / 32;
   Scene scene = test::tumbling_body();
-  scene.forces = {{.body = 0, .force = {400, 0, 0}, .torque = {}, .point = {0, 0.5, 0}, .from = 0.0, .until = 64.0}};
+  scene.forces = {
+      {.body = 0, .force = {400, 0, 0}, .torque = Vec3::Zero(), .point = {0, 0.5, 0}, .from = 0.0, .until = 64.0}};
   for (const Method& method : every_method()) {
     BodyTable ends[2];
     for (const double start : {0.0, kLater}) {

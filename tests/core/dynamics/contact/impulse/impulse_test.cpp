@@ -189,8 +189,9 @@ BOOST_AUTO_TEST_CASE(a_rod_that_turns_by_half_a_turn_in_a_step_does_not_pass_thr
   const double expected = 2 * w * s / (1 / 0.5 + 1 / 3.0 + s * s / I) / 0.5;
   ContactRun run(scene, "impulse");
   run.step(dt);
-  BOOST_TEST_MESSAGE("the ball leaves at " << run.state().velocity(1).norm() << " of " << expected << " m/s");
-  BOOST_TEST(std::abs(run.state().velocity(1).norm() / expected - 1) < 0.25);
+  // Where in its sub-step of 1/240 s, an eighth of a turn of the rod, the blow falls is told ahead from its start:
+  // measured 0.9 %.
+  BOOST_TEST(std::abs(run.state().velocity(1).norm() / expected - 1) < 0.02);
 }
 
 BOOST_AUTO_TEST_CASE(a_box_that_comes_down_flat_stays_flat) {
