@@ -61,7 +61,7 @@ const std::vector<PoseStep>& LeastMotion::meet(BodyColumns state, const std::vec
   }
   std::vector<bool> is_used(demands.size(), true);
   Eigen::VectorXd push;
-  for (int choice = 0; choice < kMostChoices; ++choice) {
+  for (int choice = 0; choice < kMostChoices && !demands.empty(); ++choice) {
     push = pushes(demands, is_used);
     bool is_pulling = false;
     for (std::size_t i = 0; i < demands.size(); ++i) {
