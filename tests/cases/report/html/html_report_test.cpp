@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(names_that_would_do_harm_and_runs_of_every_ending_are_shown
   grid.cases.push_back(crowd(grid, 1, "<b>markup</b>/\"quoted\" & \xf0\x9f\x8e\xb2"));
   grid.cases.push_back(crowd(grid, 3, "endings/at its start", 1));
   grid.cases.push_back(crowd(grid, 3, "endings/without a sample", 0));
-  BOOST_TEST(grid.cases.back().cells.front().recordings.empty());
+  BOOST_TEST(grid.cases.back().cells.front().recordings.at("playback").empty());
   grid.cases.push_back(crowd(grid, 1000, "crowd/thousand"));
   grid.cases.back().definition.text = "# </script><script>window.harm = 1</script>\n";
   for (Status status : {Status::fail, Status::known_deviation, Status::unexpected_pass, Status::unsupported,
