@@ -28,6 +28,7 @@ int compare_command(const CommandLine& line);
 int baseline_command(const CommandLine& line);
 int trace_command(const CommandLine& line);
 int truth_command(const CommandLine& line);
+int settle_command(const CommandLine& line);
 
 // The one case that the words of `trace` and `truth` name.
 Case the_case(const CommandLine& line);
