@@ -43,6 +43,12 @@ const std::vector<CommandRow>& commands() {
        "a case or a file",
        {"--duration", "--suite", "--timeout", "--times"},
        truth_command},
+      {"settle",
+       "print a case file with the nearest initial velocities that its joints allow",
+       "FILE",
+       "a case file",
+       {},
+       settle_command},
   };
   return table;
 }

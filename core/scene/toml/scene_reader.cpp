@@ -19,8 +19,7 @@ class SceneReader {
   explicit SceneReader(InitialVelocities velocities) : velocities_(velocities) {}
 
   Scene read(const TomlValue& value) {
-    const TableReader table =
-        value.table({"gravity", "body", "array", "spring", "joint", "motor", "contact", "contact_default", "force"});
+    const TableReader table = value.table(scene_keys());
     if (const auto gravity = table.find("gravity")) scene_.gravity = gravity->vector();
     for (const TableReader& row : rows(table, "array", array_keys())) index_.add_array(read_array(row), row.at("body"));
     for (const TableReader& row : rows(table, "body", body_keys())) add_body(row);
@@ -152,6 +151,12 @@ class SceneReader {
 };
 
 }  // namespace
+
+const std::vector<std::string>& scene_keys() {
+  static const Keys keys = {"gravity", "body",    "array",           "spring", "joint",
+                            "motor",   "contact", "contact_default", "force"};
+  return keys;
+}
 
 Scene read_scene(const TomlValue& value, InitialVelocities velocities) { return SceneReader(velocities).read(value); }
 

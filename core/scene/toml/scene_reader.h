@@ -7,6 +7,9 @@ namespace rigor {
 
 class TomlValue;
 
+// The keys of [scene], in the order in which messages list them.
+const std::vector<std::string>& scene_keys();
+
 // Throws InputError with the file, line, column and key of the first thing that no scene can have. A contact pair that
 // leaves out its restitution or friction takes the one of contact_default, which is 0 if that leaves it out too.
 // Initial velocities that break a joint are refused, unless they are read to be mended.

@@ -27,6 +27,17 @@ std::string place(const std::string& path, const toml::source_position& position
   return fmt::format("{}:{}:{}", path, std::max<unsigned>(position.line, 1), std::max<unsigned>(position.column, 1));
 }
 
+// The library counts lines and columns from 1, and columns in characters of UTF-8.
+std::size_t offset_of(const std::string& text, const toml::source_position& position) {
+  std::size_t at = 0;
+  for (toml::source_index line = 1; line < position.line; ++line) at = text.find('\n', at) + 1;
+  for (toml::source_index column = 1; column < position.column && at < text.size(); ++column) {
+    ++at;
+    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) ++at;
+  }
+  return at;
+}
+
 std::string described(const toml::node& node) {
   if (const auto* text = node.as_string()) return fmt::format("a string, '{}'", shown(text->get()));
   if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
@@ -82,6 +93,10 @@ std::string shown(std::string_view text, std::size_t longest) {
 }
 
 std::string TomlValue::where() const { return place(document_->path, node_->source().begin); }
+
+TextRange TomlValue::range() const {
+  return {offset_of(document_->text, node_->source().begin), offset_of(document_->text, node_->source().end)};
+}
 
 std::string TomlValue::label() const { return name_.empty() ? where() : fmt::format("{}: {}", where(), name_); }
 
@@ -231,6 +246,8 @@ void TableReader::refuse_others(const std::string& complaint) const {
                                name_of(shown(unknown->str())), complaint, did_you_mean(unknown->str(), *allowed_),
                                listed(*allowed_)));
 }
+
+bool TableReader::is_inline() const { return table_->is_inline(); }
 
 std::string TableReader::name_of(std::string_view key) const {
   return self_.name_.empty() ? std::string(key) : fmt::format("{}.{}", self_.name_, key);

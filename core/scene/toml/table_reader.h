@@ -26,10 +26,15 @@ using Keys = std::vector<std::string>;
 
 inline constexpr std::size_t kLongestText = 4096;  // bytes of one string; it ends up in messages, tables and file names
 
+struct TextRange {
+  std::size_t begin, end;  // bytes
+};
+
 // A value, and the name by which messages call it: "scene.body.mass".
 class TomlValue {
  public:
   std::string where() const;  // "file:line:column"
+  TextRange range() const;    // of the value in the file's text
   std::string label() const;  // "file:line:column: key", how a message begins
   bool is_text() const;
   bool is_array() const;
@@ -72,6 +77,7 @@ class TableReader {
   void narrow(Keys allowed, const std::string& what);
 
   const TomlValue& self() const { return self_; }
+  bool is_inline() const;  // { key = value } on one line
   [[noreturn]] void refuse(const std::string& complaint) const { self_.refuse(complaint); }
 
  private:

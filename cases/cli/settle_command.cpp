@@ -1,0 +1,59 @@
+// rigor settle: the file with the nearest initial state that its joints allow. Poses are always allowed, for anchors
+// and axes are those at t = 0: it is velocities that may break a joint, and the nearest are those that differ least in
+// the metric of the masses.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "core/base/error.h"
+#include "core/dynamics/joints/joints.h"
+#include "core/scene/joint_rates.h"
+#include "core/scene/toml/scene_reader.h"
+#include "core/scene/toml/table_reader.h"
+#include "core/scene/toml/velocity_writer.h"
+
+namespace rigor {
+namespace {
+
+// Only bodies that some joint moves change, and by no rounding where they already do as the joints allow.
+void settle(Scene& scene) {
+  const auto breaks = [&](const Joint& joint) { return !why_rates_break(scene, joint).empty(); };
+  if (std::none_of(scene.joints.begin(), scene.joints.end(), breaks)) return;
+  const System system(scene);
+  Joints joints(scene, system);
+  BodyTable state(scene.bodies.size());
+  set_initial_state(scene, state.columns());
+  joints.project(state.columns());
+  if (const std::string why = joints.warning(); !why.empty()) throw InputError(why);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].fixed) continue;
+    scene.bodies[i].velocity = state.columns().velocity(i);
+    scene.bodies[i].angular_velocity = state.columns().angular_velocity(i);
+  }
+}
+
+}  // namespace
+
+int settle_command(const CommandLine& line) {
+  if (line.words.size() != 1) throw InputError("rigor settle: takes one file");
+  const TomlFile file = TomlFile::read(line.words.front());
+  const TableReader root = file.root({"title", "source", "scene", "run", "truth", "gate"});
+  Scene scene = read_scene(root.at("scene"), InitialVelocities::as_given);
+  settle(scene);
+  const std::string text = with_velocities(file, scene);
+  // What could not be written (the copies of an array) must not look as if it had been.
+  try {
+    read_scene(TomlFile::parse(text, line.words.front())
+                   .root({"title", "source", "scene", "run", "truth", "gate"})
+                   .at("scene"));
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}: no initial velocities that can be written settle it: {}", line.words.front(), error.what()));
+  }
+  print(text);
+  return kGood;
+}
+
+}  // namespace rigor

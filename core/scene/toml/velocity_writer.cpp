@@ -1,0 +1,60 @@
+#include "core/scene/toml/velocity_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/scene/toml/body_reader.h"
+#include "core/scene/toml/scene_reader.h"
+#include "core/scene/toml/table_reader.h"
+
+namespace rigor {
+namespace {
+
+struct Edit {
+  TextRange where;
+  std::string text;
+};
+
+std::string written(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0); }
+
+Vec3 as_read(const TableReader& row, std::string_view key) {
+  const auto value = row.find(key);
+  return value ? value->vector() : Vec3::Zero();
+}
+
+// In the place of what is there; else behind the name, which every body has.
+void add_edit(const TableReader& row, const std::string& key, const Vec3& wanted, const std::string& text,
+              std::vector<Edit>& edits) {
+  if (as_read(row, key) == wanted) return;
+  if (const auto value = row.find(key)) return edits.push_back({value->range(), written(wanted)});
+  const std::size_t end = row.at("name").range().end;
+  if (row.is_inline()) return edits.push_back({{end, end}, fmt::format(", {} = {}", key, written(wanted))});
+  const std::size_t line_end = std::min(text.find('\n', end), text.size());
+  edits.push_back({{line_end, line_end}, fmt::format("\n{} = {}", key, written(wanted))});
+}
+
+}  // namespace
+
+std::string with_velocities(const TomlFile& file, const Scene& settled) {
+  std::string text = file.text();
+  std::vector<Edit> edits;
+  const TableReader root = file.root({"title", "source", "scene", "run", "truth", "gate"});
+  const TableReader scene = root.at("scene").table(scene_keys());
+  for (const TableReader& row : scene.at("body").tables(body_keys())) {
+    const std::string name = row.at("name").text();
+    const auto body =
+        std::find_if(settled.bodies.begin(), settled.bodies.end(), [&](const Body& b) { return b.name == name; });
+    if (body == settled.bodies.end()) continue;  // of an array
+    add_edit(row, "velocity", body->velocity, text, edits);
+    add_edit(row, "angular_velocity", body->angular_velocity, text, edits);
+  }
+  std::stable_sort(edits.begin(), edits.end(),
+                   [](const Edit& a, const Edit& b) { return a.where.begin < b.where.begin; });
+  for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
+    text.replace(edit->where.begin, edit->where.end - edit->where.begin, edit->text);
+  return text;
+}
+
+}  // namespace rigor

@@ -1,0 +1,122 @@
+#include "core/dynamics/joints/joints.h"
+
+#include <boost/test/unit_test.hpp>
+#include <ctime>
+
+#include "core/dynamics/model/energy.h"
+
+#include "tests/core/dynamics/joints/jointed_run.h"
+#include "tests/scenes.h"
+
+using namespace rigor;
+
+namespace {
+
+// A chain of rods along x on hinges about z, from the world, let go.
+Scene chain(int links) {
+  Scene scene;
+  scene.gravity = {0, -9.81, 0};
+  for (int i = 0; i < links; ++i) {
+    scene.bodies.push_back(test::body("link", 0.1, {1e-5, 1e-4, 1e-4}, {0.1 * i + 0.05, 0, 0}));
+    scene.joints.push_back({i - 1, i, HingeJoint{{0.1 * i, 0, 0}, Vec3::UnitZ()}});
+  }
+  return scene;
+}
+
+double seconds_for(int links, int steps) {
+  const auto world = CoreEngine().load(chain(links), {.method = "semi-implicit-euler", .options = {}});
+  double best = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < 5; ++round) {
+    const auto start = std::clock();
+    for (int n = 0; n < steps; ++n) world->step(1e-3);
+    best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return best / links / steps;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_joints)
+
+// Rows and ranks as counted by hand and by singular values.
+BOOST_AUTO_TEST_CASE(redundant_rows_are_counted_at_the_start) {
+  const std::vector<std::tuple<std::string, int, int>> expected = {
+      {"joints/pendulum-90", 5, 5},        {"mechanisms/slider-crank", 20, 17}, {"mechanisms/four-bar", 20, 17},
+      {"mechanisms/iftomm-a02-2", 35, 29}, {"mechanisms/iftomm-a04", 30, 29},   {"mechanisms/iftomm-a02-40", 605, 485},
+      {"mechanisms/cardan-shaft", 20, 17}, {"mechanisms/trammel", 20, 17},      {"mechanisms/iftomm-a03", 50, 41}};
+  for (const auto& [id, rows, rank] : expected) {
+    const Scene scene = test::suite_scene(id);
+    const System system(scene);
+    const Joints joints(scene, system);
+    BOOST_TEST_CONTEXT(id) {
+      BOOST_TEST(joints.rows() == rows);
+      BOOST_TEST(joints.rank() == rank);
+      BOOST_TEST(joints.warning() == "");
+    }
+  }
+}
+
+// Two sliders at an angle hold a body; one that turns with a speed cannot be held by a third hinge off its axis.
+BOOST_AUTO_TEST_CASE(joints_that_contradict_each_other_are_named) {
+  Scene scene;
+  scene.bodies = {test::body("bar", 1, {1, 1, 1})};
+  scene.bodies[0].velocity = {1, 0, 0};
+  // Both distances turn about their own pivots, on one line: the centre may start across it, and cannot go on.
+  scene.joints = {{kWorld, 0, DistanceJoint{{0, 1, 0}, {0, 0, 0}}}, {kWorld, 0, DistanceJoint{{0, -1, 0}, {0, 0, 0}}}};
+  const System system(scene);
+  const Joints joints(scene, system);
+  BOOST_TEST(joints.rank() == 1);
+  BOOST_TEST((joints.warning().find("contradict") != std::string::npos));
+
+  const auto world = CoreEngine().load(scene, {.method = "rk4", .options = {}});
+  world->step(1e-3);
+  BOOST_TEST((world->solver_warning().find("the distance of 'world' and 'bar'") != std::string::npos));
+}
+
+// The least motion in the metric of the masses: of two bodies on one ball joint, pulled apart by a gap, each moves by
+// its share of the inverse masses, for the anchor is at both centres.
+BOOST_AUTO_TEST_CASE(projection_moves_each_body_by_its_inverse_mass) {
+  Scene scene;
+  scene.bodies = {test::body("light", 1, {1, 1, 1}), test::body("heavy", 3, {1, 1, 1})};
+  scene.joints = {{0, 1, BallJoint{{0, 0, 0}}}};
+  const System system(scene);
+  Joints joints(scene, system);
+  BodyTable state(2);
+  set_initial_state(scene, state.columns());
+  state.columns().set_position(0, {0.4, 0, 0});
+  state.columns().set_velocity(1, {0, 0, 4});
+  joints.project(state.columns());
+  BOOST_TEST((state.columns().position(0) - Vec3(0.1, 0, 0)).norm() < 1e-15);
+  BOOST_TEST((state.columns().position(1) - Vec3(0.1, 0, 0)).norm() < 1e-15);
+  BOOST_TEST((state.columns().velocity(0) - Vec3(0, 0, 3)).norm() < 1e-15);
+  BOOST_TEST((state.columns().velocity(1) - Vec3(0, 0, 3)).norm() < 1e-15);
+  BOOST_TEST(joints.warning() == "");
+}
+
+// A free mechanism keeps its momenta: the joints' forces are pairs. Springs and dampers take energy from it, not these.
+BOOST_AUTO_TEST_CASE(a_free_mechanism_keeps_its_momenta) {
+  const Scene scene = test::suite_scene("mechanisms/satellite");
+  BodyTable start(scene.bodies.size());
+  set_initial_state(scene, start.columns());
+  const auto momenta = [&](const BodyTable& state) {
+    Vec6 both;
+    both << linear_momentum(scene, state.columns()), angular_momentum(scene, state.columns(), Vec3::Zero());
+    return both;
+  };
+  const Vec6 before = momenta(start);
+  for (const char* method : {"semi-implicit-euler", "velocity-verlet", "rk4", "dormand-prince"}) {
+    const Vec6 after = momenta(test::state_after(scene, method, 0.01, 2));
+    // The linear momentum to rounding; the angular to the method's error of L, 1e-2 at first order.
+    BOOST_TEST_CONTEXT(method) { BOOST_TEST((after - before).head<3>().norm() < 1e-11 * before.norm()); }
+  }
+  const Vec6 after = momenta(test::state_after(scene, "dormand-prince", 0.01, 2));
+  BOOST_TEST((after - before).norm() < 1e-11 * before.norm());
+}
+
+// Elimination along a chain takes a time in proportion to it. A dense factor of 1000 links would take ten thousand
+// times that of 10 for each link; caches and a busy machine less than 4.
+BOOST_AUTO_TEST_CASE(a_link_of_a_thousand_costs_as_much_as_one_of_ten) {
+  BOOST_TEST(seconds_for(1000, 2) < 4 * seconds_for(10, 200));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

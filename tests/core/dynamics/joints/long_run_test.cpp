@@ -1,0 +1,53 @@
+// What joints keep over many steps: their gap, with every method; the energy, with symplectic ones.
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/joints/joints.h"
+#include "core/dynamics/model/energy.h"
+#include "tests/core/dynamics/joints/jointed_run.h"
+
+using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_long_run)
+
+// Each step ends on the joints to rounding, so that nothing can add up: 1e-10 m is asked of a million steps.
+BOOST_AUTO_TEST_CASE(no_method_lets_joints_part_in_ten_thousand_steps) {
+  for (const char* id : {"joints/double-pendulum", "mechanisms/four-bar"}) {
+    const Scene scene = test::suite_scene(id);
+    const System system(scene);
+    Joints joints(scene, system);
+    for (const Integrator& row : integrators()) {
+      if (!row.takes_joints || row.adaptive) continue;
+      const BodyTable end = test::state_after(scene, row.name, 1e-3, 10);
+      BOOST_TEST_CONTEXT(row.name << ", " << id) { BOOST_TEST(joints.gap(end.columns()) < 1e-13); }
+    }
+  }
+}
+
+// A hundred periods: the deviation of the energy from its start swings with the motion, and its largest value over the
+// second half is that over the first, to the thousandth of it that other phases of the same swing make.
+BOOST_AUTO_TEST_CASE(symplectic_methods_keep_the_energy_of_a_double_pendulum_bounded) {
+  const Scene scene = test::suite_scene("joints/double-pendulum");
+  for (const char* method : {"velocity-verlet", "moser-veselov", "symplectic4"}) {
+    const auto world = CoreEngine().load(scene, {.method = method, .options = {}});
+    Snapshot now;
+    world->read(now);
+    const double at_start = energy(scene, now.bodies());
+    double largest[2] = {0, 0};
+    for (const int half : {0, 1}) {
+      for (int n = 0; n < 10000; ++n) {
+        world->step(0.01);
+        world->read(now);
+        largest[half] = std::max(largest[half], std::abs(energy(scene, now.bodies()) - at_start));
+      }
+    }
+    BOOST_TEST_CONTEXT(method << ": " << largest[0] << " J, then " << largest[1]) {
+      BOOST_TEST(largest[0] > 0);
+      BOOST_TEST(largest[1] < 1.02 * largest[0]);
+      BOOST_TEST(largest[1] < 1e-4 * std::abs(at_start));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
