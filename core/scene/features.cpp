@@ -26,11 +26,6 @@ std::string friction_feature(double friction) {
   return friction == kInfiniteFriction ? "friction:infinite" : "friction:coulomb";
 }
 
-std::string joint_feature(const Joint& joint) {
-  constexpr const char* kNames[] = {"joint:ball", "joint:hinge", "joint:slider", "joint:fixed", "joint:distance"};
-  return kNames[joint.type.index()];
-}
-
 bool may_touch(const Body& a, const Body& b) { return a.collides && b.collides && !(a.fixed && b.fixed); }
 
 void add_contact_law(const ContactLaw& law, const std::string& because, NeedList& needs) {
@@ -39,7 +34,8 @@ void add_contact_law(const ContactLaw& law, const std::string& because, NeedList
 }
 
 // Bodies are grouped by shape and by whether they can move, so that ten thousand of them cost no pairwise search.
-void add_contacts(const Scene& scene, NeedList& needs) {
+// Returns whether any may touch.
+bool add_contacts(const Scene& scene, NeedList& needs) {
   std::map<std::pair<std::string, bool>, std::vector<int>> groups;
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     const Body& body = scene.bodies[i];
@@ -57,7 +53,7 @@ void add_contacts(const Scene& scene, NeedList& needs) {
       some_pair_has_the_default = true;
     }
   }
-  if (!some_pair_has_the_default) return;
+  if (!some_pair_has_the_default) return false;
 
   std::size_t laws_given = 0;
   for (const ContactPair& pair : scene.contact_pairs) {
@@ -70,6 +66,22 @@ void add_contacts(const Scene& scene, NeedList& needs) {
   for (const auto& [key, members] : groups) (key.second ? standing : moving) += members.size();
   if (laws_given < moving * (moving - 1) / 2 + moving * standing)
     add_contact_law(scene.contact_default, because, needs);
+  return true;
+}
+
+void add_joint(const Scene& scene, std::size_t k, NeedList& needs) {
+  const Joint& joint = scene.joints[k];
+  const std::string because = scene.joint_name(k);
+  needs.add("joint:" + joint_type_name(joint), because);
+  if (joint.stiffness > 0) needs.add("joint-spring", because);
+  if (joint.damping > 0) needs.add("joint-damper", because);
+  if (joint.has_limits()) needs.add("joint-limit", because);
+}
+
+bool is_damped(const Scene& scene) {
+  const auto damps = [](const auto& row) { return row.damping > 0; };
+  return std::any_of(scene.springs.begin(), scene.springs.end(), damps) ||
+         std::any_of(scene.joints.begin(), scene.joints.end(), damps);
 }
 
 }  // namespace
@@ -108,11 +120,15 @@ std::vector<Need> needs_of(const Scene& scene) {
   if (!scene.forces.empty()) {
     needs.add("timed-force", fmt::format("a force on '{}'", scene.body_name(scene.forces.front().body)));
   }
-  for (const Joint& joint : scene.joints) {
-    needs.add(joint_feature(joint),
-              fmt::format("a joint between '{}' and '{}'", scene.body_name(joint.a), scene.body_name(joint.b)));
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) add_joint(scene, k, needs);
+  for (const Motor& motor : scene.motors) {
+    needs.add(motor.speed ? "motor:speed" : "motor:effort",
+              fmt::format("a motor on {}", scene.joint_name(static_cast<std::size_t>(motor.joint))));
   }
-  add_contacts(scene, needs);
+  const bool touches = add_contacts(scene, needs);
+  if (scene.joints.empty()) return needs.take();
+  if (touches) needs.add("joints-with-contacts", "the scene, which has both joints and bodies that may touch,");
+  if (is_damped(scene)) needs.add("joints-with-dampers", "the scene, which has both joints and dampers,");
   return needs.take();
 }
 

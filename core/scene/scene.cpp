@@ -1,5 +1,7 @@
 #include "core/scene/scene.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <numbers>
 
@@ -43,11 +45,32 @@ ContactLaw Scene::contact_law(int a, int b) const {
   return contact_default;
 }
 
+std::string Scene::joint_name(std::size_t index) const {
+  const Joint& joint = joints[index];
+  if (!joint.name.empty()) return fmt::format("joint '{}'", joint.name);
+  return fmt::format("the {} of '{}' and '{}'", joint_type_name(joint), body_name(joint.a), body_name(joint.b));
+}
+
+BodyPose Scene::pose(int body) const {
+  return body == kWorld ? BodyPose{} : BodyPose{bodies[body].position, bodies[body].orientation};
+}
+
 Mat3 inertia_of(const Shape& shape, double mass) { return std::visit(SolidInertia{mass}, shape); }
 
 std::string shape_name(const Shape& shape) {
   constexpr const char* kNames[] = {"sphere", "box", "capsule", "plane"};
   return kNames[shape.index()];
+}
+
+std::string joint_type_name(const Joint& joint) {
+  constexpr const char* kNames[] = {"ball", "hinge", "slider", "fixed", "distance", "universal"};
+  return kNames[joint.type.index()];
+}
+
+const Vec3* free_axis(const Joint& joint) {
+  if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) return &hinge->axis;
+  if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) return &slider->axis;
+  return nullptr;
 }
 
 }  // namespace rigor

@@ -56,23 +56,55 @@ struct Spring {
   double rest_length = 0;       // m
 };
 
+// What holds two bodies together, as rows that the motion must meet: 3, 5, 5, 6, 1 and 4. Nothing is said of how.
 struct BallJoint {
-  Vec3 anchor;  // m, in W at t = 0
+  Vec3 anchor;  // m, in W at t = 0: a point that both share
 };
 struct HingeJoint {
   Vec3 anchor;  // m, in W at t = 0
-  Vec3 axis;    // unit, in W at t = 0
+  Vec3 axis;    // unit, in W at t = 0: a direction that both share
 };
+// b does not turn against a, and its centre keeps its offset across the axis, which is fixed in a.
 struct SliderJoint {
   Vec3 axis;  // unit, in W at t = 0
 };
 struct FixedJoint {};
+// The distance of the two points stays what it is at t = 0.
 struct DistanceJoint {
   Vec3 point_a, point_b;  // m, in the bodies' frames
 };
+// axis is fixed in a, axis2 in b, and they stay at right angles.
+struct UniversalJoint {
+  Vec3 anchor;  // m, in W at t = 0
+  Vec3 axis;    // unit, in W at t = 0
+  Vec3 axis2;   // unit, in W at t = 0
+};
+
+// A hinge's angle [rad] is that by which b has turned against a about the axis since t = 0, from -pi to pi; a slider's
+// way [m] is how far b's centre has come along it. Spring, damper and limits act on that coordinate x alone:
+//   effort on b = -stiffness (x - rest) - damping x',   the opposite on a.
 struct Joint {
   int a = kWorld, b = kWorld;
-  std::variant<BallJoint, HingeJoint, SliderJoint, FixedJoint, DistanceJoint> type;
+  std::variant<BallJoint, HingeJoint, SliderJoint, FixedJoint, DistanceJoint, UniversalJoint> type;
+  std::string name = "";                                    // as motors call it; see Scene::joint_name()
+  double stiffness = 0;                                     // N m/rad, N/m
+  double damping = 0;                                       // N m s/rad, N s/m
+  double rest = 0;                                          // rad, m
+  double lower = -std::numeric_limits<double>::infinity();  // rad, m; at most 0
+  double upper = std::numeric_limits<double>::infinity();   // rad, m; at least 0
+  double restitution = 0;                                   // of its limits, 0..1
+
+  bool has_limits() const { return std::isfinite(lower) || std::isfinite(upper); }
+};
+
+// Acts on a hinge's angle or a slider's way while from <= t < until: by a given effort, or by what keeps a given speed.
+struct Motor {
+  int joint;                                               // index
+  double effort = 0;                                       // N m, N: on b along the axis, the opposite on a
+  std::optional<double> speed;                             // rad/s, m/s: kept instead, with an effort of at most `most`
+  double most = 0;                                         // N m, N
+  double from = 0;                                         // s
+  double until = std::numeric_limits<double>::infinity();  // s
 };
 
 // Values of a pair of bodies, for engines combine per-body values by different rules.
@@ -95,17 +127,25 @@ struct TimedForce {
   double until = std::numeric_limits<double>::infinity();  // s
 };
 
+struct BodyPose {
+  Vec3 position = Vec3::Zero();         // m, in W
+  Quat orientation = Quat::Identity();  // B to W
+};
+
 struct Scene {
   Vec3 gravity = Vec3::Zero();  // m/s²
   std::vector<Body> bodies;
   std::vector<Spring> springs;
   std::vector<Joint> joints;
+  std::vector<Motor> motors;
   std::vector<ContactPair> contact_pairs;
   ContactLaw contact_default;  // for each pair without a row of its own
   std::vector<TimedForce> forces;
 
   ContactLaw contact_law(int a, int b) const;  // the order of a and b does not matter
   std::string body_name(int index) const { return index == kWorld ? "world" : bodies[index].name; }
+  std::string joint_name(std::size_t index) const;  // its own, or "the hinge of 'world' and 'rod'"
+  BodyPose pose(int body) const;                    // at t = 0; of the world, W itself
 };
 
 // The inertia about the centre of mass [kg m², in B] of a solid body of even density. A plane has none.
@@ -113,5 +153,11 @@ Mat3 inertia_of(const Shape& shape, double mass);
 
 // "sphere", "box", "capsule", "plane": the word the case file uses.
 std::string shape_name(const Shape& shape);
+
+// "ball", "hinge", "slider", "fixed", "distance", "universal": the word the case file uses.
+std::string joint_type_name(const Joint& joint);
+
+// A hinge's or slider's axis, in W at t = 0; null for a joint without one coordinate of its own.
+const Vec3* free_axis(const Joint& joint);
 
 }  // namespace rigor

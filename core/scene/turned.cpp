@@ -18,6 +18,9 @@ struct TurnJoint {
   void operator()(BallJoint& joint) const { joint.anchor = turn * joint.anchor; }
   void operator()(HingeJoint& joint) const { joint.anchor = turn * joint.anchor, joint.axis = turn * joint.axis; }
   void operator()(SliderJoint& joint) const { joint.axis = turn * joint.axis; }
+  void operator()(UniversalJoint& joint) const {
+    joint.anchor = turn * joint.anchor, joint.axis = turn * joint.axis, joint.axis2 = turn * joint.axis2;
+  }
   void operator()(FixedJoint&) const {}
   void operator()(DistanceJoint&) const {}
 };

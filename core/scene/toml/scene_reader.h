@@ -1,4 +1,4 @@
-// [scene] of a case file: bodies, springs, joints, contacts and forces.
+// [scene] of a case file: bodies and arrays of them, springs, joints, motors, contacts and forces.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -9,6 +9,8 @@ class TomlValue;
 
 // Throws InputError with the file, line, column and key of the first thing that no scene can have. A contact pair that
 // leaves out its restitution or friction takes the one of contact_default, which is 0 if that leaves it out too.
-Scene read_scene(const TomlValue& value);
+// Initial velocities that break a joint are refused, unless they are read to be mended.
+enum class InitialVelocities { checked, as_given };
+Scene read_scene(const TomlValue& value, InitialVelocities velocities = InitialVelocities::checked);
 
 }  // namespace rigor

@@ -1,0 +1,22 @@
+// [[scene.joint]] and [[scene.motor]].
+#pragma once
+
+#include "core/scene/scene.h"
+#include "core/scene/toml/body_index.h"
+
+namespace rigor {
+
+const Keys& joint_keys();
+const Keys& motor_keys();
+
+// Throws InputError for what no joint can be, given its ends, which the scene has checked. `check_velocities`: also for
+// initial velocities that break it.
+Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool check_velocities);
+
+// The joint is one of the scene's, by name.
+Motor read_motor(const TableReader& row, const Scene& scene);
+
+// [from, until) of a force or motor [s].
+void read_times(const TableReader& row, double& from, double& until);
+
+}  // namespace rigor
