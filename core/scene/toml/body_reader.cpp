@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <limits>
-
 #include "core/scene/toml/table_reader.h"
+#include "core/scene/validate.h"
 
 namespace rigor {
 namespace {
@@ -65,32 +63,12 @@ Mat3 matrix_of_six(const std::vector<double>& v) {
   return m;
 }
 
-// What is wrong with an inertia; empty if it is one that matter can have: each principal moment is positive, and none
-// is greater than the sum of the other two.
-std::string complaint_about(const Mat3& inertia) {
-  if (!inertia.allFinite()) return "its moments are not finite";
-  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();  // ascending
-  const double largest = moments[2];
-  // The eigenvalues of a singular matrix come out as a few roundings of the largest instead of 0.
-  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
-  const std::string found =
-      fmt::format("its principal moments are {:.6g}, {:.6g} and {:.6g} kg m²", moments[0], moments[1], moments[2]);
-  if (!(moments[0] > kRounding * largest)) return found + ", and each must be greater than 0";
-  // A flat body's largest moment is the sum of the others. Written with six digits, each is off by at most 5e-6 of
-  // itself, so that the three miss the sum by at most 1e-5 of the largest.
-  constexpr double kWrittenDigits = 1e-5;
-  if (largest - moments[1] > moments[0] + kWrittenDigits * largest) {
-    return found + ", and none may be greater than the sum of the other two";
-  }
-  return "";
-}
-
 Mat3 read_inertia(const TableReader& row, const Body& body) {
   if (const auto value = row.find("inertia")) {
     const auto v = value->numbers({3, 6});
     const Mat3 inertia = v.size() == 3 ? Mat3(Vec3(v[0], v[1], v[2]).asDiagonal()) : matrix_of_six(v);
-    if (const auto complaint = complaint_about(inertia); !complaint.empty()) {
-      value->refuse(fmt::format("no body has this inertia: {}", complaint));
+    if (const auto why = why_no_inertia(inertia); !why.empty()) {
+      value->refuse(fmt::format("no body has this inertia: {}", why));
     }
     return inertia;
   }
@@ -98,8 +76,8 @@ Mat3 read_inertia(const TableReader& row, const Body& body) {
     row.refuse(
         fmt::format("body '{}' can move and has neither an inertia nor a shape to take it from", shown(body.name)));
   const Mat3 inertia = inertia_of(*body.shape, body.mass);
-  if (const auto complaint = complaint_about(inertia); !complaint.empty()) {
-    row.at("shape").refuse(fmt::format("no inertia can be taken from this shape: {}", complaint));
+  if (const auto why = why_no_inertia(inertia); !why.empty()) {
+    row.at("shape").refuse(fmt::format("no inertia can be taken from this shape: {}", why));
   }
   return inertia;
 }
@@ -116,7 +94,7 @@ Quat read_orientation(const TomlValue& value) {
   const Eigen::Vector4d wxyz(q[0], q[1], q[2], q[3]);
   if (wxyz.isZero(0))
     value.refuse("found the zero quaternion, which is no rotation; allowed: [w, x, y, z] of any other length");
-  const Eigen::Vector4d unit = wxyz.stableNormalized();
+  const Eigen::Vector4d unit = is_unit(wxyz.squaredNorm()) ? wxyz : wxyz.stableNormalized();
   return {unit[0], unit[1], unit[2], unit[3]};
 }
 

@@ -11,6 +11,7 @@
 #include "core/base/near_match.h"
 #include "core/scene/toml/file_reader.h"
 #include "core/scene/toml/key_depth.h"
+#include "core/scene/validate.h"
 
 namespace rigor {
 
@@ -153,7 +154,7 @@ Vec3 TomlValue::vector() const {
 Vec3 TomlValue::direction() const {
   const Vec3 value = vector();
   if (value.isZero(0)) refuse("found [0, 0, 0], which points nowhere; allowed: a vector of any other length");
-  return value.stableNormalized();
+  return is_unit(value.squaredNorm()) ? value : value.stableNormalized();
 }
 
 std::string TomlValue::text() const {

@@ -63,7 +63,8 @@ class Fields {
     if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) add(hinge->anchor), add(hinge->axis);
     if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) add(slider->axis);
     if (const auto* rod = std::get_if<DistanceJoint>(&joint.type)) add(rod->point_a), add(rod->point_b);
-    if (const auto* cross = std::get_if<UniversalJoint>(&joint.type)) add(cross->anchor), add(cross->axis), add(cross->axis2);
+    if (const auto* cross = std::get_if<UniversalJoint>(&joint.type))
+      add(cross->anchor), add(cross->axis), add(cross->axis2);
   }
 
   std::vector<std::string> all_;
