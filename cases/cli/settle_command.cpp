@@ -36,7 +36,7 @@ void settle(Scene& scene) {
 
 }  // namespace
 
-int settle_command(const CommandLine& line) {
+int settle_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 1) throw InputError("rigor settle: takes one file");
   const TomlFile file = TomlFile::read(line.words.front());
   const TableReader root = file.root({"title", "source", "scene", "run", "truth", "gate"});

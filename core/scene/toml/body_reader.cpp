@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <limits>
-
 #include "core/base/unit_vector.h"
 #include "core/scene/toml/table_reader.h"
+#include "core/scene/validate.h"
 
 namespace rigor {
 namespace {
@@ -66,32 +64,12 @@ Mat3 matrix_of_six(const std::vector<double>& v) {
   return m;
 }
 
-// What is wrong with an inertia; empty if it is one that matter can have: each principal moment is positive, and none
-// is greater than the sum of the other two.
-std::string complaint_about(const Mat3& inertia) {
-  if (!inertia.allFinite()) return "its moments are not finite";
-  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();  // ascending
-  const double largest = moments[2];
-  // The eigenvalues of a singular matrix come out as a few roundings of the largest instead of 0.
-  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
-  const std::string found =
-      fmt::format("its principal moments are {:.6g}, {:.6g} and {:.6g} kg m²", moments[0], moments[1], moments[2]);
-  if (!(moments[0] > kRounding * largest)) return found + ", and each must be greater than 0";
-  // A flat body's largest moment is the sum of the others. Written with six digits, each is off by at most 5e-6 of
-  // itself, so that the three miss the sum by at most 1e-5 of the largest.
-  constexpr double kWrittenDigits = 1e-5;
-  if (largest - moments[1] > moments[0] + kWrittenDigits * largest) {
-    return found + ", and none may be greater than the sum of the other two";
-  }
-  return "";
-}
-
 Mat3 read_inertia(const TableReader& row, const Body& body) {
   if (const auto value = row.find("inertia")) {
     const auto v = value->numbers({3, 6});
     const Mat3 inertia = v.size() == 3 ? Mat3(Vec3(v[0], v[1], v[2]).asDiagonal()) : matrix_of_six(v);
-    if (const auto complaint = complaint_about(inertia); !complaint.empty()) {
-      value->refuse(fmt::format("no body has this inertia: {}", complaint));
+    if (const auto why = why_no_inertia(inertia); !why.empty()) {
+      value->refuse(fmt::format("no body has this inertia: {}", why));
     }
     return inertia;
   }
@@ -99,8 +77,8 @@ Mat3 read_inertia(const TableReader& row, const Body& body) {
     row.refuse(
         fmt::format("body '{}' can move and has neither an inertia nor a shape to take it from", shown(body.name)));
   const Mat3 inertia = inertia_of(*body.shape, body.mass);
-  if (const auto complaint = complaint_about(inertia); !complaint.empty()) {
-    row.at("shape").refuse(fmt::format("no inertia can be taken from this shape: {}", complaint));
+  if (const auto why = why_no_inertia(inertia); !why.empty()) {
+    row.at("shape").refuse(fmt::format("no inertia can be taken from this shape: {}", why));
   }
   return inertia;
 }

@@ -16,7 +16,7 @@ using JointType = decltype(Joint::type);
 struct JointRow {
   std::string name;
   Keys keys;  // beside those of every joint
-  JointType (*read)(const TableReader& row, const Scene& scene, const Ends& ends);
+  JointType (*read)(const TableReader& row, const Ends& ends);
 };
 
 const Keys kOfEvery = {"type", "name", "a", "b"};
@@ -24,53 +24,32 @@ const Keys kOfCoordinate = {"stiffness", "damping", "rest", "lower", "upper", "r
 
 Vec3 anchor_of(const TableReader& row, const Ends& ends) { return row.at("anchor").vector() + ends.offset; }
 
-JointType read_distance(const TableReader& row, const Scene& scene, const Ends& ends) {
+JointType read_distance(const TableReader& row, const Ends& ends) {
   const auto point = [&](const char* key, int body) -> Vec3 {
     return row.at(key).vector() + (body == kWorld ? ends.offset : Vec3::Zero());
   };
-  const DistanceJoint type{point("point_a", ends.a), point("point_b", ends.b)};
-  const auto in_world = [&](int body, const Vec3& p) -> Vec3 {
-    return scene.pose(body).position + scene.pose(body).orientation * p;
-  };
-  const double distance = (in_world(ends.b, type.point_b) - in_world(ends.a, type.point_a)).stableNorm();
-  if (!(distance > 0)) {
-    row.at("point_b").refuse(
-        "the two points coincide at t = 0, so their distance has no direction; allowed: points apart");
-  }
-  if (!std::isfinite(distance)) row.refuse("the distance between its ends is too large for a number");
-  return type;
+  return DistanceJoint{point("point_a", ends.a), point("point_b", ends.b)};
 }
 
-JointType read_universal(const TableReader& row, const Scene&, const Ends& ends) {
-  const UniversalJoint type{anchor_of(row, ends), row.at("axis").direction(), row.at("axis2").direction()};
-  // Six digits written of each component leave so much of a right angle.
-  constexpr double kRight = 1e-5;
-  if (const double cosine = type.axis.dot(type.axis2); std::abs(cosine) > kRight) {
-    row.at("axis2").refuse(fmt::format("found an angle of {:.6g}° to axis; allowed: a right angle",
-                                       std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / M_PI));
-  }
-  return type;
+JointType read_universal(const TableReader& row, const Ends& ends) {
+  return UniversalJoint{anchor_of(row, ends), row.at("axis").direction(), row.at("axis2").direction()};
 }
 
 const std::vector<JointRow>& joint_rows() {
   static const std::vector<JointRow> rows = {
       {"ball",
        {"anchor"},
-       [](const TableReader& row, const Scene&, const Ends& ends) -> JointType {
-         return BallJoint{anchor_of(row, ends)};
-       }},
+       [](const TableReader& row, const Ends& ends) -> JointType { return BallJoint{anchor_of(row, ends)}; }},
       {"distance", {"point_a", "point_b"}, read_distance},
-      {"fixed", {}, [](const TableReader&, const Scene&, const Ends&) -> JointType { return FixedJoint{}; }},
+      {"fixed", {}, [](const TableReader&, const Ends&) -> JointType { return FixedJoint{}; }},
       {"hinge",
        {"anchor", "axis"},
-       [](const TableReader& row, const Scene&, const Ends& ends) -> JointType {
+       [](const TableReader& row, const Ends& ends) -> JointType {
          return HingeJoint{anchor_of(row, ends), row.at("axis").direction()};
        }},
       {"slider",
        {"axis"},
-       [](const TableReader& row, const Scene&, const Ends&) -> JointType {
-         return SliderJoint{row.at("axis").direction()};
-       }},
+       [](const TableReader& row, const Ends&) -> JointType { return SliderJoint{row.at("axis").direction()}; }},
       {"universal", {"anchor", "axis", "axis2"}, read_universal},
   };
   return rows;
@@ -126,6 +105,12 @@ const Keys& motor_keys() {
   return keys;
 }
 
+void refuse_if(const std::optional<SceneFault>& fault, const TableReader& row) {
+  if (!fault) return;
+  if (fault->key.empty() || !row.find(fault->key)) row.refuse(fault->what);
+  row.at(fault->key).refuse(fault->what);
+}
+
 Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool check_velocities) {
   Keys names;
   for (const JointRow& type : joint_rows()) names.push_back(type.name);
@@ -134,7 +119,7 @@ Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool che
       std::find_if(joint_rows().begin(), joint_rows().end(), [&](const JointRow& r) { return r.name == name; });
   Joint joint;
   joint.a = ends.a, joint.b = ends.b;
-  joint.type = type->read(row, scene, ends);
+  joint.type = type->read(row, ends);
   const bool has_coordinate = free_axis(joint) != nullptr;
   Keys keys = kOfEvery;
   keys.insert(keys.end(), type->keys.begin(), type->keys.end());
@@ -142,6 +127,7 @@ Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool che
   row.narrow(keys, fmt::format("a {} joint", name));
   if (const auto own = row.find("name")) joint.name = own->text() + ends.copy;
   if (has_coordinate) read_coordinate(row, joint);
+  refuse_if(fault_of(joint, scene), row);
   if (!check_velocities) return joint;
   if (const std::string why = why_rates_break(scene, joint); !why.empty())
     row.refuse(why + "; `rigor settle` prints the file with velocities that do not");
@@ -150,10 +136,7 @@ Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool che
 
 void read_times(const TableReader& row, double& from, double& until) {
   if (const auto value = row.find("from")) from = value->non_negative();
-  if (const auto value = row.find("until")) {
-    until = value->number();
-    if (until <= from) value->refuse(fmt::format("found {}; allowed: a time after from, which is {} s", until, from));
-  }
+  if (const auto value = row.find("until")) until = value->number();
 }
 
 Motor read_motor(const TableReader& row, const Scene& scene) {
@@ -161,10 +144,7 @@ Motor read_motor(const TableReader& row, const Scene& scene) {
   const std::size_t joint = find_joint(row.at("joint"), scene);
   motor.joint = static_cast<int>(joint);
   const std::string type = joint_type_name(scene.joints[joint]);
-  if (!free_axis(scene.joints[joint])) {
-    row.at("joint").refuse(
-        fmt::format("is a {} joint, which has no axis to drive; allowed: a hinge or a slider", type));
-  }
+  if (!free_axis(scene.joints[joint])) refuse_if(fault_of(motor, scene), row);
   const std::string effort = type == "hinge" ? "torque" : "force", other = type == "hinge" ? "force" : "torque";
   if (const auto wrong = row.find(other)) wrong->refuse(fmt::format("a {} takes a {}", type, effort));
   const auto given = row.find(effort), speed = row.find("speed"), most = row.find("most");
@@ -174,6 +154,7 @@ Motor read_motor(const TableReader& row, const Scene& scene) {
   if (speed) motor.speed = speed->number(), motor.most = row.at("most").positive();
   if (most && !speed) most->refuse(fmt::format("bounds what keeps a speed; allowed: speed, too, or {} alone", effort));
   read_times(row, motor.from, motor.until);
+  refuse_if(fault_of(motor, scene), row);
   return motor;
 }
 

@@ -134,12 +134,12 @@ class SceneReader {
   TimedForce read_force(const TableReader& row) const {
     TimedForce force;
     force.body = index_.body(row.at("body"));
-    if (!can_move(force.body)) row.at("body").refuse("the body is fixed, so no force can move it");
     if (!row.find("force") && !row.find("torque")) row.refuse("gives neither force nor torque; allowed: one or both");
     force.force = vector_or_zero(row, "force");
     force.torque = vector_or_zero(row, "torque");
     force.point = vector_or_zero(row, "point");
     read_times(row, force.from, force.until);
+    refuse_if(fault_of(force, scene_), row);
     return force;
   }
 

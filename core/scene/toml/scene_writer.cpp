@@ -1,0 +1,161 @@
+#include "core/scene/toml/scene_writer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace rigor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+void add_unless_infinite(Json& row, const char* key, double value) {
+  if (std::isfinite(value)) row[key] = value;
+}
+
+struct ShapeRow {
+  Json operator()(const Sphere& sphere) const { return {{"radius", sphere.radius}}; }
+  Json operator()(const Box& box) const { return {{"size", list(box.size)}}; }
+  Json operator()(const Capsule& capsule) const { return {{"radius", capsule.radius}, {"length", capsule.length}}; }
+  Json operator()(const Plane& plane) const { return {{"normal", list(plane.normal)}, {"offset", plane.offset}}; }
+};
+
+Json row_of(const Shape& shape) {
+  Json row = {{"type", shape_name(shape)}};
+  row.update(std::visit(ShapeRow(), shape));
+  return row;
+}
+
+Json row_of(const Body& body) {
+  const Mat3& m = body.inertia;
+  Json row = {
+      {"name", body.name}, {"mass", body.mass}, {"inertia", {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}}};
+  if (!body.shape || !std::holds_alternative<Plane>(*body.shape)) {  // a plane lies where its normal and offset say
+    const Quat& q = body.orientation;
+    row["position"] = list(body.position);
+    row["orientation_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
+  }
+  row["velocity"] = list(body.velocity), row["angular_velocity"] = list(body.angular_velocity);
+  if (body.shape) row["shape"] = row_of(*body.shape);
+  row["collides"] = body.collides, row["fixed"] = body.fixed;
+  return row;
+}
+
+Json row_of(const Spring& spring, const Scene& scene) {
+  return {{"a", scene.body_name(spring.a)},   {"point_a", list(spring.point_a)}, {"b", scene.body_name(spring.b)},
+          {"point_b", list(spring.point_b)},  {"stiffness", spring.stiffness},   {"damping", spring.damping},
+          {"rest_length", spring.rest_length}};
+}
+
+struct JointRow {
+  Json operator()(const BallJoint& joint) const { return {{"anchor", list(joint.anchor)}}; }
+  Json operator()(const HingeJoint& joint) const {
+    return {{"anchor", list(joint.anchor)}, {"axis", list(joint.axis)}};
+  }
+  Json operator()(const SliderJoint& joint) const { return {{"axis", list(joint.axis)}}; }
+  Json operator()(const FixedJoint&) const { return Json::object(); }
+  Json operator()(const DistanceJoint& joint) const {
+    return {{"point_a", list(joint.point_a)}, {"point_b", list(joint.point_b)}};
+  }
+  Json operator()(const UniversalJoint& joint) const {
+    return {{"anchor", list(joint.anchor)}, {"axis", list(joint.axis)}, {"axis2", list(joint.axis2)}};
+  }
+};
+
+Json row_of(const Joint& joint, const Scene& scene) {
+  Json row = {{"type", joint_type_name(joint)}};
+  if (!joint.name.empty()) row["name"] = joint.name;
+  row["a"] = scene.body_name(joint.a), row["b"] = scene.body_name(joint.b);
+  row.update(std::visit(JointRow(), joint.type));
+  if (!free_axis(joint)) return row;
+  row["stiffness"] = joint.stiffness, row["damping"] = joint.damping;
+  if (joint.stiffness > 0) row["rest"] = joint.rest;
+  add_unless_infinite(row, "lower", joint.lower);
+  add_unless_infinite(row, "upper", joint.upper);
+  if (joint.has_limits()) row["restitution"] = joint.restitution;
+  return row;
+}
+
+void add_times(Json& row, double from, double until) {
+  row["from"] = from;
+  add_unless_infinite(row, "until", until);
+}
+
+Json row_of(const Motor& motor, const Scene& scene) {
+  const Joint& joint = scene.joints[static_cast<std::size_t>(motor.joint)];
+  Json row = {{"joint", joint.name}};
+  if (motor.speed) {
+    row["speed"] = *motor.speed, row["most"] = motor.most;
+  } else {
+    row[std::holds_alternative<HingeJoint>(joint.type) ? "torque" : "force"] = motor.effort;
+  }
+  add_times(row, motor.from, motor.until);
+  return row;
+}
+
+Json row_of(const ContactLaw& law) {
+  return {{"restitution", law.restitution},
+          {"friction", std::isfinite(law.friction) ? Json(law.friction) : Json("infinite")}};
+}
+
+Json row_of(const ContactPair& pair, const Scene& scene) {
+  Json row = {{"a", scene.body_name(pair.a)}, {"b", scene.body_name(pair.b)}};
+  row.update(row_of(pair.law));
+  return row;
+}
+
+Json row_of(const TimedForce& force, const Scene& scene) {
+  Json row = {{"body", scene.body_name(force.body)},
+              {"force", list(force.force)},
+              {"torque", list(force.torque)},
+              {"point", list(force.point)}};
+  add_times(row, force.from, force.until);
+  return row;
+}
+
+template <typename Rows>
+void add_rows(Json& tree, const char* key, const Rows& rows, const Scene& scene) {
+  for (const auto& row : rows) tree[key].push_back(row_of(row, scene));
+}
+
+Json tree_of(const Scene& scene) {
+  Json tree = {{"gravity", list(scene.gravity)}, {"contact_default", row_of(scene.contact_default)}};
+  for (const Body& body : scene.bodies) tree["body"].push_back(row_of(body));
+  add_rows(tree, "spring", scene.springs, scene);
+  add_rows(tree, "joint", scene.joints, scene);
+  add_rows(tree, "motor", scene.motors, scene);
+  add_rows(tree, "contact", scene.contact_pairs, scene);
+  add_rows(tree, "force", scene.forces, scene);
+  return tree;
+}
+
+// Numbers, texts, flags and lists of JSON are TOML as they stand; only its objects are not.
+std::string toml_of(const Json& value) {
+  if (!value.is_object()) return value.dump();
+  std::string text;
+  for (const auto& [key, part] : value.items())
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, toml_of(part));
+  return "{ " + text + " }";
+}
+
+}  // namespace
+
+std::string scene_json(const Scene& scene) { return tree_of(scene).dump(); }
+
+std::string scene_toml(const Scene& scene) {
+  std::string values = "[scene]\n", tables;
+  for (const auto& [key, value] : tree_of(scene).items()) {
+    const bool is_table = value.is_array() && value.front().is_object();
+    if (!is_table) values += fmt::format("{} = {}\n", key, toml_of(value));
+    for (std::size_t n = 0; is_table && n < value.size(); ++n) {
+      tables += fmt::format("\n[[scene.{}]]\n", key);
+      for (const auto& [name, part] : value[n].items()) tables += fmt::format("{} = {}\n", name, toml_of(part));
+    }
+  }
+  return values + tables;
+}
+
+}  // namespace rigor

@@ -1,0 +1,256 @@
+#include "core/scene/validate.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace rigor {
+namespace {
+
+using Fault = std::optional<SceneFault>;
+
+bool is_body(int index, const Scene& scene) { return index >= 0 && index < static_cast<int>(scene.bodies.size()); }
+bool can_move(int index, const Scene& scene) { return index != kWorld && !scene.bodies[index].fixed; }
+
+Fault not_at_least_zero(const char* key, double value) {
+  if (value >= 0 && std::isfinite(value)) return {};
+  return SceneFault{key, fmt::format("found {}; allowed: a number of at least 0", value)};
+}
+
+struct ShapeFault {
+  Fault operator()(const Sphere& sphere) const { return not_positive("radius", sphere.radius); }
+  Fault operator()(const Box& box) const { return not_positive("size", box.size.minCoeff()); }
+  Fault operator()(const Capsule& capsule) const {
+    const Fault radius = not_positive("radius", capsule.radius);
+    return radius ? radius : not_positive("length", capsule.length);
+  }
+  Fault operator()(const Plane& plane) const {
+    if (is_unit(plane.normal.squaredNorm()) && std::isfinite(plane.offset)) return {};
+    return SceneFault{"shape", "a plane has a unit normal and a finite offset"};
+  }
+  static Fault not_positive(const char* what, double value) {
+    if (value > 0 && std::isfinite(value)) return {};
+    return SceneFault{"shape", fmt::format("its {} is {}; allowed: a number greater than 0", what, value)};
+  }
+};
+
+Fault fault_of_motion(const Body& body) {
+  if (!body.position.allFinite()) return SceneFault{"position", "it is not finite"};
+  if (!is_unit(body.orientation.squaredNorm())) return SceneFault{"orientation_wxyz", "it is no unit quaternion"};
+  for (const auto& [key, rate] : {std::pair{"velocity", body.velocity}, {"angular_velocity", body.angular_velocity}}) {
+    if (!rate.allFinite()) return SceneFault{key, "it is not finite"};
+    if (body.fixed && !rate.isZero(0))
+      return SceneFault{key, "a fixed body does not move; allowed: [0, 0, 0], or no such key"};
+  }
+  return {};
+}
+
+// The two ends of a spring or joint, of which at least one must be able to move.
+Fault fault_of_ends(int a, int b, const char* what, const Scene& scene) {
+  for (const auto& [key, end] : {std::pair{"a", a}, {"b", b}}) {
+    if (end != kWorld && !is_body(end, scene)) return SceneFault{key, fmt::format("there is no body number {}", end)};
+  }
+  if (a == b) return SceneFault{"b", fmt::format("a {} from '{}' to itself does nothing", what, scene.body_name(a))};
+  if (can_move(a, scene) || can_move(b, scene)) return {};
+  return SceneFault{"b", fmt::format("a {} from '{}' to '{}' does nothing, for neither can move", what,
+                                     scene.body_name(a), scene.body_name(b))};
+}
+
+Fault fault_of_times(double from, double until) {
+  if (const Fault early = not_at_least_zero("from", from)) return early;
+  if (until > from) return {};
+  return SceneFault{"until", fmt::format("found {}; allowed: a time after from, which is {} s", until, from)};
+}
+
+double distance(int a, const Vec3& point_a, int b, const Vec3& point_b, const Scene& scene) {
+  const BodyPose pose_a = scene.pose(a), pose_b = scene.pose(b);
+  return (pose_b.position + pose_b.orientation * point_b - pose_a.position - pose_a.orientation * point_a).stableNorm();
+}
+
+struct JointFault {
+  const Joint& joint;
+  const Scene& scene;
+
+  Fault operator()(const BallJoint& type) const { return not_finite("anchor", type.anchor); }
+  Fault operator()(const HingeJoint& type) const {
+    const Fault anchor = not_finite("anchor", type.anchor);
+    return anchor ? anchor : no_direction("axis", type.axis);
+  }
+  Fault operator()(const SliderJoint& type) const { return no_direction("axis", type.axis); }
+  Fault operator()(const FixedJoint&) const { return {}; }
+  Fault operator()(const DistanceJoint& type) const {
+    const double apart = distance(joint.a, type.point_a, joint.b, type.point_b, scene);
+    if (!(apart > 0)) {
+      return SceneFault{"point_b",
+                        "the two points coincide at t = 0, so their distance has no direction; allowed: points apart"};
+    }
+    if (!std::isfinite(apart)) return SceneFault{"", "the distance between its ends is too large for a number"};
+    return {};
+  }
+  Fault operator()(const UniversalJoint& type) const {
+    for (const auto& [key, axis] : {std::pair{"axis", type.axis}, {"axis2", type.axis2}}) {
+      if (const Fault none = no_direction(key, axis)) return none;
+    }
+    // Six digits written of each component leave so much of a right angle.
+    constexpr double kRight = 1e-5;
+    const double cosine = type.axis.dot(type.axis2);
+    if (std::abs(cosine) <= kRight) return not_finite("anchor", type.anchor);
+    return SceneFault{"axis2", fmt::format("found an angle of {:.6g}° to axis; allowed: a right angle",
+                                           std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / M_PI)};
+  }
+
+  static Fault not_finite(const char* key, const Vec3& v) {
+    return v.allFinite() ? Fault() : SceneFault{key, "it is not finite"};
+  }
+  static Fault no_direction(const char* key, const Vec3& v) {
+    return is_unit(v.squaredNorm()) ? Fault() : SceneFault{key, "it is no unit vector"};
+  }
+};
+
+template <typename Rows, typename F>
+void check_rows(const Rows& rows, const F& fault_and_name) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto [fault, name] = fault_and_name(rows[i], i);
+    if (!fault) continue;
+    throw InputError(fmt::format("{}: {}{}{}", name, fault->key, fault->key.empty() ? "" : ": ", fault->what));
+  }
+}
+
+}  // namespace
+
+std::string why_no_inertia(const Mat3& inertia) {
+  if (!inertia.allFinite()) return "its moments are not finite";
+  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();  // ascending
+  const double largest = moments[2];
+  // The eigenvalues of a singular matrix come out as a few roundings of the largest instead of 0.
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  const std::string found =
+      fmt::format("its principal moments are {:.6g}, {:.6g} and {:.6g} kg m²", moments[0], moments[1], moments[2]);
+  if (!(moments[0] > kRounding * largest)) return found + ", and each must be greater than 0";
+  // A flat body's largest moment is the sum of the others. Written with six digits, each is off by at most 5e-6 of
+  // itself, so that the three miss the sum by at most 1e-5 of the largest.
+  constexpr double kWrittenDigits = 1e-5;
+  if (largest - moments[1] > moments[0] + kWrittenDigits * largest)
+    return found + ", and none may be greater than the sum of the other two";
+  return "";
+}
+
+Fault fault_of(const Body& body) {
+  if (body.name.empty()) return SceneFault{"name", "it is empty"};
+  if (body.name == "world")
+    return SceneFault{"name", "'world' is the name of the world itself; allowed: any other name"};
+  const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
+  if (body.shape) {
+    if (Fault shape = std::visit(ShapeFault(), *body.shape)) return shape;
+  }
+  if (is_plane && !body.fixed)
+    return SceneFault{"fixed", "found false, but a plane never moves; allowed: true, or no such key"};
+  if (is_plane && !body.position.isZero(0))
+    return SceneFault{"position", "a plane lies where its normal and offset say, not at a position"};
+  if (body.collides && !body.shape)
+    return SceneFault{"collides", "found true, but the body has no shape to collide with; allowed: false"};
+  if (!body.fixed && !(body.mass > 0 && std::isfinite(body.mass)))
+    return SceneFault{"mass", fmt::format("found {}; allowed: a number greater than 0", body.mass)};
+  const std::string why = body.fixed ? "" : why_no_inertia(body.inertia);
+  if (!why.empty()) return SceneFault{"inertia", "no body has this inertia: " + why};
+  return fault_of_motion(body);
+}
+
+Fault fault_of(const Spring& spring, const Scene& scene) {
+  if (Fault ends = fault_of_ends(spring.a, spring.b, "spring", scene)) return ends;
+  for (const auto& [key, value] :
+       {std::pair{"stiffness", spring.stiffness}, {"damping", spring.damping}, {"rest_length", spring.rest_length}}) {
+    if (Fault negative = not_at_least_zero(key, value)) return negative;
+  }
+  if (spring.point_a.allFinite() && spring.point_b.allFinite()) return {};
+  return SceneFault{"", "its points are not finite"};
+}
+
+Fault fault_of(const Joint& joint, const Scene& scene) {
+  if (Fault ends = fault_of_ends(joint.a, joint.b, "joint", scene)) return ends;
+  if (Fault type = std::visit(JointFault{joint, scene}, joint.type)) return type;
+  for (const auto& [key, value] : {std::pair{"stiffness", joint.stiffness}, {"damping", joint.damping}}) {
+    if (Fault negative = not_at_least_zero(key, value)) return negative;
+  }
+  if (!(joint.lower <= 0 && joint.upper >= 0 && joint.lower < joint.upper))
+    return SceneFault{"upper", "its limits do not hold the 0 that it is at, at t = 0"};
+  return {};
+}
+
+Fault fault_of(const Motor& motor, const Scene& scene) {
+  if (motor.joint < 0 || motor.joint >= static_cast<int>(scene.joints.size()))
+    return SceneFault{"joint", fmt::format("there is no joint number {}", motor.joint)};
+  if (!free_axis(scene.joints[motor.joint]))
+    return SceneFault{"joint", fmt::format("is a {} joint, which has no axis to drive; allowed: a hinge or a slider",
+                                           joint_type_name(scene.joints[motor.joint]))};
+  if (!std::isfinite(motor.effort) || !std::isfinite(motor.speed.value_or(0)))
+    return SceneFault{"", "what it drives by is not finite"};
+  if (motor.speed && !(motor.most > 0))
+    return SceneFault{"most", fmt::format("found {}; allowed: a number greater than 0", motor.most)};
+  return fault_of_times(motor.from, motor.until);
+}
+
+Fault fault_of(const ContactLaw& law) {
+  if (!(law.restitution >= 0 && law.restitution <= 1))
+    return SceneFault{"restitution", fmt::format("found {}; allowed: a number from 0 to 1", law.restitution)};
+  if (!(law.friction >= 0))
+    return SceneFault{"friction", fmt::format("found {}; allowed: a number of at least 0", law.friction)};
+  return {};
+}
+
+Fault fault_of(const ContactPair& pair, const Scene& scene) {
+  if (!is_body(pair.a, scene) || !is_body(pair.b, scene)) return SceneFault{"", "names a body that is not there"};
+  if (pair.a == pair.b) return SceneFault{"b", fmt::format("'{}' cannot touch itself", scene.body_name(pair.a))};
+  return fault_of(pair.law);
+}
+
+Fault fault_of(const TimedForce& force, const Scene& scene) {
+  if (!is_body(force.body, scene)) return SceneFault{"body", "names a body that is not there"};
+  if (!can_move(force.body, scene)) return SceneFault{"body", "the body is fixed, so no force can move it"};
+  if (!force.force.allFinite() || !force.torque.allFinite() || !force.point.allFinite())
+    return SceneFault{"", "it is not finite"};
+  return fault_of_times(force.from, force.until);
+}
+
+void validate(const Scene& scene) {
+  if (scene.bodies.empty()) throw InputError("there is no body; allowed: a scene of at least one");
+  if (!scene.gravity.allFinite()) throw InputError("gravity: it is not finite");
+  if (const Fault law = fault_of(scene.contact_default)) throw InputError("contact_default: " + law->what);
+  std::set<std::string> bodies, joints;
+  std::set<std::pair<int, int>> pairs;
+  check_rows(scene.bodies, [&](const Body& body, std::size_t) {
+    Fault fault = fault_of(body);
+    if (!fault && !bodies.insert(body.name).second) fault = SceneFault{"name", "another body has it, too"};
+    return std::pair(fault, fmt::format("body '{}'", body.name));
+  });
+  check_rows(scene.springs, [&](const Spring& spring, std::size_t i) {
+    return std::pair(fault_of(spring, scene), fmt::format("spring {}", i + 1));
+  });
+  check_rows(scene.joints, [&](const Joint& joint, std::size_t i) {
+    Fault fault = fault_of(joint, scene);
+    if (!fault && !joint.name.empty() && !joints.insert(joint.name).second)
+      fault = SceneFault{"name", "another joint has it, too"};
+    return std::pair(fault, fmt::format("joint {}", i + 1));
+  });
+  check_rows(scene.motors, [&](const Motor& motor, std::size_t i) {
+    return std::pair(fault_of(motor, scene), fmt::format("motor {}", i + 1));
+  });
+  check_rows(scene.contact_pairs, [&](const ContactPair& pair, std::size_t i) {
+    Fault fault = fault_of(pair, scene);
+    if (!fault && !pairs.insert(std::minmax({pair.a, pair.b})).second)
+      fault = SceneFault{"", "the pair is given twice; allowed: once, in either order"};
+    return std::pair(fault, fmt::format("contact {}", i + 1));
+  });
+  check_rows(scene.forces, [&](const TimedForce& force, std::size_t i) {
+    return std::pair(fault_of(force, scene), fmt::format("force {}", i + 1));
+  });
+}
+
+}  // namespace rigor

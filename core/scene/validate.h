@@ -1,0 +1,34 @@
+// What no scene can have, whoever made it: a file, an importer, a search over its values. A reader adds the line and
+// the column.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/unit_vector.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// What is wrong with a row, and which of its keys, as the case file calls it, says so; "" for the row as a whole.
+struct SceneFault {
+  std::string key, what;
+};
+
+// None where all is well. Bodies and joints that a row refers to must be there already.
+std::optional<SceneFault> fault_of(const Body& body);
+std::optional<SceneFault> fault_of(const Spring& spring, const Scene& scene);
+std::optional<SceneFault> fault_of(const Joint& joint, const Scene& scene);  // initial velocities that break it aside
+std::optional<SceneFault> fault_of(const Motor& motor, const Scene& scene);
+std::optional<SceneFault> fault_of(const ContactLaw& law);
+std::optional<SceneFault> fault_of(const ContactPair& pair, const Scene& scene);
+std::optional<SceneFault> fault_of(const TimedForce& force, const Scene& scene);
+
+// What is wrong with an inertia; empty if it is one that matter can have: each principal moment is positive, and none
+// is greater than the sum of the other two.
+std::string why_no_inertia(const Mat3& inertia);
+
+// Throws InputError, "body 'cube': inertia: ...", for the first row that no scene can have, and for names given twice.
+void validate(const Scene& scene);
+
+}  // namespace rigor
