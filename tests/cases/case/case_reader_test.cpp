@@ -132,7 +132,7 @@ because = 'x'
     std::string text = start + rest;
     text.replace(text.find("TRUTH"), 5, truth), text.replace(text.find("METRIC"), 6, metric);
     const std::string file = write("case.toml", text);
-    const std::string message = refusal_of([&] { read_case(file, "x", words()); });
+    const std::string message = refusal_of([&] { read_case(file, "x", test::words()); });
     return message.starts_with(file) ? message.substr(file.size()) : message;
   };
   const std::string itself = "max = 1\nengines = ['ode', 'core:rk4,contact=event']";

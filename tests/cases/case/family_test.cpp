@@ -30,7 +30,7 @@ struct Suite : Folder {
     write("suite/swings/free.toml", kCase + own);
     write("suite/swings/sprung.toml", kCase + kSpring);
     write("suite/swings/family.toml", family);
-    return select_cases({}, (path / "suite").string(), words());
+    return select_cases({}, (path / "suite").string(), test::words());
   }
 };
 
@@ -110,27 +110,27 @@ BOOST_AUTO_TEST_CASE(a_family_is_no_case_however_it_is_named) {
   cases_with(gate("max = 1"));
   const std::string file = (path / "suite/swings/family.toml").string();
   BOOST_TEST(suite_ids((path / "suite").string()) == (std::vector<std::string>{"swings/free", "swings/sprung"}));
-  BOOST_TEST(refusal_of([&] { select_cases({file}, (path / "suite").string(), words()); }).find("is none itself") !=
+  BOOST_TEST(refusal_of([&] { select_cases({file}, (path / "suite").string(), test::words()); }).find("is none itself") !=
              std::string::npos);
-  BOOST_TEST(select_cases({(path / "suite/swings").string()}, "", words()).size() == 2u);
+  BOOST_TEST(select_cases({(path / "suite/swings").string()}, "", test::words()).size() == 2u);
 }
 
 // Where a family stands that is no family of the suite: a folder of someone's own.
 BOOST_AUTO_TEST_CASE(a_folder_elsewhere_may_have_one_too) {
   write("own/a.toml", kCase);
   write("own/family.toml", gate("max = 1"));
-  BOOST_TEST(select_cases({(path / "own/a.toml").string()}, "", words()).front().gates.size() == 1u);
+  BOOST_TEST(select_cases({(path / "own/a.toml").string()}, "", test::words()).front().gates.size() == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(every_gate_of_a_shipped_family_is_about_some_case) {
   std::set<std::string> met;
-  for (const Case& c : select_cases({}, default_suite_dir(), words())) {
+  for (const Case& c : select_cases({}, default_suite_dir(), test::words())) {
     for (const Gate& gate : c.gates) met.insert(gate.where.substr(gate.where.rfind("suite/") + 6) + gate.metric);
   }
   for (const auto& entry : std::filesystem::directory_iterator(default_suite_dir())) {
     const auto file = entry.path() / kFamilyFile;
     if (!std::filesystem::exists(file)) continue;
-    for (const GateTable& table : read_family(file.string(), words()).gates) {
+    for (const GateTable& table : read_family(file.string(), test::words()).gates) {
       const std::string& where = table.gate.where;
       for (const std::string& metric : table.metrics)
         BOOST_TEST(met.contains(where.substr(where.rfind("suite/") + 6) + metric), where << ", " << metric);
