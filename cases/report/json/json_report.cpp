@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/report/json/comparison_json.h"
+#include "cases/report/json/leave_out_details.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/json/scene_json.h"
 #include "cases/report/reports.h"
@@ -156,6 +157,21 @@ Json results_json(const Results& results) {
   return json;
 }
 
-std::string json_report(const Results& results) { return text_of(results_json(results), 1) + "\n"; }
+// A cell, a case, a finding takes a line.
+std::string json_report(const Results& results) {
+  Json json = results_json(results);
+  if (results.cases.size() > kMostCasesInDetail) leave_out_details(json);
+  std::string text;
+  for (const auto& [key, value] : json.items()) {
+    text += (text.empty() ? "{\n" : ",\n") + text_of(key, -1) + ": ";
+    if (!value.is_array()) {
+      text += text_of(value, -1);
+      continue;
+    }
+    for (std::size_t row = 0; row < value.size(); ++row) text += (row == 0 ? "[\n" : ",\n") + text_of(value[row], -1);
+    text += value.empty() ? "[]" : "\n]";
+  }
+  return text + "\n}\n";
+}
 
 }  // namespace rigor

@@ -1,9 +1,11 @@
-// report.md: the console's table as Markdown, a table for each further step size below, then the machine and settings.
+// report.md: the console's table as Markdown, a table for each further step size below, then the machine and settings;
+// of many cases without the tables.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "cases/report/console/console_table.h"
+#include "cases/report/json/leave_out_details.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/markdown/markdown_text.h"
 #include "cases/report/reports.h"
@@ -58,10 +60,13 @@ std::string table(const TextTable& cells) {
   return text;
 }
 
+// Of many cases their tables would be more than one reads, or a forge shows: the matrix above has their numbers.
+bool has_tables(const Results& results) { return results.cases.size() <= kMostCasesInDetail; }
+
 std::string headline(const Results& results, const CaseResult& result) {
   std::string text = fmt::format("## {}: {}\n\n{}\n\n", plain(result.definition.id), plain(result.definition.title),
                                  plain(truth_sentence(result)));
-  text += table(results, result, coarsest_dt(result)) + "\n";
+  if (has_tables(results)) text += table(results, result, coarsest_dt(result)) + "\n";
   for (const std::string& sentence : explanations(results, result)) text += plain(sentence) + "\n\n";
   for (const std::string& sentence : work_precision_sentences(results, result)) text += plain(sentence) + "\n\n";
   for (const GateResult& gate : result.gates) {
@@ -87,6 +92,14 @@ std::string comparisons(const Results& results, const CaseResult& result) {
   std::string text;
   for (const TextTable& cells : comparison_tables(results, result)) text += table(cells) + "\n";
   return text.empty() ? "" : fmt::format("## {}\n\n", plain(result.definition.id)) + text;
+}
+
+std::string tables(const Results& results) {
+  std::string text = "# Other step sizes\n\n";
+  for (const CaseResult& result : results.cases) text += finer_steps(results, result);
+  text += "# Work, precision and spread\n\n";
+  for (const CaseResult& result : results.cases) text += comparisons(results, result);
+  return text;
 }
 
 std::string settings(const Results& results) {
@@ -115,10 +128,7 @@ std::string markdown_report(const Results& results) {
   }
   text += "\n" + table(verdict_matrix(results)) + "\n" + plain(gate_summary(results)) + "\n";
   for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
-  text += "# Other step sizes\n\n";
-  for (const CaseResult& result : results.cases) text += finer_steps(results, result);
-  text += "# Work, precision and spread\n\n";
-  for (const CaseResult& result : results.cases) text += comparisons(results, result);
+  text += has_tables(results) ? tables(results) : "A case's tables: `rigor run CASE`, or report.html.\n\n";
   const Machine machine = this_machine();
   text += fmt::format(
       "# Settings in force\n\nAs read back from each engine, in the first case it ran.\n\n{}\n"

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cases/report/json/json_report.h"
+#include "cases/report/json/leave_out_details.h"
 #include "cases/report/reports.h"
 #include "cases/results/result_json.h"
 #include "tests/cases/report/sample_results.h"
@@ -9,6 +11,19 @@
 using namespace rigor;
 
 BOOST_AUTO_TEST_SUITE(cases_report_json_json_report)
+
+namespace {
+
+constexpr const char* kNotAsked = "not measured: no gate asks for it";
+
+Results many_cases() {
+  Results grid = sample_results();
+  grid.cases.front().cells.front().metrics["tube"].not_applicable = kNotAsked;
+  while (grid.cases.size() <= kMostCasesInDetail) grid.cases.push_back(grid.cases.front());
+  return grid;
+}
+
+}  // namespace
 
 BOOST_AUTO_TEST_CASE(a_reader_finds_every_part_by_its_name) {
   const auto json = nlohmann::json::parse(json_report(sample_results()));
@@ -44,6 +59,41 @@ BOOST_AUTO_TEST_CASE(a_reader_finds_every_part_by_its_name) {
   BOOST_TEST(cell.at("metrics").at("orientation_error").at("not_applicable") == "nothing turns");
   BOOST_TEST(json.at("stable_dt").at(0).at("dt") == 0.0678);
   BOOST_TEST(json.at("stable_dt").at(1).at("dt").is_null());
+}
+
+// What `rigor compare` takes from a result must be in a long one too.
+BOOST_AUTO_TEST_CASE(of_many_cases_every_cell_keeps_its_values_and_leaves_out_its_details) {
+  const Results grid = many_cases();
+  const nlohmann::json full = results_json(grid), told = nlohmann::json::parse(json_report(grid));
+  BOOST_TEST(told.at("cells").size() == full.at("cells").size());
+  for (std::size_t i = 0; i < told.at("cells").size(); ++i) {
+    const auto &brief = told.at("cells").at(i), &cell = full.at("cells").at(i);
+    // As text: what is not finite, or no text, is equal to nothing.
+    for (const char* key : {"case", "engine", "dt", "status", "verdict", "reason", "trajectory"})
+      BOOST_TEST(text_of(brief.at(key), -1) == text_of(cell.at(key), -1), key);
+    const auto& holder =
+        brief.contains("settings_of") ? told.at("cells").at(brief.at("settings_of").get<std::size_t>()) : brief;
+    BOOST_TEST(holder.at("settings") == cell.at("settings"));
+    for (const auto& [name, metric] : cell.at("metrics").items()) {
+      const bool is_told = metric.contains("value") || metric.at("not_applicable") == kNotAsked;
+      BOOST_TEST(brief.at("metrics").contains(name) == is_told, name);
+      if (!metric.contains("value")) continue;
+      BOOST_TEST(brief.at("metrics").at(name).size() == 1u);
+      BOOST_TEST(text_of(brief.at("metrics").at(name).at("value"), -1) == text_of(metric.at("value"), -1), name);
+    }
+  }
+  BOOST_TEST(told.at("cells").at(1).at("settings_of") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(only_a_held_gate_says_nothing_more_among_many_cases) {
+  Results grid = many_cases();
+  grid.cases[0].definition.gates.resize(1);
+  grid.cases[0].gates = {{0, "good", "1/10", GateAnswer::held, "0.1 m, at most 0.2 m", 0.1},
+                         {0, "wild", "1/10", GateAnswer::failed, "0.3 m, at most 0.2 m", 0.3}};
+  const auto told = nlohmann::json::parse(json_report(grid));
+  const auto& answers = told.at("cases").at(0).at("gates").at(0).at("answers");
+  BOOST_TEST(!answers.at(0).contains("text"));
+  BOOST_TEST(answers.at(1).at("text") == "0.3 m, at most 0.2 m");
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_finite_has_a_word_and_what_is_not_text_is_no_trouble) {

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <sstream>
 
+#include "cases/report/json/leave_out_details.h"
 #include "cases/report/reports.h"
 #include "tests/cases/report/sample_results.h"
 
@@ -22,6 +23,15 @@ BOOST_AUTO_TEST_CASE(every_row_has_the_columns_of_its_header_whatever_a_name_hol
   // The matrix: a header, its rule and the only case. Two step sizes: a header, its rule and two engines each; then the
   // same for the error explained, of which the engine that crashed has none.
   BOOST_TEST(rows == 3 + 15);
+}
+
+BOOST_AUTO_TEST_CASE(of_many_cases_there_is_the_matrix_alone) {
+  Results grid = sample_results();
+  while (grid.cases.size() <= kMostCasesInDetail) grid.cases.push_back(grid.cases.front());
+  const std::string text = markdown_report(grid);
+  BOOST_TEST(text.find("| family/case |") != std::string::npos);
+  BOOST_TEST(text.find("| dt = 1/10 s |") == std::string::npos);
+  BOOST_TEST(text.find("rigor run CASE") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(no_name_becomes_a_tag) {
