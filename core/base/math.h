@@ -27,10 +27,16 @@ inline Quat rotation_by(const Vec3& angle) {
 }
 
 // The matrix that takes B to W of a quaternion of any length: (w² - u·u) I + 2 u uᵀ + 2 w [u]x. For a unit quaternion
-// it is a rotation; for another it is |q|² times one, so that a lost norm is seen and not hidden.
+// it is a rotation; for another it is |q|² times one, so that a lost norm is seen and not hidden. Number by number:
+// every file reads this, and Eigen's expressions of matrices are what a compiler is slowest at.
 inline Mat3 matrix_of(const Quat& q) {
-  const Vec3 u = q.vec();
-  return (q.w() * q.w() - u.squaredNorm()) * Mat3::Identity() + 2.0 * u * u.transpose() + 2.0 * q.w() * cross_matrix(u);
+  const double w = q.w(), x = q.x(), y = q.y(), z = q.z();
+  const double diagonal = w * w - (x * x + y * y + z * z), xx = 2 * x, yy = 2 * y, zz = 2 * z, ww = 2 * w;
+  Mat3 m;
+  m(0, 0) = diagonal + xx * x, m(0, 1) = xx * y - ww * z, m(0, 2) = xx * z + ww * y;
+  m(1, 0) = yy * x + ww * z, m(1, 1) = diagonal + yy * y, m(1, 2) = yy * z - ww * x;
+  m(2, 0) = zz * x - ww * y, m(2, 1) = zz * y + ww * x, m(2, 2) = diagonal + zz * z;
+  return m;
 }
 
 // Angle [rad], in [0, pi], of the rotation between two orientations; a quaternion and its negative are the same one.
