@@ -31,7 +31,8 @@ struct GateTable {
 
 // The keys that a gate may have. Throws InputError with its place for whatever else a table holds.
 GateTable read_gate_table(const TableReader& table, const Vocabulary& words);
-GateTable read_family_gate_table(const TableReader& table, const Keys& cases, const Vocabulary& words);  // those beside it, by their files
+GateTable read_family_gate_table(const TableReader& table, const Keys& cases,
+                                 const Vocabulary& words);  // those beside it, by their files
 const Keys& gate_keys();
 const Keys& family_gate_keys();
 

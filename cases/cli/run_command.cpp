@@ -52,9 +52,8 @@ Results planned(const CommandLine& line, const EngineTable& engines, const std::
   return plan_grid(cases, runs, engines, scope, of_gates);
 }
 
-void run_and_judge(Results& grid, const CommandLine& line, const EngineTable& engines,
-                   const RecordedValues& recorded, const std::vector<KnownDeviation>& deviations,
-                   const OutputFolder& folder) {
+void run_and_judge(Results& grid, const CommandLine& line, const EngineTable& engines, const RecordedValues& recorded,
+                   const std::vector<KnownDeviation>& deviations, const OutputFolder& folder) {
   {
     Progress progress;
     run_grid(grid, engines,

@@ -121,7 +121,8 @@ Json json_of(const Furthest& furthest) { return {furthest.value, furthest.time, 
 
 Furthest furthest_from(const Json& json, const Scene& scene) {
   const std::size_t body = json.at(2).get<std::size_t>();
-  if (body >= std::max<std::size_t>(1, scene.bodies.size())) throw std::runtime_error("no such body: " + std::to_string(body));
+  if (body >= std::max<std::size_t>(1, scene.bodies.size()))
+    throw std::runtime_error("no such body: " + std::to_string(body));
   return {number_of(json.at(0)), number_of(json.at(1)), static_cast<int>(body)};
 }
 

@@ -26,20 +26,10 @@ TruthRow steady_precession_truth();
 
 const std::vector<TruthRow>& truths() {
   static const std::vector<TruthRow> table = {
-      asymmetric_top_truth(),
-      axisymmetric_top_truth(),
-      bounce_truth(),
-      events_truth(),
-      line_impacts_truth(),
-      oscillator_truth(),
-      principal_torque_truth(),
-      projectile_truth(),
-      pushed_truth(),
-      reference_truth(),
-      rolling_truth(),
-      sliding_truth(),
-      sprung_ball_truth(),
-      steady_precession_truth(),
+      asymmetric_top_truth(), axisymmetric_top_truth(),  bounce_truth(),           events_truth(),
+      line_impacts_truth(),   oscillator_truth(),        principal_torque_truth(), projectile_truth(),
+      pushed_truth(),         reference_truth(),         rolling_truth(),          sliding_truth(),
+      sprung_ball_truth(),    steady_precession_truth(),
   };
   return table;
 }

@@ -11,8 +11,9 @@ namespace rigor {
 // as it is: normalising it again may move its last bit, and what is written would not be read back the same.
 inline bool is_unit(double squared_length) { return std::abs(squared_length - 1) <= 2e-15; }
 
-// The unit vector along a finite one of any length, itself if it is one already; none along zero. Scaled by the largest component first: of
-// [1.7e308, 1.7e308] even the sum is beyond the largest number, and of [5e-324, 0] the squares are zero.
+// The unit vector along a finite one of any length, itself if it is one already; none along zero. Scaled by the largest
+// component first: of [1.7e308, 1.7e308] even the sum is beyond the largest number, and of [5e-324, 0] the squares are
+// zero.
 template <int N>
 std::optional<Eigen::Vector<double, N>> unit_vector(const Eigen::Vector<double, N>& v) {
   const double largest = v.cwiseAbs().maxCoeff();

@@ -45,8 +45,8 @@ struct SupportBound {
 
 }  // namespace
 
-bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to, const Bend& bend_a,
-                const Bend& bend_b, double h) {
+bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to,
+                const Bend& bend_a, const Bend& bend_b, double h) {
   const auto is_clear = [&](const SeparatingAxis& at, double t) {
     const double to_b = std::visit(SupportBound{at.state, a.body, -at.n, bend_a, a.bounding_radius, t}, a.shape);
     const double to_a = std::visit(SupportBound{at.state, b.body, at.n, bend_b, b.bounding_radius, t}, b.shape);

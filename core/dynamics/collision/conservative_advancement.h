@@ -22,7 +22,7 @@ struct Bend {
 };
 
 // h: s, from the one to the other.
-bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to, const Bend& bend_a,
-                const Bend& bend_b, double h);
+bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to,
+                const Bend& bend_a, const Bend& bend_b, double h);
 
 }  // namespace rigor

@@ -105,7 +105,9 @@ class Scan {
     const bool is_line_end = i < text_.size() && is_blank(text_[i]);
     while (is_line_end && i + 1 < text_.size() && is_blank(text_[i + 1])) ++i;
     if (is_line_end && is_beyond_ascii(text_, i + 1)) {
-      complain(i + 1, "found a character that is not ASCII right behind a line's end that a string escapes; begin that line by another");
+      complain(i + 1,
+               "found a character that is not ASCII right behind a line's end that a string escapes; begin that line "
+               "by another");
     } else if (is_beyond_ascii(text_, i)) {
       complain(i, "is not TOML: found a backslash before a character that is not ASCII");
     }

@@ -267,8 +267,7 @@ TomlValue TableReader::at(std::string_view key) const {
 
 TomlFile TomlFile::parse(std::string text, const std::string& path) {
   if (const auto complaint = beyond_library(text)) {
-    throw InputError(
-        fmt::format("{}:{}:{}: {}", path, complaint->line, complaint->column, complaint->what));
+    throw InputError(fmt::format("{}:{}:{}: {}", path, complaint->line, complaint->column, complaint->what));
   }
   TomlFile file;
   try {

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "cases/case/suite.h"
+#include "tests/cases/vocabulary.h"
 #include "tests/core/scene/toml/refusal.h"
 #include "tests/folder.h"
-#include "tests/cases/vocabulary.h"
 
 using namespace rigor;
 
@@ -110,8 +110,9 @@ BOOST_AUTO_TEST_CASE(a_family_is_no_case_however_it_is_named) {
   cases_with(gate("max = 1"));
   const std::string file = (path / "suite/swings/family.toml").string();
   BOOST_TEST(suite_ids((path / "suite").string()) == (std::vector<std::string>{"swings/free", "swings/sprung"}));
-  BOOST_TEST(refusal_of([&] { select_cases({file}, (path / "suite").string(), test::words()); }).find("is none itself") !=
-             std::string::npos);
+  BOOST_TEST(refusal_of([&] {
+               select_cases({file}, (path / "suite").string(), test::words());
+             }).find("is none itself") != std::string::npos);
   BOOST_TEST(select_cases({(path / "suite/swings").string()}, "", test::words()).size() == 2u);
 }
 

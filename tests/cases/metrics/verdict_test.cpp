@@ -87,7 +87,9 @@ BOOST_AUTO_TEST_SUITE(cases_metrics_verdict)
 
 // Each of these was called stable while its own motion was what a gain was measured by.
 BOOST_AUTO_TEST_CASE(what_engines_do_to_contact_at_a_thirtieth_is_told) {
-  const auto suite_scene = [](const char* id) { return select_cases({id}, default_suite_dir(), test::words()).at(0).scene; };
+  const auto suite_scene = [](const char* id) {
+    return select_cases({id}, default_suite_dir(), test::words()).at(0).scene;
+  };
   const Scene dominoes = suite_scene("contact/dominoes"), logs = suite_scene("contact/log-pile"),
               stack = suite_scene("contact/stack-of-ten"),
               tall = thrown_box({0.2, 0.2, 2}, {0.6, 0, 0.06}, {0, 0.6, 0}, 1, {0, 0.5}),

@@ -32,9 +32,7 @@ int solver_warnings_of(const std::string& run_name, const std::string& id, doubl
 
 BOOST_AUTO_TEST_SUITE(cases_suite_contact_suite)
 
-BOOST_AUTO_TEST_CASE(each_contact_case_has_a_source_and_gates) {
-  test::check_sources_and_gates(contact_cases());
-}
+BOOST_AUTO_TEST_CASE(each_contact_case_has_a_source_and_gates) { test::check_sources_and_gates(contact_cases()); }
 
 BOOST_AUTO_TEST_CASE(every_closed_form_that_a_case_cites_holds_for_its_scene) {
   test::check_closed_forms(contact_cases(), 1e-9);  // a thousandth of what metrics need of it

@@ -24,9 +24,7 @@ std::vector<Case> smooth_cases() { return test::suite_cases(is_smooth); }
 
 BOOST_AUTO_TEST_SUITE(cases_suite_smooth_suite)
 
-BOOST_AUTO_TEST_CASE(each_smooth_case_has_a_source_and_gates) {
-  test::check_sources_and_gates(smooth_cases());
-}
+BOOST_AUTO_TEST_CASE(each_smooth_case_has_a_source_and_gates) { test::check_sources_and_gates(smooth_cases()); }
 
 BOOST_AUTO_TEST_CASE(every_closed_form_that_a_case_cites_holds_for_its_scene) {
   test::check_closed_forms(smooth_cases(), 1e-9);  // near a separatrix; a thousandth of what metrics need of it

@@ -15,7 +15,7 @@ Aabb joined(const Aabb& a, const Aabb& b) { return {a.low.cwiseMin(b.low), a.hig
 }  // namespace
 
 const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns from, BodyColumns to, double dt,
-                                                            const AccelerationBounds& bounds) {
+                                                                  const AccelerationBounds& bounds) {
   boxes_.clear();
   for (const Collider& collider : colliders_) {
     const AccelerationBound& bound = bounds.of(collider.body);

@@ -1,10 +1,10 @@
 // Contact by events. Inside a step the instants are found at which bodies meet and at which sliding ends, as roots of
 // gaps and of sliding speeds along the integrator's own sub-steps from the last such instant; there impacts are
-// resolved (impacts.h), and between them what touches is persistent (held_motion.h). A sequence of bounces ends by the rule
-// of kRestitutionThreshold. Bodies that overlap at the start are moved apart at once, without velocity. After kMostEvents in one
-// step the rest of that step has no rebounds, after twice as many no events, and the run says so. Where bodies are not
-// sure to stay apart (conservative_advancement.h, acceleration_bounds.h) the time is halved, so that nothing passes
-// through and no graze is missed.
+// resolved (impacts.h), and between them what touches is persistent (held_motion.h). A sequence of bounces ends by the
+// rule of kRestitutionThreshold. Bodies that overlap at the start are moved apart at once, without velocity. After
+// kMostEvents in one step the rest of that step has no rebounds, after twice as many no events, and the run says so.
+// Where bodies are not sure to stay apart (conservative_advancement.h, acceleration_bounds.h) the time is halved, so
+// that nothing passes through and no graze is missed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,8 @@ class EventStepper : public ContactStepper {
   EventStepper(const Scene& scene, const ContactParts& parts)
       : contact_points_(scene),
         persistent_contact_(scene, parts.integrator, parts.orientation, parts.settings, contact_points_),
-        impacts_(persistent_contact_.system(), number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
+        impacts_(persistent_contact_.system(),
+                 number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
         bounds_(persistent_contact_.system()) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
@@ -133,11 +134,14 @@ class EventStepper : public ContactStepper {
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
     return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
       const auto [a, b] = pair;
-      const auto is_of_pair = [&](const PersistentPoint& persistent) { return persistent.at_end.a == a && persistent.at_end.b == b; };
-      if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair)) return true;
+      const auto is_of_pair = [&](const PersistentPoint& persistent) {
+        return persistent.at_end.a == a && persistent.at_end.b == b;
+      };
+      if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair))
+        return true;
       const Collider &first = contact_points_.colliders()[a], &second = contact_points_.colliders()[b];
-      return stay_apart(first, second, {from, contact_points_.separating_axis(from, a, b)}, {to, contact_points_.separating_axis(to, a, b)},
-                        bend_of(first), bend_of(second), h);
+      return stay_apart(first, second, {from, contact_points_.separating_axis(from, a, b)},
+                        {to, contact_points_.separating_axis(to, a, b)}, bend_of(first), bend_of(second), h);
     });
   }
 
@@ -185,7 +189,8 @@ class EventStepper : public ContactStepper {
     copy_columns(std::as_const(end_).columns(), state);
     note(persistent_contact_.solver_warning());
     pairs_ = contact_points_.candidates(state);
-    if (persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all)) persistent_contact_.stop_carrying_points(state);
+    if (persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all))
+      persistent_contact_.stop_carrying_points(state);
     return done;
   }
 

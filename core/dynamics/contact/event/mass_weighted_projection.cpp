@@ -25,7 +25,8 @@ MassWeightedProjection::Side MassWeightedProjection::side_of(BodyColumns state, 
 }
 
 // One for each place, zero where it is not used, and everywhere if there is no solution.
-Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<ProjectionTarget>& targets, const std::vector<bool>& is_used) {
+Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<ProjectionTarget>& targets,
+                                                    const std::vector<bool>& is_used) {
   const auto count = static_cast<Eigen::Index>(targets.size());
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<std::vector<std::pair<Eigen::Index, const Side*>>> of_body(system_.size());

@@ -18,7 +18,8 @@ BOOST_AUTO_TEST_CASE(what_no_motion_can_do_is_said_and_moves_nothing) {
   MassWeightedProjection least(system);
 
   // The free ball alone gives way, along the line between the two.
-  const ProjectionTarget possible{.a = 0, .b = 1, .arm_a = {0, 0, -1}, .arm_b = {0, 0, 0}, .direction = {0, 0, 1}, .amount = 0.5};
+  const ProjectionTarget possible{
+      .a = 0, .b = 1, .arm_a = {0, 0, -1}, .arm_b = {0, 0, 0}, .direction = {0, 0, 1}, .amount = 0.5};
   const auto motion = least.project(now, {possible});
   BOOST_TEST((motion[0].head<3>() - Vec3(0, 0, 0.5)).norm() < 1e-12);  // what four rounds leave of a part in 1e6
   BOOST_TEST(least.take_solver_warning() == "");
