@@ -54,9 +54,14 @@ void check_not_held_to_itself(const TableReader& table, const Vocabulary& words,
 
 }  // namespace
 
+const std::vector<std::string>& case_keys() {
+  static const Keys keys = {"title", "source", "scene", "run", "truth", "gate"};
+  return keys;
+}
+
 Case read_case(const std::string& path, const std::string& id, const Vocabulary& words) {
   const TomlFile file = TomlFile::read(path);
-  const TableReader root = file.root({"title", "source", "scene", "run", "truth", "gate"});
+  const TableReader root = file.root(case_keys());
   Case out;
   out.id = id;
   out.text = file.text();

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cases/case/case.h"
 #include "cases/case/vocabulary.h"
 
 namespace rigor {
+
+// The keys of a case file, in the order in which messages list them.
+const std::vector<std::string>& case_keys();
 
 // Throws InputError, "file:line:column: key: what was found, what is allowed (near match)", for anything the design's
 // case file does not allow; also for a metric, truth, engine or step size that is not among `words`.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cases/case/case_reader.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "core/base/error.h"
@@ -21,10 +22,12 @@ namespace {
 void settle(Scene& scene) {
   const auto breaks = [&](const Joint& joint) { return !why_rates_break(scene, joint).empty(); };
   if (std::none_of(scene.joints.begin(), scene.joints.end(), breaks)) return;
-  const System system(scene);
-  Joints joints(scene, system);
   BodyTable state(scene.bodies.size());
   set_initial_state(scene, state.columns());
+  Scene at_rest = scene;  // what velocities that break joints would do next means nothing
+  for (Body& body : at_rest.bodies) body.velocity = body.angular_velocity = Vec3::Zero();
+  const System system(at_rest);
+  Joints joints(at_rest, system);
   joints.project(state.columns());
   if (const std::string why = joints.warning(); !why.empty()) throw InputError(why);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -39,15 +42,14 @@ void settle(Scene& scene) {
 int settle_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 1) throw InputError("rigor settle: takes one file");
   const TomlFile file = TomlFile::read(line.words.front());
-  const TableReader root = file.root({"title", "source", "scene", "run", "truth", "gate"});
-  Scene scene = read_scene(root.at("scene"), InitialVelocities::as_given);
+  const TomlValue value = file.root(case_keys()).at("scene");
+  Scene scene = read_scene(value, InitialVelocities::as_given);
   settle(scene);
-  const std::string text = with_velocities(file, scene);
+  const std::string text = with_velocities(file, value, scene);
   // What could not be written (the copies of an array) must not look as if it had been.
   try {
-    read_scene(TomlFile::parse(text, line.words.front())
-                   .root({"title", "source", "scene", "run", "truth", "gate"})
-                   .at("scene"));
+    const TomlFile settled = TomlFile::parse(text, line.words.front());
+    read_scene(settled.root(case_keys()).at("scene"));
   } catch (const InputError& error) {
     throw InputError(
         fmt::format("{}: no initial velocities that can be written settle it: {}", line.words.front(), error.what()));

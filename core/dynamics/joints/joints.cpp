@@ -360,7 +360,10 @@ bool Joints::is_closed(double gap, double last) const {
 
 void Joints::warn_of_gap(double gap) {
   if (!(gap > kOpen * extent_) || !warning_.empty()) return;
-  warning_ = fmt::format("the joints could not be closed: a gap of {:.3g} (m, or sine of an angle) is left", gap);
+  warning_ = fmt::format("the joints could not be closed: a gap of {:.3g} (m, or sine of an angle) is left{}", gap,
+                         factor_->has_redundant_rows()
+                             ? "; rows that repeat others at t = 0 no longer do, as where it is a singular position"
+                             : "");
 }
 
 // A chord method: the impulse's effect on the end is taken to be h S, that of the start's J at both.

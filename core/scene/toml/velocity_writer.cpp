@@ -37,12 +37,10 @@ void add_edit(const TableReader& row, const std::string& key, const Vec3& wanted
 
 }  // namespace
 
-std::string with_velocities(const TomlFile& file, const Scene& settled) {
+std::string with_velocities(const TomlFile& file, const TomlValue& scene, const Scene& settled) {
   std::string text = file.text();
   std::vector<Edit> edits;
-  const TableReader root = file.root({"title", "source", "scene", "run", "truth", "gate"});
-  const TableReader scene = root.at("scene").table(scene_keys());
-  for (const TableReader& row : scene.at("body").tables(body_keys())) {
+  for (const TableReader& row : scene.table(scene_keys()).at("body").tables(body_keys())) {
     const std::string name = row.at("name").text();
     const auto body =
         std::find_if(settled.bodies.begin(), settled.bodies.end(), [&](const Body& b) { return b.name == name; });

@@ -8,9 +8,10 @@
 namespace rigor {
 
 class TomlFile;
+class TomlValue;
 
-// `settled` is the file's scene, with the velocities to write. Those of an array's copies, of which each would
-// need its own, are not in the file and are left out.
-std::string with_velocities(const TomlFile& file, const Scene& settled);
+// `settled` is the file's `scene`, with the velocities to write. Those of an array's copies, of which each would need
+// its own, are not in the file and are left out.
+std::string with_velocities(const TomlFile& file, const TomlValue& scene, const Scene& settled);
 
 }  // namespace rigor

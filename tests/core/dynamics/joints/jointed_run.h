@@ -6,6 +6,7 @@
 #include <string>
 
 #include "adapters/core/core_engine.h"
+#include "cases/case/case_reader.h"
 #include "cases/case/suite.h"
 #include "core/engine/engine.h"
 #include "core/scene/toml/scene_reader.h"
@@ -15,7 +16,7 @@ namespace rigor::test {
 
 inline Scene suite_scene(const std::string& id) {
   const TomlFile file = TomlFile::read(default_suite_dir() + "/" + id + ".toml");
-  return read_scene(file.root({"title", "source", "scene", "run", "truth", "gate"}).at("scene"));
+  return read_scene(file.root(case_keys()).at("scene"));
 }
 
 // Steps it until the time `end`, which must be a whole number of steps; the world's own warning is an error.

@@ -21,11 +21,12 @@ mass = 2
 inertia = [1, 1, 1]
 )";
   const TomlFile file = TomlFile::parse(before, "s.toml");
-  Scene scene = read_scene(file.root({"title", "scene"}).at("scene"));
-  BOOST_TEST(with_velocities(file, scene) == before);
+  const TomlValue value = file.root({"title", "scene"}).at("scene");
+  Scene scene = read_scene(value);
+  BOOST_TEST(with_velocities(file, value, scene) == before);
   scene.bodies[0].velocity = {0.5, 0, 0};
   scene.bodies[1].angular_velocity = {0, 0.25, 0};
-  BOOST_TEST(with_velocities(file, scene) == R"(title = "größer"  # a comment
+  BOOST_TEST(with_velocities(file, value, scene) == R"(title = "größer"  # a comment
 [[scene.body]]
 name = "a"  # the first
 mass = 1
@@ -41,9 +42,10 @@ inertia = [1, 1, 1]
 
 BOOST_AUTO_TEST_CASE(a_body_on_one_line_stays_on_it) {
   const TomlFile file = TomlFile::parse("scene = { body = [{ name = 'ä', mass = 1, inertia = [1, 1, 1] }] }", "s.toml");
-  Scene scene = read_scene(file.root({"scene"}).at("scene"));
+  const TomlValue value = file.root({"scene"}).at("scene");
+  Scene scene = read_scene(value);
   scene.bodies[0].velocity = {0.1, 0, -3};
-  BOOST_TEST(with_velocities(file, scene) ==
+  BOOST_TEST(with_velocities(file, value, scene) ==
              "scene = { body = [{ name = 'ä', velocity = [0.1, 0, -3], mass = 1, inertia = [1, 1, 1] }] }");
 }
 
