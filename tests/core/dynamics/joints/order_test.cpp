@@ -20,7 +20,7 @@ double error_of(const Scene& scene, const test::PublishedState& published, const
 }
 
 // So long that errors are above rounding, so short that they fall as a power of dt. A gyroscope at 50 rad/s needs a
-// tenth of it.
+// tenth or a fifth of it.
 double coarsest_step(int order) {
   return order == 1 ? 1.0 / 200 : order == 2 ? 1.0 / 100 : order == 4 ? 1.0 / 50 : 0.1;
 }
@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_SUITE(core_dynamics_joints_order)
 BOOST_AUTO_TEST_CASE(every_method_that_takes_joints_keeps_its_order_over_two_halvings) {
   const std::vector<std::string> scenes = {"joints/pendulum-90", "joints/double-pendulum", "joints/gyroscope",
                                            "mechanisms/four-bar", "mechanisms/iftomm-a04"};
-  int methods = 0;
+  int methods = 0, judged = 0;
   for (const Integrator& row : integrators()) {
     if (!row.takes_joints || row.adaptive) continue;
     ++methods;
@@ -40,18 +40,20 @@ BOOST_AUTO_TEST_CASE(every_method_that_takes_joints_keeps_its_order_over_two_hal
       if (published.time != kEnd || std::find(scenes.begin(), scenes.end(), published.scene) == scenes.end()) continue;
       const Scene scene = test::suite_scene(published.scene);
       const bool spins = published.scene == std::string("joints/gyroscope");
-      const double dt = coarsest_step(row.order) / (spins ? 10 : 1);
+      const double dt = coarsest_step(row.order) / (!spins ? 1 : row.order == 8 ? 5 : 10);
       const double errors[] = {error_of(scene, published, row.name, dt), error_of(scene, published, row.name, dt / 2),
                                error_of(scene, published, row.name, dt / 4)};
       for (int k = 0; k < 2; ++k) {
-        // What rounding leaves after some hundred steps; the halving before it is judged.
-        if (errors[k + 1] < 1e-11) continue;
+        // What rounding leaves, and the published state's own error; the halvings before it are judged.
+        if (errors[k + 1] < 3 * published.error + 1e-13) continue;
+        ++judged;
         BOOST_TEST_CONTEXT(row.name << ", " << published.scene << ": " << errors[k] << " to " << errors[k + 1])
         BOOST_TEST(std::log2(errors[k] / errors[k + 1]) > row.order - 0.35);
       }
     }
   }
   BOOST_TEST(methods == 8);
+  BOOST_TEST(judged >= 75);  // of 80: the eighth order's last halvings end below rounding
 }
 
 BOOST_AUTO_TEST_SUITE_END()
