@@ -1,5 +1,5 @@
-// The equations that the reference solves: Newton-Euler under gravity, springs, dampers and timed forces, for any
-// number type. Written apart from core/dynamics on purpose, so that a mistake there cannot hide in the truth.
+// The equations that the reference solves: Newton-Euler under gravity, springs, dampers, timed forces, and what springs,
+// dampers and motors do along the free axes of joints, for any number type. What joints hold is jointed_motion.h's. Written apart from core/dynamics on purpose, so that a mistake there cannot hide in the truth.
 //
 // A moving body has 13 numbers: p_WB, q (w, x, y, z), v_W, and then either w_B or L_W:
 //   body_rates:  I w' = R^T torque - w x I w,   q' = 1/2 q (0, w_B)
@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "cases/truth/solved/joint_axis.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
@@ -22,8 +23,10 @@ class EquationsOfMotion {
   using State = std::vector<Real>;
   using Vector = Eigen::Matrix<Real, 3, 1>;
   using Matrix = Eigen::Matrix<Real, 3, 3>;
+  using Acting = ActingLoads<Real>;
 
-  EquationsOfMotion(const Scene& scene, Formulation formulation) : scene_(scene), formulation_(formulation) {
+  EquationsOfMotion(const Scene& scene, Formulation formulation)
+      : scene_(scene), axes_(axes_with_effort<Real>(scene)), formulation_(formulation) {
     for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
       const Body& body = scene.bodies[i];
       slot_.push_back(body.fixed ? -1 : kNumbersPerBody * static_cast<int>(moving_.size()));
@@ -76,7 +79,6 @@ class EquationsOfMotion {
     }
   }
 
- private:
   static constexpr int kNumbersPerBody = 13;
 
   struct Pose {
@@ -88,6 +90,11 @@ class EquationsOfMotion {
 
   static Vector get(const Real* s) { return {s[0], s[1], s[2]}; }
   static void put(Real* s, const Vector& v) { s[0] = v[0], s[1] = v[1], s[2] = v[2]; }
+
+  const Scene& scene() const { return scene_; }
+  const std::vector<int>& moving() const { return moving_; }
+  int slot(int body) const { return slot_[body]; }  // -1 if fixed
+  const Matrix& inverse_inertia(int body) const { return inverse_inertia_[body]; }
 
   static Matrix rotation_of(const Real* q) {
     const Real w = q[0], x = q[1], y = q[2], z = q[3], s = 2 / (w * w + x * x + y * y + z * z);
@@ -125,6 +132,7 @@ class EquationsOfMotion {
     }
   }
 
+ private:
   void add_spring(const Spring& spring, std::vector<Pose>& poses) const {
     Pose world;
     Pose& a = spring.a == kWorld ? world : poses[spring.a];
@@ -141,11 +149,29 @@ class EquationsOfMotion {
     b.force -= force, b.torque -= arm_b.cross(force);
   }
 
-  void evaluate(const State& state, const std::vector<const TimedForce*>& acting, std::vector<Pose>& poses,
-                State& change) const {
+  // Along the free axis n, fixed in a: a hinge's turns b about it, a slider's pushes b's centre, and a beside it.
+  void add_joint_effort(const JointAxis<Real>& axis, const Joint& joint, Real driving, std::vector<Pose>& poses) const {
+    Pose world;
+    Pose& a = joint.a == kWorld ? world : poses[joint.a];
+    Pose& b = joint.b == kWorld ? world : poses[joint.b];
+    const Vector n = a.R * axis.direction_a, apart = b.position - a.position;
+    Real rate = n.dot(b.w - a.w);
+    if (!axis.is_hinge) rate = n.dot(b.velocity - a.velocity) + a.w.cross(n).dot(apart);
+    const Real effort = driving - static_cast<Real>(joint.damping) * rate -
+                        static_cast<Real>(joint.stiffness) *
+                            (axis.coordinate(a.position, a.R, b.position, b.R) - static_cast<Real>(joint.rest));
+    if (axis.is_hinge) {
+      b.torque += effort * n, a.torque -= effort * n;
+    } else {
+      b.force += effort * n, a.force -= effort * n, a.torque -= effort * apart.cross(n);
+    }
+  }
+
+  void evaluate(const State& state, const Acting& acting, std::vector<Pose>& poses, State& change) const {
     read_poses(state, poses);
     for (const Spring& spring : scene_.springs) add_spring(spring, poses);
-    for (const TimedForce* timed : acting) {
+    for (const auto& [axis, effort] : acting.efforts) add_joint_effort(axes_[axis], scene_.joints[axes_[axis].joint], effort, poses);
+    for (const TimedForce* timed : acting.forces) {
       Pose& pose = poses[timed->body];
       const Vector force = timed->force.template cast<Real>(), arm = pose.R * timed->point.template cast<Real>();
       pose.force += force, pose.torque += timed->torque.template cast<Real>() + arm.cross(force);
@@ -172,6 +198,7 @@ class EquationsOfMotion {
   }
 
   Scene scene_;
+  std::vector<JointAxis<Real>> axes_;  // of joints with an effort along their free axis
   Formulation formulation_;
   std::vector<int> moving_;  // body indices
   std::vector<int> slot_;    // of each body: where its numbers begin in the state; -1 if fixed
@@ -181,16 +208,14 @@ class EquationsOfMotion {
 template <typename Real>
 class EquationsOfMotion<Real>::Interval {
  public:
-  Interval(const EquationsOfMotion& motion, double t) : motion_(&motion), poses_(motion.standing_poses()) {
-    for (const TimedForce& force : motion.scene_.forces) {
-      if (t >= force.from && t < force.until) acting_.push_back(&force);
-    }
-  }
+  Interval(const EquationsOfMotion& motion, double t)
+      : motion_(&motion), acting_(motion.scene_, motion.axes_, t), poses_(motion.standing_poses()) {}
   void operator()(const State& state, State& change, Real) { motion_->evaluate(state, acting_, poses_, change); }
+  const std::vector<Pose>& poses() const { return poses_; }  // of the state that was evaluated last
 
  private:
   const EquationsOfMotion* motion_;
-  std::vector<const TimedForce*> acting_;
+  Acting acting_;
   std::vector<Pose> poses_;  // room to work in
 };
 

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "cases/truth/provenance.h"
+#include "cases/truth/solved/jointed_motion.h"
 #include "cases/truth/solved/solution_cache.h"
+#include "cases/truth/solved/solving.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/scene/features.h"
@@ -23,13 +25,14 @@ ReferenceSolution solution_of(const Scene& scene, double duration) {
   return solution;
 }
 
+template <typename Motion>
 class Reference final : public Truth {
  public:
-  Reference(const Scene& scene, double duration)
-      : motion_(scene, kReferenceForm), solution_(solution_of(scene, duration)) {}
+  Reference(Motion motion, ReferenceSolution solution)
+      : motion_(std::move(motion)), solution_(std::move(solution)) {}
 
   void at(double t, MutableBodyColumns out) const override {
-    motion_.write(state_at(solution_, motion_, t).data(), out);
+    motion_.write(solving::state_at(solution_, motion_, t).data(), out);
   }
 
   double error(double t) const override {
@@ -39,18 +42,26 @@ class Reference final : public Truth {
   }
 
  private:
-  EquationsOfMotion<double> motion_;  // for the step from a node
+  Motion motion_;  // for the step from a node
   ReferenceSolution solution_;
 };
 
 std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
+  static const Features solved = {"fixed-body",   "spring",       "timed-force", "joints-with-dampers",
+                                  "joint-spring", "joint-damper", "motor:effort"};
   for (const Need& need : needs_of(scene)) {
-    if (need.feature == "fixed-body" || need.feature == "spring" || need.feature == "timed-force") continue;
-    throw InputError(
-        fmt::format("the truth 'reference' is for smooth scenes, without contacts and joints; this one has {}: {}",
-                    need.feature, need.because));
+    if (solved.contains(need.feature) || need.feature.starts_with("joint:")) continue;
+    throw InputError(fmt::format(
+        "the truth 'reference' is for smooth scenes, without contacts, limits and motors of a given speed; this one "
+        "has {}: {}",
+        need.feature, need.because));
   }
-  return std::make_unique<Reference>(scene, duration);
+  ReferenceSolution solution = solution_of(scene, duration);
+  if (scene.joints.empty()) {
+    return std::make_unique<Reference<EquationsOfMotion<double>>>(EquationsOfMotion<double>(scene, kReferenceForm),
+                                                                  std::move(solution));
+  }
+  return std::make_unique<Reference<JointedMotion<double>>>(JointedMotion<double>(scene), std::move(solution));
 }
 
 }  // namespace

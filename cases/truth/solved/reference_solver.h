@@ -20,10 +20,11 @@ struct ReferenceSolution {
   bool complete = false;            // both solutions reach the end; if not, the motion is not smooth there
 };
 
-// The scene may have springs, dampers and timed forces, but neither contacts nor joints.
+// The scene may have springs, dampers, timed forces, joints with springs, dampers and motors of a given effort along
+// their free axes, but neither contacts nor limits.
 ReferenceSolution solve_reference(const Scene& scene, double duration);
 
-// The state at t: one step of order 8 from the node before it, so that there is no interpolation error.
-std::vector<double> state_at(const ReferenceSolution& solution, const EquationsOfMotion<double>& motion, double t);
+// The same for a scene with joints (jointed_reference.cpp).
+ReferenceSolution solve_jointed_reference(const Scene& scene, double duration);
 
 }  // namespace rigor

@@ -130,6 +130,17 @@ void add_shape(Writer& content, const Box& box) { content.add(box.size); }
 void add_shape(Writer& content, const Capsule& capsule) { content.add(capsule.radius), content.add(capsule.length); }
 void add_shape(Writer& content, const Plane& plane) { content.add(plane.normal), content.add(plane.offset); }
 
+void add_joint(Writer& content, const BallJoint& ball) { content.add(ball.anchor); }
+void add_joint(Writer& content, const HingeJoint& hinge) { content.add(hinge.anchor), content.add(hinge.axis); }
+void add_joint(Writer& content, const SliderJoint& slider) { content.add(slider.axis); }
+void add_joint(Writer&, const FixedJoint&) {}
+void add_joint(Writer& content, const DistanceJoint& distance) {
+  content.add(distance.point_a), content.add(distance.point_b);
+}
+void add_joint(Writer& content, const UniversalJoint& universal) {
+  content.add(universal.anchor), content.add(universal.axis), content.add(universal.axis2);
+}
+
 }  // namespace
 
 namespace {
@@ -150,6 +161,16 @@ std::string motion_content(const Scene& scene, double duration) {
   for (const Spring& spring : scene.springs) {
     content.add(spring.a), content.add(spring.b), content.add(spring.point_a), content.add(spring.point_b);
     content.add(spring.stiffness), content.add(spring.damping), content.add(spring.rest_length);
+  }
+  content.add(scene.joints.size());
+  for (const Joint& joint : scene.joints) {
+    content.add(joint.a), content.add(joint.b), content.add(joint.type.index());
+    std::visit([&](const auto& type) { add_joint(content, type); }, joint.type);
+    content.add(joint.stiffness), content.add(joint.damping), content.add(joint.rest);
+  }
+  content.add(scene.motors.size());
+  for (const Motor& motor : scene.motors) {
+    content.add(motor.joint), content.add(motor.effort), content.add(motor.from), content.add(motor.until);
   }
   content.add(scene.forces.size());
   for (const TimedForce& force : scene.forces) {

@@ -1,0 +1,416 @@
+// The motion of jointed bodies a second time, by other coordinates and other equations: a body is its centre x and the
+// directions d_1, d_2, d_3 of its own axes, twelve numbers in which the mass is constant and every joint is a polynomial
+// of degree two (García de Jalón & Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapter 2). There
+// is no angular velocity, no gyroscopic torque and no quaternion in it:
+//   T = m x'.x'/2 + sum E_ij d_i'.d_j' / 2,   E = (tr I)/2 - I,
+// with d_i.d_j = 0 or 1 as six constraints a body. A torque t about the centre is the forces t x d_i / 2. Where E is
+// singular (a rod, a plate) the mass is made regular by what the six constraints hold anyway:
+//   (M + c P^T P) a + J^T lambda = Q - c P^T bias_P.
+#pragma once
+
+#include <limits>
+#include <stdexcept>
+
+#include "cases/truth/solved/constraint_rows.h"
+#include "cases/truth/solved/joint_axis.h"
+#include "core/engine/body_table.h"
+
+namespace rigor {
+
+template <typename Real>
+class NaturalCoordinates {
+ public:
+  using State = std::vector<Real>;
+  using Vector = Eigen::Matrix<Real, 3, 1>;
+  using Matrix = Eigen::Matrix<Real, 3, 3>;
+  using Rows = ConstraintRows<Real, 12>;
+  using Row = typename Rows::Row;
+  using Block = typename Row::Block;
+
+  explicit NaturalCoordinates(const Scene& scene) : scene_(scene), axes_(axes_with_effort<Real>(scene)) {
+    for (const Body& body : scene.bodies) {
+      order_.push_back(body.fixed ? -1 : static_cast<int>(moving_.size()));
+      if (!body.fixed) moving_.push_back(static_cast<int>(order_.size()) - 1);
+      const Matrix inertia = body.inertia.template cast<Real>();
+      second_moment_.push_back(inertia.trace() / 2 * Matrix::Identity() - inertia);
+    }
+    const std::vector<Frame> start = frames_of(start_as_read());
+    for (const Joint& joint : scene.joints) add(joint, start);
+    Rows rows;
+    rows.factorise(rows_at(start), inverse_masses(start));
+    choice_ = rows.choice();
+  }
+
+  State start() const {
+    State state = start_as_read();
+    during(0).project(state);
+    return state;
+  }
+
+  class Interval;
+  Interval during(double t) const { return {*this, t}; }
+
+  template <typename Number>
+  void write(const Number* state, MutableBodyColumns out) const {
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      if (order_[i] < 0) {
+        out.set_body(i, {scene_.bodies[i].position, scene_.bodies[i].orientation, Vec3::Zero(), Vec3::Zero()});
+        continue;
+      }
+      Real s[kNumbersPerBody];
+      for (int k = 0; k < kNumbersPerBody; ++k) s[k] = static_cast<Real>(state[kNumbersPerBody * order_[i] + k]);
+      const Frame frame = frame_of(s);
+      Mat3 R = frame.R.template cast<double>();
+      out.set_body(i, {frame.x.template cast<double>(), Quat(R).normalized(), frame.dx.template cast<double>(),
+                       frame.w().template cast<double>()});
+    }
+  }
+
+ private:
+  static constexpr int kNumbersPerBody = 24;  // x, d_1, d_2, d_3 and their rates
+
+  struct Frame {
+    Vector x = Vector::Zero(), dx = Vector::Zero();
+    Matrix R = Matrix::Identity(), dR = Matrix::Zero();  // columns d_i and d_i'
+    Block force = Block::Zero();                         // generalised: on x, then on each d_i
+
+    Vector point(const Vector& in_B) const { return x + R * in_B; }
+    Vector rate_of(const Vector& in_B) const { return dx + dR * in_B; }
+    // The mean over the axes, for where d_i are not quite at right angles.
+    Vector w() const {
+      Vector sum = Vector::Zero();
+      for (int i = 0; i < 3; ++i) sum += Vector(R.col(i)).cross(Vector(dR.col(i)));
+      return sum / 2;
+    }
+    void push(const Vector& f, const Vector& at_B) {
+      force.template head<3>() += f;
+      for (int i = 0; i < 3; ++i) force.template segment<3>(3 + 3 * i) += at_B[i] * f;
+    }
+    void turn(const Vector& torque) {
+      for (int i = 0; i < 3; ++i) force.template segment<3>(3 + 3 * i) += torque.cross(Vector(R.col(i))) / 2;
+    }
+  };
+
+  // Each keeps a polynomial of the two bodies' coordinates at what it is at t = 0.
+  struct SharedPoint {
+    int a, b;
+    Vector at_a, at_b;
+  };
+  struct DotProduct {  // of a direction of a with one of b
+    int a, b;
+    Vector of_a, of_b;
+    Real kept;
+  };
+  struct DotOffset {  // of a direction of a with the way from a's centre to b's
+    int a, b;
+    Vector of_a;
+    Real kept;
+  };
+  struct Squared {  // of the way between two points
+    int a, b;
+    Vector at_a, at_b;
+    Real kept;
+  };
+
+  static Frame frame_of(const Real* s) {
+    using Map = Eigen::Map<const Eigen::Matrix<Real, 3, 1>>;
+    Frame frame;
+    frame.x = Map(s), frame.dx = Map(s + 12);
+    for (int i = 0; i < 3; ++i) frame.R.col(i) = Map(s + 3 + 3 * i), frame.dR.col(i) = Map(s + 15 + 3 * i);
+    return frame;
+  }
+
+  State start_as_read() const {
+    State state(kNumbersPerBody * moving_.size());
+    for (const int i : moving_) {
+      const Body& body = scene_.bodies[i];
+      const Matrix R = body.orientation.template cast<Real>().normalized().toRotationMatrix();
+      const Vector x = body.position.template cast<Real>(), v = body.velocity.template cast<Real>(),
+                   w = body.angular_velocity.template cast<Real>();
+      Real* s = &state[kNumbersPerBody * order_[i]];
+      for (int k = 0; k < 3; ++k) {
+        s[k] = x[k], s[12 + k] = v[k];
+        const Vector d = R.col(k), rate = w.cross(d);
+        for (int j = 0; j < 3; ++j) s[3 + 3 * k + j] = d[j], s[15 + 3 * k + j] = rate[j];
+      }
+    }
+    return state;
+  }
+
+  std::vector<Frame> frames_of(const State& state) const {
+    std::vector<Frame> frames(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      if (order_[i] >= 0) {
+        frames[i] = frame_of(&state[kNumbersPerBody * order_[i]]);
+      } else {
+        frames[i].x = scene_.bodies[i].position.template cast<Real>();
+        frames[i].R = scene_.bodies[i].orientation.template cast<Real>().normalized().toRotationMatrix();
+      }
+    }
+    return frames;
+  }
+
+  static const Frame& frame(const std::vector<Frame>& frames, int body) {
+    static const Frame world;
+    return body == kWorld ? world : frames[body];
+  }
+
+  void keep_dot(const Joint& joint, const std::vector<Frame>& start, const Vector& of_a, const Vector& of_b) {
+    const Vector u = frame(start, joint.a).R * of_a, v = frame(start, joint.b).R * of_b;
+    dots_.push_back({joint.a, joint.b, of_a, of_b, u.dot(v)});
+  }
+
+  void add(const Joint& joint, const std::vector<Frame>& start) {
+    const Frame &a = frame(start, joint.a), &b = frame(start, joint.b);
+    const auto share = [&](const Vector& point) {
+      points_.push_back({joint.a, joint.b, a.R.transpose() * (point - a.x), b.R.transpose() * (point - b.x)});
+    };
+    const auto in_a = [&](const Vector& u) { return Vector(a.R.transpose() * u); };
+    const auto in_b = [&](const Vector& u) { return Vector(b.R.transpose() * u); };
+    // Two directions beside the axis: what is left of two of W's axes, made orthonormal.
+    const auto beside = [](const Vector& axis) {
+      Eigen::Matrix<Real, 3, 1> first = Vector::Unit(0), second = Vector::Unit(1);
+      if (abs_of(axis[0]) > abs_of(axis[2])) first = Vector::Unit(2);
+      if (abs_of(axis[1]) > abs_of(axis[0]) && abs_of(axis[1]) > abs_of(axis[2])) first = Vector::Unit(0), second = Vector::Unit(2);
+      first = (first - axis.dot(first) * axis).normalized();
+      second = (second - axis.dot(second) * axis - first.dot(second) * first).normalized();
+      return std::array<Vector, 2>{first, second};
+    };
+    // The same turn: d_i of a against d_j of b, as at the start.
+    const auto keep_turn = [&] {
+      const Vector e[] = {in_b(a.R.col(0)), in_b(a.R.col(1)), in_b(a.R.col(2))};
+      keep_dot(joint, start, Vector::Unit(1), e[0]), keep_dot(joint, start, Vector::Unit(2), e[1]);
+      keep_dot(joint, start, Vector::Unit(0), e[2]);
+    };
+    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
+      share(ball->anchor.template cast<Real>());
+    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
+      share(hinge->anchor.template cast<Real>());
+      const Vector axis = hinge->axis.template cast<Real>().normalized();
+      for (const Vector& u : beside(axis)) keep_dot(joint, start, in_a(axis), in_b(u));
+    } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
+      share(universal->anchor.template cast<Real>());
+      keep_dot(joint, start, in_a(universal->axis.template cast<Real>()), in_b(universal->axis2.template cast<Real>()));
+    } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
+      keep_turn();
+      for (const Vector& u : beside(slider->axis.template cast<Real>().normalized())) {
+        offsets_.push_back({joint.a, joint.b, in_a(u), u.dot(b.x - a.x)});
+      }
+    } else if (std::holds_alternative<FixedJoint>(joint.type)) {
+      keep_turn();
+      share((a.x + b.x) / 2);
+    } else {
+      const auto& distance = std::get<DistanceJoint>(joint.type);
+      const Vector at_a = distance.point_a.template cast<Real>(), at_b = distance.point_b.template cast<Real>();
+      squares_.push_back({joint.a, joint.b, at_a, at_b, (b.point(at_b) - a.point(at_a)).squaredNorm()});
+    }
+  }
+
+  static Real abs_of(const Real& number) { return number < 0 ? Real(-number) : number; }
+
+  // d/dx = linear, d/d(d_i) = weights_i linear.
+  void set(Row& row, int end, int body, const Vector& on_centre, const Vector& weights, const Vector& on_axes) const {
+    if (body == kWorld || order_[body] < 0) return;
+    row.body[end] = order_[body];
+    row.block[end].template head<3>() = on_centre;
+    for (int i = 0; i < 3; ++i) row.block[end].template segment<3>(3 + 3 * i) = weights[i] * on_axes;
+  }
+
+  std::vector<Row> rows_at(const std::vector<Frame>& frames) const {
+    std::vector<Row> rows;
+    for (const int i : moving_) add_own_rows(order_[i], frames[i], rows);
+    for (const SharedPoint& point : points_) {
+      const Frame &a = frame(frames, point.a), &b = frame(frames, point.b);
+      const Vector gap = b.point(point.at_b) - a.point(point.at_a);
+      for (int k = 0; k < 3; ++k) {
+        Row& row = rows.emplace_back();
+        const Vector axis = Vector::Unit(k);
+        set(row, 0, point.a, -axis, point.at_a, -axis), set(row, 1, point.b, axis, point.at_b, axis);
+        row.gap = gap[k];
+      }
+    }
+    for (const DotProduct& dot : dots_) {
+      const Frame &a = frame(frames, dot.a), &b = frame(frames, dot.b);
+      const Vector u = a.R * dot.of_a, v = b.R * dot.of_b;
+      Row& row = rows.emplace_back();
+      set(row, 0, dot.a, Vector::Zero(), dot.of_a, v), set(row, 1, dot.b, Vector::Zero(), dot.of_b, u);
+      row.gap = u.dot(v) - dot.kept;
+      row.bias = 2 * (a.dR * dot.of_a).dot(b.dR * dot.of_b);
+    }
+    for (const DotOffset& offset : offsets_) {
+      const Frame &a = frame(frames, offset.a), &b = frame(frames, offset.b);
+      const Vector n = a.R * offset.of_a;
+      Row& row = rows.emplace_back();
+      set(row, 0, offset.a, -n, offset.of_a, b.x - a.x), set(row, 1, offset.b, n, Vector::Zero(), n);
+      row.gap = n.dot(b.x - a.x) - offset.kept;
+      row.bias = 2 * (a.dR * offset.of_a).dot(b.dx - a.dx);
+    }
+    for (const Squared& squared : squares_) {
+      const Frame &a = frame(frames, squared.a), &b = frame(frames, squared.b);
+      const Vector d = b.point(squared.at_b) - a.point(squared.at_a);
+      Row& row = rows.emplace_back();
+      set(row, 0, squared.a, -d, squared.at_a, -d), set(row, 1, squared.b, d, squared.at_b, d);
+      row.gap = (d.squaredNorm() - squared.kept) / 2;
+      row.bias = (b.rate_of(squared.at_b) - a.rate_of(squared.at_a)).squaredNorm();
+    }
+    return rows;
+  }
+
+  // d_i.d_j as of a rotation.
+  static void add_own_rows(int body, const Frame& frame, std::vector<Row>& rows) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = i; j < 3; ++j) {
+        Row& row = rows.emplace_back();
+        row.body[0] = body;
+        row.block[0].template segment<3>(3 + 3 * i) += frame.R.col(j);
+        row.block[0].template segment<3>(3 + 3 * j) += frame.R.col(i);
+        row.gap = frame.R.col(i).dot(frame.R.col(j)) - (i == j ? 1 : 0);
+        row.bias = 2 * frame.dR.col(i).dot(frame.dR.col(j));
+      }
+    }
+  }
+
+  // c of the head comment: of the inertia's size.
+  Real regulariser(int i) const { return second_moment_[i].trace() / 3; }
+
+  std::vector<typename Rows::InverseMass> inverse_masses(const std::vector<Frame>& frames) const {
+    std::vector<typename Rows::InverseMass> inverse(moving_.size(), Rows::InverseMass::Zero());
+    for (const int i : moving_) {
+      Eigen::Matrix<Real, 9, 9> mass = Eigen::Matrix<Real, 9, 9>::Zero();
+      for (int j = 0; j < 3; ++j) {
+        for (int k = 0; k < 3; ++k)
+          mass.template block<3, 3>(3 * j, 3 * k) = second_moment_[i](j, k) * Matrix::Identity();
+      }
+      std::vector<Row> own;
+      add_own_rows(order_[i], frames[i], own);
+      for (const Row& row : own) {
+        const Eigen::Matrix<Real, 9, 1> p = row.block[0].template tail<9>();
+        mass += regulariser(i) * p * p.transpose();
+      }
+      auto& out = inverse[order_[i]];
+      out.template topLeftCorner<3, 3>() = Matrix::Identity() / static_cast<Real>(scene_.bodies[i].mass);
+      const Eigen::LLT<Eigen::Matrix<Real, 9, 9>> llt(mass);
+      out.template bottomRightCorner<9, 9>() = llt.solve(Eigen::Matrix<Real, 9, 9>::Identity());
+    }
+    return inverse;
+  }
+
+  void add_loads(const ActingLoads<Real>& acting, std::vector<Frame>& frames) const {
+    for (const int i : moving_) {
+      const Real mass = static_cast<Real>(scene_.bodies[i].mass);
+      frames[i].push(mass * scene_.gravity.template cast<Real>(), Vector::Zero());
+    }
+    Frame world;
+    const auto at = [&](int body) -> Frame& { return body == kWorld ? world : frames[body]; };
+    for (const Spring& spring : scene_.springs) {
+      const Vector point_a = spring.point_a.template cast<Real>(), point_b = spring.point_b.template cast<Real>();
+      Frame &a = at(spring.a), &b = at(spring.b);
+      const Vector line = b.point(point_b) - a.point(point_a);
+      const Real length = line.norm();
+      if (length == 0) continue;
+      const Vector n = line / length;
+      const Real stretch = length - static_cast<Real>(spring.rest_length),
+                 rate = n.dot(b.rate_of(point_b) - a.rate_of(point_a)),
+                 tension = static_cast<Real>(spring.stiffness) * stretch + static_cast<Real>(spring.damping) * rate;
+      a.push(tension * n, point_a), b.push(-tension * n, point_b);
+    }
+    for (const TimedForce* timed : acting.forces) {
+      at(timed->body).push(timed->force.template cast<Real>(), timed->point.template cast<Real>());
+      at(timed->body).turn(timed->torque.template cast<Real>());
+    }
+    for (const auto& [axis, driven] : acting.efforts) add_effort(axes_[axis], driven, at);
+  }
+
+  // A slider's effort on a acts where b's centre is, as a point of a.
+  template <typename At>
+  void add_effort(const JointAxis<Real>& axis, Real driven, const At& at) const {
+    const Joint& joint = scene_.joints[axis.joint];
+    Frame &a = at(joint.a), &b = at(joint.b);
+    const Vector n = a.R * axis.direction_a, there = a.R.transpose() * (b.x - a.x);
+    const Real rate = axis.is_hinge ? n.dot(b.w() - a.w()) : n.dot(b.dx - a.rate_of(there)),
+               coordinate = axis.coordinate(a.x, a.R, b.x, b.R) - static_cast<Real>(joint.rest),
+               effort = driven - static_cast<Real>(joint.stiffness) * coordinate -
+                        static_cast<Real>(joint.damping) * rate;
+    if (axis.is_hinge) {
+      b.turn(effort * n), a.turn(-effort * n);
+    } else {
+      b.push(effort * n, Vector::Zero()), a.push(-effort * n, there);
+    }
+  }
+
+  Scene scene_;
+  std::vector<JointAxis<Real>> axes_;
+  std::vector<int> moving_, order_;  // as in JointedMotion
+  std::vector<Matrix> second_moment_;
+  std::vector<SharedPoint> points_;
+  std::vector<DotProduct> dots_;
+  std::vector<DotOffset> offsets_;
+  std::vector<Squared> squares_;
+  RowChoice choice_;
+};
+
+template <typename Real>
+class NaturalCoordinates<Real>::Interval {
+ public:
+  Interval(const NaturalCoordinates& motion, double t)
+      : motion_(&motion), acting_(motion.scene_, motion.axes_, t), solver_(motion.choice_) {}
+
+  void operator()(const State& state, State& change, Real) {
+    change.assign(state.size(), std::numeric_limits<Real>::quiet_NaN());
+    std::vector<Frame> frames = motion_->frames_of(state);
+    motion_->add_loads(acting_, frames);
+    const std::vector<Row> rows = motion_->rows_at(frames);
+    const auto mass = motion_->inverse_masses(frames);
+    if (!solver_.factorise(rows, mass)) return;
+    std::vector<Block> free(mass.size());
+    for (const int i : motion_->moving_) free[motion_->order_[i]] = mass[motion_->order_[i]] * load_of(i, frames[i]);
+    const auto added =
+        solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(free) + row.bias); });
+    for (std::size_t b = 0; b < mass.size(); ++b) {
+      for (int k = 0; k < 12; ++k) {
+        change[kNumbersPerBody * b + k] = state[kNumbersPerBody * b + 12 + k];
+        change[kNumbersPerBody * b + 12 + k] = free[b][k] + added[b][k];
+      }
+    }
+  }
+
+  // As JointedMotion's.
+  bool project(State& state) {
+    constexpr int kRounds = 4;
+    for (int round = 0; round < kRounds; ++round) {
+      if (!correct(state, 0, [](const Row& row, const std::vector<Block>&) { return row.gap; })) return false;
+    }
+    return correct(state, 12, [](const Row& row, const std::vector<Block>& rates) { return row.rate(rates); });
+  }
+
+ private:
+  Block load_of(int i, const Frame& frame) const {
+    Block load = frame.force;
+    std::vector<Row> own;
+    add_own_rows(motion_->order_[i], frame, own);
+    for (const Row& row : own) load -= motion_->regulariser(i) * row.bias * row.block[0];
+    return load;
+  }
+
+  // `first`: of the numbers of a body that are moved.
+  template <typename Residual>
+  bool correct(State& state, int first, const Residual& residual) {
+    const std::vector<Frame> frames = motion_->frames_of(state);
+    const std::vector<Row> rows = motion_->rows_at(frames);
+    const auto mass = motion_->inverse_masses(frames);
+    if (!solver_.factorise(rows, mass)) return false;
+    std::vector<Block> rates(mass.size());
+    for (std::size_t b = 0; b < mass.size(); ++b) rates[b] = Eigen::Map<const Block>(&state[kNumbersPerBody * b + 12]);
+    const auto moves = solver_.correction(rows, mass, [&](const Row& row) { return residual(row, rates); });
+    for (std::size_t b = 0; b < mass.size(); ++b) {
+      for (int k = 0; k < 12; ++k) state[kNumbersPerBody * b + first + k] += moves[b][k];
+    }
+    return true;
+  }
+
+  const NaturalCoordinates* motion_;
+  ActingLoads<Real> acting_;
+  Rows solver_;
+};
+
+}  // namespace rigor
