@@ -30,7 +30,7 @@ struct Chain {
 const std::vector<Chain> kChains = {
     {"", {"core", "adapters", "cases", "bench", "tests"}},
     {"core", {"base", "scene", "engine", "dynamics"}},
-    {"core/dynamics", {"kernels", "model", "integrators", "collision", "contact"}},
+    {"core/dynamics", {"kernels", "model", "joints", "integrators", "collision", "contact"}},
     {"cases", {"case", "truth", "metrics", "results", "runner", "gates", "analysis", "report", "cli"}},
 };
 
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(an_arrow_back_is_printed_with_its_line) {
 BOOST_AUTO_TEST_CASE(only_readers_and_writers_include_the_toml_library) {
   BOOST_TEST(wrong_ones(all_includes(), [](const Include& one) {
                const bool may = one.file.ends_with("_reader.cpp") || one.file.ends_with("_writer.cpp");
-               return one.what.starts_with("toml++") && !may;
+               return one.what.starts_with("toml++") && !may && !one.file.starts_with("tests/");
              }) == "");
 }
 

@@ -33,8 +33,8 @@ ReferenceSolution solve_jointed_reference(const Scene& scene, double duration) {
   const JointedMotion<Extended> motion(scene);
   const JointedMotion<double> rounded(scene);
   Judged judged(rounded, scene.bodies.size(), nodes_of(motion, kSolution, switches));
-  judged.compare(NaturalCoordinates<double>(scene),
-                 nodes_of(NaturalCoordinates<Extended>(scene), kBeside, switches));
+  const NaturalCoordinates<Extended> beside(scene);
+  judged.compare(beside, nodes_of(beside, kBeside, switches));
   judged.compare(rounded, nodes_of(motion, kAgain, switches));
   return judged.solution();
 }

@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(errors_of_a_family_have_their_place) {
       {gate("at_least_order = 'declred'"), "4:18: gate.at_least_order: ", {"'declared'"}},
       {gate("max = 1\ndt = '=<1/30'"), "5:6: gate.dt: ", {"<=, >, >="}},
       {gate("max = 1\nregression = 2"), "1:1: gate: ", {"do not go together"}},
-      {gate("max = 1\nmetric = 'x'"), "5:1: is not TOML", {}},
+      {gate("max = 1\nmetric = 'x'"), "5:10: is not TOML", {}},
   };
   for (const Refusal& row : rows) check_refusal(row, file, [&] { cases_with(row.text); });
 }

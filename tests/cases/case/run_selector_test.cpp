@@ -19,6 +19,7 @@ MethodInfo method(const std::string& name, int order, bool symplectic, const std
 // A core of four methods, the last a twin of "toy"; and two other engines.
 std::vector<EngineInfo> infos() {
   EngineInfo core{.name = "core", .version = "1", .precision = "double"};
+  core.is_in_house = true;
   core.methods = {method("euler", 1, true), method("rk4", 4, false), method("adaptive8", 8, false),
                   method("toy-twin", 1, false, "toy")};
   core.methods[2].adaptive = true;
