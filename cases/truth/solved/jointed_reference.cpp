@@ -1,7 +1,7 @@
-// The reference of jointed scenes, in extended precision: Newton and Euler's accelerations with the joints' forces
-// (jointed_motion.h) for the solution, and beside it, for its error, the same bodies by natural coordinates
-// (natural_coordinates.h), which share no equation with them, and the first once more with other steps. Each is
-// projected onto its constraints after each step.
+// The reference of jointed scenes: Newton and Euler's accelerations with the joints' forces (jointed_motion.h), in
+// extended precision, for the solution, and beside it, for its error, the same bodies by natural coordinates
+// (natural_coordinates.h), in double, which share no equation with them. Each is projected onto its constraints after
+// each step. The error so is that of the second, some 1e-12 m and rad where nothing magnifies roundings.
 #include "cases/truth/solved/extrapolation.h"
 #include "cases/truth/solved/jointed_motion.h"
 #include "cases/truth/solved/natural_coordinates.h"
@@ -13,29 +13,21 @@ namespace {
 
 using namespace solving;
 
-// What an extrapolation allows a step (reference_solver.cpp says why no less). The equations for the joints' forces
-// magnify roundings by what they are ill-conditioned.
-struct StepRule {
-  int columns;
-  double tolerance;
-};
-constexpr StepRule kSolution{6, 4e-16}, kBeside{7, 1e-15}, kAgain{8, 1e-15};
-
-template <typename Motion>
-Nodes nodes_of(const Motion& motion, StepRule rule, const std::vector<double>& switches) {
-  return solve(motion, Extrapolation<Extended>(rule.columns, rule.tolerance), switches, kMostTries);
+// What an extrapolation allows a step, relative and absolute (reference_solver.cpp says why no less): the equations for
+// the joints' forces magnify roundings by what they are ill-conditioned.
+template <typename Real, typename Motion>
+Nodes nodes_of(const Motion& motion, int columns, double tolerance, const std::vector<double>& switches) {
+  return solve(motion, Extrapolation<Real>(columns, tolerance), switches, kMostTries);
 }
 
 }  // namespace
 
 ReferenceSolution solve_jointed_reference(const Scene& scene, double duration) {
   const std::vector<double> switches = switch_times(scene, duration);
-  const JointedMotion<Extended> motion(scene);
-  const JointedMotion<double> rounded(scene);
-  Judged judged(rounded, scene.bodies.size(), nodes_of(motion, kSolution, switches));
-  const NaturalCoordinates<Extended> beside(scene);
-  judged.compare(beside, nodes_of(beside, kBeside, switches));
-  judged.compare(rounded, nodes_of(motion, kAgain, switches));
+  const auto nodes = nodes_of<Extended>(JointedMotion<Extended>(scene), 6, 1e-15, switches);
+  Judged judged(JointedMotion<double>(scene), scene.bodies.size(), nodes);
+  const NaturalCoordinates<double> beside(scene);
+  judged.compare(beside, nodes_of<double>(beside, 5, 1e-12, switches));
   return judged.solution();
 }
 
