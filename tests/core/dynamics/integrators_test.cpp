@@ -42,8 +42,9 @@ class Run {
     stepper_ = method.integrator->make({system_, nullptr, method.orientation, settings});
   }
   void steps(double dt, int count) {
-    for (int k = 0; k < count; ++k, ++n_) {
-      stepper_->step(state_.columns(), n_ * dt, dt);
+    for (int k = 0; k < count; ++k) {
+      stepper_->step(state_.columns(), t_, dt);
+      t_ += dt;
       if (solver_warning_.empty()) solver_warning_ = stepper_->solver_warning();
     }
   }
@@ -54,7 +55,7 @@ class Run {
   System system_;
   BodyTable state_;
   std::unique_ptr<Stepper> stepper_;
-  int n_ = 0;
+  double t_ = 0;  // s
   std::string solver_warning_;
 };
 
