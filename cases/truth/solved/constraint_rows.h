@@ -1,8 +1,8 @@
 // Rows J of constraints on bodies that have N velocities each, and the multipliers that keep them, for any number type:
 // S lambda = r with S = J M^-1 J^T, sparse, by LDL^T. Rows that depend on others (the loops of a plane mechanism) are
-// left out: which, a rank-revealing QR decomposition of the rows, weighed by mass, says. How many is decided once, where
-// the motion begins, for beside the manifold dependent rows look independent; which, anew where those in use have come
-// to depend on each other. What is left out holds by itself, as long as it does depend on the rest.
+// left out: which, a rank-revealing QR decomposition of the rows, weighed by mass, says. How many is decided once,
+// where the motion begins, for beside the manifold dependent rows look independent; which, anew where those in use have
+// come to depend on each other. What is left out holds by itself, as long as it does depend on the rest.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -18,10 +18,10 @@ namespace rigor {
 template <typename Real, int N>
 struct ConstraintRow {
   using Block = Eigen::Matrix<Real, N, 1>;
-  int body[2] = {-1, -1};                       // moving bodies, or -1
+  int body[2] = {-1, -1};                           // moving bodies, or -1
   Block block[2] = {Block::Zero(), Block::Zero()};  // d(rate)/d(velocities of that body)
-  Real bias = 0;                                // the second derivative is sum of block * acceleration, and this
-  Real gap = 0;                                 // what has to be zero
+  Real bias = 0;                                    // the second derivative is sum of block * acceleration, and this
+  Real gap = 0;                                     // what has to be zero
 
   Real rate(const std::vector<Block>& velocities) const {
     Real sum = 0;
@@ -34,9 +34,9 @@ struct ConstraintRow {
 
 // Which rows are in use.
 struct RowChoice {
-  int rank = -1;             // not known yet
-  std::vector<int> chosen;   // ascending
-  double condition = 0;      // of S when they were chosen: its smallest pivot beside its largest
+  int rank = -1;            // not known yet
+  std::vector<int> chosen;  // ascending
+  double condition = 0;     // of S when they were chosen: its smallest pivot beside its largest
 };
 
 template <typename Real, int N>
@@ -152,7 +152,8 @@ class ConstraintRows {
     }
     std::fill(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros(), Real(0));
     for (const Term& term : terms_) {
-      matrix_.valuePtr()[term.place] += rows[choice_.chosen[term.i]].block[term.end_i].dot(weighed_[term.j][term.end_j]);
+      matrix_.valuePtr()[term.place] +=
+          rows[choice_.chosen[term.i]].block[term.end_i].dot(weighed_[term.j][term.end_j]);
     }
     ldlt_.factorize(matrix_);
     constexpr double kSingular = 1e-15;  // of a long double's 1e-19: no digit that counts would be left of a double's

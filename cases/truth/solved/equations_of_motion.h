@@ -1,5 +1,6 @@
-// The equations that the reference solves: Newton-Euler under gravity, springs, dampers, timed forces, and what springs,
-// dampers and motors do along the free axes of joints, for any number type. What joints hold is jointed_motion.h's. Written apart from core/dynamics on purpose, so that a mistake there cannot hide in the truth.
+// The equations that the reference solves: Newton-Euler under gravity, springs, dampers, timed forces, and what
+// springs, dampers and motors do along the free axes of joints, for any number type. What joints hold is
+// jointed_motion.h's. Written apart from core/dynamics on purpose, so that a mistake there cannot hide in the truth.
 //
 // A moving body has 13 numbers: p_WB, q (w, x, y, z), v_W, and then either w_B or L_W:
 //   body_rates:  I w' = R^T torque - w x I w,   q' = 1/2 q (0, w_B)
@@ -170,7 +171,8 @@ class EquationsOfMotion {
   void evaluate(const State& state, const Acting& acting, std::vector<Pose>& poses, State& change) const {
     read_poses(state, poses);
     for (const Spring& spring : scene_.springs) add_spring(spring, poses);
-    for (const auto& [axis, effort] : acting.efforts) add_joint_effort(axes_[axis], scene_.joints[axes_[axis].joint], effort, poses);
+    for (const auto& [axis, effort] : acting.efforts)
+      add_joint_effort(axes_[axis], scene_.joints[axes_[axis].joint], effort, poses);
     for (const TimedForce* timed : acting.forces) {
       Pose& pose = poses[timed->body];
       const Vector force = timed->force.template cast<Real>(), arm = pose.R * timed->point.template cast<Real>();

@@ -154,8 +154,8 @@ class JointedMotion {
 
   void add_rows(const SharedPoint& point, const std::vector<Pose>& poses, std::vector<Row>& rows) const {
     const Pose &a = pose(poses, point.a), &b = pose(poses, point.b);
-    const Vector arm_a = a.R * point.at_a, arm_b = b.R * point.at_b,
-                 gap = b.position + arm_b - a.position - arm_a, bias = centripetal(b, arm_b) - centripetal(a, arm_a);
+    const Vector arm_a = a.R * point.at_a, arm_b = b.R * point.at_b, gap = b.position + arm_b - a.position - arm_a,
+                 bias = centripetal(b, arm_b) - centripetal(a, arm_a);
     for (int k = 0; k < 3; ++k) {
       const Vector axis = Vector::Unit(k);
       Row& row = rows.emplace_back();
@@ -200,8 +200,7 @@ class JointedMotion {
     std::vector<InverseMass> inverse(free_.moving().size(), InverseMass::Zero());
     for (const int i : free_.moving()) {
       InverseMass& out = inverse[order_[i]];
-      out.template topLeftCorner<3, 3>() =
-          Matrix::Identity() / static_cast<Real>(free_.scene().bodies[i].mass);
+      out.template topLeftCorner<3, 3>() = Matrix::Identity() / static_cast<Real>(free_.scene().bodies[i].mass);
       out.template bottomRightCorner<3, 3>() = poses[i].R * free_.inverse_inertia(i) * poses[i].R.transpose();
     }
     return inverse;
@@ -235,22 +234,24 @@ class JointedMotion {
 template <typename Real>
 class JointedMotion<Real>::Interval {
  public:
-  Interval(const JointedMotion& motion, double t) : motion_(&motion), free_(motion.free_.during(t)), solver_(motion.choice_) {}
+  Interval(const JointedMotion& motion, double t)
+      : motion_(&motion), free_(motion.free_.during(t)), solver_(motion.choice_) {}
 
   void operator()(const State& state, State& change, Real t) {
     free_(state, change, t);
     const std::vector<Pose>& poses = free_.poses();
     const std::vector<Row> rows = motion_->rows_at(poses);
     const auto mass = motion_->inverse_masses(poses);
-    if (!solver_.factorise(rows, mass)) return std::fill(change.begin(), change.end(), std::numeric_limits<Real>::quiet_NaN());
+    if (!solver_.factorise(rows, mass))
+      return std::fill(change.begin(), change.end(), std::numeric_limits<Real>::quiet_NaN());
     const auto& moving = motion_->free_.moving();
     std::vector<Block> accelerations(moving.size());
     for (const int i : moving) {
       const Real* c = &change[motion_->free_.slot(i)];
       accelerations[motion_->order_[i]] << Free::get(c + 7), poses[i].R * Free::get(c + 10);
     }
-    const auto added = solver_.correction(
-        rows, mass, [&](const Row& row) { return Real(row.rate(accelerations) + row.bias); });
+    const auto added =
+        solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(accelerations) + row.bias); });
     for (const int i : moving) {
       Real* c = &change[motion_->free_.slot(i)];
       const Block& block = added[motion_->order_[i]];

@@ -1,7 +1,7 @@
 // The motion of jointed bodies a second time, by other coordinates and other equations: a body is its centre x and the
-// directions d_1, d_2, d_3 of its own axes, twelve numbers in which the mass is constant and every joint is a polynomial
-// of degree two (García de Jalón & Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapter 2). There
-// is no angular velocity, no gyroscopic torque and no quaternion in it:
+// directions d_1, d_2, d_3 of its own axes, twelve numbers in which the mass is constant and every joint is a
+// polynomial of degree two (García de Jalón & Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994,
+// chapter 2). There is no angular velocity, no gyroscopic torque and no quaternion in it:
 //   T = m x'.x'/2 + sum E_ij d_i'.d_j' / 2,   E = (tr I)/2 - I,
 // with d_i.d_j = 0 or 1 as six constraints a body. A torque t about the centre is the forces t x d_i / 2. Where E is
 // singular (a rod, a plate) the mass is made regular by what the six constraints hold anyway:
@@ -171,7 +171,8 @@ class NaturalCoordinates {
     const auto beside = [](const Vector& axis) {
       Eigen::Matrix<Real, 3, 1> first = Vector::Unit(0), second = Vector::Unit(1);
       if (abs_of(axis[0]) > abs_of(axis[2])) first = Vector::Unit(2);
-      if (abs_of(axis[1]) > abs_of(axis[0]) && abs_of(axis[1]) > abs_of(axis[2])) first = Vector::Unit(0), second = Vector::Unit(2);
+      if (abs_of(axis[1]) > abs_of(axis[0]) && abs_of(axis[1]) > abs_of(axis[2]))
+        first = Vector::Unit(0), second = Vector::Unit(2);
       first = (first - axis.dot(first) * axis).normalized();
       second = (second - axis.dot(second) * axis - first.dot(second) * first).normalized();
       return std::array<Vector, 2>{first, second};
@@ -329,8 +330,8 @@ class NaturalCoordinates {
     const Vector n = a.R * axis.direction_a, there = a.R.transpose() * (b.x - a.x);
     const Real rate = axis.is_hinge ? n.dot(b.w() - a.w()) : n.dot(b.dx - a.rate_of(there)),
                coordinate = axis.coordinate(a.x, a.R, b.x, b.R) - static_cast<Real>(joint.rest),
-               effort = driven - static_cast<Real>(joint.stiffness) * coordinate -
-                        static_cast<Real>(joint.damping) * rate;
+               effort =
+                   driven - static_cast<Real>(joint.stiffness) * coordinate - static_cast<Real>(joint.damping) * rate;
     if (axis.is_hinge) {
       b.turn(effort * n), a.turn(-effort * n);
     } else {
@@ -364,8 +365,7 @@ class NaturalCoordinates<Real>::Interval {
     if (!solver_.factorise(rows, mass)) return;
     std::vector<Block> free(mass.size());
     for (const int i : motion_->moving_) free[motion_->order_[i]] = mass[motion_->order_[i]] * load_of(i, frames[i]);
-    const auto added =
-        solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(free) + row.bias); });
+    const auto added = solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(free) + row.bias); });
     for (std::size_t b = 0; b < mass.size(); ++b) {
       for (int k = 0; k < 12; ++k) {
         change[kNumbersPerBody * b + k] = state[kNumbersPerBody * b + 12 + k];

@@ -28,8 +28,7 @@ ReferenceSolution solution_of(const Scene& scene, double duration) {
 template <typename Motion>
 class Reference final : public Truth {
  public:
-  Reference(Motion motion, ReferenceSolution solution)
-      : motion_(std::move(motion)), solution_(std::move(solution)) {}
+  Reference(Motion motion, ReferenceSolution solution) : motion_(std::move(motion)), solution_(std::move(solution)) {}
 
   void at(double t, MutableBodyColumns out) const override {
     motion_.write(solving::state_at(solution_, motion_, t).data(), out);

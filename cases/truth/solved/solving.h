@@ -104,8 +104,8 @@ Nodes solve(const Motion& motion, const Stepper& stepper, const std::vector<doub
 template <typename Motion>
 Nodes filled_in(const Nodes& nodes, const Motion& motion) {
   using State = std::vector<double>;
-  const auto fehlberg =
-      boost::numeric::odeint::make_controlled(kFillTolerance, kFillTolerance, boost::numeric::odeint::runge_kutta_fehlberg78<State>());
+  const auto fehlberg = boost::numeric::odeint::make_controlled(
+      kFillTolerance, kFillTolerance, boost::numeric::odeint::runge_kutta_fehlberg78<State>());
   Nodes filled;
   filled.dimension = nodes.dimension;
   for (std::size_t i = 0; i < nodes.times.size(); ++i) {

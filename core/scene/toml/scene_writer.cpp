@@ -147,7 +147,8 @@ std::string scene_json(const Scene& scene) { return tree_of(scene).dump(); }
 
 std::string scene_toml(const Scene& scene) {
   std::string values = "[scene]\n", tables;
-  for (const auto& [key, value] : tree_of(scene).items()) {
+  const Json tree = tree_of(scene);
+  for (const auto& [key, value] : tree.items()) {
     const bool is_table = value.is_array() && value.front().is_object();
     if (!is_table) values += fmt::format("{} = {}\n", key, toml_of(value));
     for (std::size_t n = 0; is_table && n < value.size(); ++n) {

@@ -26,7 +26,7 @@ const broken = [
     r.cases[0].duration = 0;
   },
   (r) => {
-    r.schema = 2;
+    r.schema = 1;
   },
   (r) => {
     r.cells.find((c) => Object.values(c.metrics).some((m) => "value" in m)).metrics = { x: { value: "1" } };
