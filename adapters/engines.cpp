@@ -8,19 +8,46 @@
 #include "adapters/bullet/bullet_engine.h"
 #include "adapters/bullet/bullet_twin.h"
 #include "adapters/core/core_engine.h"
+#ifdef RIGOR_WITH_MUJOCO
+#include "adapters/mujoco/mujoco_engine.h"
+#include "adapters/mujoco/mujoco_twin.h"
+#endif
 #include "adapters/ode/ode_engine.h"
 #include "adapters/ode/ode_twin.h"
 #include "core/base/error.h"
 
 namespace rigor {
+namespace {
+
+std::vector<Integrator> twins() {
+  std::vector<Integrator> rows = {kBulletTwin, kOdeTwin};
+#ifdef RIGOR_WITH_MUJOCO
+  rows.insert(rows.end(), {kMujocoEulerTwin, kMujocoImplicitTwin, kMujocoRk4Twin});
+#endif
+  return rows;
+}
+
+}  // namespace
 
 // One row an engine, alphabetical.
 EngineTable built_in_engines() {
   EngineTable table;
   table.add(std::make_unique<BulletEngine>());
-  table.add(std::make_unique<CoreEngine>(std::vector<Integrator>{kBulletTwin, kOdeTwin}));
+  table.add(std::make_unique<CoreEngine>(twins()));
+#ifdef RIGOR_WITH_MUJOCO
+  table.add(std::make_unique<MujocoEngine>());
+#endif
   table.add(std::make_unique<OdeEngine>());
   return table;
+}
+
+const std::vector<MissingEngine>& missing_engines() {
+  static const std::vector<MissingEngine> missing = {
+#ifndef RIGOR_WITH_MUJOCO
+      {"mujoco", "libmujoco-dev"},
+#endif
+  };
+  return missing;
 }
 
 const EngineTable& engines() {

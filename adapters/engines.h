@@ -27,6 +27,13 @@ class EngineTable {
   std::vector<EngineInfo> infos_;  // of the engines, in their order
 };
 
+// An engine that Rigor knows and that this build was made without.
+struct MissingEngine {
+  std::string name;
+  std::string package;  // Debian's, which brings its library
+};
+const std::vector<MissingEngine>& missing_engines();  // alphabetical
+
 EngineTable built_in_engines();  // alphabetical; a copy of one's own, to add others to
 const EngineTable& engines();    // the same, for those who add none
 

@@ -50,6 +50,8 @@ Rows engine_rows(const CommandLine&, const EngineTable& engines) {
     }
     if (engine.is_in_house) rows.back().second += " (see integrators)";
   }
+  for (const MissingEngine& engine : missing_engines())
+    rows.emplace_back(engine.name, fmt::format("not built: install {} and build again", engine.package));
   return rows;
 }
 

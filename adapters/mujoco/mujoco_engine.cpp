@@ -1,0 +1,66 @@
+#include "adapters/mujoco/mujoco_engine.h"
+
+#include <fmt/format.h>
+
+#include "adapters/mujoco/mujoco_world.h"
+#include "adapters/option_values.h"
+#include "core/engine/run_name.h"
+
+namespace rigor {
+namespace {
+
+std::vector<OptionInfo> options_of_all() {
+  return {{"cone", "the friction cone, or a pyramid in it", {"elliptic", "pyramidal"}},
+          {"impratio", "how much stiffer friction is than contact", {}, 1e-3, 1e6},
+          {"iterations", "of the solver, at most", {}, 1, 10000, true}};
+}
+
+MethodInfo euler() {
+  return {.name = "euler",
+          .summary = "semi-implicit Euler in the joints' coordinates, gyroscopic term explicit",
+          .leapfrog_stagger = 0.5,
+          .options = options_of_all()};
+}
+
+MethodInfo implicit() {
+  return {.name = "implicit",
+          .summary = "the same with one Newton step for what depends on velocity: damps spinning bodies",
+          .leapfrog_stagger = 0.5,
+          .options = options_of_all()};
+}
+
+// Its stages are of order 4, but the turns of a step's stages are added as if they commuted.
+MethodInfo rk4() {
+  return {.name = "rk4",
+          .summary = "Runge and Kutta's method; of order 2 in the orientation of a free body",
+          .order = 2,
+          .options = options_of_all()};
+}
+
+}  // namespace
+
+EngineInfo MujocoEngine::info() const {
+  const int version = mj_version();  // 222 is 2.2.2
+  return {.name = "mujoco",
+          .version = fmt::format("{}.{}.{}", version / 100, version / 10 % 10, version % 10),
+          .precision = sizeof(mjtNum) == sizeof(double) ? "double" : "single",
+          .features = joined(contacts_of_all_shapes(),
+                             {"spring", "timed-force", "fixed-body", "friction:none", "friction:coulomb", "joint:ball",
+                              "joint:distance", "joint:fixed", "joint:hinge", "joint:slider", "joint:universal",
+                              "joint-spring", "joint-damper", "joints-with-dampers", "motor:effort"}),
+          .methods = {euler(), implicit(), rk4()}};
+}
+
+std::unique_ptr<World> MujocoEngine::load(const Scene& scene, const Settings& settings) const {
+  const EngineInfo engine = info();
+  refuse_unsupported(engine, scene);
+  method_of(engine, settings);  // throws for a method that is not there
+  return std::make_unique<MujocoWorld>(scene, settings);
+}
+
+// Neither cone nor solver touches smooth motion.
+std::string MujocoEngine::twin(const Settings& settings) const {
+  return fmt::format("core:mujoco-{}-twin", settings.method);
+}
+
+}  // namespace rigor

@@ -1,0 +1,248 @@
+#include "adapters/mujoco/mujoco_mjcf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "core/base/error.h"
+#include "core/engine/option_values.h"
+
+namespace rigor {
+namespace {
+
+std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
+std::string text_of(const Quat& q) { return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z()); }
+
+std::string name_of(int body) { return fmt::format("b{}", body); }
+
+// MuJoCo's numbers of friction: sliding along two axes, spinning, rolling twice. Contacts of three rows look at the
+// first two alone; without friction one row is enough, for a coefficient of zero would be raised.
+std::string friction_of(const ContactLaw& law, bool of_a_pair) {
+  if (law.friction == 0) return R"(condim="1")";
+  return of_a_pair ? fmt::format(R"(condim="3" friction="{0} {0} 0.005 0.0001 0.0001")", law.friction)
+                   : fmt::format(R"(condim="3" friction="{} 0.005 0.0001")", law.friction);
+}
+
+struct GeomOf {
+  std::string operator()(const Sphere& s) const { return fmt::format(R"(type="sphere" size="{}")", s.radius); }
+  std::string operator()(const Box& b) const { return fmt::format(R"(type="box" size="{}")", text_of(b.size / 2)); }
+  std::string operator()(const Capsule& c) const {
+    return fmt::format(R"(type="capsule" size="{} {}")", c.radius, c.length / 2);
+  }
+  std::string operator()(const Plane& p) const {
+    return fmt::format(R"(type="plane" size="0 0 1" pos="{}" zaxis="{}")", text_of(p.normal * p.offset),
+                       text_of(p.normal));
+  }
+};
+
+class Writer {
+ public:
+  Writer(const Scene& scene, const MujocoTree& tree, const Settings& settings)
+      : scene_(scene), tree_(tree), settings_(settings) {}
+
+  std::string text() {
+    add("<mujoco>\n");
+    add(R"(<compiler angle="radian" balanceinertia="false" boundmass="0" boundinertia="0" autolimits="false"/>)");
+    write_options();
+    write_size();
+    add("<worldbody>\n");
+    write_sites(kWorld);
+    for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
+      if (scene_.bodies[i].fixed) write_fixed(i);
+    }
+    for (const int root : tree_.roots) write_body(root);
+    add("</worldbody>\n");
+    write_tendons();
+    write_loops();
+    write_pairs();
+    add("</mujoco>\n");
+    return std::move(out_);
+  }
+
+ private:
+  template <typename... Values>
+  void add(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Values>(values)...);
+  }
+
+  void write_options() {
+    static const std::map<std::string, std::string> kIntegrators = {
+        {"euler", "Euler"}, {"implicit", "implicit"}, {"rk4", "RK4"}};
+    add(R"(<option gravity="{}" integrator="{}")", text_of(scene_.gravity), kIntegrators.at(settings_.method));
+    const bool matched = settings_.track == Track::matched;
+    const std::string cone = word_option(settings_, "cone", matched ? "elliptic" : "pyramidal");
+    add(R"( cone="{}")", cone);
+    if (matched) add(R"( solver="Newton" tolerance="1e-10")");  // with 1e-15 its line search fails now and then
+    const auto number = [&](const char* option, const char* attribute, double matched_value) {
+      if (matched || settings_.options.contains(option))
+        add(R"( {}="{}")", attribute, number_option(settings_, option, matched_value));
+    };
+    number("iterations", "iterations", 200);
+    number("impratio", "impratio", 100);
+    add("/>\n");
+  }
+
+  // Room for contacts and constraints is set once. A shape touches a dozen others at most in a heap, with up to eight
+  // points where both are boxes; what is more than fits is a solver warning.
+  void write_size() {
+    std::size_t shapes = 0;
+    for (const Body& body : scene_.bodies) shapes += body.collides;
+    const std::size_t contacts = std::max<std::size_t>(100, 12 * shapes);
+    add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, 4 * contacts + 7 * scene_.joints.size());
+  }
+
+  void write_fixed(int index) {
+    const Body& body = scene_.bodies[index];
+    const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
+    if (is_plane) write_geom(index);  // it is given in W
+    add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index), text_of(body.position), text_of(body.orientation));
+    if (!is_plane) write_geom(index);
+    write_sites(index);
+    add("</body>\n");
+  }
+
+  void write_body(int index) {
+    const Body& body = scene_.bodies[index];
+    const MujocoTree::Link& link = tree_.links[index];
+    const BodyPose parent = scene_.pose(link.parent);
+    add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index),
+        text_of(parent.orientation.conjugate() * (body.position - parent.position)),
+        text_of((parent.orientation.conjugate() * body.orientation).normalized()));
+    const Mat3& I = body.inertia;
+    add(R"(<inertial pos="0 0 0" mass="{}" fullinertia="{} {} {} {} {} {}"/>)", body.mass, I(0, 0), I(1, 1), I(2, 2),
+        I(0, 1), I(0, 2), I(1, 2));
+    if (link.joint < 0) {
+      add("<freejoint/>");
+    } else {
+      write_joint(index, link.joint);
+    }
+    write_geom(index);
+    write_sites(index);
+    for (const int below : tree_.below[index]) write_body(below);
+    add("</body>\n");
+  }
+
+  void write_geom(int index) {
+    const Body& body = scene_.bodies[index];
+    if (!body.collides) return;
+    add(R"(<geom name="g{}" {} {}/>)", index, std::visit(GeomOf{}, *body.shape),
+        friction_of(scene_.contact_default, false));
+  }
+
+  // The points of springs and distance joints.
+  void write_sites(int body) {
+    const auto site = [&](const std::string& name, const Vec3& point) {
+      add(R"(<site name="{}" pos="{}"/>)", name, text_of(point));
+    };
+    for (std::size_t k = 0; k < scene_.springs.size(); ++k) {
+      const Spring& spring = scene_.springs[k];
+      if (spring.a == body) site(fmt::format("s{}a", k), spring.point_a);
+      if (spring.b == body) site(fmt::format("s{}b", k), spring.point_b);
+    }
+    for (std::size_t k = 0; k < scene_.joints.size(); ++k) {
+      const auto* distance = std::get_if<DistanceJoint>(&scene_.joints[k].type);
+      if (distance && scene_.joints[k].a == body) site(fmt::format("d{}a", k), distance->point_a);
+      if (distance && scene_.joints[k].b == body) site(fmt::format("d{}b", k), distance->point_b);
+    }
+  }
+
+  Vec3 point_in(int body, const Vec3& point_W) const {
+    const BodyPose pose = scene_.pose(body);
+    return pose.orientation.conjugate() * (point_W - pose.position);
+  }
+  Vec3 direction_in(int body, const Vec3& direction_W) const {
+    return scene_.pose(body).orientation.conjugate() * direction_W;
+  }
+
+  // The joint by which `body` hangs on its parent. A fixed one has no element.
+  void write_joint(int body, int index) {
+    const Joint& joint = scene_.joints[index];
+    const double sign = joint.b == body ? 1 : -1;
+    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
+      add(R"(<joint name="j{}" type="ball" pos="{}"/>)", index, text_of(point_in(body, ball->anchor)));
+    } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
+      // Of several joints of a body the first moves with the parent: that is the axis which is fixed in it.
+      const Vec3 first = sign > 0 ? universal->axis : universal->axis2;
+      const Vec3 second = sign > 0 ? universal->axis2 : universal->axis;
+      const std::string anchor = text_of(point_in(body, universal->anchor));
+      add(R"(<joint name="j{}x" type="hinge" pos="{}" axis="{}"/>)", index, anchor, text_of(direction_in(body, first)));
+      add(R"(<joint name="j{}y" type="hinge" pos="{}" axis="{}"/>)", index, anchor,
+          text_of(direction_in(body, second)));
+    } else if (const Vec3* axis = free_axis(joint)) {
+      const auto* hinge = std::get_if<HingeJoint>(&joint.type);
+      add(R"(<joint name="j{}" type="{}" pos="{}" axis="{}" stiffness="{}" springref="{}" damping="{}"/>)", index,
+          hinge ? "hinge" : "slide", text_of(hinge ? point_in(body, hinge->anchor) : Vec3::Zero().eval()),
+          text_of(direction_in(body, *axis)), joint.stiffness, sign * joint.rest, joint.damping);
+    }
+  }
+
+  void write_tendons() {
+    add("<tendon>\n");
+    for (std::size_t k = 0; k < scene_.springs.size(); ++k) {
+      const Spring& spring = scene_.springs[k];
+      add(R"(<spatial stiffness="{}" damping="{}" springlength="{}"><site site="s{}a"/><site site="s{}b"/></spatial>)",
+          spring.stiffness, spring.damping, spring.rest_length, k, k);
+    }
+    for (const int k : tree_.loops) {
+      if (std::holds_alternative<DistanceJoint>(scene_.joints[k].type))
+        add(R"(<spatial name="d{0}"><site site="d{0}a"/><site site="d{0}b"/></spatial>)", k);
+    }
+    add("\n</tendon>\n");
+  }
+
+  void write_loops() {
+    add("<equality>\n");
+    for (const int k : tree_.loops) write_loop(k);
+    add("</equality>\n");
+  }
+
+  // A hinge is two points on its axis, a metre apart: of their six rows five count, which rows that give way bear.
+  void write_loop(int index) {
+    const Joint& joint = scene_.joints[index];
+    const bool moves = joint.a != kWorld;  // an equality's first body is not the world
+    const int first = moves ? joint.a : joint.b, second = moves ? joint.b : kWorld;
+    const std::string other = second == kWorld ? "" : fmt::format(R"( body2="{}")", name_of(second));
+    const auto connect = [&](const Vec3& anchor) {
+      add("<connect body1=\"{}\"{} anchor=\"{}\"/>\n", name_of(first), other, text_of(point_in(first, anchor)));
+    };
+    if (std::holds_alternative<DistanceJoint>(joint.type)) {
+      add("<tendon tendon1=\"d{}\"/>\n", index);
+    } else if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
+      connect(ball->anchor);
+    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
+      connect(hinge->anchor);
+      connect(hinge->anchor + hinge->axis);
+    } else if (std::holds_alternative<FixedJoint>(joint.type)) {
+      add("<weld body1=\"{}\"{}/>\n", name_of(first), other);
+    } else {
+      throw InputError(
+          fmt::format("{} closes a loop of joints, which MuJoCo closes by balls, hinges, fixed and distance "
+                      "joints alone",
+                      scene_.joint_name(static_cast<std::size_t>(index))));
+    }
+  }
+
+  void write_pairs() {
+    add("<contact>\n");
+    for (const ContactPair& pair : scene_.contact_pairs) {
+      const Body &a = scene_.bodies[pair.a], &b = scene_.bodies[pair.b];
+      if (!a.collides || !b.collides || (a.fixed && b.fixed)) continue;
+      add("<pair geom1=\"g{}\" geom2=\"g{}\" {}/>\n", pair.a, pair.b, friction_of(pair.law, true));
+    }
+    add("</contact>\n");
+  }
+
+  const Scene& scene_;
+  const MujocoTree& tree_;
+  const Settings& settings_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string mujoco_mjcf(const Scene& scene, const MujocoTree& tree, const Settings& settings) {
+  return Writer(scene, tree, settings).text();
+}
+
+}  // namespace rigor

@@ -1,0 +1,31 @@
+// A scene as a model of MuJoCo's: its text in MJCF, and what the text cannot say with all digits.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/mujoco/mujoco_library.h"
+#include "adapters/mujoco/mujoco_tree.h"
+#include "core/engine/engine.h"
+
+namespace rigor {
+
+struct MujocoModel {
+  mujoco_library::Model model;
+  std::vector<int> body;  // by body of the scene: MuJoCo's, or -1 for a fixed one without one
+  // By joint of the scene: where its coordinate stands in qvel, or -1 if it has none of its own, and 1 or -1: the
+  // coordinate is MuJoCo's or its negative, for MuJoCo counts from the parent to what hangs on it.
+  struct Coordinate {
+    int velocity = -1;
+    double sign = 1;
+  };
+  std::vector<Coordinate> coordinate;
+};
+
+// Throws InputError with MuJoCo's words where it refuses the scene.
+MujocoModel mujoco_model(const Scene& scene, const MujocoTree& tree, const Settings& settings);
+
+// The velocities of all joints and free bodies at t = 0, for qvel.
+std::vector<double> mujoco_velocities(const Scene& scene, const MujocoTree& tree, const MujocoModel& model);
+
+}  // namespace rigor

@@ -1,0 +1,206 @@
+// The smooth steps of MuJoCo 2.2 for free bodies, to be held against MuJoCo itself. Its coordinates are position,
+// orientation q, velocity in W and angular velocity w in B; with tau the torque in B and I the inertia there:
+//   euler     w1 = w0 + dt I⁻¹ (tau - w0 x I w0),   v1 = v0 + dt F/m,   x1 = x0 + dt v1,   q1 = q0 exp(dt w1)
+//   implicit  the same with (I + dt ([w0]x I - [I w0]x))⁻¹ for I⁻¹ and, where springs damp, one Newton step for their
+//             forces: (M + dt sum c jᵀj) (V1 - V0) = dt f, j the slope of a spring's length in all velocities
+//   rk4       the classical stages of (x, q, v, w), but q_s = q0 exp(c_s dt w) of the stage before and
+//             q1 = q0 exp(dt sum b_s w_s), which leaves out that turns do not commute: order 2
+// Springs are evaluated at each stage; timed forces are wrenches that are held over the step.
+#include "adapters/mujoco/mujoco_twin.h"
+
+#include <Eigen/LU>
+#include <array>
+
+namespace rigor {
+namespace {
+
+// A body's angular velocity in B from the state's, which is in W, and back.
+Vec3 in_body(BodyColumns state, std::size_t i) { return state.rotation(i).transpose() * state.angular_velocity(i); }
+
+void turn(MutableBodyColumns state, std::size_t i, const Quat& from, const Vec3& angle, const Vec3& w_B) {
+  state.set_orientation(i, (from * rotation_by(angle)).normalized());
+  state.set_angular_velocity(i, state.rotation(i) * w_B);
+}
+
+struct Rates {
+  Vec3 v, w_B;            // m/s, in W; rad/s, in B
+  Vec3 acceleration, dw;  // m/s², in W; rad/s², in B
+};
+
+Rates rates_of(const Inertia& body, BodyColumns state, std::size_t i, const Wrench& wrench) {
+  const Vec3 w = in_body(state, i), torque = state.rotation(i).transpose() * wrench.torque;
+  return {state.velocity(i), w, body.inverse_mass * wrench.force,
+          body.inverse_inertia_B * (torque - w.cross(body.inertia_B * w))};
+}
+
+class EulerTwin : public Stepper {
+ public:
+  explicit EulerTwin(const StepperParts& parts) : system_(parts.system) {}
+
+  void step(MutableBodyColumns state, double t, double dt) override {
+    system_.wrenches(state, t, dt, wrenches_);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      if (system_.bodies[i].fixed) continue;
+      const Rates rates = rates_of(system_.bodies[i], state, i, wrenches_[i]);
+      const Vec3 v = rates.v + dt * rates.acceleration, w = rates.w_B + dt * rates.dw;
+      state.set_velocity(i, v);
+      state.set_position(i, state.position(i) + dt * v);
+      turn(state, i, state.orientation(i), dt * w, w);
+    }
+  }
+
+ private:
+  const System& system_;
+  Wrenches wrenches_;
+};
+
+class ImplicitTwin : public Stepper {
+ public:
+  explicit ImplicitTwin(const StepperParts& parts) : system_(parts.system) {}
+
+  void step(MutableBodyColumns state, double t, double dt) override {
+    system_.wrenches(state, t, dt, wrenches_);
+    const auto size = static_cast<Eigen::Index>(6 * state.size());
+    slope_.setZero(size, size), impulse_.setZero(size);
+    for (std::size_t i = 0; i < state.size(); ++i) add_body(state, i, dt);
+    for (const Spring& spring : system_.loads.springs()) {
+      if (spring.damping > 0) add_damper(state, spring, dt);
+    }
+    const Eigen::VectorXd change = slope_.partialPivLu().solve(impulse_);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      if (system_.bodies[i].fixed) continue;
+      const auto at = static_cast<Eigen::Index>(6 * i);
+      const Vec3 v = state.velocity(i) + change.segment<3>(at), w = in_body(state, i) + change.segment<3>(at + 3);
+      state.set_velocity(i, v);
+      state.set_position(i, state.position(i) + dt * v);
+      turn(state, i, state.orientation(i), dt * w, w);
+    }
+  }
+
+ private:
+  void add_body(BodyColumns state, std::size_t i, double dt) {
+    const Inertia& body = system_.bodies[i];
+    const auto at = static_cast<Eigen::Index>(6 * i);
+    slope_.block<6, 6>(at, at).setIdentity();
+    if (body.fixed) return;
+    const Vec3 w = in_body(state, i), L = body.inertia_B * w;
+    slope_.block<3, 3>(at, at) *= body.mass;
+    slope_.block<3, 3>(at + 3, at + 3) = body.inertia_B + dt * (cross_matrix(w) * body.inertia_B - cross_matrix(L));
+    impulse_.segment<3>(at) = dt * wrenches_[i].force;
+    impulse_.segment<3>(at + 3) = dt * (state.rotation(i).transpose() * wrenches_[i].torque - w.cross(L));
+  }
+
+  // j: how fast the spring grows with each velocity; of a body's turning, in B.
+  void add_damper(BodyColumns state, const Spring& spring, double dt) {
+    const PointMotion a = point_motion(state, spring.a, spring.point_a),
+                      b = point_motion(state, spring.b, spring.point_b);
+    const Vec3 line = (b.position - a.position).normalized();
+    Eigen::VectorXd j = Eigen::VectorXd::Zero(slope_.rows());
+    const auto add_end = [&](int body, const Vec3& arm, double sign) {
+      if (body == kWorld || system_.bodies[static_cast<std::size_t>(body)].fixed) return;
+      j.segment<3>(6 * body) += sign * line;
+      j.segment<3>(6 * body + 3) +=
+          sign * (state.rotation(static_cast<std::size_t>(body)).transpose() * arm.cross(line));
+    };
+    add_end(spring.a, a.arm, -1), add_end(spring.b, b.arm, 1);
+    slope_ += dt * spring.damping * j * j.transpose();
+  }
+
+  const System& system_;
+  Wrenches wrenches_;
+  Eigen::MatrixXd slope_;
+  Eigen::VectorXd impulse_;
+};
+
+class Rk4Twin : public Stepper {
+ public:
+  explicit Rk4Twin(const StepperParts& parts) : system_(parts.system) {}
+
+  void step(MutableBodyColumns state, double t, double dt) override {
+    static constexpr std::array kNodes = {0.0, 0.5, 0.5, 1.0}, kWeights = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+    start_ = BodyColumns(state);
+    sums_.assign(state.size(), {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
+    for (std::size_t stage = 0; stage < kNodes.size(); ++stage) {
+      if (stage > 0) advance(state, rates_, kNodes[stage] * dt);
+      evaluate(state, t, dt);
+      for (std::size_t i = 0; i < state.size(); ++i) add(sums_[i], rates_[i], kWeights[stage]);
+    }
+    advance(state, sums_, dt);
+  }
+
+ private:
+  static void add(Rates& sum, const Rates& rates, double weight) {
+    sum.v += weight * rates.v, sum.w_B += weight * rates.w_B;
+    sum.acceleration += weight * rates.acceleration, sum.dw += weight * rates.dw;
+  }
+
+  // A timed force turns with its body no further than it had at the step's start.
+  void evaluate(BodyColumns state, double t, double dt) {
+    system_.wrenches(state, t, dt, wrenches_);
+    add_timed_forces(state, t, dt, -1), add_timed_forces(start_.columns(), t, dt, 1);
+    rates_.clear();
+    for (std::size_t i = 0; i < state.size(); ++i)
+      rates_.push_back(rates_of(system_.bodies[i], state, i, wrenches_[i]));
+  }
+
+  void add_timed_forces(BodyColumns state, double t, double dt, double sign) {
+    system_.loads.for_each_acting(t, dt, [&](const TimedForce& timed, double share) {
+      const auto i = static_cast<std::size_t>(timed.body);
+      const Vec3 arm = state.rotation(i) * timed.point;
+      wrenches_[i].force += sign * share * timed.force;
+      wrenches_[i].torque += sign * share * (timed.torque + arm.cross(timed.force));
+    });
+  }
+
+  // From the step's start, `time` long, with these rates.
+  void advance(MutableBodyColumns state, const std::vector<Rates>& rates, double time) const {
+    const BodyColumns start = start_.columns();
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      if (system_.bodies[i].fixed) continue;
+      state.set_position(i, start.position(i) + time * rates[i].v);
+      state.set_velocity(i, start.velocity(i) + time * rates[i].acceleration);
+      turn(state, i, start.orientation(i), time * rates[i].w_B, in_body(start, i) + time * rates[i].dw);
+    }
+  }
+
+  const System& system_;
+  BodyTable start_;
+  Wrenches wrenches_;
+  std::vector<Rates> rates_, sums_;
+};
+
+constexpr const char* kSummary = "repeats MuJoCo's own smooth step, to explain its error";
+
+}  // namespace
+
+const Integrator kMujocoEulerTwin = {.name = "mujoco-euler-twin",
+                                     .summary = kSummary,
+                                     .order = 1,
+                                     .symplectic = false,  // the gyroscopic term is explicit
+                                     .leapfrog_stagger = 0.5,
+                                     .default_orientation = "",
+                                     .takes_contact = false,
+                                     .twin_of = "mujoco",
+                                     .make = make_stepper<EulerTwin>};
+
+const Integrator kMujocoImplicitTwin = {.name = "mujoco-implicit-twin",
+                                        .summary = kSummary,
+                                        .order = 1,
+                                        .symplectic = false,  // it damps
+                                        .leapfrog_stagger = 0.5,
+                                        .default_orientation = "",
+                                        .takes_contact = false,
+                                        .twin_of = "mujoco",
+                                        .make = make_stepper<ImplicitTwin>};
+
+const Integrator kMujocoRk4Twin = {.name = "mujoco-rk4-twin",
+                                   .summary = kSummary,
+                                   .order = 2,
+                                   .symplectic = false,
+                                   .leapfrog_stagger = 0,
+                                   .default_orientation = "",
+                                   .takes_contact = false,
+                                   .twin_of = "mujoco",
+                                   .make = make_stepper<Rk4Twin>};
+
+}  // namespace rigor

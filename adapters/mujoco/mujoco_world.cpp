@@ -1,0 +1,187 @@
+#include "adapters/mujoco/mujoco_world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/dynamics/model/loads.h"
+
+namespace rigor {
+namespace {
+
+// What is left for the loads that MuJoCo does not know: the timed forces.
+Scene only_forces(const Scene& scene) {
+  Scene left;
+  left.bodies = scene.bodies, left.forces = scene.forces;
+  return left;
+}
+
+std::vector<Motor> motors_of_effort(const Scene& scene) {
+  std::vector<Motor> motors;
+  for (const Motor& motor : scene.motors) {
+    if (!motor.speed) motors.push_back(motor);
+  }
+  return motors;
+}
+
+// A constraint's acceleration towards its rest is -b v - k r (negative solref means k and b themselves). Of a loop a
+// gap and its speed are gone after one step: k = 1/dt², b = 1/dt.
+void stiffen_loops(mjModel& model, double dt) {
+  constexpr mjtNum kImpedance[mjNIMP] = {0.9999, 0.9999, 0.001, 0.5, 1};  // nearly the whole of that acceleration
+  for (int i = 0; i < model.neq; ++i) {
+    model.eq_solref[mjNREF * i] = -1 / (dt * dt), model.eq_solref[mjNREF * i + 1] = -1 / dt;
+    std::copy(kImpedance, kImpedance + mjNIMP, model.eq_solimp + mjNIMP * i);
+  }
+}
+
+// Contacts keep the time that they ship with (0.02 s, but never less than 2 dt): friction that must end a slide at once
+// would press the bodies apart, and they would hop. What is changed is how much of the law's acceleration they get: as
+// shipped 0.9, and bodies creep down slopes that hold them. With 0.9999 the solver's line search fails now and then.
+constexpr mjtNum kContactImpedance = 0.999;
+
+void set_impedance(mjtNum* solimp, int count) {
+  for (int i = 0; i < count; ++i) solimp[mjNIMP * i] = solimp[mjNIMP * i + 1] = kContactImpedance;
+}
+
+std::string solref_in_words(const mjtNum* solref, const mjtNum* solimp) {
+  return fmt::format("solref {:g} {:g}, solimp {:g} {:g} {:g}", solref[0], solref[1], solimp[0], solimp[1], solimp[2]);
+}
+
+}  // namespace
+
+MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
+    : scene_(only_forces(scene)),
+      tree_(mujoco_tree(scene)),
+      made_((mujoco_library::start(), mujoco_model(scene, tree_, settings))),
+      data_(mj_makeData(made_.model.get())),
+      loads_(scene_),
+      motors_(motors_of_effort(scene)),
+      matched_(settings.track == Track::matched),
+      is_jointed_(!scene.joints.empty()) {
+  if (!data_) throw std::runtime_error("MuJoCo has no memory for the scene's contacts and constraints");
+  if (matched_) {
+    set_impedance(made_.model->geom_solimp, made_.model->ngeom);
+    set_impedance(made_.model->pair_solimp, made_.model->npair);
+  }
+  // Constants that follow from the inertias, worked out at the pose of t = 0, which the data then holds again.
+  mj_setConst(made_.model.get(), data_.get());
+  mj_resetData(made_.model.get(), data_.get());
+  const std::vector<double> velocities = mujoco_velocities(scene, tree_, made_);
+  std::copy(velocities.begin(), velocities.end(), data_->qvel);
+  mujoco_library::take_warnings();
+}
+
+void MujocoWorld::step(double dt) {
+  if (!lost_) {
+    made_.model->opt.timestep = dt;
+    if (matched_ && dt != loops_dt_) stiffen_loops(*made_.model, loops_dt_ = dt);
+    apply_loads(dt);
+    mj_step(made_.model.get(), data_.get());
+    look_for_warnings();
+  }
+  clock_.advance(dt);
+}
+
+// Force and torque about the centre of mass, in W in MuJoCo as here; they stay until they are written again.
+void MujocoWorld::apply_loads(double dt) {
+  if (!loads_.empty()) {
+    const Wrenches& wrenches = loads_.over_step(*this, dt);
+    for (std::size_t i = 0; i < made_.body.size(); ++i) {
+      if (made_.body[i] < 0) continue;
+      Eigen::Map<Vec3>(data_->xfrc_applied + 6 * made_.body[i]) = wrenches[i].force;
+      Eigen::Map<Vec3>(data_->xfrc_applied + 6 * made_.body[i] + 3) = wrenches[i].torque;
+    }
+  }
+  for (const Motor& motor : motors_) data_->qfrc_applied[made_.coordinate[motor.joint].velocity] = 0;
+  for (const Motor& motor : motors_) {
+    const MujocoModel::Coordinate& at = made_.coordinate[motor.joint];
+    const double share = share_of_step(motor.from, motor.until, clock_.time(), dt);
+    data_->qfrc_applied[at.velocity] += at.sign * share * motor.effort;
+  }
+}
+
+// Where a number is not finite, or over 1e10, MuJoCo sets the world back to its start and goes on: it only counts that.
+void MujocoWorld::look_for_warnings() {
+  solver_warning_ = mujoco_library::take_warnings();
+  const auto count = [&](mjtWarning kind) { return data_->warning[kind].number; };
+  if (count(mjWARN_BADQPOS) + count(mjWARN_BADQVEL) + count(mjWARN_BADQACC) > 0) {
+    lost_ = true;
+    solver_warning_ = "a number passed 1e10 or was not finite: MuJoCo sets such a world back to its start";
+  }
+  if (count(mjWARN_CONTACTFULL) + count(mjWARN_CNSTRFULL) > 0)
+    solver_warning_ = "MuJoCo had no room for all contacts and left some out";
+}
+
+// Of a free body: velocity in W, but angular velocity in B.
+void MujocoWorld::read_free(MutableBodyColumns out, std::size_t i) const {
+  const mjModel& model = *made_.model;
+  const int id = made_.body[i];
+  const mjtNum* q = data_->qpos + model.jnt_qposadr[model.body_jntadr[id]];
+  const mjtNum* v = data_->qvel + model.body_dofadr[id];
+  const Quat orientation(q[3], q[4], q[5], q[6]);
+  out.set_position(i, {q[0], q[1], q[2]});
+  out.set_orientation(i, orientation);
+  out.set_velocity(i, {v[0], v[1], v[2]});
+  out.set_angular_velocity(i, matrix_of(orientation) * Vec3(v[3], v[4], v[5]));
+}
+
+void MujocoWorld::read_jointed(MutableBodyColumns out, std::size_t i) const {
+  const int id = made_.body[i];
+  const mjtNum *p = data_->xpos + 3 * id, *q = data_->xquat + 4 * id;
+  mjtNum velocity[6];  // angular, then linear; of the centre of mass, in W
+  mj_objectVelocity(made_.model.get(), data_.get(), mjOBJ_BODY, id, velocity, 0);
+  out.set_position(i, {p[0], p[1], p[2]});
+  out.set_orientation(i, {q[0], q[1], q[2], q[3]});
+  out.set_velocity(i, {velocity[3], velocity[4], velocity[5]});
+  out.set_angular_velocity(i, {velocity[0], velocity[1], velocity[2]});
+}
+
+void MujocoWorld::read(Snapshot& out) const {
+  out.time = clock_.time();
+  const MutableBodyColumns columns = out.own(scene_.bodies.size());
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const BodyState nowhere = {Vec3::Constant(kNaN), Quat(kNaN, kNaN, kNaN, kNaN), Vec3::Constant(kNaN),
+                             Vec3::Constant(kNaN)};
+  if (is_jointed_ && !lost_) {  // where the bodies are follows from the joints; a step leaves them where it began
+    mj_kinematics(made_.model.get(), data_.get());
+    mj_comPos(made_.model.get(), data_.get());
+    mj_comVel(made_.model.get(), data_.get());
+  }
+  for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+    const Body& body = scene_.bodies[i];
+    if (body.fixed) {
+      columns.set_body(i, {body.position, body.orientation, Vec3::Zero(), Vec3::Zero()});
+    } else if (lost_) {
+      columns.set_body(i, nowhere);
+    } else {
+      is_jointed_ ? read_jointed(columns, i) : read_free(columns, i);
+    }
+  }
+}
+
+SettingsInForce MujocoWorld::settings_in_force() const {
+  const mjModel& model = *made_.model;
+  const mjOption& option = model.opt;
+  static const char* kIntegrators[] = {"Euler, semi-implicit", "RK4", "implicit in velocity"};
+  static const char* kSolvers[] = {"PGS", "CG", "Newton"};
+  SettingsInForce in_force = {
+      {"precision", sizeof(mjtNum) == sizeof(double) ? "double" : "single"},
+      {"integrator", kIntegrators[option.integrator]},
+      {"gravity", fmt::format("{:g}, {:g}, {:g} m/s^2", option.gravity[0], option.gravity[1], option.gravity[2])},
+      {"solver",
+       fmt::format("{}, at most {} iterations to {:g}", kSolvers[option.solver], option.iterations, option.tolerance)},
+      {"friction cone", option.cone == mjCONE_ELLIPTIC
+                            ? "elliptic"
+                            : "pyramidal: along its diagonal it brakes with 0.71 of the force of the cone"},
+      {"impratio", fmt::format("{:g}: friction is that much stiffer than contact", option.impratio)},
+      {"springs", "tendons, evaluated at each stage"},
+      {"timed forces and motors", "user forces, set before each step"},
+  };
+  const char* when = matched_ && loops_dt_ == 0 ? " until the first step" : "";
+  if (model.ngeom > 0) in_force.emplace_back("contacts", solref_in_words(model.geom_solref, model.geom_solimp) + when);
+  if (model.neq > 0) in_force.emplace_back("loops", solref_in_words(model.eq_solref, model.eq_solimp) + when);
+  return in_force;
+}
+
+}  // namespace rigor

@@ -1,0 +1,178 @@
+// MuJoCo's traps, each found again, so that a new MuJoCo that mends or moves one is noticed; and its joints against the
+// core's.
+#include "adapters/mujoco/mujoco_engine.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "adapters/mujoco/mujoco_library.h"
+#include "core/base/error.h"
+#include "tests/adapters/free_body_measures.h"
+
+using namespace rigor;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Body rod(const std::string& name, const Vec3& position) {
+  Body body;
+  body.name = name;
+  body.mass = 1.5;
+  body.inertia << 0.02, 0.004, -0.003, 0.004, 0.15, 0.002, -0.003, 0.002, 0.14;
+  body.position = position;
+  body.orientation = Quat(0.9, 0.1, -0.3, 0.2).normalized();
+  return body;
+}
+
+// Two rods, the first hung from the world by a ball, the second from the first by `joint`, at rest.
+Scene hung_by(const Joint& joint) {
+  Scene scene;
+  scene.gravity = {0.5, 0, -9.81};
+  scene.bodies = {rod("upper", {0.5, 0, 0}), rod("lower", {1.5, 0.2, 0.1})};
+  scene.joints = {{.a = kWorld, .b = 0, .type = BallJoint{{0, 0, 0}}}, joint};
+  return scene;
+}
+
+std::vector<Joint> joints_of_each_kind() {
+  const Vec3 anchor(1, 0.1, 0), axis = Vec3(0.2, 1, 0.3).normalized(), across = Vec3(1, -0.2, 0).normalized();
+  return {{.type = BallJoint{anchor}},
+          {.type = HingeJoint{anchor, axis}, .stiffness = 3, .damping = 0.2, .rest = 0.3},
+          {.type = SliderJoint{axis}, .stiffness = 40, .damping = 1.5, .rest = -0.1},
+          {.type = FixedJoint{}},
+          {.type = UniversalJoint{anchor, axis, axis.cross(across).normalized()}}};
+}
+
+double distance_after(const std::string& run, const Scene& scene, double dt, double duration) {
+  const auto steps = static_cast<int>(std::lround(duration / dt));
+  const auto world = load_run(run, scene), truth = load_run("core:dormand-prince", scene);
+  for (int i = 0; i < steps; ++i) world->step(dt), truth->step(dt);
+  Snapshot found, expected;
+  world->read(found), truth->read(expected);
+  double distance = 0;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodyState a = found.bodies().body(i), b = expected.bodies().body(i);
+    distance =
+        std::max({distance, (a.position - b.position).norm(), (a.velocity - b.velocity).norm(),
+                  angle_between(a.orientation, b.orientation), (a.angular_velocity - b.angular_velocity).norm()});
+  }
+  return distance;
+}
+
+std::string setting(const SettingsInForce& settings, const std::string& name) {
+  for (const auto& [key, value] : settings) {
+    if (key == name) return value;
+  }
+  return "";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(adapters_mujoco_mujoco_engine)
+
+BOOST_AUTO_TEST_CASE(a_world_that_mujoco_sets_back_to_its_start_is_lost) {
+  // The explicit gyroscopic torque spins a top up until a number passes 1e10; MuJoCo then begins again, in silence.
+  const auto world = load_run("mujoco", asymmetric_top());
+  const BodyState end = body_after(*world, 1.0 / 30, 1800);
+  BOOST_TEST(!std::isfinite(end.angular_velocity.norm()));
+  BOOST_TEST(world->solver_warning().find("back to its start") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(the_implicit_method_damps_a_free_top_and_rk4_does_not) {
+  // Measured with MuJoCo 2.2.2: -76.4 % and -3.4e-6; the digit after it is the test's margin.
+  BOOST_TEST(std::abs(energy_gained_by_top("mujoco:implicit") + 0.764) < 1e-3);
+  BOOST_TEST(std::abs(energy_gained_by_top("mujoco:rk4") + 3.4e-6) < 1e-7);
+}
+
+BOOST_AUTO_TEST_CASE(a_full_inertia_is_set_to_rounding) {
+  Scene scene;
+  scene.bodies = {rod("rod", {0, 0, 0})};
+  scene.bodies[0].angular_velocity = {1, -2, 0.5};
+  const auto world = load_run("mujoco", scene), twin = load_run("core:mujoco-euler-twin", scene);
+  const Quat found = body_after(*world, 1.0 / 240, 100).orientation,
+             due = body_after(*twin, 1.0 / 240, 100).orientation;
+  BOOST_TEST(angle_between(found, due) < 1e-13);  // MuJoCo's own diagonalisation is off by 2.5e-8 of itself
+}
+
+BOOST_AUTO_TEST_CASE(matched_friction_is_a_cone_and_stock_friction_a_pyramid) {
+  const double dt = 1e-3;
+  for (const double direction : {0.0, kPi / 8, kPi / 4}) {
+    // Contacts give way: a few parts in a thousand were measured.
+    BOOST_TEST(std::abs(stop_distance_ratio("mujoco", direction, dt) - 1) < 5e-3);
+  }
+  BOOST_TEST(std::abs(stop_distance_ratio("mujoco@stock", kPi / 4, dt) - std::sqrt(0.5)) < 5e-3);
+}
+
+BOOST_AUTO_TEST_CASE(warnings_and_errors_neither_print_nor_prompt_nor_write_a_file) {
+  mujoco_library::start();
+  BOOST_TEST(mujoco_library::take_warnings() == "");
+  mju_warning("a warning");
+  BOOST_TEST(mujoco_library::take_warnings() == "a warning");
+  BOOST_CHECK_THROW(mju_error("an error"), std::runtime_error);
+  BOOST_TEST(!std::filesystem::exists("MUJOCO_LOG.TXT"));
+}
+
+BOOST_AUTO_TEST_CASE(a_tree_of_joints_moves_as_the_cores_whichever_end_hangs) {
+  for (Joint joint : joints_of_each_kind()) {
+    for (const bool swapped : {false, true}) {
+      joint.a = swapped ? 1 : 0, joint.b = swapped ? 0 : 1;
+      const Scene scene = hung_by(joint);
+      const double coarse = distance_after("mujoco:rk4", scene, 1.0 / 250, 0.6),
+                   fine = distance_after("mujoco:rk4", scene, 1.0 / 500, 0.6);
+      const std::string what = joint_type_name(joint) + (swapped ? ", ends exchanged: " : ": ");
+      BOOST_TEST_MESSAGE(what << coarse << ", " << fine);
+      BOOST_TEST(fine < 1e-4, what << fine);  // the turns of balls are of order 2
+      BOOST_TEST(coarse > 3 * fine, what << coarse << " at twice the step, " << fine);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_is_closed_by_springs_that_stiffen_with_the_step) {
+  for (Joint joint : {Joint{.type = BallJoint{{2, 0.3, 0.2}}}, Joint{.type = HingeJoint{{2, 0.3, 0.2}, Vec3::UnitX()}},
+                      Joint{.type = DistanceJoint{{2, 0.5, -1}, {0.3, 0, 0}}}}) {
+    Scene scene = hung_by({.a = 0, .b = 1, .type = BallJoint{{1, 0.1, 0}}});
+    joint.a = kWorld, joint.b = 1;
+    scene.joints.push_back(joint);
+    const double coarse = distance_after("mujoco", scene, 1.0 / 500, 0.4),
+                 fine = distance_after("mujoco", scene, 1.0 / 1000, 0.4);
+    BOOST_TEST_MESSAGE(joint_type_name(joint) << ": " << coarse << ", " << fine);
+    BOOST_TEST(coarse > 1.7 * fine, joint_type_name(joint) << ": " << coarse << ", " << fine);  // order 1
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_motor_turns_b_against_a) {
+  Scene scene = hung_by({.a = 0, .b = 1, .type = HingeJoint{{1, 0.1, 0}, Vec3::UnitY()}});
+  Motor motor{.joint = 1, .speed = {}};
+  motor.effort = 2, motor.from = 0.1, motor.until = 0.35;
+  scene.motors = {motor};
+  BOOST_TEST(distance_after("mujoco:rk4", scene, 1e-3, 0.6) < 1e-4);
+  std::swap(scene.joints[1].a, scene.joints[1].b);
+  BOOST_TEST(distance_after("mujoco:rk4", scene, 1e-3, 0.6) < 1e-4);
+}
+
+BOOST_AUTO_TEST_CASE(what_it_cannot_say_is_refused) {
+  Scene scene = hung_by({.a = 0, .b = 1, .type = SliderJoint{Vec3::UnitX()}});
+  scene.joints.push_back({.a = kWorld, .b = 1, .type = SliderJoint{Vec3::UnitX()}});
+  scene.joints.push_back({.a = kWorld, .b = 0, .type = SliderJoint{Vec3::UnitX()}});
+  BOOST_CHECK_EXCEPTION(load_run("mujoco", scene), InputError, [](const InputError& error) {
+    return std::string(error.what()).find("closes a loop") != std::string::npos;
+  });
+  const EngineInfo info = MujocoEngine().info();
+  BOOST_TEST(!info.features.contains("restitution"));
+  BOOST_TEST(!info.features.contains("friction:infinite"));
+}
+
+BOOST_AUTO_TEST_CASE(settings_are_read_back) {
+  const Scene scene = sliding_box(1, 0, 0.5);
+  const auto matched = load_run("mujoco,iterations=77", scene)->settings_in_force();
+  BOOST_TEST(setting(matched, "friction cone") == "elliptic");
+  BOOST_TEST(setting(matched, "solver") == "Newton, at most 77 iterations to 1e-10");
+  BOOST_TEST(setting(matched, "contacts") == "solref 0.02 1, solimp 0.999 0.999 0.001");
+  const auto stock = load_run("mujoco@stock", scene)->settings_in_force();
+  BOOST_TEST(setting(stock, "friction cone").starts_with("pyramidal"));
+  BOOST_TEST(setting(stock, "contacts") == "solref 0.02 1, solimp 0.9 0.95 0.001");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
