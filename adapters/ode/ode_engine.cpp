@@ -20,6 +20,12 @@ std::vector<OptionInfo> options_of_both() {
           {"cfm", "constraint force mixing: softness of constraints", {}, 0, 1}};
 }
 
+Features joints_of_all_kinds() {
+  return {"joint:ball",      "joint:distance",       "joint:fixed",        "joint:hinge", "joint:slider",
+          "joint:universal", "joint-spring",         "joint-damper",       "joint-limit", "motor:effort",
+          "motor:speed",     "joints-with-contacts", "joints-with-dampers"};
+}
+
 MethodInfo by_size() {
   return {
       .name = "auto",
@@ -30,14 +36,14 @@ MethodInfo by_size() {
 
 MethodInfo worldstep() {
   return {.name = "worldstep",
-          .summary = "semi-implicit Euler, contacts by a direct (Dantzig) solver",
+          .summary = "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver",
           .leapfrog_stagger = 0.5,
           .options = options_of_both()};
 }
 
 MethodInfo quickstep() {
   MethodInfo method = {.name = "quickstep",
-                       .summary = "semi-implicit Euler, contacts by successive over-relaxation",
+                       .summary = "semi-implicit Euler, joints and contacts by successive over-relaxation",
                        .leapfrog_stagger = 0.5,
                        .options = options_of_both()};
   method.options.push_back({"iterations", "sweeps a step", {}, 1, 10000, true});
@@ -51,8 +57,9 @@ EngineInfo OdeEngine::info() const {
   return {.name = "ode",
           .version = dODE_VERSION,
           .precision = dCheckConfiguration("ODE_double_precision") ? "double" : "single",
-          .features = joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
-                                                        "friction:none", "friction:coulomb", "friction:infinite"}),
+          .features = joined(joined(contacts_of_all_shapes(), joints_of_all_kinds()),
+                             {"spring", "timed-force", "fixed-body", "restitution", "friction:none", "friction:coulomb",
+                              "friction:infinite"}),
           .methods = {by_size(), worldstep(), quickstep()}};
 }
 

@@ -84,6 +84,7 @@ OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
   dWorldSetGravity(world_, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
   apply(settings);
   for (const Body& body : scene.bodies) add_body(body, settings);
+  joints_.emplace(scene, world_, bodies_, settings.track);
 }
 
 OdeWorld::~OdeWorld() {
@@ -157,8 +158,14 @@ bool OdeWorld::runs_away() const {
   });
 }
 
+void OdeWorld::set_cfm(double cfm) {
+  dWorldSetCFM(world_, cfm);
+  joints_->set_cfm(cfm);
+}
+
 void OdeWorld::advance(double dt) {
-  if (softness_ > 0) dWorldSetCFM(world_, softness_ * dt);
+  if (softness_ > 0) set_cfm(softness_ * dt);
+  joints_->drive(clock_.time());
   if (can_touch_) find_contacts();
   const int done = quick_ ? quick_step(dt) : dWorldStep(world_, dt);
   if (can_touch_) dJointGroupEmpty(contacts_);
@@ -265,6 +272,8 @@ SettingsInForce OdeWorld::settings_in_force() const {
     in_force.emplace_back("iterations", fmt::format("{}", dWorldGetQuickStepNumIterations(world_)));
     in_force.emplace_back("sor", fmt::format("{:g}", dWorldGetQuickStepW(world_)));
   }
+  const SettingsInForce of_joints = joints_->settings_in_force();
+  in_force.insert(in_force.end(), of_joints.begin(), of_joints.end());
   for (const dBodyID body : bodies_) {
     if (!body) continue;  // all moving bodies are set alike
     in_force.emplace_back("gyroscopic", dBodyGetGyroscopicMode(body) ? "on, implicit" : "off");

@@ -1,12 +1,15 @@
-// A scene as ODE's own objects: a dBody for each body that moves, a dGeom for each that collides.
+// A scene as ODE's own objects: a dBody for each body that moves, a dGeom for each that collides, a dJoint for each
+// joint.
 #pragma once
 
 #include <ode/ode.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "adapters/external_loads.h"
+#include "adapters/ode/ode_joints.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
 #include "core/scene/contact_laws.h"
@@ -34,6 +37,7 @@ class OdeWorld : public World {
   void add_body(const Body& body, const Settings& settings);
   void add_geometry(const Body& body, dBodyID moving);
   void advance(double dt);
+  void set_cfm(double cfm);
   bool runs_away() const;
   int quick_step(double dt);  // 0 if it could not
   std::string erp_in_words() const;
@@ -61,6 +65,7 @@ class OdeWorld : public World {
   dWorldID world_;
   dSpaceID moving_, fixed_;  // two spaces: fixed shapes are never tried against each other
   dJointGroupID contacts_;   // lives for one step
+  std::optional<OdeJoints> joints_;
 };
 
 }  // namespace rigor
