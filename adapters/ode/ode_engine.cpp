@@ -4,12 +4,15 @@
 #include <ode/ode.h>
 #include <ode/version.h>
 
+#include "adapters/ode/ode_matched.h"
 #include "adapters/ode/ode_world.h"
 #include "adapters/option_values.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
 namespace {
+
+constexpr double kShippedErp = 0.2, kShippedCfm = 1e-10;  // of a new world, in double precision
 
 std::vector<OptionInfo> options_of_both() {
   return {{"gyroscopic", "the implicit gyroscopic torque", {"on", "off"}},
@@ -70,11 +73,17 @@ std::unique_ptr<World> OdeEngine::load(const Scene& scene, const Settings& setti
   return std::make_unique<OdeWorld>(scene, settings);
 }
 
-// Of its options only these two touch smooth motion. The defaults are those that OdeWorld sets.
+// Of its options only these touch smooth motion. The defaults are those that OdeWorld sets; a cfm that is not named is
+// by the masses, in the twin as there.
 std::string OdeEngine::twin(const Settings& settings) const {
-  const char* rotation = settings.track == Track::matched ? "finite" : "infinitesimal";
-  return fmt::format("core:ode-twin,gyroscopic={},rotation={}", word_option(settings, "gyroscopic", "on"),
-                     word_option(settings, "rotation", rotation));
+  const bool matched = settings.track == Track::matched;
+  std::string name =
+      fmt::format("core:ode-twin,gyroscopic={},rotation={},erp={}", word_option(settings, "gyroscopic", "on"),
+                  word_option(settings, "rotation", matched ? "finite" : "infinitesimal"),
+                  number_option(settings, "erp", matched ? kMatchedJointErp : kShippedErp));
+  if (!matched || settings.options.contains("cfm"))
+    name += fmt::format(",cfm={}", number_option(settings, "cfm", kShippedCfm));
+  return name + (settings.method == "quickstep" ? ",joints=none" : ",joints=direct");
 }
 
 }  // namespace rigor

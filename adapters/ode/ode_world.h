@@ -33,7 +33,7 @@ class OdeWorld : public World {
   std::string solver_warning() const override { return solver_warning_; }
 
  private:
-  void apply(const Settings& settings);
+  void apply(const Settings& settings, const Scene& scene);
   void add_body(const Body& body, const Settings& settings);
   void add_geometry(const Body& body, dBodyID moving);
   void advance(double dt);
@@ -54,8 +54,9 @@ class OdeWorld : public World {
   ContactLaws laws_;
   ExternalLoads loads_;
   bool can_touch_;
-  double heaviest_;      // kg, of the moving bodies
-  double softness_ = 0;  // 1/kg: cfm/dt where it is set by the masses; 0 where cfm is as shipped or as asked for
+  double contact_erp_ = 0;
+  double softness_ = 0;        // 1/kg: cfm/dt where it is set by the masses; 0 where cfm is as shipped or as asked for
+  double softness_share_ = 0;  // of the heaviest body's 1/mass
   bool matched_, by_size_, quick_;
   bool lost_ = false;  // blown up: from then on its state is "not a number"
   Clock clock_;
