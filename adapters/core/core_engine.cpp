@@ -83,9 +83,17 @@ class CoreWorld : public World {
 };
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
-const Features kJointFeatures = {"joint:ball",          "joint:distance",  "joint:fixed",  "joint:hinge",
-                                 "joint:slider",        "joint:universal", "joint-spring", "joint-damper",
-                                 "joints-with-dampers", "motor:effort"};
+const Features kJointFeatures = {"joint:ball",
+                                 "joint:distance",
+                                 "joint:fixed",
+                                 "joint:hinge",
+                                 "joint:slider",
+                                 "joint:universal",
+                                 "joint-spring",
+                                 "joint-damper",
+                                 "joints-with-dampers",
+                                 "motor:effort",
+                                 "joint-limit:beyond-half-turn"};
 
 template <typename Rows>
 std::vector<std::string> names_of(const Rows& rows) {
