@@ -18,7 +18,7 @@ class OdeJoints {
   // stays, are where they are at t = 0. The world destroys them.
   OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track);
 
-  // Turns on the motors that keep a speed from <= t < until, and the others off.
+  // For a step whose middle is t: turns on the motors that keep a speed from <= t < until, and the others off.
   void drive(double t);
   // What hinges, sliders and universal joints read anew in each step, for the joints that have a copy of it.
   void set_cfm(double cfm);

@@ -155,7 +155,7 @@ void OdeWorld::set_cfm(double cfm) {
 
 void OdeWorld::advance(double dt) {
   if (softness_ > 0) set_cfm(softness_ * dt);
-  joints_->drive(clock_.time());
+  joints_->drive(clock_.time() + 0.5 * dt);
   if (can_touch_) find_contacts();
   const int done = quick_ ? quick_step(dt) : dWorldStep(world_, dt);
   if (can_touch_) dJointGroupEmpty(contacts_);
