@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "adapters/ode/ode_joint_ends.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -16,19 +18,13 @@ const OdeJoints::Axis OdeJoints::kSlider = {dJointSetSliderParam, dJointGetSlide
 // frames here and in W there. A joint's kind has the same rows in both, to the same manifold: ODE's slider has its axis
 // in its first body and its offset in its second, which without relative turning is the same line.
 struct OdeJoints::Maker {
-  const Scene& scene;
   dWorldID world;
-  const Joint& joint;
+  const OdeJointEnds& ends;
   dBodyID first, second;  // the second null for what stays
-  bool b_is_first;
 
   dJointID attached(dJointID id) const {
     dJointAttach(id, first, second);
     return id;
-  }
-  Vec3 in_W(int body, const Vec3& point) const {
-    const BodyPose pose = scene.pose(body);
-    return pose.position + pose.orientation * point;
   }
 
   dJointID operator()(const BallJoint& ball) const {
@@ -54,17 +50,14 @@ struct OdeJoints::Maker {
   }
   dJointID operator()(const DistanceJoint& distance) const {
     const dJointID id = attached(dJointCreateDBall(world, nullptr));
-    const Vec3 a = in_W(joint.a, distance.point_a), b = in_W(joint.b, distance.point_b);
-    const Vec3 &one = b_is_first ? b : a, &other = b_is_first ? a : b;
+    const auto [one, other] = ends.points(distance);
     dJointSetDBallAnchor1(id, one.x(), one.y(), one.z());
     dJointSetDBallAnchor2(id, other.x(), other.y(), other.z());  // with it, the distance
     return id;
   }
   dJointID operator()(const UniversalJoint& universal) const {
     const dJointID id = attached(dJointCreateUniversal(world, nullptr));
-    const Vec3& in_a = universal.axis;
-    const Vec3 in_b = (universal.axis2 - universal.axis2.dot(in_a) * in_a).normalized();  // to the last digit
-    const Vec3 &one = b_is_first ? in_b : in_a, &other = b_is_first ? in_a : in_b;
+    const auto [one, other] = ends.axes(universal);
     dJointSetUniversalAnchor(id, universal.anchor.x(), universal.anchor.y(), universal.anchor.z());
     dJointSetUniversalAxis1(id, one.x(), one.y(), one.z());
     dJointSetUniversalAxis2(id, other.x(), other.y(), other.z());
@@ -73,15 +66,14 @@ struct OdeJoints::Maker {
 };
 
 OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track) {
-  const auto moving = [&](int body) -> dBodyID { return body == kWorld ? nullptr : bodies[body]; };
   for (const Joint& joint : scene.joints) {
-    const dBodyID a = moving(joint.a), b = moving(joint.b);
-    const bool b_is_first = b != nullptr;
-    const Maker maker{scene, world, joint, b_is_first ? b : a, b_is_first ? a : nullptr, b_is_first};
+    const OdeJointEnds ends(scene, joint);
+    const Maker maker{world, ends, bodies[ends.bodies.first],
+                      ends.bodies.second == kWorld ? nullptr : bodies[ends.bodies.second]};
     const Axis* axis = std::holds_alternative<HingeJoint>(joint.type)    ? &kHinge
                        : std::holds_alternative<SliderJoint>(joint.type) ? &kSlider
                                                                          : nullptr;
-    joints_.push_back({std::visit(maker, joint.type), b_is_first ? 1.0 : -1.0, axis, joint.has_limits()});
+    joints_.push_back({std::visit(maker, joint.type), ends.sign(), axis, joint.has_limits()});
     if (joint.has_limits()) set_limits(joint, joints_.back(), track);
   }
   list_motors(scene);
@@ -91,6 +83,7 @@ OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBody
 // would bounce with up to that share of the speed, at any step size. On the matched track the little that a step goes
 // too far is left, and falls with the step.
 void OdeJoints::set_limits(const Joint& joint, const Held& held, Track track) {
+  assert(held.axis && "only a hinge and a slider are read with limits");
   const double low = held.sign > 0 ? joint.lower : -joint.upper, high = held.sign > 0 ? joint.upper : -joint.lower;
   if (std::isfinite(low)) held.axis->set(held.id, dParamLoStop, low);
   if (std::isfinite(high)) held.axis->set(held.id, dParamHiStop, high);
@@ -137,7 +130,18 @@ void OdeJoints::set_cfm(double cfm) {
 }
 
 SettingsInForce OdeJoints::settings_in_force() const {
-  SettingsInForce settings;
+  if (joints_.empty()) return {};
+  SettingsInForce settings = {{"springs, dampers and efforts of joints", "user forces, recomputed before each step"}};
+  for (const Held& held : joints_) {
+    const dJointType type = dJointGetType(held.id);
+    const bool has_own = type == dJointTypeBall || type == dJointTypeFixed || type == dJointTypeDBall;
+    if (!has_own) continue;  // all are set alike
+    const dReal erp = type == dJointTypeBall    ? dJointGetBallParam(held.id, dParamERP)
+                      : type == dJointTypeFixed ? dJointGetFixedParam(held.id, dParamERP)
+                                                : dJointGetDBallParam(held.id, dParamERP);
+    settings.emplace_back("erp of ball, distance and fixed joints", fmt::format("{:g}", erp));
+    break;
+  }
   const auto limited = std::find_if(joints_.begin(), joints_.end(), [](const Held& held) { return held.has_limits; });
   if (limited != joints_.end()) {  // all are set alike
     settings.emplace_back("joint stop erp", fmt::format("{:g}", limited->axis->get(limited->id, dParamStopERP)));

@@ -1,6 +1,4 @@
-// A scene's joints as ODE's own. ODE counts a joint's angle or way as that of its first body against its second, and
-// its limits and motors with it; its first body must be one that moves. So b comes first, as the scene counts, and
-// where b stays, a comes first and all signs turn.
+// A scene's joints as ODE's own, their ends in the order of ode_joint_ends.h.
 #pragma once
 
 #include <ode/ode.h>
@@ -33,7 +31,7 @@ class OdeJoints {
   };
   struct Held {
     dJointID id;
-    double sign;  // 1, or -1 where a is ODE's first body
+    double sign;  // of ODE's angle or way, against the scene's
     const Axis* axis;
     bool has_limits;
   };

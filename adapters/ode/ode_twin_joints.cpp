@@ -1,5 +1,6 @@
 #include "adapters/ode/ode_twin_joints.h"
 
+#include "adapters/ode/ode_joint_ends.h"
 #include "adapters/ode/ode_matched.h"
 
 namespace rigor {
@@ -154,31 +155,22 @@ class OdeDistance : public OdeJointRows {
   double distance_;
 };
 
-// As OdeJoints::Maker has them: b is the first end where it moves.
 struct MakeRows {
   using Rows = std::unique_ptr<OdeJointRows>;
-  const Scene& scene;
-  const Joint& joint;
+  const OdeJointEnds& ends;
   const OdeEnd &first, &second;
-  bool b_is_first;
 
-  Vec3 in_W(int body, const Vec3& point) const {
-    const BodyPose pose = scene.pose(body);
-    return pose.position + pose.orientation * point;
-  }
   Rows operator()(const BallJoint& ball) const { return std::make_unique<OdeBall>(ball.anchor, first, second); }
   Rows operator()(const HingeJoint& hinge) const { return std::make_unique<OdeHinge>(hinge, first, second); }
   Rows operator()(const SliderJoint& slider) const { return std::make_unique<OdeSlider>(slider, first, second); }
   Rows operator()(const FixedJoint&) const { return std::make_unique<OdeFixed>(first, second); }
   Rows operator()(const DistanceJoint& distance) const {
-    const Vec3 a = in_W(joint.a, distance.point_a), b = in_W(joint.b, distance.point_b);
-    return std::make_unique<OdeDistance>(b_is_first ? b : a, b_is_first ? a : b, first, second);
+    const auto [one, other] = ends.points(distance);
+    return std::make_unique<OdeDistance>(one, other, first, second);
   }
   Rows operator()(const UniversalJoint& universal) const {
-    const Vec3& in_a = universal.axis;
-    const Vec3 in_b = (universal.axis2 - universal.axis2.dot(in_a) * in_a).normalized();
-    return std::make_unique<OdeUniversal>(universal.anchor, b_is_first ? in_b : in_a, b_is_first ? in_a : in_b, first,
-                                          second);
+    const auto [one, other] = ends.axes(universal);
+    return std::make_unique<OdeUniversal>(universal.anchor, one, other, first, second);
   }
 };
 
@@ -196,13 +188,11 @@ OdeTwinJoints::OdeTwinJoints(const Scene& scene, const System& system, double er
     : system_(system), erp_(erp), cfm_(cfm), softness_(matched_softness(scene)) {
   BodyTable start(system.size());
   set_initial_state(scene, start.columns());
-  const auto moving = [&](int body) { return body != kWorld && !system.bodies[body].fixed ? body : kWorld; };
   for (const Joint& joint : scene.joints) {
-    const int a = moving(joint.a), b = moving(joint.b);
-    const bool b_is_first = b != kWorld;
-    const int first = b_is_first ? b : a, second = b_is_first ? a : kWorld;
+    const OdeJointEnds ends(scene, joint);
+    const auto [first, second] = ends.bodies;
     const OdeEnd one = end_of(start.columns(), first), other = end_of(start.columns(), second);
-    joints_.push_back({std::visit(MakeRows{scene, joint, one, other, b_is_first}, joint.type), first, second});
+    joints_.push_back({std::visit(MakeRows{ends, one, other}, joint.type), first, second});
     row_count_ += joints_.back().rows->count();
   }
 }

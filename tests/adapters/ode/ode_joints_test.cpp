@@ -263,6 +263,9 @@ BOOST_AUTO_TEST_CASE(what_is_in_force_of_joints_is_read_back) {
   BOOST_TEST(found["erp"].starts_with("0.31"));
   BOOST_TEST(found["cfm"] == "0.002");
   BOOST_TEST(found["joint stop cfm"] == "0.002");
+  const Scene ball = test::with_joint(BallJoint{{0.3, 0.1, 0.2}}, test::Ends::from_world);
+  BOOST_TEST(settings_of("ode,erp=0.31", ball)["erp of ball, distance and fixed joints"] == "0.31");
+  BOOST_TEST(settings_of("ode", ball)["erp of ball, distance and fixed joints"] == "0.5");
   found = settings_of("ode@stock", scene);
   BOOST_TEST(found["erp"].starts_with("0.2"));
   BOOST_TEST(found["cfm"] == "1e-10");
