@@ -70,6 +70,7 @@ std::unique_ptr<World> OdeEngine::load(const Scene& scene, const Settings& setti
   const EngineInfo engine = info();
   refuse_unsupported(engine, scene);
   method_of(engine, settings);  // throws for a method that is not there
+  refuse_shared_motors(scene);
   return std::make_unique<OdeWorld>(scene, settings);
 }
 

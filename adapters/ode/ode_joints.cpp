@@ -65,6 +65,19 @@ struct OdeJoints::Maker {
   }
 };
 
+void refuse_shared_motors(const Scene& scene) {
+  for (auto motor = scene.motors.begin(); motor != scene.motors.end(); ++motor) {
+    for (auto other = scene.motors.begin(); other != motor; ++other) {
+      const bool share = motor->speed && other->speed && other->joint == motor->joint && other->from < motor->until &&
+                         motor->from < other->until;
+      if (!share) continue;
+      throw InputError(fmt::format("ode keeps one speed of a joint at a time; {} has two motors from {} s on",
+                                   scene.joint_name(static_cast<std::size_t>(motor->joint)),
+                                   std::max(motor->from, other->from)));
+    }
+  }
+}
+
 OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track) {
   for (const Joint& joint : scene.joints) {
     const OdeJointEnds ends(scene, joint);
@@ -76,7 +89,9 @@ OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBody
     joints_.push_back({std::visit(maker, joint.type), ends.sign(), axis, joint.has_limits()});
     if (joint.has_limits()) set_limits(joint, joints_.back(), track);
   }
-  list_motors(scene);
+  for (const Motor& motor : scene.motors) {
+    if (motor.speed) motors_.push_back(motor);  // an effort is one of the loads
+  }
 }
 
 // What goes beyond a stop in a step is pushed back, a share of dParamStopERP of it, by a speed that stays: a dead stop
@@ -89,19 +104,6 @@ void OdeJoints::set_limits(const Joint& joint, const Held& held, Track track) {
   if (std::isfinite(high)) held.axis->set(held.id, dParamHiStop, high);
   held.axis->set(held.id, dParamBounce, joint.restitution);
   if (track == Track::matched) held.axis->set(held.id, dParamStopERP, 0);
-}
-
-void OdeJoints::list_motors(const Scene& scene) {
-  for (const Motor& motor : scene.motors) {
-    if (!motor.speed) continue;  // an effort is one of the loads
-    for (const Motor& other : motors_) {
-      if (other.joint == motor.joint && other.from < motor.until && motor.from < other.until)
-        throw InputError(fmt::format("ode keeps one speed of a joint at a time; {} has two motors from {} s on",
-                                     scene.joint_name(static_cast<std::size_t>(motor.joint)),
-                                     std::max(motor.from, other.from)));
-    }
-    motors_.push_back(motor);
-  }
 }
 
 void OdeJoints::drive(double t) {

@@ -10,6 +10,9 @@
 
 namespace rigor {
 
+// Throws InputError where two motors keep a speed of the same joint at the same time: ODE has one motor a joint.
+void refuse_shared_motors(const Scene& scene);
+
 class OdeJoints {
  public:
   // Of a world whose ERP and CFM are set, for some joints take a copy of them; and whose bodies, null for one that
@@ -38,7 +41,6 @@ class OdeJoints {
   struct Maker;
 
   void set_limits(const Joint& joint, const Held& held, Track track);
-  void list_motors(const Scene& scene);
 
   static const Axis kHinge, kSlider;
   std::vector<Held> joints_;   // in the scene's order

@@ -235,6 +235,17 @@ BOOST_AUTO_TEST_CASE(a_motor_keeps_its_speed_while_it_is_on_and_the_joint_is_fre
   });
 }
 
+// Where a joint stands at a stop, ODE has no row left for its motor, and pushes with all the motor's force for a step.
+BOOST_AUTO_TEST_CASE(a_motor_that_leaves_a_stop_is_too_fast_for_a_step) {
+  Driven driven(kAxes[0].second, test::Ends::from_world);
+  driven.scene.joints[0].upper = 0;
+  driven.scene.motors = {speed(-1, 1e3)};
+  driven.run("ode", 0.001);
+  BOOST_TEST(driven.now.rate < -3);  // 1000 N m on 0.2 kg m² for a millisecond
+  driven.run("ode", 0.002);
+  BOOST_TEST(std::abs(driven.now.rate + 1) < 1e-3);
+}
+
 // ODE's bound is one of force, not of impulse: the motor's way to its speed is that of the effort alone.
 BOOST_AUTO_TEST_CASE(a_motor_pulls_no_harder_than_it_may) {
   for_each_axis([](Driven driven, const char* run) {
