@@ -40,7 +40,7 @@ class CoreWorld : public World {
       stepper_ = std::move(stepper);
     } else {
       contact_settings_ = {{"contact", "none in this scene"}};
-      stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get()});
+      stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get(), &scene});
     }
   }
 
@@ -83,9 +83,17 @@ class CoreWorld : public World {
 };
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
-const Features kJointFeatures = {"joint:ball",          "joint:distance",  "joint:fixed",  "joint:hinge",
-                                 "joint:slider",        "joint:universal", "joint-spring", "joint-damper",
-                                 "joints-with-dampers", "motor:effort"};
+const Features kJointFeatures = {"joint:ball",
+                                 "joint:distance",
+                                 "joint:fixed",
+                                 "joint:hinge",
+                                 "joint:slider",
+                                 "joint:universal",
+                                 "joint-spring",
+                                 "joint-damper",
+                                 "joints-with-dampers",
+                                 "motor:effort",
+                                 "joint-limit:beyond-half-turn"};
 
 template <typename Rows>
 std::vector<std::string> names_of(const Rows& rows) {
@@ -134,6 +142,7 @@ MethodInfo method_info(const Integrator& integrator) {
   }
   if (!integrator.takes_joints) info.lacks = joined(info.lacks, kJointFeatures);
   if (!integrator.takes_dampers_with_joints) info.lacks.insert("joints-with-dampers");
+  info.lacks = joined(info.lacks, integrator.lacks);
   return info;
 }
 

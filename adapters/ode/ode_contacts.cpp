@@ -62,7 +62,11 @@ void OdeWorld::add_contacts(dGeomID a, dGeomID b) {
   const auto index_of = [](dGeomID geom) {
     return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom)));
   };
-  const dSurfaceParameters surface = surface_of(laws_.of(index_of(a), index_of(b)));
+  dSurfaceParameters surface = surface_of(laws_.of(index_of(a), index_of(b)));
+  if (contact_erp_ != dWorldGetERP(world_)) {  // which is then the joints' alone
+    surface.mode |= dContactSoftERP;
+    surface.soft_erp = contact_erp_;
+  }
   const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
   for (int i = 0; i < count; ++i) {
     found[i].surface = surface;

@@ -4,12 +4,15 @@
 #include <ode/ode.h>
 #include <ode/version.h>
 
+#include "adapters/ode/ode_matched.h"
 #include "adapters/ode/ode_world.h"
 #include "adapters/option_values.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
 namespace {
+
+constexpr double kShippedErp = 0.2, kShippedCfm = 1e-10;  // of a new world, in double precision
 
 std::vector<OptionInfo> options_of_both() {
   return {{"gyroscopic", "the implicit gyroscopic torque", {"on", "off"}},
@@ -18,6 +21,12 @@ std::vector<OptionInfo> options_of_both() {
            {"finite", "infinitesimal"}},
           {"erp", "share of a constraint's error corrected in one step", {}, 0, 1},
           {"cfm", "constraint force mixing: softness of constraints", {}, 0, 1}};
+}
+
+Features joints_of_all_kinds() {
+  return {"joint:ball",      "joint:distance",       "joint:fixed",        "joint:hinge", "joint:slider",
+          "joint:universal", "joint-spring",         "joint-damper",       "joint-limit", "motor:effort",
+          "motor:speed",     "joints-with-contacts", "joints-with-dampers"};
 }
 
 MethodInfo by_size() {
@@ -30,14 +39,14 @@ MethodInfo by_size() {
 
 MethodInfo worldstep() {
   return {.name = "worldstep",
-          .summary = "semi-implicit Euler, contacts by a direct (Dantzig) solver",
+          .summary = "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver",
           .leapfrog_stagger = 0.5,
           .options = options_of_both()};
 }
 
 MethodInfo quickstep() {
   MethodInfo method = {.name = "quickstep",
-                       .summary = "semi-implicit Euler, contacts by successive over-relaxation",
+                       .summary = "semi-implicit Euler, joints and contacts by successive over-relaxation",
                        .leapfrog_stagger = 0.5,
                        .options = options_of_both()};
   method.options.push_back({"iterations", "sweeps a step", {}, 1, 10000, true});
@@ -51,8 +60,9 @@ EngineInfo OdeEngine::info() const {
   return {.name = "ode",
           .version = dODE_VERSION,
           .precision = dCheckConfiguration("ODE_double_precision") ? "double" : "single",
-          .features = joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
-                                                        "friction:none", "friction:coulomb", "friction:infinite"}),
+          .features = joined(joined(contacts_of_all_shapes(), joints_of_all_kinds()),
+                             {"spring", "timed-force", "fixed-body", "restitution", "friction:none", "friction:coulomb",
+                              "friction:infinite"}),
           .methods = {by_size(), worldstep(), quickstep()}};
 }
 
@@ -60,14 +70,21 @@ std::unique_ptr<World> OdeEngine::load(const Scene& scene, const Settings& setti
   const EngineInfo engine = info();
   refuse_unsupported(engine, scene);
   method_of(engine, settings);  // throws for a method that is not there
+  refuse_shared_motors(scene);
   return std::make_unique<OdeWorld>(scene, settings);
 }
 
-// Of its options only these two touch smooth motion. The defaults are those that OdeWorld sets.
+// Of its options only these touch smooth motion. The defaults are those that OdeWorld sets; a cfm that is not named is
+// by the masses, in the twin as there.
 std::string OdeEngine::twin(const Settings& settings) const {
-  const char* rotation = settings.track == Track::matched ? "finite" : "infinitesimal";
-  return fmt::format("core:ode-twin,gyroscopic={},rotation={}", word_option(settings, "gyroscopic", "on"),
-                     word_option(settings, "rotation", rotation));
+  const bool matched = settings.track == Track::matched;
+  std::string name =
+      fmt::format("core:ode-twin,gyroscopic={},rotation={},erp={}", word_option(settings, "gyroscopic", "on"),
+                  word_option(settings, "rotation", matched ? "finite" : "infinitesimal"),
+                  number_option(settings, "erp", matched ? kMatchedJointErp : kShippedErp));
+  if (!matched || settings.options.contains("cfm"))
+    name += fmt::format(",cfm={}", number_option(settings, "cfm", kShippedCfm));
+  return name + (settings.method == "quickstep" ? ",joints=none" : ",joints=direct");
 }
 
 }  // namespace rigor

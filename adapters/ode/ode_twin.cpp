@@ -3,11 +3,14 @@
 // of L' = tau with L0 = I w0 held in the gyroscopic product, at the inertia I = R0 I_B R0ᵀ of the step's start:
 //   (I - dt [L0]x) w* = I w0,   w1 = w* + dt I⁻¹ tau,   v1 = v0 + dt F/m,   x1 = x0 + dt v1
 // and then a turn by dt w1: exact ("finite"), or q <- (q + dt/2 (0, w1) q) / |...| ("infinitesimal"), as
-// dBodySetFiniteRotationMode says. Loads are constant over the step. Nothing is damped unless it is asked for.
+// dBodySetFiniteRotationMode says. Loads are constant over the step. Nothing is damped unless it is asked for. Joints
+// act between w1, v1 and x1: see ode_twin_joints.h.
 #include "adapters/ode/ode_twin.h"
 
 #include <Eigen/LU>
 
+#include "adapters/ode/ode_matched.h"
+#include "adapters/ode/ode_twin_joints.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
@@ -20,17 +23,25 @@ class OdeTwin : public Stepper {
         is_gyroscopic_(word_option(parts.settings, "gyroscopic", "on") == "on"),
         turn_(orientation_update(word_option(parts.settings, "rotation", "finite") == "finite"
                                      ? "quaternion-exponential"
-                                     : "quaternion-additive")) {}
+                                     : "quaternion-additive")) {
+    if (!parts.scene || parts.scene->joints.empty()) return;
+    const bool has_cfm = parts.settings.options.contains("cfm");
+    joints_ = std::make_unique<OdeTwinJoints>(
+        *parts.scene, parts.system, number_option(parts.settings, "erp", kMatchedJointErp),
+        has_cfm ? std::optional(number_option(parts.settings, "cfm", 0)) : std::nullopt);
+  }
 
   void step(MutableBodyColumns state, double t, double dt) override {
     parts_.system.wrenches(state, t, dt, wrenches_);
     for (std::size_t i = 0; i < state.size(); ++i) kick(state, i, dt);
     if (parts_.contact) parts_.contact->resolve(state);
+    if (joints_) joints_->push(state, dt);
     for (std::size_t i = 0; i < state.size(); ++i) {
       state.set_position(i, state.position(i) + dt * state.velocity(i));
       turn_.advance(state, i, state.angular_velocity(i), dt);
     }
   }
+  std::string solver_warning() const override { return joints_ ? joints_->warning() : ""; }
 
  private:
   void kick(MutableBodyColumns state, std::size_t i, double dt) const {
@@ -51,8 +62,12 @@ class OdeTwin : public Stepper {
   StepperParts parts_;
   bool is_gyroscopic_;
   const OrientationUpdate& turn_;
+  std::unique_ptr<OdeTwinJoints> joints_;  // null where there are none
   Wrenches wrenches_;
 };
+
+const Features kJointKinds = {"joint:ball",  "joint:distance", "joint:fixed",
+                              "joint:hinge", "joint:slider",   "joint:universal"};
 
 }  // namespace
 
@@ -63,10 +78,18 @@ const Integrator kOdeTwin = {
     .symplectic = false,  // the gyroscopic term damps
     .leapfrog_stagger = 0.5,
     .default_orientation = "",
+    .takes_joints = true,
+    .lacks = {"joint-limit", "joints-with-contacts", "motor:speed"},  // rows that act on one side or up to a bound
     .options = {{"gyroscopic", "the implicit gyroscopic torque; default on", {"on", "off"}},
                 {"rotation",
                  "update of the orientation: the exact turn (default), or an added quaternion rate",
-                 {"finite", "infinitesimal"}}},
+                 {"finite", "infinitesimal"}},
+                {"erp", "share of a joint's gap closed in one step; default that of ode's matched track", {}, 0, 1},
+                {"cfm", "softness of the joints' rows; default that of ode's matched track", {}, 0, 1},
+                {.name = "joints",
+                 .meaning = "direct: as worldstep solves for them; none: quickstep's sweeps are not repeated",
+                 .choices = {"direct", "none"},
+                 .features_of_choice = {{"direct", kJointKinds}, {"none", {}}}}},
     .twin_of = "ode",
     .make = make_stepper<OdeTwin>,
 };

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "adapters/ode/ode_library.h"
+#include "adapters/ode/ode_matched.h"
 #include "adapters/option_values.h"
 
 namespace rigor {
@@ -52,27 +53,12 @@ bool has_too_many_for_worldstep(const Scene& scene) {
   return std::count_if(scene.bodies.begin(), scene.bodies.end(), can_touch) > kMostForWorldStep;
 }
 
-double heaviest_of(const Scene& scene) {  // kg
-  double heaviest = 0;
-  for (const Body& body : scene.bodies) {
-    if (!body.fixed) heaviest = std::max(heaviest, body.mass);
-  }
-  return heaviest;
-}
-
-// Several contacts that carry one body are one equation too many, at which the direct solver may give up ("LCP internal
-// error"). A softness of cfm/dt = 1e-5 of the heaviest body's inverse mass makes that rarer (a card house never, a
-// stack of ten boxes still in 4 of 600 steps), and changes an impulse by no more than that share. As shipped cfm is
-// 1e-10 whatever the masses are.
-constexpr double kSoftness = 1e-5;
-
 }  // namespace
 
 OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
     : laws_(scene),
       loads_(scene),
       can_touch_(anything_can_touch(scene)),
-      heaviest_(heaviest_of(scene)),
       matched_(settings.track == Track::matched),
       by_size_(settings.method == "auto"),
       quick_(settings.method == "quickstep" || (by_size_ && has_too_many_for_worldstep(scene))) {
@@ -82,8 +68,9 @@ OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
   fixed_ = dSimpleSpaceCreate(nullptr);
   contacts_ = dJointGroupCreate(0);
   dWorldSetGravity(world_, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
-  apply(settings);
+  apply(settings, scene);
   for (const Body& body : scene.bodies) add_body(body, settings);
+  joints_.emplace(scene, world_, bodies_, settings.track);
 }
 
 OdeWorld::~OdeWorld() {
@@ -93,14 +80,18 @@ OdeWorld::~OdeWorld() {
   dWorldDestroy(world_);
 }
 
-void OdeWorld::apply(const Settings& settings) {
+void OdeWorld::apply(const Settings& settings, const Scene& scene) {
   if (matched_) {
     dWorldSetAutoDisableFlag(world_, 0);
     dWorldSetDamping(world_, 0, 0);
   }
-  dWorldSetERP(world_, number_option(settings, "erp", dWorldGetERP(world_)));
+  contact_erp_ = number_option(settings, "erp", dWorldGetERP(world_));
+  const bool own_erp = matched_ && !scene.joints.empty() && !settings.options.contains("erp");
+  dWorldSetERP(world_, own_erp ? kMatchedJointErp : contact_erp_);
   dWorldSetCFM(world_, number_option(settings, "cfm", dWorldGetCFM(world_)));
-  if (matched_ && can_touch_ && !settings.options.contains("cfm")) softness_ = kSoftness / heaviest_;
+  if (matched_ && (can_touch_ || !scene.joints.empty()) && !settings.options.contains("cfm")) {
+    softness_ = matched_softness(scene), softness_share_ = matched_softness_share(scene);
+  }
   dWorldSetQuickStepNumIterations(
       world_, static_cast<int>(number_option(settings, "iterations", dWorldGetQuickStepNumIterations(world_))));
   dWorldSetQuickStepW(world_, number_option(settings, "sor", dWorldGetQuickStepW(world_)));
@@ -157,8 +148,14 @@ bool OdeWorld::runs_away() const {
   });
 }
 
+void OdeWorld::set_cfm(double cfm) {
+  dWorldSetCFM(world_, cfm);
+  joints_->set_cfm(cfm);
+}
+
 void OdeWorld::advance(double dt) {
-  if (softness_ > 0) dWorldSetCFM(world_, softness_ * dt);
+  if (softness_ > 0) set_cfm(softness_ * dt);
+  joints_->drive(clock_.time() + 0.5 * dt);
   if (can_touch_) find_contacts();
   const int done = quick_ ? quick_step(dt) : dWorldStep(world_, dt);
   if (can_touch_) dJointGroupEmpty(contacts_);
@@ -217,20 +214,21 @@ void OdeWorld::read(Snapshot& out) const {
 }
 
 std::string OdeWorld::erp_in_words() const {
-  const double erp = dWorldGetERP(world_);
-  if (!can_touch_) return fmt::format("{:g}", erp);
-  return fmt::format(
-      "{:g}: that share of an overlap is pushed out in one step, as speed, which a body that should not "
-      "bounce keeps: it pops up. 0 would let bodies sink instead",
-      erp);
+  std::string words = fmt::format("{:g}", dWorldGetERP(world_));
+  if (!joints_->empty()) words += ": that share of a joint's gap is closed in one step, as speed, which stays";
+  if (!can_touch_) return words;
+  if (!joints_->empty()) words += fmt::format("; contacts {:g}", contact_erp_);
+  return words +
+         ": that share of an overlap is pushed out in one step, as speed, which a body that should not bounce keeps: "
+         "it pops up. 0 would let bodies sink instead";
 }
 
 std::string OdeWorld::cfm_in_words() const {
   if (softness_ == 0) return fmt::format("{:g}", dWorldGetCFM(world_));
   return fmt::format(
-      "{:.3g} s/kg x dt, {:g} of the heaviest body's 1/mass: less, and the direct solver fails where a "
-      "body has more contacts than it needs; more, and contacts are soft",
-      softness_, kSoftness);
+      "{:.3g} 1/kg x dt, {:g} of the heaviest body's 1/mass: less, and the direct solver fails where a "
+      "body has more contacts or joints than it needs; more, and these are soft",
+      softness_, softness_share_);
 }
 
 std::string OdeWorld::solver_in_words() const {
@@ -265,6 +263,8 @@ SettingsInForce OdeWorld::settings_in_force() const {
     in_force.emplace_back("iterations", fmt::format("{}", dWorldGetQuickStepNumIterations(world_)));
     in_force.emplace_back("sor", fmt::format("{:g}", dWorldGetQuickStepW(world_)));
   }
+  const SettingsInForce of_joints = joints_->settings_in_force();
+  in_force.insert(in_force.end(), of_joints.begin(), of_joints.end());
   for (const dBodyID body : bodies_) {
     if (!body) continue;  // all moving bodies are set alike
     in_force.emplace_back("gyroscopic", dBodyGetGyroscopicMode(body) ? "on, implicit" : "off");

@@ -1,12 +1,15 @@
-// A scene as ODE's own objects: a dBody for each body that moves, a dGeom for each that collides.
+// A scene as ODE's own objects: a dBody for each body that moves, a dGeom for each that collides, a dJoint for each
+// joint.
 #pragma once
 
 #include <ode/ode.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "adapters/external_loads.h"
+#include "adapters/ode/ode_joints.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
 #include "core/scene/contact_laws.h"
@@ -30,10 +33,11 @@ class OdeWorld : public World {
   std::string solver_warning() const override { return solver_warning_; }
 
  private:
-  void apply(const Settings& settings);
+  void apply(const Settings& settings, const Scene& scene);
   void add_body(const Body& body, const Settings& settings);
   void add_geometry(const Body& body, dBodyID moving);
   void advance(double dt);
+  void set_cfm(double cfm);
   bool runs_away() const;
   int quick_step(double dt);  // 0 if it could not
   std::string erp_in_words() const;
@@ -50,8 +54,9 @@ class OdeWorld : public World {
   ContactLaws laws_;
   ExternalLoads loads_;
   bool can_touch_;
-  double heaviest_;      // kg, of the moving bodies
-  double softness_ = 0;  // 1/kg: cfm/dt where it is set by the masses; 0 where cfm is as shipped or as asked for
+  double contact_erp_ = 0;
+  double softness_ = 0;        // 1/kg: cfm/dt where it is set by the masses; 0 where cfm is as shipped or as asked for
+  double softness_share_ = 0;  // of the heaviest body's 1/mass
   bool matched_, by_size_, quick_;
   bool lost_ = false;  // blown up: from then on its state is "not a number"
   Clock clock_;
@@ -61,6 +66,7 @@ class OdeWorld : public World {
   dWorldID world_;
   dSpaceID moving_, fixed_;  // two spaces: fixed shapes are never tried against each other
   dJointGroupID contacts_;   // lives for one step
+  std::optional<OdeJoints> joints_;
 };
 
 }  // namespace rigor

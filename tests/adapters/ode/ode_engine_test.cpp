@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "adapters/ode/ode_library.h"
-#include "core/base/error.h"
 #include "tests/adapters/free_body_measures.h"
 
 using namespace rigor;
@@ -184,12 +183,6 @@ BOOST_AUTO_TEST_CASE(options_reach_the_engine_and_are_read_back) {
   BOOST_TEST(found["gyroscopic"] == "on, implicit");
   BOOST_TEST(found["rotation"] == "infinitesimal");
   BOOST_TEST(found["auto-disable"] == "off");
-}
-
-BOOST_AUTO_TEST_CASE(a_scene_with_a_joint_is_not_loaded) {
-  Scene scene = asymmetric_top();
-  scene.joints = {{kWorld, 0, BallJoint{{0, 0, 0}}}};
-  BOOST_CHECK_THROW(OdeEngine().load(scene, {"worldstep", {}, Track::matched}), InputError);
 }
 
 // m/s: far below what a game would have bounce.

@@ -1,0 +1,50 @@
+// The ends of a joint as ODE counts them, for the engine and its twin alike: an angle or way is that of its first body
+// against its second, and the first must move. So b comes first, as the scene counts, and where b stays, a comes first
+// and all signs turn.
+#pragma once
+
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+template <typename T>
+struct OdePair {
+  T first, second;
+};
+
+class OdeJointEnds {
+ public:
+  OdeJointEnds(const Scene& scene, const Joint& joint) : scene_(scene), joint_(joint) {
+    const auto moves = [&](int body) { return body != kWorld && !scene.bodies[static_cast<std::size_t>(body)].fixed; };
+    b_is_first_ = moves(joint.b);
+    bodies = b_is_first_ ? OdePair<int>{joint.b, moves(joint.a) ? joint.a : kWorld} : OdePair<int>{joint.a, kWorld};
+  }
+
+  OdePair<int> bodies;                                  // indices; the second kWorld where it stays
+  double sign() const { return b_is_first_ ? 1 : -1; }  // of ODE's angle or way, against the scene's
+
+  // In W at t = 0.
+  OdePair<Vec3> points(const DistanceJoint& distance) const {
+    return ordered(in_W(joint_.a, distance.point_a), in_W(joint_.b, distance.point_b));
+  }
+  // In W at t = 0, at right angles to the last digit.
+  OdePair<Vec3> axes(const UniversalJoint& universal) const {
+    const Vec3& axis = universal.axis;
+    return ordered(axis, (universal.axis2 - universal.axis2.dot(axis) * axis).normalized());
+  }
+
+ private:
+  OdePair<Vec3> ordered(const Vec3& of_a, const Vec3& of_b) const {
+    return b_is_first_ ? OdePair<Vec3>{of_b, of_a} : OdePair<Vec3>{of_a, of_b};
+  }
+  Vec3 in_W(int body, const Vec3& point) const {
+    const BodyPose pose = scene_.pose(body);
+    return pose.position + pose.orientation * point;
+  }
+
+  const Scene& scene_;
+  const Joint& joint_;
+  bool b_is_first_;
+};
+
+}  // namespace rigor

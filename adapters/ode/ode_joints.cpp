@@ -1,0 +1,155 @@
+#include "adapters/ode/ode_joints.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "adapters/ode/ode_joint_ends.h"
+#include "core/base/error.h"
+
+namespace rigor {
+
+const OdeJoints::Axis OdeJoints::kHinge = {dJointSetHingeParam, dJointGetHingeParam};
+const OdeJoints::Axis OdeJoints::kSlider = {dJointSetSliderParam, dJointGetSliderParam};
+
+// Ours and ODE's: anchors and axes are given in W at t = 0 in both; points of a distance joint are in the bodies'
+// frames here and in W there. A joint's kind has the same rows in both, to the same manifold: ODE's slider has its axis
+// in its first body and its offset in its second, which without relative turning is the same line.
+struct OdeJoints::Maker {
+  dWorldID world;
+  const OdeJointEnds& ends;
+  dBodyID first, second;  // the second null for what stays
+
+  dJointID attached(dJointID id) const {
+    dJointAttach(id, first, second);
+    return id;
+  }
+
+  dJointID operator()(const BallJoint& ball) const {
+    const dJointID id = attached(dJointCreateBall(world, nullptr));
+    dJointSetBallAnchor(id, ball.anchor.x(), ball.anchor.y(), ball.anchor.z());
+    return id;
+  }
+  dJointID operator()(const HingeJoint& hinge) const {
+    const dJointID id = attached(dJointCreateHinge(world, nullptr));
+    dJointSetHingeAnchor(id, hinge.anchor.x(), hinge.anchor.y(), hinge.anchor.z());
+    dJointSetHingeAxis(id, hinge.axis.x(), hinge.axis.y(), hinge.axis.z());
+    return id;
+  }
+  dJointID operator()(const SliderJoint& slider) const {
+    const dJointID id = attached(dJointCreateSlider(world, nullptr));
+    dJointSetSliderAxis(id, slider.axis.x(), slider.axis.y(), slider.axis.z());
+    return id;
+  }
+  dJointID operator()(const FixedJoint&) const {
+    const dJointID id = attached(dJointCreateFixed(world, nullptr));
+    dJointSetFixed(id);
+    return id;
+  }
+  dJointID operator()(const DistanceJoint& distance) const {
+    const dJointID id = attached(dJointCreateDBall(world, nullptr));
+    const auto [one, other] = ends.points(distance);
+    dJointSetDBallAnchor1(id, one.x(), one.y(), one.z());
+    dJointSetDBallAnchor2(id, other.x(), other.y(), other.z());  // with it, the distance
+    return id;
+  }
+  dJointID operator()(const UniversalJoint& universal) const {
+    const dJointID id = attached(dJointCreateUniversal(world, nullptr));
+    const auto [one, other] = ends.axes(universal);
+    dJointSetUniversalAnchor(id, universal.anchor.x(), universal.anchor.y(), universal.anchor.z());
+    dJointSetUniversalAxis1(id, one.x(), one.y(), one.z());
+    dJointSetUniversalAxis2(id, other.x(), other.y(), other.z());
+    return id;
+  }
+};
+
+void refuse_shared_motors(const Scene& scene) {
+  for (auto motor = scene.motors.begin(); motor != scene.motors.end(); ++motor) {
+    for (auto other = scene.motors.begin(); other != motor; ++other) {
+      const bool share = motor->speed && other->speed && other->joint == motor->joint && other->from < motor->until &&
+                         motor->from < other->until;
+      if (!share) continue;
+      throw InputError(fmt::format("ode keeps one speed of a joint at a time; {} has two motors from {} s on",
+                                   scene.joint_name(static_cast<std::size_t>(motor->joint)),
+                                   std::max(motor->from, other->from)));
+    }
+  }
+}
+
+OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track) {
+  for (const Joint& joint : scene.joints) {
+    const OdeJointEnds ends(scene, joint);
+    const Maker maker{world, ends, bodies[ends.bodies.first],
+                      ends.bodies.second == kWorld ? nullptr : bodies[ends.bodies.second]};
+    const Axis* axis = std::holds_alternative<HingeJoint>(joint.type)    ? &kHinge
+                       : std::holds_alternative<SliderJoint>(joint.type) ? &kSlider
+                                                                         : nullptr;
+    joints_.push_back({std::visit(maker, joint.type), ends.sign(), axis, joint.has_limits()});
+    if (joint.has_limits()) set_limits(joint, joints_.back(), track);
+  }
+  for (const Motor& motor : scene.motors) {
+    if (motor.speed) motors_.push_back(motor);  // an effort is one of the loads
+  }
+}
+
+// What goes beyond a stop in a step is pushed back, a share of dParamStopERP of it, by a speed that stays: a dead stop
+// would bounce with up to that share of the speed, at any step size. On the matched track the little that a step goes
+// too far is left, and falls with the step.
+void OdeJoints::set_limits(const Joint& joint, const Held& held, Track track) {
+  assert(held.axis && "only a hinge and a slider are read with limits");
+  const double low = held.sign > 0 ? joint.lower : -joint.upper, high = held.sign > 0 ? joint.upper : -joint.lower;
+  if (std::isfinite(low)) held.axis->set(held.id, dParamLoStop, low);
+  if (std::isfinite(high)) held.axis->set(held.id, dParamHiStop, high);
+  held.axis->set(held.id, dParamBounce, joint.restitution);
+  if (track == Track::matched) held.axis->set(held.id, dParamStopERP, 0);
+}
+
+void OdeJoints::drive(double t) {
+  const auto acts = [t](const Motor& motor) { return motor.from <= t && t < motor.until; };
+  for (const Motor& motor : motors_) joints_[motor.joint].axis->set(joints_[motor.joint].id, dParamFMax, 0);
+  for (const Motor& motor : motors_) {
+    if (!acts(motor)) continue;
+    const Held& held = joints_[motor.joint];
+    held.axis->set(held.id, dParamVel, held.sign * *motor.speed);
+    held.axis->set(held.id, dParamFMax, motor.most);
+  }
+}
+
+void OdeJoints::set_cfm(double cfm) {
+  for (const Held& held : joints_) {
+    if (held.axis) {
+      held.axis->set(held.id, dParamCFM, cfm);
+      held.axis->set(held.id, dParamStopCFM, cfm);
+      continue;
+    }
+    const dJointType type = dJointGetType(held.id);
+    if (type == dJointTypeBall) dJointSetBallParam(held.id, dParamCFM, cfm);
+    if (type == dJointTypeFixed) dJointSetFixedParam(held.id, dParamCFM, cfm);
+    if (type == dJointTypeDBall) dJointSetDBallParam(held.id, dParamCFM, cfm);
+  }
+}
+
+SettingsInForce OdeJoints::settings_in_force() const {
+  if (joints_.empty()) return {};
+  SettingsInForce settings = {{"springs, dampers and efforts of joints", "user forces, recomputed before each step"}};
+  for (const Held& held : joints_) {
+    const dJointType type = dJointGetType(held.id);
+    const bool has_own = type == dJointTypeBall || type == dJointTypeFixed || type == dJointTypeDBall;
+    if (!has_own) continue;  // all are set alike
+    const dReal erp = type == dJointTypeBall    ? dJointGetBallParam(held.id, dParamERP)
+                      : type == dJointTypeFixed ? dJointGetFixedParam(held.id, dParamERP)
+                                                : dJointGetDBallParam(held.id, dParamERP);
+    settings.emplace_back("erp of ball, distance and fixed joints", fmt::format("{:g}", erp));
+    break;
+  }
+  const auto limited = std::find_if(joints_.begin(), joints_.end(), [](const Held& held) { return held.has_limits; });
+  if (limited != joints_.end()) {  // all are set alike
+    settings.emplace_back("joint stop erp", fmt::format("{:g}", limited->axis->get(limited->id, dParamStopERP)));
+    settings.emplace_back("joint stop cfm", fmt::format("{:g}", limited->axis->get(limited->id, dParamStopCFM)));
+  }
+  return settings;
+}
+
+}  // namespace rigor

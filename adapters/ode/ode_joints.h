@@ -1,0 +1,50 @@
+// A scene's joints as ODE's own, their ends in the order of ode_joint_ends.h.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <vector>
+
+#include "core/engine/engine.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// Throws InputError where two motors keep a speed of the same joint at the same time: ODE has one motor a joint.
+void refuse_shared_motors(const Scene& scene);
+
+class OdeJoints {
+ public:
+  // Of a world whose ERP and CFM are set, for some joints take a copy of them; and whose bodies, null for one that
+  // stays, are where they are at t = 0. The world destroys them.
+  OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track);
+
+  // For a step whose middle is t: turns on the motors that keep a speed from <= t < until, and the others off.
+  void drive(double t);
+  // What hinges, sliders and universal joints read anew in each step, for the joints that have a copy of it.
+  void set_cfm(double cfm);
+
+  bool empty() const { return joints_.empty(); }
+  SettingsInForce settings_in_force() const;
+
+ private:
+  struct Axis {  // of a hinge or slider
+    void (*set)(dJointID, int parameter, dReal value);
+    dReal (*get)(dJointID, int parameter);
+  };
+  struct Held {
+    dJointID id;
+    double sign;  // of ODE's angle or way, against the scene's
+    const Axis* axis;
+    bool has_limits;
+  };
+  struct Maker;
+
+  void set_limits(const Joint& joint, const Held& held, Track track);
+
+  static const Axis kHinge, kSlider;
+  std::vector<Held> joints_;   // in the scene's order
+  std::vector<Motor> motors_;  // those that keep a speed
+};
+
+}  // namespace rigor
