@@ -15,13 +15,33 @@ namespace {
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
+const Features kJoints = {"joint:ball",           "joint:fixed",  "joint:hinge",  "joint:slider",
+                          "joint:universal",      "joint-spring", "joint-damper", "joints-with-dampers",
+                          "joints-with-contacts", "joint-limit",  "motor:effort", "motor:speed"};
+
+std::vector<OptionInfo> options_of_rigid_bodies() {
+  return {{"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
+          {"split-impulse", "penetration corrected without adding velocity", {"on", "off"}},
+          {"erp", "share of a joint's error corrected in one step", {}, 0, 1},
+          {"cfm", "constraint force mixing: softness of joints and contacts", {}, 0, 1}};
+}
+
 MethodInfo sequential_impulse() {
-  return {.name = "sequential-impulse",
-          .summary = "semi-implicit Euler, contacts by projected Gauss-Seidel",
+  MethodInfo method = {.name = "sequential-impulse",
+                       .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
+                       .leapfrog_stagger = 0.5,
+                       .lacks = {"speed-motor-with-limits"},
+                       .options = options_of_rigid_bodies()};
+  method.options.insert(method.options.begin(), {"iterations", "sweeps of the solver a step", {}, 1, 10000, true});
+  return method;
+}
+
+MethodInfo mlcp() {
+  return {.name = "mlcp",
+          .summary = "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver",
           .leapfrog_stagger = 0.5,
-          .options = {{"iterations", "sweeps of the contact solver a step", {}, 1, 10000, true},
-                      {"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
-                      {"split-impulse", "penetration corrected without adding velocity", {"on", "off"}}}};
+          .lacks = {"speed-motor-with-limits"},
+          .options = options_of_rigid_bodies()};
 }
 
 // Bullet turns a body by the exponential map, but by at most a quarter of pi in one step (ANGULAR_MOTION_THRESHOLD of
@@ -34,16 +54,15 @@ EngineInfo BulletEngine::info() const {
   return {.name = "bullet",
           .version = version(),
           .precision = sizeof(btScalar) == sizeof(double) ? "double" : "single",
-          .features = joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
-                                                        "friction:none", "friction:coulomb", "friction:infinite"}),
-          .methods = {sequential_impulse()},
+          .features = joined(
+              kJoints, joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
+                                                         "friction:none", "friction:coulomb", "friction:infinite"})),
+          .methods = {sequential_impulse(), mlcp()},
           .max_rotation_per_step = kMaxRotationPerStep};
 }
 
 std::unique_ptr<World> BulletEngine::load(const Scene& scene, const Settings& settings) const {
-  const EngineInfo engine = info();
-  refuse_unsupported(engine, scene);
-  method_of(engine, settings);  // throws for a method that is not there
+  refuse_unsupported(info(), settings, scene);
   return std::make_unique<BulletWorld>(scene, settings);
 }
 

@@ -50,15 +50,31 @@ void stop_at_first_touch(btRigidBody& body, double radius) {
 
 std::string on_off(bool on) { return on ? "on" : "off"; }
 
+std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const std::string& method, btDantzigSolver& dantzig) {
+  if (method == "mlcp") return std::make_unique<btMLCPSolver>(&dantzig);
+  return std::make_unique<btSequentialImpulseConstraintSolver>();
+}
+
 }  // namespace
 
 BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
-    : laws_(scene), loads_(scene), matched_(settings.track == Track::matched), bounces_(something_bounces(scene)) {
+    : laws_(scene),
+      loads_(scene),
+      matched_(settings.track == Track::matched),
+      bounces_(something_bounces(scene)),
+      solver_(make_solver(settings.method, dantzig_)) {
   bullet::install_pair_laws();
   world_.setGravity(to_bullet(scene.gravity));
   apply(settings);
   rows_.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies) add_body(body, settings);
+  joints_ = std::make_unique<bullet::Joints>(scene, [&](int body) -> btRigidBody& { return end_of_joint(body); });
+  joints_->enter(world_);
+}
+
+btRigidBody& BulletWorld::end_of_joint(int body) {
+  if (body == kWorld || !rows_[static_cast<std::size_t>(body)].body) return ground_;
+  return *rows_[static_cast<std::size_t>(body)].body;
 }
 
 void BulletWorld::apply(const Settings& settings) {
@@ -72,6 +88,8 @@ void BulletWorld::apply(const Settings& settings) {
     configuration_.setPlaneConvexMultipointIterations(kCorners, kCorners);
   }
   solver.m_numIterations = static_cast<int>(number_option(settings, "iterations", solver.m_numIterations));
+  solver.m_erp = number_option(settings, "erp", solver.m_erp);
+  solver.m_globalCfm = number_option(settings, "cfm", solver.m_globalCfm);
   solver.m_splitImpulse = word_option(settings, "split-impulse", on_off(solver.m_splitImpulse)) == "on";
 }
 
@@ -116,9 +134,20 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
 
 void BulletWorld::step(double dt) {
   if (!loads_.empty()) add_loads(dt);
+  joints_->set_motors(clock_.time(), dt);
   // No sub-steps: with them Bullet would advance by whole multiples of 1/60 s, whatever dt is.
   world_.stepSimulation(dt, 0);
   clock_.advance(dt);
+  look_for_fallback();
+}
+
+// The direct solver hands a system that it cannot solve to sequential impulses, and counts it.
+void BulletWorld::look_for_fallback() {
+  auto* direct = dynamic_cast<btMLCPSolver*>(solver_.get());
+  if (!direct) return;
+  const bool gave_up = direct->getNumFallbacks() > 0;
+  warning_ = gave_up ? "Bullet's direct solver found no solution and left the step to sequential impulses" : "";
+  direct->setNumFallbacks(0);
 }
 
 void BulletWorld::add_loads(double dt) {
@@ -177,7 +206,8 @@ SettingsInForce BulletWorld::settings_in_force() const {
   const btVector3 g = world_.getGravity();
   SettingsInForce in_force = {
       {"precision", sizeof(btScalar) == sizeof(double) ? "double" : "single"},
-      {"solver", "sequential impulse"},
+      {"solver", solver_->getSolverType() == BT_MLCP_SOLVER ? "mixed linear complementarity by Dantzig's pivoting"
+                                                            : "sequential impulse"},
       {"iterations", fmt::format("{}", solver.m_numIterations)},
       {"gravity", fmt::format("{:g}, {:g}, {:g} m/s^2", g.x(), g.y(), g.z())},
       {"sub-steps", "none: one step of dt (as shipped, stepSimulation would advance by multiples of 1/60 s)"},
