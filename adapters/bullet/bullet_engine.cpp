@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "adapters/bullet/bullet_matched.h"
 #include "adapters/bullet/bullet_world.h"
 #include "adapters/option_values.h"
 #include "core/engine/run_name.h"
@@ -66,12 +67,16 @@ std::unique_ptr<World> BulletEngine::load(const Scene& scene, const Settings& se
   return std::make_unique<BulletWorld>(scene, settings);
 }
 
-// The defaults are those that BulletWorld sets, or leaves.
+// The defaults are those that BulletWorld sets, or leaves; a cfm that is not named is by the masses, in the twin as
+// there. As shipped, jointed bodies fall asleep together, which is not repeated.
 std::string BulletEngine::twin(const Settings& settings) const {
-  const std::string name =
+  std::string name =
       "core:bullet-twin,gyroscopic=" + word_option(settings, "gyroscopic", "implicit-body") + ",sleeping=";
-  if (settings.track == Track::matched) return name + "off";
-  return fmt::format("{}on,gyroscopic-limit={}", name, btContactSolverInfo().m_maxGyroscopicForce);
+  if (settings.track == Track::stock)
+    return fmt::format("{}on,gyroscopic-limit={},joints=none", name, btContactSolverInfo().m_maxGyroscopicForce);
+  if (settings.method != "mlcp") return name + "off,joints=none";
+  name += fmt::format("off,erp={},joints=direct", number_option(settings, "erp", bullet::kErp));
+  return settings.options.contains("cfm") ? name + ",cfm=" + settings.options.at("cfm") : name;
 }
 
 }  // namespace rigor

@@ -45,6 +45,7 @@ struct Make {
   const Joint& joint;
   btRigidBody &a, &b;
   Vec3 center_b;  // m, in W
+  bool matched;
 
   std::unique_ptr<btTypedConstraint> operator()(const BallJoint& ball) const {
     const btVector3 anchor = to_bullet(ball.anchor);
@@ -54,12 +55,8 @@ struct Make {
   std::unique_ptr<btTypedConstraint> operator()(const HingeJoint& hinge) const {
     const SharedFrame frame(a, b, hinge.anchor, frame_with_z(hinge.axis));
     auto constraint = std::make_unique<btHingeConstraint>(a, b, frame.in_a, frame.in_b, true);
-    constraint->setUseFrameOffset(false);
-    if (joint.has_limits()) {
-      // Angles count from -pi to pi, so that no limit is one at -pi or pi.
-      const double pi = std::numbers::pi, lower = std::max(joint.lower, -pi), upper = std::min(joint.upper, pi);
-      constraint->setLimit(lower, upper, 1, 1, joint.restitution);
-    }
+    if (matched) constraint->setUseFrameOffset(false);  // both bodies are held at their own anchors
+    if (joint.has_limits()) limit(*constraint);
     return constraint;
   }
   std::unique_ptr<btTypedConstraint> operator()(const SliderJoint& slider) const {
@@ -81,6 +78,16 @@ struct Make {
     return constraint;
   }
   std::unique_ptr<btTypedConstraint> operator()(const DistanceJoint&) const { return nullptr; }  // refused before
+
+ private:
+  // Angles count from -pi to pi: a limit there is none. Matched, the bounce is not cut to "bias" times itself, and what
+  // is past a limit is not pushed back ("stop ERP" 0), which would throw it off at a share of the speed it came with.
+  void limit(btHingeConstraint& hinge) const {
+    const double pi = std::numbers::pi, lower = std::max(joint.lower, -pi), upper = std::min(joint.upper, pi);
+    const btAngularLimit shipped;
+    hinge.setLimit(lower, upper, shipped.getSoftness(), matched ? 1 : shipped.getBiasFactor(), joint.restitution);
+    if (matched) hinge.setParam(BT_CONSTRAINT_STOP_ERP, 0);
+  }
 };
 
 // Its stop is reached in one step ("stop ERP" 1): with less Bullet would brake what only comes near.
@@ -106,14 +113,14 @@ void drive(btTypedConstraint& constraint, const Motor& motor, double share, doub
 
 }  // namespace
 
-Joints::Joints(const Scene& scene, const BodyOf& body_of) {
-  for (const Joint& joint : scene.joints) add(scene, joint, body_of);
+Joints::Joints(const Scene& scene, const BodyOf& body_of, bool matched) {
+  for (const Joint& joint : scene.joints) add(scene, joint, body_of, matched);
   std::copy_if(scene.motors.begin(), scene.motors.end(), std::back_inserter(motors_),
                [](const Motor& motor) { return motor.speed.has_value(); });
 }
 
-void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of) {
-  const Make make{joint, body_of(joint.a), body_of(joint.b), scene.pose(joint.b).position};
+void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of, bool matched) {
+  const Make make{joint, body_of(joint.a), body_of(joint.b), scene.pose(joint.b).position, matched};
   constraints_.push_back(std::visit(make, joint.type));
   of_joint_.push_back(constraints_.back().get());
   const auto* slider = std::get_if<SliderJoint>(&joint.type);

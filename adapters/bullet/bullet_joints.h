@@ -30,7 +30,7 @@ class Joints {
   using BodyOf = std::function<btRigidBody&(int)>;
 
   // Bodies stand as the scene has them at t = 0, and outlive this.
-  Joints(const Scene& scene, const BodyOf& body_of);
+  Joints(const Scene& scene, const BodyOf& body_of, bool matched);
 
   // Takes part in the world from now on, which must end first. Bodies that a joint connects do not touch each other.
   void enter(btDynamicsWorld& world);
@@ -40,7 +40,7 @@ class Joints {
   bool empty() const { return constraints_.empty(); }
 
  private:
-  void add(const Scene& scene, const Joint& joint, const BodyOf& body_of);
+  void add(const Scene& scene, const Joint& joint, const BodyOf& body_of, bool matched);
 
   std::vector<std::unique_ptr<btTypedConstraint>> constraints_;  // a slider's limits stand behind it
   std::vector<btTypedConstraint*> of_joint_;

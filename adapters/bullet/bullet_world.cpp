@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "adapters/bullet/bullet_matched.h"
 #include "adapters/bullet/bullet_pair_laws.h"
 #include "adapters/option_values.h"
 
@@ -66,9 +67,11 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
   bullet::install_pair_laws();
   world_.setGravity(to_bullet(scene.gravity));
   apply(settings);
+  if (!scene.joints.empty()) apply_to_joints(scene, settings);
   rows_.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies) add_body(body, settings);
-  joints_ = std::make_unique<bullet::Joints>(scene, [&](int body) -> btRigidBody& { return end_of_joint(body); });
+  joints_ = std::make_unique<bullet::Joints>(
+      scene, [&](int body) -> btRigidBody& { return end_of_joint(body); }, matched_);
   joints_->enter(world_);
 }
 
@@ -91,6 +94,13 @@ void BulletWorld::apply(const Settings& settings) {
   solver.m_erp = number_option(settings, "erp", solver.m_erp);
   solver.m_globalCfm = number_option(settings, "cfm", solver.m_globalCfm);
   solver.m_splitImpulse = word_option(settings, "split-impulse", on_off(solver.m_splitImpulse)) == "on";
+}
+
+void BulletWorld::apply_to_joints(const Scene& scene, const Settings& settings) {
+  if (!matched_) return;
+  btContactSolverInfo& solver = world_.getSolverInfo();
+  if (!settings.options.contains("erp")) solver.m_erp = bullet::kErp;
+  if (settings.method == "mlcp" && !settings.options.contains("cfm")) softness_ = bullet::softness(scene);
 }
 
 void BulletWorld::add_body(const Body& body, const Settings& settings) {
@@ -135,6 +145,7 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
 void BulletWorld::step(double dt) {
   if (!loads_.empty()) add_loads(dt);
   joints_->set_motors(clock_.time(), dt);
+  if (softness_ > 0) world_.getSolverInfo().m_globalCfm = softness_ * dt;
   // No sub-steps: with them Bullet would advance by whole multiples of 1/60 s, whatever dt is.
   world_.stepSimulation(dt, 0);
   clock_.advance(dt);
@@ -212,7 +223,7 @@ SettingsInForce BulletWorld::settings_in_force() const {
       {"gravity", fmt::format("{:g}, {:g}, {:g} m/s^2", g.x(), g.y(), g.z())},
       {"sub-steps", "none: one step of dt (as shipped, stepSimulation would advance by multiples of 1/60 s)"},
       {"erp", fmt::format("{:g}, contacts {:g}", solver.m_erp, solver.m_erp2)},
-      {"cfm", fmt::format("{:g}", solver.m_globalCfm)},
+      {"cfm", softness_ > 0 ? fmt::format("{:g} 1/kg times dt", softness_) : fmt::format("{:g}", solver.m_globalCfm)},
       {"split impulse", on_off(solver.m_splitImpulse)},
       {"split impulse threshold",
        matched_

@@ -39,6 +39,7 @@ class BulletWorld : public World {
   };
 
   void apply(const Settings& settings);
+  void apply_to_joints(const Scene& scene, const Settings& settings);
   btRigidBody& end_of_joint(int body);
   void look_for_fallback();
   void add_body(const Body& body, const Settings& settings);
@@ -49,6 +50,7 @@ class BulletWorld : public World {
   ContactLaws laws_;
   ExternalLoads loads_;
   bool matched_, bounces_;
+  double softness_ = 0;  // 1/kg: CFM/dt where it follows the step
   Clock clock_;
   std::string warning_;
 

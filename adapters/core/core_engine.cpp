@@ -40,7 +40,7 @@ class CoreWorld : public World {
       stepper_ = std::move(stepper);
     } else {
       contact_settings_ = {{"contact", "none in this scene"}};
-      stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get()});
+      stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get(), &scene});
     }
   }
 
@@ -134,6 +134,7 @@ MethodInfo method_info(const Integrator& integrator) {
   }
   if (!integrator.takes_joints) info.lacks = joined(info.lacks, kJointFeatures);
   if (!integrator.takes_dampers_with_joints) info.lacks.insert("joints-with-dampers");
+  info.lacks = joined(info.lacks, integrator.lacks);
   return info;
 }
 

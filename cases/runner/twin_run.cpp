@@ -53,8 +53,10 @@ std::optional<RunName> without_gyroscopic_term(RunName twin) {
 
 std::optional<RunName> twin_of(const EngineTable& engines, const RunName& run, const Scene& scene) {
   const std::string name = find_engine(engines, run.engine).twin(run.settings);
-  if (name.empty() || anything_can_touch(scene) || !scene.joints.empty()) return {};
-  return parse_run_name(name, infos_of(engines));
+  if (name.empty() || anything_can_touch(scene)) return {};
+  const RunName twin = parse_run_name(name, infos_of(engines));
+  if (!why_unsupported(engines.info_of(twin.engine), twin.settings, scene, 0).empty()) return {};
+  return twin;
 }
 
 TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& scene, const Simulation& run,

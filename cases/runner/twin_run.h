@@ -7,8 +7,8 @@
 
 namespace rigor {
 
-// The run of the core that repeats this engine's scheme; none for a scheme of the core itself, and none where bodies
-// can touch or are joined: there a step is more than its published formula.
+// The run of the core that repeats this engine's scheme; none for a scheme of the core itself, none where bodies can
+// touch, for there a step is more than its published formula, and none where the twin lacks what the scene needs.
 std::optional<RunName> twin_of(const EngineTable& engines, const RunName& run, const Scene& scene);
 
 TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& scene, const Simulation& run,

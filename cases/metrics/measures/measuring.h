@@ -39,7 +39,8 @@ std::vector<double> motion_extents(const Trajectory& trajectory);
 std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& rounding,
                               const std::vector<double>& scale, double needed_of_truth);
 
-inline constexpr const char* kNoTwin = "the run has no twin: it is the core's own scheme, or bodies can touch";
+inline constexpr const char* kNoTwin =
+    "the run has no twin: it is the core's own scheme, or bodies can touch, or its way with joints is not repeated";
 inline constexpr const char* kNoTruth = "the case has no truth";
 inline constexpr const char* kNoSamples = "there is no sample at which the truth is good enough";
 

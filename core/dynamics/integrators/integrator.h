@@ -37,6 +37,8 @@ struct StepperParts {
   const OrientationUpdate* orientation;  // for methods with that option; null for the others
   Settings settings = {};                // with the values of the row's own options
   Joints* joints = nullptr;              // null where nothing holds the bodies together
+  // There only while a stepper is made, for one that holds joints its own way; null where contacts are carried.
+  const Scene* scene = nullptr;
 };
 
 struct Integrator {
@@ -51,6 +53,7 @@ struct Integrator {
   bool takes_contact = true;        // false: an impact would make what it remembers worthless
   bool takes_joints = false;
   bool takes_dampers_with_joints = true;  // of those that take joints
+  Features lacks = {};                    // what else of features.h it cannot express
   std::vector<OptionInfo> options = {};   // of this method alone
   std::string twin_of = "";               // see MethodInfo
   std::unique_ptr<Stepper> (*make)(const StepperParts& parts);
