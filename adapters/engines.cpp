@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "adapters/bullet/bullet_engine.h"
+#include "adapters/bullet/bullet_multibody_twin.h"
 #include "adapters/bullet/bullet_twin.h"
 #include "adapters/core/core_engine.h"
 #include "adapters/ode/ode_engine.h"
@@ -18,7 +19,7 @@ namespace rigor {
 EngineTable built_in_engines() {
   EngineTable table;
   table.add(std::make_unique<BulletEngine>());
-  table.add(std::make_unique<CoreEngine>(std::vector<Integrator>{kBulletTwin, kOdeTwin}));
+  table.add(std::make_unique<CoreEngine>(std::vector<Integrator>{kBulletMultibodyTwin, kBulletTwin, kOdeTwin}));
   table.add(std::make_unique<OdeEngine>());
   return table;
 }

@@ -3,9 +3,9 @@
 #include <LinearMath/btScalar.h>
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "adapters/bullet/bullet_matched.h"
+#include "adapters/bullet/bullet_multibody_world.h"
+#include "adapters/bullet/bullet_turn.h"
 #include "adapters/bullet/bullet_world.h"
 #include "adapters/option_values.h"
 #include "core/engine/run_name.h"
@@ -45,9 +45,14 @@ MethodInfo mlcp() {
           .options = options_of_rigid_bodies()};
 }
 
-// Bullet turns a body by the exponential map, but by at most a quarter of pi in one step (ANGULAR_MOTION_THRESHOLD of
-// btTransformUtil.h): a faster body keeps its angular velocity and turns too little.
-constexpr double kMaxRotationPerStep = std::numbers::pi / 4;  // rad
+// Trees of joints, and no contacts.
+MethodInfo multibody() {
+  return {.name = "multibody",
+          .summary = "semi-implicit Euler in reduced coordinates (Featherstone)",
+          .leapfrog_stagger = 0.5,
+          .lacks = joined(contacts_of_all_shapes(),
+                          {"joint-limit", "joint-loop", "joints-with-contacts", "motor:speed", "restitution"})};
+}
 
 }  // namespace
 
@@ -58,18 +63,20 @@ EngineInfo BulletEngine::info() const {
           .features = joined(
               kJoints, joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
                                                          "friction:none", "friction:coulomb", "friction:infinite"})),
-          .methods = {sequential_impulse(), mlcp()},
-          .max_rotation_per_step = kMaxRotationPerStep};
+          .methods = {sequential_impulse(), mlcp(), multibody()},
+          .max_rotation_per_step = bullet::kLargestTurn};  // a faster body keeps its speed and turns too little
 }
 
 std::unique_ptr<World> BulletEngine::load(const Scene& scene, const Settings& settings) const {
   refuse_unsupported(info(), settings, scene);
+  if (settings.method == "multibody") return std::make_unique<BulletMultibodyWorld>(scene, settings);
   return std::make_unique<BulletWorld>(scene, settings);
 }
 
 // The defaults are those that BulletWorld sets, or leaves; a cfm that is not named is by the masses, in the twin as
-// there. As shipped, jointed bodies fall asleep together, which is not repeated.
+// there. As shipped, jointed bodies fall asleep together, and reduced coordinates are damped: neither is repeated.
 std::string BulletEngine::twin(const Settings& settings) const {
+  if (settings.method == "multibody") return settings.track == Track::matched ? "core:bullet-multibody-twin" : "";
   std::string name =
       "core:bullet-twin,gyroscopic=" + word_option(settings, "gyroscopic", "implicit-body") + ",sleeping=";
   if (settings.track == Track::stock)

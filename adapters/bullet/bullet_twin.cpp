@@ -20,16 +20,15 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "adapters/bullet/bullet_matched.h"
+#include "adapters/bullet/bullet_turn.h"
 #include "adapters/bullet/bullet_twin_joints.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
 namespace {
 
-constexpr double kLargestTurn = std::numbers::pi / 4;           // rad a step
 constexpr double kNoLimit = 1e30;                               // N m
 constexpr double kSlow = 0.8, kSlowTurn = 1, kTimeToSleep = 2;  // m/s, rad/s, s
 
@@ -79,13 +78,6 @@ GyroscopicChange gyroscopic_change(const std::string& word) {
   if (word == "off") return no_change;
   if (word == "explicit") return explicit_change;
   return word == "implicit-world" ? implicit_world_change : implicit_body_change;
-}
-
-Quat turn_of(const Vec3& w, double dt) {
-  const double speed = w.norm();
-  if (!(speed * dt > kLargestTurn)) return rotation_by(dt * w);
-  const Vec3 axis = w * (std::sin(kLargestTurn / 2) * dt / kLargestTurn);
-  return {std::cos(kLargestTurn / 2), axis.x(), axis.y(), axis.z()};
 }
 
 class BulletTwin : public Stepper {
@@ -139,7 +131,7 @@ class BulletTwin : public Stepper {
     if (sleeps(i)) return;
     const Vec3 v = state.velocity(i), w = state.angular_velocity(i);
     state.set_position(i, state.position(i) + dt * v);
-    state.set_orientation(i, (turn_of(w, dt) * state.orientation(i)).normalized());
+    state.set_orientation(i, (bullet::turn_of(w, dt) * state.orientation(i)).normalized());
     const bool is_slow = v.norm() < kSlow && w.norm() < kSlowTurn;
     time_slow_[i] = is_slow ? time_slow_[i] + dt : 0;
   }
