@@ -128,7 +128,7 @@ void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of, 
 }
 
 void Joints::enter(btDynamicsWorld& world) {
-  constexpr bool kApart = true;  // what a joint connects does not touch
+  constexpr bool kApart = false;  // whether what a joint connects may touch is for the scene to say (Body::collides)
   for (const auto& constraint : constraints_) world.addConstraint(constraint.get(), kApart);
 }
 

@@ -32,7 +32,7 @@ class Joints {
   // Bodies stand as the scene has them at t = 0, and outlive this.
   Joints(const Scene& scene, const BodyOf& body_of, bool matched);
 
-  // Takes part in the world from now on, which must end first. Bodies that a joint connects do not touch each other.
+  // Takes part in the world from now on, which must end first.
   void enter(btDynamicsWorld& world);
   // Sets the motors that keep a speed to what they may do over the step from t to t + dt.
   void set_motors(double t, double dt);
