@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "adapters/bullet/bullet_engine.h"
+#include "adapters/bullet/bullet_multibody_twin.h"
 #include "adapters/bullet/bullet_twin.h"
 #include "adapters/core/core_engine.h"
 #ifdef RIGOR_WITH_MUJOCO
@@ -20,7 +21,7 @@ namespace rigor {
 namespace {
 
 std::vector<Integrator> twins() {
-  std::vector<Integrator> rows = {kBulletTwin, kOdeTwin};
+  std::vector<Integrator> rows = {kBulletMultibodyTwin, kBulletTwin, kOdeTwin};
 #ifdef RIGOR_WITH_MUJOCO
   rows.insert(rows.end(), {kMujocoEulerTwin, kMujocoImplicitTwin, kMujocoRk4Twin});
 #endif

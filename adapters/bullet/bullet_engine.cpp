@@ -3,8 +3,9 @@
 #include <LinearMath/btScalar.h>
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "adapters/bullet/bullet_matched.h"
+#include "adapters/bullet/bullet_multibody_world.h"
+#include "adapters/bullet/bullet_turn.h"
 #include "adapters/bullet/bullet_world.h"
 #include "adapters/option_values.h"
 #include "core/engine/run_name.h"
@@ -15,18 +16,43 @@ namespace {
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
-MethodInfo sequential_impulse() {
-  return {.name = "sequential-impulse",
-          .summary = "semi-implicit Euler, contacts by projected Gauss-Seidel",
-          .leapfrog_stagger = 0.5,
-          .options = {{"iterations", "sweeps of the contact solver a step", {}, 1, 10000, true},
-                      {"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
-                      {"split-impulse", "penetration corrected without adding velocity", {"on", "off"}}}};
+const Features kJoints = {"joint:ball",           "joint:fixed",  "joint:hinge",  "joint:slider",
+                          "joint:universal",      "joint-spring", "joint-damper", "joints-with-dampers",
+                          "joints-with-contacts", "joint-limit",  "motor:effort", "motor:speed"};
+
+std::vector<OptionInfo> options_of_rigid_bodies() {
+  return {{"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
+          {"split-impulse", "penetration corrected without adding velocity", {"on", "off"}},
+          {"erp", "share of a joint's error corrected in one step", {}, 0, 1},
+          {"cfm", "constraint force mixing: softness of joints and contacts", {}, 0, 1}};
 }
 
-// Bullet turns a body by the exponential map, but by at most a quarter of pi in one step (ANGULAR_MOTION_THRESHOLD of
-// btTransformUtil.h): a faster body keeps its angular velocity and turns too little.
-constexpr double kMaxRotationPerStep = std::numbers::pi / 4;  // rad
+MethodInfo sequential_impulse() {
+  MethodInfo method = {.name = "sequential-impulse",
+                       .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
+                       .leapfrog_stagger = 0.5,
+                       .lacks = {"speed-motor-with-limits"},
+                       .options = options_of_rigid_bodies()};
+  method.options.insert(method.options.begin(), {"iterations", "sweeps of the solver a step", {}, 1, 10000, true});
+  return method;
+}
+
+MethodInfo mlcp() {
+  return {.name = "mlcp",
+          .summary = "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver",
+          .leapfrog_stagger = 0.5,
+          .lacks = {"speed-motor-with-limits"},
+          .options = options_of_rigid_bodies()};
+}
+
+// Trees of joints, and no contacts.
+MethodInfo multibody() {
+  return {.name = "multibody",
+          .summary = "semi-implicit Euler in reduced coordinates (Featherstone)",
+          .leapfrog_stagger = 0.5,
+          .lacks = joined(contacts_of_all_shapes(),
+                          {"joint-limit", "joint-loop", "joints-with-contacts", "motor:speed", "restitution"})};
+}
 
 }  // namespace
 
@@ -34,25 +60,30 @@ EngineInfo BulletEngine::info() const {
   return {.name = "bullet",
           .version = version(),
           .precision = sizeof(btScalar) == sizeof(double) ? "double" : "single",
-          .features = joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
-                                                        "friction:none", "friction:coulomb", "friction:infinite"}),
-          .methods = {sequential_impulse()},
-          .max_rotation_per_step = kMaxRotationPerStep};
+          .features = joined(
+              kJoints, joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
+                                                         "friction:none", "friction:coulomb", "friction:infinite"})),
+          .methods = {sequential_impulse(), mlcp(), multibody()},
+          .max_rotation_per_step = bullet::kLargestTurn};  // a faster body keeps its speed and turns too little
 }
 
 std::unique_ptr<World> BulletEngine::load(const Scene& scene, const Settings& settings) const {
-  const EngineInfo engine = info();
-  refuse_unsupported(engine, scene);
-  method_of(engine, settings);  // throws for a method that is not there
+  refuse_unsupported(info(), settings, scene);
+  if (settings.method == "multibody") return std::make_unique<BulletMultibodyWorld>(scene, settings);
   return std::make_unique<BulletWorld>(scene, settings);
 }
 
-// The defaults are those that BulletWorld sets, or leaves.
+// The defaults are those that BulletWorld sets, or leaves; a cfm that is not named is by the masses, in the twin as
+// there. As shipped, jointed bodies fall asleep together, and reduced coordinates are damped: neither is repeated.
 std::string BulletEngine::twin(const Settings& settings) const {
-  const std::string name =
+  if (settings.method == "multibody") return settings.track == Track::matched ? "core:bullet-multibody-twin" : "";
+  std::string name =
       "core:bullet-twin,gyroscopic=" + word_option(settings, "gyroscopic", "implicit-body") + ",sleeping=";
-  if (settings.track == Track::matched) return name + "off";
-  return fmt::format("{}on,gyroscopic-limit={}", name, btContactSolverInfo().m_maxGyroscopicForce);
+  if (settings.track == Track::stock)
+    return fmt::format("{}on,gyroscopic-limit={},joints=none", name, btContactSolverInfo().m_maxGyroscopicForce);
+  if (settings.method != "mlcp") return name + "off,joints=none";
+  name += fmt::format("off,erp={},joints=direct", number_option(settings, "erp", bullet::kErp));
+  return settings.options.contains("cfm") ? name + ",cfm=" + settings.options.at("cfm") : name;
 }
 
 }  // namespace rigor

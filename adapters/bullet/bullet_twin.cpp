@@ -11,6 +11,7 @@
 // by the whole of w1: the quaternion, normalised, turns by 2 atan(tan(pi/8) |w1| dt / (pi/4)). Below 1e-3 rad/s Bullet
 // takes the sine's series, which differs by less than a rounding. As shipped, a body that stays below 0.8 m/s and 1
 // rad/s for more than 2 s falls asleep one step later, for good where nothing touches it.
+// Joints act between the velocities and the turn: see bullet_twin_joints.h.
 // Not repeated, for it is no part of the scheme: as shipped Bullet takes a body out of the simulation, its velocity
 // still standing, once the box around it and where it will be a step later is 1e6 m across
 // (btCollisionWorld::updateSingleAabb).
@@ -19,14 +20,15 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "adapters/bullet/bullet_matched.h"
+#include "adapters/bullet/bullet_turn.h"
+#include "adapters/bullet/bullet_twin_joints.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
 namespace {
 
-constexpr double kLargestTurn = std::numbers::pi / 4;           // rad a step
 constexpr double kNoLimit = 1e30;                               // N m
 constexpr double kSlow = 0.8, kSlowTurn = 1, kTimeToSleep = 2;  // m/s, rad/s, s
 
@@ -78,13 +80,6 @@ GyroscopicChange gyroscopic_change(const std::string& word) {
   return word == "implicit-world" ? implicit_world_change : implicit_body_change;
 }
 
-Quat turn_of(const Vec3& w, double dt) {
-  const double speed = w.norm();
-  if (!(speed * dt > kLargestTurn)) return rotation_by(dt * w);
-  const Vec3 axis = w * (std::sin(kLargestTurn / 2) * dt / kLargestTurn);
-  return {std::cos(kLargestTurn / 2), axis.x(), axis.y(), axis.z()};
-}
-
 class BulletTwin : public Stepper {
  public:
   explicit BulletTwin(const StepperParts& parts)
@@ -92,7 +87,13 @@ class BulletTwin : public Stepper {
         gyroscopic_change_(gyroscopic_change(word_option(parts.settings, "gyroscopic", "implicit-body"))),
         limit_(number_option(parts.settings, "gyroscopic-limit", kNoLimit)),
         may_sleep_(word_option(parts.settings, "sleeping", "off") == "on"),
-        time_slow_(parts.system.size()) {}
+        time_slow_(parts.system.size()) {
+    if (!parts.scene || parts.scene->joints.empty()) return;
+    const bool has_cfm = parts.settings.options.contains("cfm");
+    joints_ = std::make_unique<BulletTwinJoints>(
+        *parts.scene, parts.system, number_option(parts.settings, "erp", bullet::kErp),
+        has_cfm ? std::optional(number_option(parts.settings, "cfm", 0)) : std::nullopt);
+  }
 
   void step(MutableBodyColumns state, double t, double dt) override {
     parts_.system.wrenches(state, t, dt, wrenches_);
@@ -100,10 +101,12 @@ class BulletTwin : public Stepper {
       if (!parts_.system.bodies[i].fixed) kick(state, i, dt);
     }
     if (parts_.contact) parts_.contact->resolve(state);
+    if (joints_) joints_->push(state, dt);
     for (std::size_t i = 0; i < state.size(); ++i) {
       if (!parts_.system.bodies[i].fixed) drift(state, i, dt);
     }
   }
+  std::string solver_warning() const override { return joints_ ? joints_->warning() : ""; }
 
  private:
   bool sleeps(std::size_t i) const { return may_sleep_ && time_slow_[i] > kTimeToSleep; }
@@ -128,7 +131,7 @@ class BulletTwin : public Stepper {
     if (sleeps(i)) return;
     const Vec3 v = state.velocity(i), w = state.angular_velocity(i);
     state.set_position(i, state.position(i) + dt * v);
-    state.set_orientation(i, (turn_of(w, dt) * state.orientation(i)).normalized());
+    state.set_orientation(i, (bullet::turn_of(w, dt) * state.orientation(i)).normalized());
     const bool is_slow = v.norm() < kSlow && w.norm() < kSlowTurn;
     time_slow_[i] = is_slow ? time_slow_[i] + dt : 0;
   }
@@ -137,9 +140,12 @@ class BulletTwin : public Stepper {
   GyroscopicChange gyroscopic_change_;
   double limit_;  // N m
   bool may_sleep_;
+  std::unique_ptr<BulletTwinJoints> joints_;  // null where there are none
   std::vector<double> time_slow_;  // s. The one thing that a later step depends on beside the state, as in Bullet
   Wrenches wrenches_;
 };
+
+const Features kJointKinds = {"joint:ball", "joint:fixed", "joint:hinge", "joint:slider", "joint:universal"};
 
 }  // namespace
 
@@ -150,11 +156,19 @@ const Integrator kBulletTwin = {
     .symplectic = false,  // the gyroscopic term damps
     .leapfrog_stagger = 0.5,
     .default_orientation = "",
+    .takes_joints = true,
+    .lacks = {"joint:distance", "joint-limit", "joints-with-contacts", "motor:speed"},  // no rows with bounds
     .options = {{"gyroscopic",
                  "the gyroscopic torque; default implicit-body",
                  {"implicit-body", "implicit-world", "explicit", "off"}},
                 {"gyroscopic-limit", "where the explicit torque is cut off [N m]; default nowhere", {}, 0, kNoLimit},
-                {"sleeping", "whether slow bodies fall asleep; default off", {"on", "off"}}},
+                {"sleeping", "whether slow bodies fall asleep; default off", {"on", "off"}},
+                {"erp", "share of a joint's gap closed in one step; default that of bullet's matched track", {}, 0, 1},
+                {"cfm", "softness of the joints' rows; default that of bullet:mlcp's matched track", {}, 0, 1},
+                {.name = "joints",
+                 .meaning = "direct: as mlcp solves for them; none: sweeps of sequential impulses are not repeated",
+                 .choices = {"direct", "none"},
+                 .features_of_choice = {{"direct", kJointKinds}, {"none", {}}}}},
     .twin_of = "bullet",
     .make = make_stepper<BulletTwin>,
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "adapters/bullet/bullet_matched.h"
 #include "adapters/bullet/bullet_pair_laws.h"
 #include "adapters/option_values.h"
 
@@ -50,15 +51,33 @@ void stop_at_first_touch(btRigidBody& body, double radius) {
 
 std::string on_off(bool on) { return on ? "on" : "off"; }
 
+std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const std::string& method, btDantzigSolver& dantzig) {
+  if (method == "mlcp") return std::make_unique<btMLCPSolver>(&dantzig);
+  return std::make_unique<btSequentialImpulseConstraintSolver>();
+}
+
 }  // namespace
 
 BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
-    : laws_(scene), loads_(scene), matched_(settings.track == Track::matched), bounces_(something_bounces(scene)) {
+    : laws_(scene),
+      loads_(scene),
+      matched_(settings.track == Track::matched),
+      bounces_(something_bounces(scene)),
+      solver_(make_solver(settings.method, dantzig_)) {
   bullet::install_pair_laws();
   world_.setGravity(to_bullet(scene.gravity));
   apply(settings);
+  if (!scene.joints.empty()) apply_to_joints(scene, settings);
   rows_.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies) add_body(body, settings);
+  joints_ = std::make_unique<bullet::Joints>(
+      scene, [&](int body) -> btRigidBody& { return end_of_joint(body); }, matched_);
+  joints_->enter(world_);
+}
+
+btRigidBody& BulletWorld::end_of_joint(int body) {
+  if (body == kWorld || !rows_[static_cast<std::size_t>(body)].body) return ground_;
+  return *rows_[static_cast<std::size_t>(body)].body;
 }
 
 void BulletWorld::apply(const Settings& settings) {
@@ -72,7 +91,16 @@ void BulletWorld::apply(const Settings& settings) {
     configuration_.setPlaneConvexMultipointIterations(kCorners, kCorners);
   }
   solver.m_numIterations = static_cast<int>(number_option(settings, "iterations", solver.m_numIterations));
+  solver.m_erp = number_option(settings, "erp", solver.m_erp);
+  solver.m_globalCfm = number_option(settings, "cfm", solver.m_globalCfm);
   solver.m_splitImpulse = word_option(settings, "split-impulse", on_off(solver.m_splitImpulse)) == "on";
+}
+
+void BulletWorld::apply_to_joints(const Scene& scene, const Settings& settings) {
+  if (!matched_) return;
+  btContactSolverInfo& solver = world_.getSolverInfo();
+  if (!settings.options.contains("erp")) solver.m_erp = bullet::kErp;
+  if (settings.method == "mlcp" && !settings.options.contains("cfm")) softness_ = bullet::softness(scene);
 }
 
 void BulletWorld::add_body(const Body& body, const Settings& settings) {
@@ -116,9 +144,21 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
 
 void BulletWorld::step(double dt) {
   if (!loads_.empty()) add_loads(dt);
+  joints_->set_motors(clock_.time(), dt);
+  if (softness_ > 0) world_.getSolverInfo().m_globalCfm = softness_ * dt;
   // No sub-steps: with them Bullet would advance by whole multiples of 1/60 s, whatever dt is.
   world_.stepSimulation(dt, 0);
   clock_.advance(dt);
+  look_for_fallback();
+}
+
+// The direct solver hands a system that it cannot solve to sequential impulses, and counts it.
+void BulletWorld::look_for_fallback() {
+  auto* direct = dynamic_cast<btMLCPSolver*>(solver_.get());
+  if (!direct) return;
+  const bool gave_up = direct->getNumFallbacks() > 0;
+  warning_ = gave_up ? "Bullet's direct solver found no solution and left the step to sequential impulses" : "";
+  direct->setNumFallbacks(0);
 }
 
 void BulletWorld::add_loads(double dt) {
@@ -177,12 +217,13 @@ SettingsInForce BulletWorld::settings_in_force() const {
   const btVector3 g = world_.getGravity();
   SettingsInForce in_force = {
       {"precision", sizeof(btScalar) == sizeof(double) ? "double" : "single"},
-      {"solver", "sequential impulse"},
+      {"solver", solver_->getSolverType() == BT_MLCP_SOLVER ? "mixed linear complementarity by Dantzig's pivoting"
+                                                            : "sequential impulse"},
       {"iterations", fmt::format("{}", solver.m_numIterations)},
       {"gravity", fmt::format("{:g}, {:g}, {:g} m/s^2", g.x(), g.y(), g.z())},
       {"sub-steps", "none: one step of dt (as shipped, stepSimulation would advance by multiples of 1/60 s)"},
       {"erp", fmt::format("{:g}, contacts {:g}", solver.m_erp, solver.m_erp2)},
-      {"cfm", fmt::format("{:g}", solver.m_globalCfm)},
+      {"cfm", softness_ > 0 ? fmt::format("{:g} 1/kg times dt", softness_) : fmt::format("{:g}", solver.m_globalCfm)},
       {"split impulse", on_off(solver.m_splitImpulse)},
       {"split impulse threshold",
        matched_

@@ -1,6 +1,8 @@
 // A scene as Bullet's own objects: a btRigidBody for each body that moves, and for each fixed one that collides.
 #pragma once
 
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
+#include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "adapters/bullet/bullet_convert.h"
+#include "adapters/bullet/bullet_joints.h"
 #include "adapters/external_loads.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
@@ -24,7 +27,7 @@ class BulletWorld : public World {
   void step(double dt) override;
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
-  std::string solver_warning() const override { return ""; }  // Bullet reports nothing of a step
+  std::string solver_warning() const override { return warning_; }
 
  private:
   struct Row {
@@ -36,6 +39,9 @@ class BulletWorld : public World {
   };
 
   void apply(const Settings& settings);
+  void apply_to_joints(const Scene& scene, const Settings& settings);
+  btRigidBody& end_of_joint(int body);
+  void look_for_fallback();
   void add_body(const Body& body, const Settings& settings);
   void add_loads(double dt);
   const btRigidBody* first_moving() const;
@@ -44,7 +50,9 @@ class BulletWorld : public World {
   ContactLaws laws_;
   ExternalLoads loads_;
   bool matched_, bounces_;
+  double softness_ = 0;  // 1/kg: CFM/dt where it follows the step
   Clock clock_;
+  std::string warning_;
 
   // In the order in which Bullet needs them: each outlives those below it.
   bullet::Shapes shapes_;
@@ -53,8 +61,12 @@ class BulletWorld : public World {
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  btDantzigSolver dantzig_;
+  std::unique_ptr<btSequentialImpulseConstraintSolver> solver_;
+  // What joints to the world hold on to. It takes no part in the world, and so has no contacts.
+  btRigidBody ground_{btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &no_shape_)};
+  std::unique_ptr<bullet::Joints> joints_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, solver_.get(), &configuration_};
 };
 
 }  // namespace rigor

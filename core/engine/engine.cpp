@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/engine/run_name.h"
+#include "core/scene/joint_traits.h"
 
 namespace rigor {
 namespace {
@@ -63,7 +64,9 @@ std::string why_unsupported(const EngineInfo& engine, const Settings& settings, 
   if (!why.empty()) return why;
   const std::vector<Need> needs = needs_of(scene);
   const MethodInfo& method = method_of(engine, settings);
-  for (const Need& need : needs) {
+  std::vector<Need> asked = joint_traits_of(scene);
+  asked.insert(asked.begin(), needs.begin(), needs.end());
+  for (const Need& need : asked) {
     if (method.lacks.contains(need.feature))
       return fmt::format("{}:{} has no {}, which {} asks for", engine.name, method.name, need.feature, need.because);
   }

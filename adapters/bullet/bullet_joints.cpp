@@ -1,0 +1,146 @@
+#include "adapters/bullet/bullet_joints.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "adapters/bullet/bullet_convert.h"
+#include "core/dynamics/model/loads.h"
+
+namespace rigor::bullet {
+namespace {
+
+constexpr double kFar = 1e30;  // m: a limit that is none
+
+// Axes in W of a frame of which the given ones are taken as they are.
+Mat3 frame_with_z(const Vec3& z) {
+  const Vec3 x = z.unitOrthogonal();
+  Mat3 frame;
+  frame << x, z.cross(x), z;
+  return frame;
+}
+Mat3 frame_with_x(const Vec3& x) {
+  const Vec3 y = x.unitOrthogonal();
+  Mat3 frame;
+  frame << x, y, x.cross(y);
+  return frame;
+}
+
+// A frame that both bodies share at t = 0, as each of them sees it. Bullet's bodies are principal frames.
+struct SharedFrame {
+  btTransform in_a, in_b;
+
+  SharedFrame(const btRigidBody& a, const btRigidBody& b, const Vec3& origin_W, const Mat3& axes_W) {
+    const btTransform frame_W(to_bullet(axes_W), to_bullet(origin_W));
+    in_a = a.getCenterOfMassTransform().inverse() * frame_W;
+    in_b = b.getCenterOfMassTransform().inverse() * frame_W;
+  }
+};
+
+// Bullet's signs for a coordinate without limits: the lower above the upper one.
+void free_all(btGeneric6DofSpring2Constraint& constraint) {
+  for (int axis = 0; axis < 6; ++axis) constraint.setLimit(axis, 1, -1);
+}
+
+struct Make {
+  const Joint& joint;
+  btRigidBody &a, &b;
+  Vec3 center_b;  // m, in W
+  bool matched;
+
+  std::unique_ptr<btTypedConstraint> operator()(const BallJoint& ball) const {
+    const btVector3 anchor = to_bullet(ball.anchor);
+    return std::make_unique<btPoint2PointConstraint>(a, b, a.getCenterOfMassTransform().inverse() * anchor,
+                                                     b.getCenterOfMassTransform().inverse() * anchor);
+  }
+  std::unique_ptr<btTypedConstraint> operator()(const HingeJoint& hinge) const {
+    const SharedFrame frame(a, b, hinge.anchor, frame_with_z(hinge.axis));
+    auto constraint = std::make_unique<btHingeConstraint>(a, b, frame.in_a, frame.in_b, true);
+    if (matched) constraint->setUseFrameOffset(false);  // both bodies are held at their own anchors
+    if (joint.has_limits()) limit(*constraint);
+    return constraint;
+  }
+  std::unique_ptr<btTypedConstraint> operator()(const SliderJoint& slider) const {
+    const SharedFrame frame(a, b, center_b, frame_with_x(slider.axis));
+    return std::make_unique<btSliderConstraint>(a, b, frame.in_a, frame.in_b, true);
+  }
+  std::unique_ptr<btTypedConstraint> operator()(const FixedJoint&) const {
+    const SharedFrame frame(a, b, center_b, Mat3::Identity());
+    return std::make_unique<btFixedConstraint>(a, b, frame.in_a, frame.in_b);
+  }
+  std::unique_ptr<btTypedConstraint> operator()(const UniversalJoint& universal) const {
+    const Vec3 z = universal.axis, x = (universal.axis2 - universal.axis2.dot(z) * z).normalized();
+    Mat3 axes;
+    axes << x, z.cross(x), z;
+    const SharedFrame frame(a, b, universal.anchor, axes);
+    auto constraint = std::make_unique<btGeneric6DofSpring2Constraint>(a, b, frame.in_a, frame.in_b, RO_XYZ);
+    free_all(*constraint);
+    for (const int locked : {0, 1, 2, 4}) constraint->setLimit(locked, 0, 0);
+    return constraint;
+  }
+  std::unique_ptr<btTypedConstraint> operator()(const DistanceJoint&) const { return nullptr; }  // refused before
+
+ private:
+  // Angles count from -pi to pi: a limit there is none. Matched, the bounce is not cut to "bias" times itself, and what
+  // is past a limit is not pushed back ("stop ERP" 0), which would throw it off at a share of the speed it came with.
+  void limit(btHingeConstraint& hinge) const {
+    const double pi = std::numbers::pi, lower = std::max(joint.lower, -pi), upper = std::min(joint.upper, pi);
+    const btAngularLimit shipped;
+    hinge.setLimit(lower, upper, shipped.getSoftness(), matched ? 1 : shipped.getBiasFactor(), joint.restitution);
+    if (matched) hinge.setParam(BT_CONSTRAINT_STOP_ERP, 0);
+  }
+};
+
+// Its stop is reached in one step ("stop ERP" 1): with less Bullet would brake what only comes near.
+std::unique_ptr<btTypedConstraint> limits_along(const Vec3& axis, const Make& ends) {
+  const SharedFrame frame(ends.a, ends.b, ends.center_b, frame_with_x(axis));
+  auto limits = std::make_unique<btGeneric6DofSpring2Constraint>(ends.a, ends.b, frame.in_a, frame.in_b, RO_XYZ);
+  free_all(*limits);
+  limits->setLimit(0, std::max(ends.joint.lower, -kFar), std::min(ends.joint.upper, kFar));
+  limits->setBounce(0, ends.joint.restitution);
+  limits->setParam(BT_CONSTRAINT_STOP_ERP, 1, 0);
+  return limits;
+}
+
+void drive(btTypedConstraint& constraint, const Motor& motor, double share, double dt) {
+  if (auto* hinge = dynamic_cast<btHingeConstraint*>(&constraint)) {
+    hinge->enableAngularMotor(share > 0, *motor.speed, motor.most * share * dt);  // N m s
+  } else if (auto* slider = dynamic_cast<btSliderConstraint*>(&constraint)) {
+    slider->setPoweredLinMotor(share > 0);
+    slider->setTargetLinMotorVelocity(*motor.speed);
+    slider->setMaxLinMotorForce(motor.most * share);  // N
+  }
+}
+
+}  // namespace
+
+Joints::Joints(const Scene& scene, const BodyOf& body_of, bool matched) {
+  for (const Joint& joint : scene.joints) add(scene, joint, body_of, matched);
+  std::copy_if(scene.motors.begin(), scene.motors.end(), std::back_inserter(motors_),
+               [](const Motor& motor) { return motor.speed.has_value(); });
+}
+
+void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of, bool matched) {
+  const Make make{joint, body_of(joint.a), body_of(joint.b), scene.pose(joint.b).position, matched};
+  constraints_.push_back(std::visit(make, joint.type));
+  of_joint_.push_back(constraints_.back().get());
+  const auto* slider = std::get_if<SliderJoint>(&joint.type);
+  if (slider && joint.has_limits()) constraints_.push_back(limits_along(slider->axis, make));
+}
+
+void Joints::enter(btDynamicsWorld& world) {
+  constexpr bool kApart = false;  // whether what a joint connects may touch is for the scene to say (Body::collides)
+  for (const auto& constraint : constraints_) world.addConstraint(constraint.get(), kApart);
+}
+
+void Joints::set_motors(double t, double dt) {
+  for (const Motor& motor : motors_) {
+    btTypedConstraint& constraint = *of_joint_[static_cast<std::size_t>(motor.joint)];
+    drive(constraint, motor, 0, dt);
+  }
+  for (const Motor& motor : motors_) {
+    const double share = share_of_step(motor.from, motor.until, t, dt);
+    if (share > 0) drive(*of_joint_[static_cast<std::size_t>(motor.joint)], motor, share, dt);
+  }
+}
+
+}  // namespace rigor::bullet

@@ -1,0 +1,50 @@
+// A scene's joints as Bullet's constraints between rigid bodies:
+//   ball       btPoint2PointConstraint
+//   fixed      btFixedConstraint
+//   hinge      btHingeConstraint; the frames' z is the axis. Its angle counts as ours does only if it is told to use
+//   the
+//              frame of a (useReferenceFrameA); its limits' bounce is multiplied by their "bias factor"
+//   slider     btSliderConstraint; the frames' x is the axis, their origin b's centre
+//   universal  btGeneric6DofSpring2Constraint with one of three angles locked: z of a's frame is the axis, x of b's
+//   frame
+//              axis2, and the angle about z x x is what keeps them at right angles
+// A slider's limits are a second constraint beside it, a btGeneric6DofSpring2Constraint of which all but the way along
+// the axis is free: btSliderConstraint looks for its bounce on the way out, and so never bounces.
+// Bullet has no joint that keeps a distance, and none of its constraints is one for a special choice of its parameters.
+// Springs, dampers and given efforts are not here: they are loads (external_loads.h).
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace rigor::bullet {
+
+class Joints {
+ public:
+  // The body of an index, or for kWorld and a fixed body without one of its own a body that stands at the origin.
+  using BodyOf = std::function<btRigidBody&(int)>;
+
+  // Bodies stand as the scene has them at t = 0, and outlive this.
+  Joints(const Scene& scene, const BodyOf& body_of, bool matched);
+
+  // Takes part in the world from now on, which must end first.
+  void enter(btDynamicsWorld& world);
+  // Sets the motors that keep a speed to what they may do over the step from t to t + dt.
+  void set_motors(double t, double dt);
+
+  bool empty() const { return constraints_.empty(); }
+
+ private:
+  void add(const Scene& scene, const Joint& joint, const BodyOf& body_of, bool matched);
+
+  std::vector<std::unique_ptr<btTypedConstraint>> constraints_;  // a slider's limits stand behind it
+  std::vector<btTypedConstraint*> of_joint_;
+  std::vector<Motor> motors_;  // that keep a speed
+};
+
+}  // namespace rigor::bullet

@@ -1,0 +1,297 @@
+#include "adapters/bullet/bullet_multibody_world.h"
+
+#include <fmt/format.h>
+
+namespace rigor {
+namespace {
+
+using bullet::to_bullet;
+using bullet::to_rigor;
+
+constexpr bool kMaySleep = false, kCollidesWithParent = false;
+constexpr double kNoLimit = 1e30;
+
+btQuaternion to_bullet(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+
+// A frame at t = 0: of a body, principal; of the world, W.
+struct Frame {
+  Vec3 origin = Vec3::Zero();
+  Quat q = Quat::Identity();  // to W
+  Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+
+  btVector3 seen(const Vec3& direction_W) const { return bullet::to_bullet(Vec3(q.conjugate() * direction_W)); }
+};
+
+// Where the joint's point is for both: its anchor, or the child's centre.
+struct PointOf {
+  const Frame& child;
+  Vec3 operator()(const BallJoint& joint) const { return joint.anchor; }
+  Vec3 operator()(const HingeJoint& joint) const { return joint.anchor; }
+  Vec3 operator()(const UniversalJoint& joint) const { return joint.anchor; }
+  template <typename Other>
+  Vec3 operator()(const Other&) const {
+    return child.origin;
+  }
+};
+
+// A universal joint's axes, exactly at right angles: the first fixed in the parent, the second in the child.
+struct UniversalAxes {
+  Vec3 first, second;  // unit, in W at t = 0
+};
+UniversalAxes axes_of(const UniversalJoint& joint, bool child_is_b) {
+  const Vec3 axis2 = (joint.axis2 - joint.axis2.dot(joint.axis) * joint.axis).normalized();
+  return child_is_b ? UniversalAxes{joint.axis, axis2} : UniversalAxes{axis2, joint.axis};
+}
+
+// Adds the links of one joint to a tree.
+struct AddLinks {
+  btMultiBody& tree;
+  int link, parent;  // Bullet's numbers
+  const Frame &child, &above;
+  double mass;        // kg
+  btVector3 moments;  // kg m²
+  bool child_is_b;
+  Vec3 point;  // in W
+
+  btQuaternion turn() const { return to_bullet(Quat(child.q.conjugate() * above.q)); }
+  btVector3 from_parent() const { return above.seen(point - above.origin); }
+  btVector3 to_child() const { return child.seen(child.origin - point); }
+
+  void operator()(const BallJoint&) const {
+    tree.setupSpherical(link, mass, moments, parent, turn(), from_parent(), to_child(), !kCollidesWithParent);
+  }
+  void operator()(const HingeJoint& joint) const {
+    tree.setupRevolute(link, mass, moments, parent, turn(), child.seen(joint.axis), from_parent(), to_child(),
+                       !kCollidesWithParent);
+  }
+  void operator()(const SliderJoint& joint) const {
+    tree.setupPrismatic(link, mass, moments, parent, turn(), child.seen(joint.axis), from_parent(), to_child(),
+                        !kCollidesWithParent);
+  }
+  void operator()(const FixedJoint&) const {
+    tree.setupFixed(link, mass, moments, parent, turn(), from_parent(), to_child(), !kCollidesWithParent);
+  }
+  void operator()(const UniversalJoint& joint) const {
+    const UniversalAxes axes = axes_of(joint, child_is_b);
+    const btVector3 nothing(0, 0, 0);
+    tree.setupRevolute(link, 0, nothing, parent, turn(), child.seen(axes.first), from_parent(), nothing,
+                       !kCollidesWithParent);
+    tree.setupRevolute(link + 1, mass, moments, link, btQuaternion::getIdentity(), child.seen(axes.second), nothing,
+                       to_child(), !kCollidesWithParent);
+  }
+  void operator()(const DistanceJoint&) const {}  // refused before
+};
+
+// Sets a joint's velocities from those of its ends in W.
+struct SetVelocities {
+  btMultiBody& tree;
+  int link;  // of the child
+  const Frame &child, &above;
+  bool child_is_b;
+
+  Vec3 turning() const { return child.angular_velocity - above.angular_velocity; }
+
+  void operator()(const BallJoint&) const {
+    const Vec3 rate = child.q.conjugate() * turning();
+    tree.setJointVelMultiDof(link, rate.data());
+  }
+  void operator()(const HingeJoint& joint) const { tree.setJointVel(link, joint.axis.dot(turning())); }
+  void operator()(const SliderJoint& joint) const {
+    const Vec3 carried = above.velocity + above.angular_velocity.cross(child.origin - above.origin);
+    tree.setJointVel(link, joint.axis.dot(child.velocity - carried));
+  }
+  void operator()(const UniversalJoint& joint) const {
+    const UniversalAxes axes = axes_of(joint, child_is_b);
+    tree.setJointVel(link - 1, axes.first.dot(turning()));
+    tree.setJointVel(link, axes.second.dot(turning()));
+  }
+  void operator()(const FixedJoint&) const {}
+  void operator()(const DistanceJoint&) const {}
+};
+
+int links_of(const Joint& joint) { return std::holds_alternative<UniversalJoint>(joint.type) ? 2 : 1; }
+
+}  // namespace
+
+BulletMultibodyWorld::BulletMultibodyWorld(const Scene& scene, const Settings& settings)
+    : rows_(scene.bodies.size()), loads_(scene) {
+  world_.setGravity(to_bullet(scene.gravity));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    Row& row = rows_[i];
+    row.moves = !body.fixed;
+    row.state = {body.position, body.orientation, Vec3::Zero(), Vec3::Zero()};
+    if (!row.moves) continue;
+    row.frame = bullet::principal_frame(body.inertia);
+    row.q_WP_start = (body.orientation * Quat(row.frame.R_BP)).normalized();
+  }
+  for (const bullet::Tree& tree : bullet::trees_of(scene)) add_tree(scene, tree, settings.track == Track::matched);
+  read_bodies();
+}
+
+BulletMultibodyWorld::~BulletMultibodyWorld() {
+  for (const auto& tree : trees_) world_.removeMultiBody(tree.get());
+}
+
+namespace {
+
+Frame frame_at_start(const Scene& scene, int body, const Quat& q_WP) {
+  if (body == kWorld || scene.bodies[static_cast<std::size_t>(body)].fixed) return {};
+  const Body& of = scene.bodies[static_cast<std::size_t>(body)];
+  return {of.position, q_WP, of.velocity, of.angular_velocity};
+}
+
+}  // namespace
+
+void BulletMultibodyWorld::add_tree(const Scene& scene, const bullet::Tree& tree, bool matched) {
+  int links = 0;
+  for (const bullet::Branch& branch : tree.branches)
+    links += links_of(scene.joints[static_cast<std::size_t>(branch.joint)]);
+  const bool floats = tree.base != kWorld;
+  const auto base = static_cast<std::size_t>(tree.base);
+  const double mass = floats ? scene.bodies[base].mass : 0;
+  const Vec3 moments = floats ? rows_[base].frame.moments : Vec3(Vec3::Zero());
+  trees_.push_back(std::make_unique<btMultiBody>(links, mass, to_bullet(moments), !floats, kMaySleep));
+  body_of_link_.emplace_back(links + 1, kWorld);
+  btMultiBody& made = *trees_.back();
+  if (floats) {
+    const Body& body = scene.bodies[base];
+    rows_[base].tree = &made;
+    body_of_link_.back()[0] = tree.base;
+    made.setBasePos(to_bullet(body.position));
+    made.setWorldToBaseRot(to_bullet(rows_[base].q_WP_start.conjugate()));
+  }
+  int link = 0;
+  for (const bullet::Branch& branch : tree.branches) {
+    add_branch(scene, branch, made, link);
+    link += links_of(scene.joints[static_cast<std::size_t>(branch.joint)]);
+  }
+  made.finalizeMultiDof();
+  if (floats) {
+    made.setBaseVel(to_bullet(scene.bodies[base].velocity));
+    made.setBaseOmega(to_bullet(scene.bodies[base].angular_velocity));
+  }
+  for (const bullet::Branch& branch : tree.branches) set_velocities(scene, branch, made);
+  if (matched) {
+    made.setLinearDamping(0), made.setAngularDamping(0);
+    made.setMaxCoordinateVelocity(kNoLimit);  // rad/s, m/s: as shipped a faster joint is held back
+  }
+  world_.addMultiBody(&made);
+}
+
+void BulletMultibodyWorld::add_branch(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree,
+                                      int first_link) {
+  const Joint& joint = scene.joints[static_cast<std::size_t>(branch.joint)];
+  Row& row = rows_[static_cast<std::size_t>(branch.body)];
+  row.tree = &tree, row.link = first_link + links_of(joint) - 1;
+  body_of_link_.back()[static_cast<std::size_t>(row.link) + 1] = branch.body;
+  const bool on_world = branch.parent == kWorld;
+  const Row* above = on_world ? nullptr : &rows_[static_cast<std::size_t>(branch.parent)];
+  const Frame child = frame_at_start(scene, branch.body, row.q_WP_start),
+              parent = on_world ? Frame{} : frame_at_start(scene, branch.parent, above->q_WP_start);
+  const AddLinks add{.tree = tree,
+                     .link = first_link,
+                     .parent = on_world ? -1 : above->link,
+                     .child = child,
+                     .above = parent,
+                     .mass = scene.bodies[static_cast<std::size_t>(branch.body)].mass,
+                     .moments = to_bullet(row.frame.moments),
+                     .child_is_b = joint.b == branch.body,
+                     .point = std::visit(PointOf{child}, joint.type)};
+  std::visit(add, joint.type);
+}
+
+void BulletMultibodyWorld::set_velocities(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree) {
+  const Joint& joint = scene.joints[static_cast<std::size_t>(branch.joint)];
+  const Row& row = rows_[static_cast<std::size_t>(branch.body)];
+  const Frame child = frame_at_start(scene, branch.body, row.q_WP_start);
+  Frame parent;
+  if (branch.parent != kWorld)
+    parent = frame_at_start(scene, branch.parent, rows_[static_cast<std::size_t>(branch.parent)].q_WP_start);
+  std::visit(SetVelocities{tree, row.link, child, parent, joint.b == branch.body}, joint.type);
+}
+
+void BulletMultibodyWorld::step(double dt) {
+  if (!loads_.empty()) add_loads(dt);
+  world_.stepSimulation(dt, 0);  // no sub-steps
+  clock_.advance(dt);
+  read_bodies();
+}
+
+void BulletMultibodyWorld::add_loads(double dt) {
+  const Wrenches& wrenches = loads_.over_step(*this, dt);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    if (!row.moves) continue;
+    const btVector3 force = to_bullet(wrenches[i].force), torque = to_bullet(wrenches[i].torque);  // in W
+    if (row.link < 0) {
+      row.tree->addBaseForce(force), row.tree->addBaseTorque(torque);
+    } else {
+      row.tree->addLinkForce(row.link, force), row.tree->addLinkTorque(row.link, torque);
+    }
+  }
+}
+
+// From the base outwards: Bullet keeps turns and offsets from parent to child, and rates of joints.
+void BulletMultibodyWorld::read_bodies() {
+  struct Motion {
+    btQuaternion from_W;
+    btVector3 position, w, v;  // w and v in the link's frame
+  };
+  std::vector<Motion> motions;
+  for (std::size_t t = 0; t < trees_.size(); ++t) {
+    const btMultiBody& tree = *trees_[t];
+    const btQuaternion base = tree.getWorldToBaseRot();
+    motions.assign(
+        1, {base, tree.getBasePos(), quatRotate(base, tree.getBaseOmega()), quatRotate(base, tree.getBaseVel())});
+    for (int link = 0; link < tree.getNumLinks(); ++link) {
+      const Motion& above = motions[static_cast<std::size_t>(tree.getParent(link)) + 1];
+      const btQuaternion turn = tree.getParentToLocalRot(link);
+      const btVector3 offset = tree.getRVector(link);
+      Motion motion{turn * above.from_W, above.position, quatRotate(turn, above.w), quatRotate(turn, above.v)};
+      motion.position += quatRotate(motion.from_W.inverse(), offset);
+      motion.v += motion.w.cross(offset);
+      const btMultibodyLink& joint = tree.getLink(link);
+      for (int k = 0; k < joint.m_dofCount; ++k) {
+        const btScalar rate = tree.getJointVelMultiDof(link)[k];
+        motion.w += rate * joint.getAxisTop(k), motion.v += rate * joint.getAxisBottom(k);
+      }
+      motions.push_back(motion);
+    }
+    for (std::size_t n = 0; n < motions.size(); ++n) {
+      if (body_of_link_[t][n] == kWorld) continue;
+      Row& row = rows_[static_cast<std::size_t>(body_of_link_[t][n])];
+      const Quat q_WP = to_rigor(motions[n].from_W).conjugate();
+      row.state = {to_rigor(motions[n].position), q_WP * Quat(row.frame.R_BP).conjugate(),
+                   q_WP * to_rigor(motions[n].v), q_WP * to_rigor(motions[n].w)};
+    }
+  }
+}
+
+void BulletMultibodyWorld::read(Snapshot& out) const {
+  out.time = clock_.time();
+  const MutableBodyColumns columns = out.own(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) columns.set_body(i, rows_[i].state);
+}
+
+SettingsInForce BulletMultibodyWorld::settings_in_force() const {
+  const btVector3 g = world_.getGravity();
+  SettingsInForce in_force = {
+      {"precision", sizeof(btScalar) == sizeof(double) ? "double" : "single"},
+      {"joints", "reduced coordinates, Featherstone's articulated-body algorithm"},
+      {"gravity", fmt::format("{:g}, {:g}, {:g} m/s^2", g.x(), g.y(), g.z())},
+      {"sub-steps", "none: one step of dt"},
+      {"springs and timed forces", "user forces, recomputed before each step"},
+  };
+  if (trees_.empty()) return in_force;
+  const btMultiBody& tree = *trees_.front();  // all are set alike
+  in_force.emplace_back("gyroscopic", tree.getUseGyroTerm() ? "explicit, with the coordinates' accelerations" : "off");
+  in_force.emplace_back("integration", tree.isUsingRK4Integration() ? "Runge-Kutta" : "semi-implicit Euler");
+  in_force.emplace_back("damping",
+                        fmt::format("linear {:g}, angular {:g}", tree.getLinearDamping(), tree.getAngularDamping()));
+  in_force.emplace_back("fastest coordinate", fmt::format("{:g} rad/s, m/s", tree.getMaxCoordinateVelocity()));
+  in_force.emplace_back("sleeping", tree.getCanSleep() ? "on" : "off");
+  return in_force;
+}
+
+}  // namespace rigor

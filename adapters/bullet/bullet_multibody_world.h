@@ -1,0 +1,68 @@
+// A scene as Bullet's btMultiBody: reduced coordinates (joint angles and ways), accelerations by Featherstone's
+// articulated-body algorithm, so that joints hold to rounding. Trees only, without contacts. A joint of the scene is
+// one of Bullet's:
+//   ball spherical    hinge revolute    slider prismatic    fixed fixed
+//   universal         two revolute ones with a link between them that has neither mass nor inertia; only the inertia
+//                     of all that hangs on a joint is ever divided by, and that is never zero here
+// The root of a tree that floats free is a body with six coordinates; v and w of its own are stepped in W. Link frames
+// are principal frames, for Bullet's inertias are diagonal. "parent to this" takes vectors from the parent's frame.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+
+#include <memory>
+#include <vector>
+
+#include "adapters/bullet/bullet_convert.h"
+#include "adapters/bullet/bullet_tree.h"
+#include "adapters/external_loads.h"
+#include "core/engine/clock.h"
+#include "core/engine/engine.h"
+
+namespace rigor {
+
+class BulletMultibodyWorld : public World {
+ public:
+  BulletMultibodyWorld(const Scene& scene, const Settings& settings);
+  ~BulletMultibodyWorld() override;
+  BulletMultibodyWorld(const BulletMultibodyWorld&) = delete;
+  BulletMultibodyWorld& operator=(const BulletMultibodyWorld&) = delete;
+
+  void step(double dt) override;
+  void read(Snapshot& out) const override;
+  SettingsInForce settings_in_force() const override;
+  std::string solver_warning() const override { return ""; }  // nothing is solved by iteration
+
+ private:
+  struct Row {  // a body of the scene
+    bool moves = false;
+    bullet::PrincipalFrame frame;
+    Quat q_WP_start = Quat::Identity();
+    btMultiBody* tree = nullptr;
+    int link = -1;    // of the tree; -1 is its base
+    BodyState state;  // as last read
+  };
+
+  void add_tree(const Scene& scene, const bullet::Tree& tree, bool matched);
+  void add_branch(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree, int first_link);
+  void set_velocities(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree);
+  void add_loads(double dt);
+  void read_bodies();
+
+  std::vector<Row> rows_;
+  ExternalLoads loads_;
+  Clock clock_;
+  std::vector<std::unique_ptr<btMultiBody>> trees_;
+  std::vector<std::vector<int>> body_of_link_;  // by tree: of the base first; kWorld for what is no body of the scene
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btMultiBodyConstraintSolver solver_;
+  btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+};
+
+}  // namespace rigor

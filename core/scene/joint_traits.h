@@ -1,0 +1,16 @@
+// What a jointed scene asks of a method beyond the features of its parts (features.h):
+//   "joint-loop"              joints that close a loop, through bodies or through the world
+//   "speed-motor-with-limits" a joint that has limits and a motor that keeps a speed
+// An engine that has the parts has these too, unless a method says that it lacks them (MethodInfo::lacks).
+#pragma once
+
+#include <vector>
+
+#include "core/scene/features.h"
+
+namespace rigor {
+
+// Each once, with the first joint that asks for it.
+std::vector<Need> joint_traits_of(const Scene& scene);
+
+}  // namespace rigor
