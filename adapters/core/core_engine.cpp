@@ -8,7 +8,7 @@
 
 #include "adapters/option_values.h"
 #include "core/dynamics/contact/contact_method.h"
-#include "core/dynamics/joints/joints.h"
+#include "core/dynamics/joints/joint_events.h"
 #include "core/engine/clock.h"
 #include "core/scene/contact_laws.h"
 
@@ -41,6 +41,8 @@ class CoreWorld : public World {
     } else {
       contact_settings_ = {{"contact", "none in this scene"}};
       stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get()});
+      if (JointStops::are_in(scene))
+        stepper_ = std::make_unique<JointEvents>(scene, system_, *joints_, std::move(stepper_));
     }
   }
 
@@ -85,7 +87,7 @@ class CoreWorld : public World {
 // What joints ask for; a method takes all of it, or none, or all but dampers.
 const Features kJointFeatures = {"joint:ball",          "joint:distance",  "joint:fixed",  "joint:hinge",
                                  "joint:slider",        "joint:universal", "joint-spring", "joint-damper",
-                                 "joints-with-dampers", "motor:effort"};
+                                 "joints-with-dampers", "motor:effort",    "motor:speed",  "joint-limit"};
 
 template <typename Rows>
 std::vector<std::string> names_of(const Rows& rows) {

@@ -22,6 +22,7 @@ class ConstrainedDrift {
   template <typename Move>
   void drift(MutableBodyColumns state, Columns& carried, double h, const Move& move) {
     if (is_free()) return move(state, carried.data());
+    kernels().velocity_of(parts_.system.constants.all(), state.column(0), carried.data());
     parts_.joints->close(state, h, [&](const double* impulse) -> BodyColumns {
       end_ = BodyColumns(state);
       momenta_ = carried;
