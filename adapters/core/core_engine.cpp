@@ -34,7 +34,7 @@ class CoreWorld : public World {
     set_initial_state(scene, state_.columns());
     if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_);
     if (anything_can_touch(scene)) {
-      auto stepper = contact_method_.make(scene, {system_, integrator_, orientation_, settings});
+      auto stepper = contact_method_.make(scene, {system_, integrator_, orientation_, settings, joints_.get()});
       contact_settings_ = stepper->settings_in_force();
       contact_settings_.insert(contact_settings_.begin(), {"contact", contact_method_.name});
       stepper_ = std::move(stepper);

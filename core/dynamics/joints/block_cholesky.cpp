@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "core/dynamics/joints/small_blocks.h"
 
@@ -17,6 +18,7 @@ constexpr double kInfinite = 1e150;  // its square is a number, too
 
 BlockCholesky::BlockCholesky(std::vector<int> rows, const std::vector<std::pair<int, int>>& coupled)
     : rows_(std::move(rows)), scale_(rows_.size()), kept_(rows_.size()) {
+  find_components(coupled);
   order(coupled);
   list_products();
   for (std::size_t p = 0; p < size(); ++p) {
@@ -43,28 +45,51 @@ void BlockCholesky::lay_out() {
   values_.resize(end);
 }
 
-// Eliminates the joint with the fewest neighbours, which then all become each other's; the first of equals.
+void BlockCholesky::find_components(const std::vector<std::pair<int, int>>& coupled) {
+  std::vector<std::vector<int>> neighbours(size());
+  for (const auto& [a, b] : coupled) neighbours[a].push_back(b), neighbours[b].push_back(a);
+  component_.assign(size(), -1);
+  for (std::size_t joint = 0; joint < size(); ++joint) {
+    if (component_[joint] >= 0) continue;
+    component_[joint] = components_;
+    for (std::vector<int> todo = {static_cast<int>(joint)}; !todo.empty();) {
+      const int at = todo.back();
+      todo.pop_back();
+      for (const int next : neighbours[at]) {
+        if (component_[next] < 0) component_[next] = components_, todo.push_back(next);
+      }
+    }
+    ++components_;
+  }
+  first_of_component_.assign(static_cast<std::size_t>(components_) + 1, 0);
+  for (const int component : component_) ++first_of_component_[static_cast<std::size_t>(component) + 1];
+  std::partial_sum(first_of_component_.begin(), first_of_component_.end(), first_of_component_.begin());
+}
+
+// Component by component eliminates the joint with the fewest neighbours, which then all become each other's; the first
+// of equals.
 void BlockCholesky::order(const std::vector<std::pair<int, int>>& coupled) {
   std::vector<std::set<int>> neighbours(size());
   for (const auto& [a, b] : coupled) {
     if (a != b) neighbours[a].insert(b), neighbours[b].insert(a);
   }
-  std::set<std::pair<std::size_t, int>> queue;
-  for (std::size_t j = 0; j < size(); ++j) queue.insert({neighbours[j].size(), static_cast<int>(j)});
+  std::set<std::tuple<int, std::size_t, int>> queue;
+  const auto entry = [&](int joint) { return std::tuple(component_[joint], neighbours[joint].size(), joint); };
+  for (std::size_t j = 0; j < size(); ++j) queue.insert(entry(static_cast<int>(j)));
   std::vector<std::vector<int>> below(size());
   position_.resize(size());
   while (!queue.empty()) {
-    const int joint = queue.begin()->second;
+    const int joint = std::get<2>(*queue.begin());
     queue.erase(queue.begin());
     position_[joint] = joint_.size();
     const std::vector<int> around(neighbours[joint].begin(), neighbours[joint].end());
     for (const int n : around) {
-      queue.erase({neighbours[n].size(), n});
+      queue.erase(entry(n));
       neighbours[n].erase(joint);
       for (const int m : around) {
         if (m != n) neighbours[n].insert(m);
       }
-      queue.insert({neighbours[n].size(), n});
+      queue.insert(entry(n));
     }
     below[joint_.size()] = around;
     joint_.push_back(static_cast<std::size_t>(joint));
@@ -199,8 +224,8 @@ void BlockCholesky::factorise_diagonal(std::size_t p) {
   }
 }
 
-void BlockCholesky::solve(std::vector<Vec6>& x) const {
-  for (std::size_t p = 0; p < size(); ++p) {
+void BlockCholesky::solve(std::vector<Vec6>& x, std::size_t first, std::size_t last) const {
+  for (std::size_t p = first; p < last; ++p) {
     Vec6& at = x[joint_[p]];
     const int n = rows_at(p);
     if (rank_[p] < n) at = at.cwiseProduct(kept_[p]);
@@ -210,7 +235,7 @@ void BlockCholesky::solve(std::vector<Vec6>& x) const {
       with_rows(block_rows_[u], [&](auto R) { subtract_product<R>(below, block_at(u), at.data(), n); });
     }
   }
-  for (std::size_t p = size(); p-- > 0;) {
+  for (std::size_t p = last; p-- > first;) {
     Vec6& at = x[joint_[p]];
     for (std::int32_t u = first_below_[p]; u < first_below_[p + 1]; ++u) {
       const double* const below = x[joint_[row_below_[u]]].data();

@@ -58,9 +58,20 @@ class BlockCholesky {
   double smallest_pivot() const { return smallest_pivot_; }
   std::size_t joint_of_smallest_pivot() const { return joint_of_smallest_; }
   // Solves S x = b in place; a row left out gets 0.
-  void solve(std::vector<Vec6>& x) const;
+  void solve(std::vector<Vec6>& x) const { solve(x, 0, size()); }
+
+  // Joints that are connected by bodies that can move make a component; its joints are eliminated one after another.
+  // Numbered in the order of their first joints.
+  int components() const { return components_; }
+  int component_of(std::size_t joint) const { return component_[joint]; }
+  // solve() for the joints of a component alone; the others' x is not read.
+  void solve_component(int component, std::vector<Vec6>& x) const {
+    solve(x, first_of_component_[component], first_of_component_[component + 1]);
+  }
 
  private:
+  void solve(std::vector<Vec6>& x, std::size_t first, std::size_t last) const;
+  void find_components(const std::vector<std::pair<int, int>>& coupled);
   void order(const std::vector<std::pair<int, int>>& coupled);
   void list_products();
   void lay_out();
@@ -89,6 +100,9 @@ class BlockCholesky {
   std::vector<int> block_rows_, block_columns_;        // in that order
   std::vector<std::int32_t> target_;  // of the product of each two blocks of a column, in order: a block, or ~position
   std::vector<std::size_t> first_target_;
+  std::vector<int> component_;  // by joint
+  std::vector<std::size_t> first_of_component_;
+  int components_ = 0;
   bool has_redundant_ = false;
   double smallest_pivot_ = 1;
   std::size_t joint_of_smallest_ = 0;

@@ -81,8 +81,8 @@ double JointEvents::time_of(std::size_t stop, JointStops::Event event, double t,
   };
   if (stops_.distance_to(stop, event) >= 0) return root(distance, h, stops_.distance_to(stop, event));
   const double sign = stops_.rate(stop) > 0 ? 1 : -1;
-  const double turns = root([&](double at) { return attempt(t, at), sign * stops_.rate(stop); }, h,
-                            sign * stops_.rate(stop));
+  const double turns =
+      root([&](double at) { return attempt(t, at), sign * stops_.rate(stop); }, h, sign * stops_.rate(stop));
   const double at_turn = distance(turns);
   return at_turn < 0 ? h : root(distance, turns, at_turn);
 }

@@ -262,6 +262,16 @@ double JointRows::response_size(const JointRow& joint, const double* wrench) con
   return size.maxCoeff();
 }
 
+void JointRows::add_response(const JointRow& joint, const Vec6& multiplier, std::vector<Vec6>& by_body) const {
+  const Vec6 negative = -multiplier;
+  with_rows(joint.most_rows, [&](auto R) {
+    for (int end = 0; end < 2; ++end) {
+      if (joint.body[end] != kWorld)
+        subtract_transposed_product<R>(by_body[joint.body[end]].data(), joint.Y[end], negative.data(), 6);
+    }
+  });
+}
+
 Vec6 JointRows::free_acceleration(int body, const double* wrench) const {
   const Inertia& inertia = system_.bodies[body];
   Vec6 acceleration = Vec6::Zero();

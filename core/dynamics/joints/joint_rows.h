@@ -71,6 +71,8 @@ class JointRows {
   Vec6 times_acceleration(const JointRow& joint, const std::vector<Vec6>& by_body) const;  // J a
   Vec6 response(const JointRow& joint, const double* wrench) const;                        // J M⁻¹ times a wrench
   double response_size(const JointRow& joint, const double* wrench) const;  // the largest of its terms' sizes
+  // M⁻¹ Jᵀ l of one joint, to changes of velocity by body.
+  void add_response(const JointRow& joint, const Vec6& multiplier, std::vector<Vec6>& by_body) const;
   Vec6 free_acceleration(int body, const double* wrench) const;      // of gravity and a wrench, null if there is none
   Vec6 acceleration_by(int body, const double* wrench) const;        // M⁻¹ times a wrench
   void push(const double* impulse, MutableBodyColumns state) const;  // adds M⁻¹ times an impulse to v and w,

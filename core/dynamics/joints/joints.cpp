@@ -29,6 +29,7 @@ Joints::Joints(const Scene& scene, const System& system)
       free_(system.size()) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) names_.push_back(scene.joint_name(k));
   total_.resize(kWrenchColumns, system.size());
+  list_components();
   BodyTable start(system.size());
   set_initial_state(scene, start.columns());
   find_ranks(start.columns());
@@ -145,11 +146,25 @@ void Joints::project(MutableBodyColumns state) {
   }
 }
 
-void Joints::restrict(std::vector<Vec6>& change) {
-  solve_for([&](const JointRow& joint) -> Vec6 { return -rows_.times_acceleration(joint, change); });
-  const double* const wrench = rows_.wrench_of(multipliers_);
-  for (const int body : rows_.moved()) {
-    if (!system_.bodies[body].fixed) change[body] += rows_.acceleration_by(body, wrench);
+void Joints::restrict(int component, std::vector<Vec6>& change) {
+  const std::vector<int>& joints = joints_of_component_[component];
+  for (const int k : joints) multipliers_[k] = -rows_.times_acceleration(rows_.joint(k), change);
+  factor_.solve_component(component, multipliers_);
+  for (const int k : joints) rows_.add_response(rows_.joint(k), multipliers_[k], change);
+}
+
+void Joints::list_components() {
+  component_of_body_.assign(system_.size(), -1);
+  bodies_of_component_.resize(factor_.components());
+  joints_of_component_.resize(factor_.components());
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const int component = factor_.component_of(k);
+    joints_of_component_[component].push_back(static_cast<int>(k));
+    for (const int body : rows_.joint(k).body) {
+      if (body == kWorld || component_of_body_[body] == component) continue;
+      component_of_body_[body] = component;
+      bodies_of_component_[component].push_back(body);
+    }
   }
 }
 

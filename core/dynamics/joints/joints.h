@@ -51,9 +51,13 @@ class Joints : public ConstraintForces {
   // The largest multiplier of the last solution: what rounding of efforts is measured against.
   double largest_multiplier() const;
 
-  // For contacts at the pose of velocity_impulse(), from what acts on bodies to what they do with the joints: takes
-  // from changes of velocity, by body, what the joints do not allow. Bodies without joints are left as they are.
-  void restrict(std::vector<Vec6>& change);
+  // Bodies that joints connect make a component; a body without joints is in none, -1.
+  int components() const { return factor_.components(); }
+  int component_of(int body) const { return component_of_body_[body]; }
+  const std::vector<int>& bodies_of(int component) const { return bodies_of_component_[component]; }
+  // At the pose of the last factorisation: takes from changes of velocity, by body, of a component what its joints do
+  // not allow.
+  void restrict(int component, std::vector<Vec6>& change);
 
   // Rows of all joints, and how many of them do not repeat others.
   int rows() const;
@@ -72,6 +76,7 @@ class Joints : public ConstraintForces {
   void look_for_contradictions();
   void look_for_singularity(BodyColumns start);
 
+  void list_components();
   void factorise(BodyColumns state, Rows rows);
   template <typename RightSide>
   void solve_for(const RightSide& right_side) {
@@ -93,6 +98,8 @@ class Joints : public ConstraintForces {
   BlockCholesky factor_;
   std::vector<Vec6> multipliers_, total_multipliers_, right_side_, correction_;  // by joint
   std::vector<Vec6> free_;  // by body: accelerations without joints
+  std::vector<int> component_of_body_;
+  std::vector<std::vector<int>> bodies_of_component_, joints_of_component_;  // bodies that can move
   Columns total_;
   double extent_ = 1;  // m: the longest arm, what gaps are small against
   std::string at_start_, warning_;
