@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kTouch = 1e-11;      // rad, m: from so near a limit on it is reached
 constexpr double kAtRest = 1e-9;      // rad/s, m/s: what slower comes to it, or is off a motor's speed, does not move
+constexpr double kLeaves = 1e-5;      // rad/s, m/s: faster than what closing a gap of kTouch makes of what was kept
 constexpr double kNoEffort = 1e-9;    // of the largest multiplier: ten thousand times what rounding leaves of one
 constexpr double kNoChange = 1e-9;    // of 1 + |g| [m/s², rad/s²]: an acceleration that rounding can make
 constexpr int kMostChangesEach = 16;  // of a coordinate's mode in the search for which hold
@@ -149,7 +150,7 @@ bool JointStops::find_impulses(MutableBodyColumns state) {
 void JointStops::guess_modes() {
   for (Stop& stop : stops_) {
     if (stop.at != 0 && !touches(stop, stop.at)) stop.at = 0;
-    if (stop.at != 0 && std::abs(stop.rate) > kAtRest) stop.at = 0;
+    if (stop.at != 0 && std::abs(stop.rate) > kLeaves) stop.at = 0;
     if (!stop.motor) {
       stop.drive = Drive::off;
       continue;
@@ -216,8 +217,9 @@ double JointStops::distance_to(std::size_t i, Event event) const {
   const int side = event == Event::upper ? 1 : -1;
   if (stop.at == side) return side * stop.effort - effort_tolerance_;
   if (stop.at != 0) return -1;
-  const bool touched = (side > 0 ? stop.settled_x - stop.upper : stop.lower - stop.settled_x) >= -kTouch;
-  return stop.touched(side) - (touched ? 2 * kTouch : 0);
+  // What has bounced is not asked whether it is there: it must go further than it was.
+  const double at_start = side > 0 ? stop.settled_x - stop.upper : stop.lower - stop.settled_x;
+  return stop.touched(side) - (at_start >= -kTouch ? std::max(0.0, at_start) + 2 * kTouch : 0);
 }
 
 bool JointStops::may_have_touched(std::size_t i, Event event, double since) const {

@@ -207,7 +207,7 @@ void JointedRows::prepare(BodyColumns state, double t, const SolverParameters& p
 // Speculative: the gap closes by h (theta u' + (1 - theta) u), of which only the velocity after, u', can be chosen.
 double JointedRows::bias_of(const Row& row) const {
   const double theta = parameters_.theta;
-  if (row.gap > 0) return row.gap / (parameters_.h * theta) - (1 - theta) / theta * row.approach;
+  if (!is_soft(row)) return std::max(0.0, row.gap) / (parameters_.h * theta) - (1 - theta) / theta * row.approach;
   return std::max(-parameters_.max_push_speed, parameters_.bias_rate * row.gap);
 }
 
@@ -243,7 +243,7 @@ void JointedRows::solve_friction(Row& row) {
 }
 
 void JointedRows::solve_biased(Row& row) {
-  const bool soft = row.gap <= 0;
+  const bool soft = is_soft(row);
   const double mass_scale = soft ? parameters_.mass_scale : 1, impulse_scale = soft ? parameters_.impulse_scale : 0;
   const double p = row.impulse[0];
   solve_normal(row, p - mass_scale * (speed(row, 0) + row.bias) * row.mass - impulse_scale * p);
