@@ -215,7 +215,7 @@ void BlockCholesky::factorise_diagonal(std::size_t p) {
     }
     // What is lost in rounding counts as infinite, which leaves its row out; whoever asks smallest_pivot() knows.
     const double root = pivot > kLost * scale || !kept ? std::sqrt(pivot) : kInfinite, inverse = 1 / root;
-    D[k + k * R] = root;
+    D[k + k * R] = inverse;
     for (int i = k + 1; i < R; ++i) {
       double sum = D[i + k * R];
       for (int l = 0; l < k; ++l) sum -= D[i + l * R] * D[k + l * R];

@@ -32,7 +32,11 @@ Vec6 wrench_at(const double* columns, std::size_t stride, int body) {
 }
 
 JointRows::JointRows(const Scene& scene, const System& system)
-    : system_(system), joints_(scene.joints.size()), frames_(system.size()), wrench_(kWrenchColumns, system.size()) {
+    : system_(system),
+      joints_(scene.joints.size()),
+      frames_(system.size()),
+      elsewhere_(system.size()),
+      wrench_(kWrenchColumns, system.size()) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_joint(scene, k);
   std::sort(moved_.begin(), moved_.end());
   moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
@@ -171,15 +175,13 @@ void JointRows::assemble(BlockCholesky& factor) {
 }
 
 double JointRows::measure_gaps(BodyColumns state) {
-  const auto pose = [&](int body) {
-    EndMotion end;
-    if (body != kWorld) end.position = state.position(body), end.R = state.rotation(body);
-    return end;
-  };
+  for (const int body : moved_)
+    elsewhere_[body].position = state.position(body), elsewhere_[body].R = state.rotation(body);
+  static const EndMotion kStill;
   for (JointRow& joint : joints_) {
-    ConstraintRow rows[kMostRows];
-    joint.constraint->evaluate(pose(joint.end[0]), pose(joint.end[1]), rows);
-    for (int k = 0; k < joint.rows; ++k) joint.gap[k] = rows[k].gap;
+    const EndMotion& a = joint.end[0] == kWorld ? kStill : elsewhere_[joint.end[0]];
+    const EndMotion& b = joint.end[1] == kWorld ? kStill : elsewhere_[joint.end[1]];
+    joint.constraint->find_gaps(a, b, joint.gap.data());
     if (joint.row == CoordinateRow::none) continue;
     joint.gap[joint.rows] = joint.coordinate->with_turns(joint.coordinate->at(state).x, joint.target) - joint.target;
   }

@@ -97,7 +97,8 @@ class JointRows {
   const System& system_;
   std::vector<JointRow> joints_;
   std::vector<int> moved_;
-  std::vector<Frame> frames_;  // by body
+  std::vector<Frame> frames_;         // by body
+  std::vector<EndMotion> elsewhere_;  // the poses of measure_gaps()
   std::vector<Coupling> couplings_;
   Columns wrench_;
 };

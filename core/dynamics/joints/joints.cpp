@@ -185,8 +185,9 @@ void Joints::close_pose(MutableBodyColumns state) {
 }
 
 // Also if it falls no further, or is not a number.
-bool Joints::is_closed(double gap, double last) const {
-  return gap <= kClosed * extent_ || (gap <= kRounding * extent_ && gap > 0.5 * last) || !std::isfinite(gap);
+bool Joints::is_closed(double gap, double last, double within) const {
+  return gap <= std::max(kClosed, within) * extent_ || (gap <= kRounding * extent_ && gap > 0.5 * last) ||
+         !std::isfinite(gap);
 }
 
 void Joints::warn_of_gap(double gap) {
@@ -206,7 +207,8 @@ void Joints::aim_driven_coordinates(BodyColumns start, double h) {
 
 // A chord method: the impulse's effect on the end is taken to be h S, that of the start's J at both. It begins with
 // what the rows and their rates at the start say of the end, which leaves a gap of h³.
-void Joints::close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt) {
+bool Joints::close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt,
+                   double within) {
   factorise(start, Rows::chosen_anew);
   solve_for([&](const JointRow& joint) -> Vec6 {
     Vec6 b = -(rows_.times_velocity(joint) + 0.5 * h * joint.bias + joint.gap / h);
@@ -215,15 +217,16 @@ void Joints::close(BodyColumns start, double h, const std::function<BodyColumns(
   });
   aim_driven_coordinates(start, h);
   total_multipliers_ = multipliers_;
-  double gap = 0, last = std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-    gap = rows_.measure_gaps(attempt(rows_.wrench_of(total_multipliers_)));
-    if (is_closed(gap, last)) break;
+    const double gap = rows_.measure_gaps(attempt(rows_.wrench_of(total_multipliers_)));
+    if (is_closed(gap, last, within)) return std::isfinite(gap);
+    if (gap > extent_) return false;
     solve_for([h](const JointRow& joint) -> Vec6 { return -joint.gap / h; });
     for (std::size_t k = 0; k < rows_.size(); ++k) total_multipliers_[k] += multipliers_[k];
     last = gap;
   }
-  warn_of_gap(gap);
+  return last <= kOpen * extent_;
 }
 
 }  // namespace rigor

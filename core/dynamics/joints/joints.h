@@ -30,9 +30,13 @@ class Joints : public ConstraintForces {
   void project(MutableBodyColumns state);
 
   // Finds the impulse at the pose `start` that closes all joints at the end of a drift of length h [s] with the
-  // velocities of `start`. `attempt` takes wrench columns of an impulse and returns where a drift with it ends; its
-  // last call is with the impulse found.
-  void close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt);
+  // velocities of `start`, to `within` of the longest arm or to rounding. `attempt` takes wrench columns of an impulse
+  // and returns where a drift with it ends; its last call is with the impulse found. Returns false if there seems to be
+  // none: bodies turn by so much in h that nothing at its start can close the joints at its end.
+  bool close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt,
+             double within = 0);
+  // Notes as a warning what gap is left at a state, if there is one.
+  void warn_of_gap(BodyColumns state) { warn_of_gap(rows_.measure_gaps(state)); }
   // Adds an impulse to v and w at the pose of the last factorisation.
   void push(const double* impulse, MutableBodyColumns state) const { rows_.push(impulse, state); }
 
@@ -88,7 +92,7 @@ class Joints : public ConstraintForces {
   const double* impulse_against_velocities();
   void aim_driven_coordinates(BodyColumns start, double h);
   void close_pose(MutableBodyColumns state);
-  bool is_closed(double gap, double last) const;
+  bool is_closed(double gap, double last, double within = 0) const;
   void warn_of_gap(double gap);
   void warn_if_singular();
 

@@ -40,7 +40,8 @@ void add_product(double* to, const double* a, const double* b, int columns, int 
   }
 }
 
-// b (R x n) <- b L⁻ᵀ, L (n x n) lower triangular.
+// Of a lower triangular L the inverses of the diagonal are kept in its place: divisions take long.
+// b (R x n) <- b L⁻ᵀ, L (n x n).
 template <int R>
 void solve_on_the_right(double* b, const double* L, int n) {
   for (int k = 0; k < n; ++k) {
@@ -49,7 +50,7 @@ void solve_on_the_right(double* b, const double* L, int n) {
       const double factor = L[k + l * n];
       for (int i = 0; i < R; ++i) at[i] -= factor * b[i + l * R];
     }
-    const double inverse = 1 / L[k + k * n];
+    const double inverse = L[k + k * n];
     for (int i = 0; i < R; ++i) at[i] *= inverse;
   }
 }
@@ -58,7 +59,7 @@ void solve_on_the_right(double* b, const double* L, int n) {
 template <int R>
 void solve_lower(const double* L, double* x) {
   for (int k = 0; k < R; ++k) {
-    x[k] /= L[k + k * R];
+    x[k] *= L[k + k * R];
     for (int i = k + 1; i < R; ++i) x[i] -= L[i + k * R] * x[k];
   }
 }
@@ -66,7 +67,7 @@ template <int R>
 void solve_lower_transposed(const double* L, double* x) {
   for (int k = R; k-- > 0;) {
     for (int i = k + 1; i < R; ++i) x[k] -= L[i + k * R] * x[i];
-    x[k] /= L[k + k * R];
+    x[k] *= L[k + k * R];
   }
 }
 

@@ -8,12 +8,6 @@ namespace {
 
 constexpr int kSweeps = 4;  // over all rows, in each of the two passes
 
-Vec6 joined(const Vec3& linear, const Vec3& angular) {
-  Vec6 both;
-  both << linear, angular;
-  return both;
-}
-
 }  // namespace
 
 JointedRows::JointedRows(const Scene& scene, const System& system, Joints& joints)
