@@ -8,7 +8,7 @@
 
 #include "adapters/option_values.h"
 #include "core/dynamics/contact/contact_method.h"
-#include "core/dynamics/joints/joints.h"
+#include "core/dynamics/joints/joint_events.h"
 #include "core/engine/clock.h"
 #include "core/scene/contact_laws.h"
 
@@ -34,13 +34,15 @@ class CoreWorld : public World {
     set_initial_state(scene, state_.columns());
     if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_);
     if (anything_can_touch(scene)) {
-      auto stepper = contact_method_.make(scene, {system_, integrator_, orientation_, settings});
+      auto stepper = contact_method_.make(scene, {system_, integrator_, orientation_, settings, joints_.get()});
       contact_settings_ = stepper->settings_in_force();
       contact_settings_.insert(contact_settings_.begin(), {"contact", contact_method_.name});
       stepper_ = std::move(stepper);
     } else {
       contact_settings_ = {{"contact", "none in this scene"}};
       stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get(), &scene});
+      if (JointStops::are_in(scene))
+        stepper_ = std::make_unique<JointEvents>(scene, system_, *joints_, std::move(stepper_));
     }
   }
 
@@ -83,16 +85,9 @@ class CoreWorld : public World {
 };
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
-const Features kJointFeatures = {"joint:ball",
-                                 "joint:distance",
-                                 "joint:fixed",
-                                 "joint:hinge",
-                                 "joint:slider",
-                                 "joint:universal",
-                                 "joint-spring",
-                                 "joint-damper",
-                                 "joints-with-dampers",
-                                 "motor:effort",
+const Features kJointFeatures = {"joint:ball",   "joint:distance", "joint:fixed",         "joint:hinge",
+                                 "joint:slider", "joint:universal", "joint-spring",        "joint-damper",
+                                 "motor:effort", "motor:speed",     "joints-with-dampers", "joint-limit",
                                  "joint-limit:beyond-half-turn"};
 
 template <typename Rows>

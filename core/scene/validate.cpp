@@ -194,6 +194,11 @@ Fault fault_of(const Motor& motor, const Scene& scene) {
     return SceneFault{"", "what it drives by is not finite"};
   if (motor.speed && !(motor.most > 0))
     return SceneFault{"most", fmt::format("found {}; allowed: a number greater than 0", motor.most)};
+  for (const Motor& other : scene.motors) {
+    if (&other != &motor && other.joint == motor.joint && other.speed && motor.speed && other.from < motor.until &&
+        motor.from < other.until)
+      return SceneFault{"speed", "another motor prescribes the speed of the same joint at the same time"};
+  }
   return fault_of_times(motor.from, motor.until);
 }
 

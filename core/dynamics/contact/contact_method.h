@@ -28,6 +28,7 @@ struct ContactParts {
   const Integrator& integrator;
   const OrientationUpdate* orientation;  // see StepperParts
   Settings settings;
+  Joints* joints = nullptr;  // null where nothing holds the bodies together
 };
 
 struct ContactMethod {

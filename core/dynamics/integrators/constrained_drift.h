@@ -22,13 +22,15 @@ class ConstrainedDrift {
   template <typename Move>
   void drift(MutableBodyColumns state, Columns& carried, double h, const Move& move) {
     if (is_free()) return move(state, carried.data());
-    parts_.joints->close(state, h, [&](const double* impulse) -> BodyColumns {
+    kernels().velocity_of(parts_.system.constants.all(), state.column(0), carried.data());
+    const bool closed = parts_.joints->close(state, h, [&](const double* impulse) -> BodyColumns {
       end_ = BodyColumns(state);
       momenta_ = carried;
       kick(end_.columns(), momenta_, impulse);
       move(end_.columns(), momenta_.data());
       return end_.columns();
     });
+    if (!closed) parts_.joints->warn_of_gap(end_.columns());
     copy_columns(end_.columns(), state);
     std::swap(carried, momenta_);
   }

@@ -54,10 +54,13 @@ class DormandPrince : public Stepper {
     equations_.rates(y_, t, length, equations_.rates_of_stage(0), ConstraintForces::Rows::chosen_anew);
     while (left != 0) {
       const double count = std::ceil(std::abs(left) / longest), h = left / count;
+      const std::string noted = parts_.joints ? parts_.joints->noted() : "";
       take_stages(t, length, h);
       const double error = error_of_stages(h) / tolerance_;
       const bool given_up = ++tries == kMostTries || !is_finite(y_);
-      if (error <= 1 || given_up) {
+      if (!(error <= 1 || given_up)) {
+        if (parts_.joints) parts_.joints->note_only(noted);
+      } else {
         std::swap(y_, next_);
         left = count == 1 || given_up ? 0 : left - h;
         if (left != 0)

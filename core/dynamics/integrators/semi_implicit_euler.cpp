@@ -2,13 +2,18 @@
 //   v1 = v0 + dt F0/m,  w1 = w0 + dt I⁻¹(tau0 - w0 x I w0),  x1 = x0 + dt v1,  R1 = R0 turned by dt w1
 // The course's rule for contact acts between the two. Its velocities belong half a step before its positions. On an
 // oscillation of frequency f it is stable while f dt < 2. The gyroscopic term is explicit, so that a free body's spin
-// is not symplectic. With joints the velocities also get the impulses that close all joints at the step's end (SHAKE).
+// is not symplectic. With joints the velocities also get the impulses that close all joints at the step's end (SHAKE);
+// where bodies turn by so much in a step that there are none, those that the velocities need at its start, and the
+// least motion back at its end.
 #include "core/dynamics/integrators/euler_passes.h"
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {
 namespace {
+
+// Of the longest arm: gaps that are closed anew in each step need no more, for nothing adds up.
+constexpr double kClosed = 1e-12;
 
 class SemiImplicitEuler : public Stepper {
  public:
@@ -34,12 +39,16 @@ class SemiImplicitEuler : public Stepper {
   void constrained_step(MutableBodyColumns state, const double* wrench, double dt) {
     const BodyConstants& bodies = parts_.system.constants;
     bodies.for_each_block([&](const Bodies& block) { passes_.kick(block, state, wrench, dt); });
-    parts_.joints->close(state, dt, [&](const double* impulse) -> BodyColumns {
+    const auto drift = [&](const double* impulse) -> BodyColumns {
       end_ = BodyColumns(state);
       parts_.joints->push(impulse, end_.columns());
       bodies.for_each_block([&](const Bodies& block) { passes_.drift(block, end_.columns(), dt); });
       return end_.columns();
-    });
+    };
+    if (!parts_.joints->close(state, dt, drift, kClosed)) {
+      drift(parts_.joints->velocity_impulse(state));
+      parts_.joints->project(end_.columns());
+    }
     copy_columns(end_.columns(), state);
   }
 

@@ -4,13 +4,14 @@
 namespace rigor {
 namespace {
 
-class Ball : public JointConstraint {
+class Ball : public JointOf<Ball> {
  public:
   Ball(const BallJoint& joint, const EndsAtStart& ends)
       : arm_a_(ends.in_a(joint.anchor)), arm_b_(ends.in_b(joint.anchor)) {}
 
   int rows() const override { return 3; }
-  void evaluate(const EndMotion& a, const EndMotion& b, ConstraintRow* out) const override {
+  template <typename Row>
+  void fill(const EndMotion& a, const EndMotion& b, Row* out) const {
     keep_together(a, a.R * arm_a_, b, b.R * arm_b_, out);
   }
 

@@ -17,23 +17,27 @@
 
 namespace rigor {
 
-using Block6 = Eigen::Matrix<double, 6, 6>;  // of joints with fewer rows: the rest is the identity's
+using Block6 = Eigen::Matrix<double, 6, 6>;
+using Block = Eigen::Map<Eigen::MatrixXd>;  // without gaps between its columns
 
 class BlockCholesky {
  public:
-  // `rows` of each joint, and the pairs of joints that share a body, in any order, also more than once.
+  // `rows` of each joint, at most six, and the pairs of joints that share a body, in any order, also more than once.
   BlockCholesky(std::vector<int> rows, const std::vector<std::pair<int, int>>& coupled);
 
   std::size_t size() const { return rows_.size(); }
   void clear();
-  Block6& diagonal(std::size_t joint) { return diagonal_[position_[joint]]; }
+  // Rows that a joint may have but has not now: identity there, and zero in the blocks beside. Ranks are to be found
+  // anew after it.
+  void set_rows_in_use(std::size_t joint, int rows) { in_use_[position_[joint]] = rows; }
+  Block diagonal(std::size_t joint) { return {diagonal_of(position_[joint]), rows_[joint], rows_[joint]}; }
   // The place of the block of two joints that share a body, and whether it is (second, first) that stands there.
   struct Place {
     std::int32_t index;
     bool transposed;
   };
   Place place(int first, int second) const;
-  Block6& block(std::int32_t index) { return blocks_[static_cast<std::size_t>(index)]; }
+  Block block(std::int32_t index) { return {block_at(index), block_rows_[index], block_columns_[index]}; }
 
   // Finds each block's rank from the S that has been filled in, on the manifold: a pivot is zero if it is below kZero
   // of the row's own diagonal element. Rounding leaves 1e-11 of it where masses and inertias differ by 1e5; a true one
@@ -54,24 +58,51 @@ class BlockCholesky {
   double smallest_pivot() const { return smallest_pivot_; }
   std::size_t joint_of_smallest_pivot() const { return joint_of_smallest_; }
   // Solves S x = b in place; a row left out gets 0.
-  void solve(std::vector<Vec6>& x) const;
+  void solve(std::vector<Vec6>& x) const { solve(x, 0, size()); }
+
+  // Joints that are connected by bodies that can move make a component; its joints are eliminated one after another.
+  // Numbered in the order of their first joints.
+  int components() const { return components_; }
+  int component_of(std::size_t joint) const { return component_[joint]; }
+  // solve() for the joints of a component alone; the others' x is not read.
+  void solve_component(int component, std::vector<Vec6>& x) const {
+    solve(x, first_of_component_[component], first_of_component_[component + 1]);
+  }
 
  private:
+  void solve(std::vector<Vec6>& x, std::size_t first, std::size_t last) const;
+  void find_components(const std::vector<std::pair<int, int>>& coupled);
   void order(const std::vector<std::pair<int, int>>& coupled);
   void list_products();
+  void lay_out();
+  int rows_at(std::size_t p) const { return rows_[joint_[p]]; }
+  double* diagonal_of(std::size_t p) { return values_.data() + diagonal_start_[p]; }
+  const double* diagonal_of(std::size_t p) const { return values_.data() + diagonal_start_[p]; }
+  double* block_at(std::int32_t index) { return values_.data() + block_start_[static_cast<std::size_t>(index)]; }
+  const double* block_at(std::int32_t index) const {
+    return values_.data() + block_start_[static_cast<std::size_t>(index)];
+  }
+  void note_scales();
   void eliminate(std::size_t p, bool choose, bool find_rank);
   void choose_rows(std::size_t p, bool find_rank);
-  void factorise_diagonal(std::size_t p, const Vec6& scale);
+  void leave_out_rows(std::size_t p);
+  template <int R>
+  void factorise_diagonal(std::size_t p);
 
-  std::vector<int> rows_, rank_;       // by joint; by position
-  std::vector<std::size_t> joint_;     // by position in the order of elimination
-  std::vector<std::size_t> position_;  // by joint
-  std::vector<Block6> diagonal_;       // by position
-  std::vector<Vec6> scale_, kept_;     // by position: the diagonal before elimination; 1 for a row that counts, or 0
+  std::vector<int> rows_, in_use_, rank_;  // by joint; by position
+  std::vector<std::size_t> joint_;         // by position in the order of elimination
+  std::vector<std::size_t> position_;      // by joint
+  // Each column of blocks in one piece, in the order of elimination: its diagonal block, then those below.
+  std::vector<double> values_;
+  std::vector<std::size_t> diagonal_start_, block_start_;
+  std::vector<Vec6> scale_, kept_;  // by position: the diagonal before elimination; 1 for a row that counts, or 0
   std::vector<std::int32_t> first_below_, row_below_;  // blocks below the diagonal, column by column, rows ascending
-  std::vector<Block6> blocks_;                         // in that order
+  std::vector<int> block_rows_, block_columns_;        // in that order
   std::vector<std::int32_t> target_;  // of the product of each two blocks of a column, in order: a block, or ~position
   std::vector<std::size_t> first_target_;
+  std::vector<int> component_;  // by joint
+  std::vector<std::size_t> first_of_component_;
+  int components_ = 0;
   bool has_redundant_ = false;
   double smallest_pivot_ = 1;
   std::size_t joint_of_smallest_ = 0;

@@ -4,7 +4,7 @@
 namespace rigor {
 namespace {
 
-class Distance : public JointConstraint {
+class Distance : public JointOf<Distance> {
  public:
   Distance(const DistanceJoint& joint, const EndsAtStart& ends)
       : arm_a_(joint.point_a),
@@ -12,8 +12,9 @@ class Distance : public JointConstraint {
         distance_((ends.b.position + ends.b.R * arm_b_ - ends.a.position - ends.a.R * arm_a_).norm()) {}
 
   int rows() const override { return 1; }
-  void evaluate(const EndMotion& a, const EndMotion& b, ConstraintRow* out) const override {
-    *out = keep_distance(a, a.R * arm_a_, b, b.R * arm_b_, distance_);
+  template <typename Row>
+  void fill(const EndMotion& a, const EndMotion& b, Row* out) const {
+    keep_distance(a, a.R * arm_a_, b, b.R * arm_b_, distance_, out);
   }
 
  private:

@@ -5,16 +5,17 @@
 namespace rigor {
 namespace {
 
-class Fixed : public JointConstraint {
+class Fixed : public JointOf<Fixed> {
  public:
   explicit Fixed(const EndsAtStart& ends)
       : arm_a_(ends.in_a(ends.b.position)), axes_a_(ends.a.R.transpose() * ends.b.R) {}
 
   int rows() const override { return 6; }
-  void evaluate(const EndMotion& a, const EndMotion& b, ConstraintRow* out) const override {
+  template <typename Row>
+  void fill(const EndMotion& a, const EndMotion& b, Row* out) const {
     keep_together(a, a.R * arm_a_, b, Vec3::Zero(), out);
     const Mat3 axes = a.R * axes_a_;
-    for (int k = 0; k < 3; ++k) out[3 + k] = keep_right_angle(a, axes.col(k), b, b.R.col((k + 1) % 3));
+    for (int k = 0; k < 3; ++k) keep_right_angle(a, axes.col(k), b, b.R.col((k + 1) % 3), out + 3 + k);
   }
 
  private:

@@ -4,7 +4,7 @@
 namespace rigor {
 namespace {
 
-class Hinge : public JointConstraint {
+class Hinge : public JointOf<Hinge> {
  public:
   Hinge(const HingeJoint& joint, const EndsAtStart& ends)
       : arm_a_(ends.in_a(joint.anchor)), arm_b_(ends.in_b(joint.anchor)), axis_b_(ends.direction_in_b(joint.axis)) {
@@ -13,11 +13,12 @@ class Hinge : public JointConstraint {
   }
 
   int rows() const override { return 5; }
-  void evaluate(const EndMotion& a, const EndMotion& b, ConstraintRow* out) const override {
+  template <typename Row>
+  void fill(const EndMotion& a, const EndMotion& b, Row* out) const {
     keep_together(a, a.R * arm_a_, b, b.R * arm_b_, out);
     const Vec3 axis = b.R * axis_b_;
-    out[3] = keep_right_angle(a, a.R * first_a_, b, axis);
-    out[4] = keep_right_angle(a, a.R * second_a_, b, axis);
+    keep_right_angle(a, a.R * first_a_, b, axis, out + 3);
+    keep_right_angle(a, a.R * second_a_, b, axis, out + 4);
   }
 
  private:

@@ -15,6 +15,19 @@ class JointConstraint {
   virtual int rows() const = 0;
   // Fills rows() of them.
   virtual void evaluate(const EndMotion& a, const EndMotion& b, ConstraintRow* out) const = 0;
+  // Of them the gaps alone, from the ends' poses.
+  virtual void find_gaps(const EndMotion& a, const EndMotion& b, double* out) const = 0;
+};
+
+// For a joint that says what its rows are once, in a template fill(a, b, out) for either kind of row.
+template <typename Own>
+class JointOf : public JointConstraint {
+ public:
+  void evaluate(const EndMotion& a, const EndMotion& b, ConstraintRow* out) const final { own().fill(a, b, out); }
+  void find_gaps(const EndMotion& a, const EndMotion& b, double* out) const final { own().fill(a, b, out); }
+
+ private:
+  const Own& own() const { return static_cast<const Own&>(*this); }
 };
 
 // The poses of the two ends at t = 0, and what is given in W as they see it.

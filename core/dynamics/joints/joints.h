@@ -4,6 +4,8 @@
 //   velocities     J V = 0 by an impulse Jᵀ l                 velocity_impulse()
 //   a drift        that ends where g = 0, by an impulse at its start along J there  (SHAKE and RATTLE)   close()
 //   a state        moved by the least motion in the metric of M to g = 0 and J V = 0    project()
+// Coordinates that are kept or driven (joint_rows.h) have rows in all of these; which are is for their owner to say
+// (joint_stops.h).
 #pragma once
 
 #include <functional>
@@ -11,11 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "core/dynamics/joints/block_cholesky.h"
-#include "core/dynamics/joints/joint_constraint.h"
+#include "core/dynamics/joints/joint_rows.h"
 #include "core/dynamics/model/constraint_forces.h"
-#include "core/dynamics/model/system.h"
-#include "core/engine/columns.h"
 
 namespace rigor {
 
@@ -30,77 +29,84 @@ class Joints : public ConstraintForces {
   const double* velocity_impulse(BodyColumns state);
   void project(MutableBodyColumns state);
 
-  // Finds the impulse at the pose `start` that closes all joints at the end of a drift of length h [s]. `attempt` takes
-  // wrench columns of an impulse and returns where a drift with it ends; its last call is with the impulse found.
-  void close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt);
+  // Finds the impulse at the pose `start` that closes all joints at the end of a drift of length h [s] with the
+  // velocities of `start`, to `within` of the longest arm or to rounding. `attempt` takes wrench columns of an impulse
+  // and returns where a drift with it ends; its last call is with the impulse found. Returns false if there seems to be
+  // none: bodies turn by so much in h that nothing at its start can close the joints at its end.
+  bool close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt,
+             double within = 0);
+  // Notes as a warning what gap is left at a state, if there is one.
+  void warn_of_gap(BodyColumns state) { warn_of_gap(rows_.measure_gaps(state)); }
   // Adds an impulse to v and w at the pose of the last factorisation.
-  void push(const double* impulse, MutableBodyColumns state) const;
+  void push(const double* impulse, MutableBodyColumns state) const { rows_.push(impulse, state); }
 
   // The largest |g| at a state [m, or sine of an angle].
-  double gap(BodyColumns state) { return measure_gaps(state); }
+  double gap(BodyColumns state) { return rows_.measure_gaps(state); }
+
+  // What the row of a joint's coordinate says from now on; see joint_rows.h. count_rows() is due after the last change.
+  void set_coordinate(std::size_t joint, CoordinateRow row, double target, double rate);
+  // Counts anew at a state where the joints are closed which rows repeat others.
+  void count_rows(BodyColumns state);
+  // After hold() the effort on b that a coordinate's row takes [N m, N], after velocity_impulse() the impulse; 0
+  // without a row.
+  double coordinate_effort(std::size_t joint) const;
+  // After hold(): x'' of a coordinate.
+  double coordinate_acceleration(std::size_t joint, BodyColumns state) const;
+  // The largest multiplier of the last solution: what rounding of efforts is measured against.
+  double largest_multiplier() const;
+
+  // Bodies that joints connect make a component; a body without joints is in none, -1.
+  int components() const { return factor_.components(); }
+  int component_of(int body) const { return component_of_body_[body]; }
+  const std::vector<int>& bodies_of(int component) const { return bodies_of_component_[component]; }
+  // At the pose of the last factorisation: takes from changes of velocity, by body, of a component what its joints do
+  // not allow.
+  void restrict(int component, std::vector<Vec6>& change);
 
   // Rows of all joints, and how many of them do not repeat others.
-  int rows() const { return rows_total_; }
-  int rank() const { return rank_total_; }
+  int rows() const;
+  int rank() const { return factor_.rank(); }
 
   // Why what was done since begin_step() is not what was asked; empty if it is.
   void begin_step() { warning_.clear(); }
-  std::string warning() const { return contradiction_.empty() ? warning_ : contradiction_; }
+  std::string warning() const { return at_start_.empty() ? warning_ : at_start_; }
+  // What was noted so far, for who tries a step and then takes another: what the refused one noted is not kept.
+  const std::string& noted() const { return warning_; }
+  void note_only(std::string warning) { warning_ = std::move(warning); }
 
  private:
-  struct Held {  // a joint
-    std::unique_ptr<JointConstraint> constraint;
-    int rows = 0;
-    int end[2] = {kWorld, kWorld};                   // the bodies at its ends
-    int body[2] = {kWorld, kWorld};                  // of those the ones that can move, or kWorld
-    Block6 J[2] = {Block6::Zero(), Block6::Zero()};  // one row a row; zero beyond rows
-    Block6 Y[2] = {Block6::Zero(), Block6::Zero()};  // J M⁻¹
-    Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();    // zero beyond rows
-  };
-  struct Coupling {  // two joints on a body
-    std::int32_t first, second;
-    std::int8_t first_end, second_end;
-    BlockCholesky::Place place;
-  };
-  struct Frame {  // of a body that some joint moves
-    EndMotion motion;
-    Mat3 inverse_inertia_W;  // 1/(kg m²)
-  };
-
-  void list_couplings();
+  // joints_at_start.cpp
   void find_ranks(BodyColumns state);
   void look_for_contradictions();
-  void evaluate(BodyColumns state);              // frames, J, gaps and biases
-  void assemble();                               // S
-  void factorise(BodyColumns state, Rows rows);  // all of these, and the factor
-  // The largest |g| at other poses; J stays.
-  double measure_gaps(BodyColumns state);
-  double largest_gap() const;
+  void look_for_singularity(BodyColumns start);
+
+  void list_components();
+  void factorise(BodyColumns state, Rows rows);
   template <typename RightSide>
-  void solve_for(const RightSide& right_side);
+  void solve_for(const RightSide& right_side) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) multipliers_[k] = right_side(rows_.joint(k));
+    solve();
+  }
+  void solve();  // for the right side in multipliers_
   void refine();
-  const double* as_wrench(const std::vector<Vec6>& multipliers);
-  Vec6 free_acceleration(int body, const double* wrench) const;
   const double* impulse_against_velocities();
+  void aim_driven_coordinates(BodyColumns start, double h);
   void close_pose(MutableBodyColumns state);
-  void move(const double* wrench, MutableBodyColumns state) const;
-  bool is_closed(double gap, double last) const;
+  bool is_closed(double gap, double last, double within = 0) const;
   void warn_of_gap(double gap);
   void warn_if_singular();
 
   const System& system_;
   std::vector<std::string> names_;
-  std::vector<Held> joints_;
-  std::vector<int> moved_;     // bodies
-  std::vector<Frame> frames_;  // by body
-  std::unique_ptr<BlockCholesky> factor_;
-  std::vector<Coupling> couplings_;
+  JointRows rows_;
+  BlockCholesky factor_;
   std::vector<Vec6> multipliers_, total_multipliers_, right_side_, correction_;  // by joint
   std::vector<Vec6> free_;  // by body: accelerations without joints
-  Columns wrench_, total_;
+  std::vector<int> component_of_body_;
+  std::vector<std::vector<int>> bodies_of_component_, joints_of_component_;  // bodies that can move
+  Columns total_;
   double extent_ = 1;  // m: the longest arm, what gaps are small against
-  int rows_total_ = 0, rank_total_ = 0;
-  std::string contradiction_, warning_;
+  std::string at_start_, warning_;
 };
 
 }  // namespace rigor

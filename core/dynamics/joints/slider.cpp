@@ -5,7 +5,7 @@
 namespace rigor {
 namespace {
 
-class Slider : public JointConstraint {
+class Slider : public JointOf<Slider> {
  public:
   Slider(const SliderJoint& joint, const EndsAtStart& ends) : axes_a_(ends.a.R.transpose() * ends.b.R) {
     const Across across = directions_across(joint.axis);
@@ -15,10 +15,11 @@ class Slider : public JointConstraint {
   }
 
   int rows() const override { return 5; }
-  void evaluate(const EndMotion& a, const EndMotion& b, ConstraintRow* out) const override {
-    for (int k = 0; k < 2; ++k) out[k] = keep_offset(a, a.R * across_a_[k], b, offset_[k]);
+  template <typename Row>
+  void fill(const EndMotion& a, const EndMotion& b, Row* out) const {
+    for (int k = 0; k < 2; ++k) keep_offset(a, a.R * across_a_[k], b, offset_[k], out + k);
     const Mat3 axes = a.R * axes_a_;
-    for (int k = 0; k < 3; ++k) out[2 + k] = keep_right_angle(a, axes.col(k), b, b.R.col((k + 1) % 3));
+    for (int k = 0; k < 3; ++k) keep_right_angle(a, axes.col(k), b, b.R.col((k + 1) % 3), out + 2 + k);
   }
 
  private:

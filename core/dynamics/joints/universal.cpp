@@ -4,7 +4,7 @@
 namespace rigor {
 namespace {
 
-class Universal : public JointConstraint {
+class Universal : public JointOf<Universal> {
  public:
   Universal(const UniversalJoint& joint, const EndsAtStart& ends)
       : arm_a_(ends.in_a(joint.anchor)),
@@ -13,9 +13,10 @@ class Universal : public JointConstraint {
         axis_b_(ends.direction_in_b((joint.axis2 - joint.axis2.dot(joint.axis) * joint.axis).normalized())) {}
 
   int rows() const override { return 4; }
-  void evaluate(const EndMotion& a, const EndMotion& b, ConstraintRow* out) const override {
+  template <typename Row>
+  void fill(const EndMotion& a, const EndMotion& b, Row* out) const {
     keep_together(a, a.R * arm_a_, b, b.R * arm_b_, out);
-    out[3] = keep_right_angle(a, a.R * axis_a_, b, b.R * axis_b_);
+    keep_right_angle(a, a.R * axis_a_, b, b.R * axis_b_, out + 3);
   }
 
  private:

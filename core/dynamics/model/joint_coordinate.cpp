@@ -1,6 +1,7 @@
 #include "core/dynamics/model/joint_coordinate.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace rigor {
 namespace {
@@ -37,6 +38,7 @@ JointCoordinate::Value JointCoordinate::at(BodyColumns bodies) const {
     const Vec3 from = a.R * reference_a_, to = b.R * reference_b_;
     value.x = std::atan2(axis.dot(from.cross(to)), from.dot(to));
     value.rate = axis.dot(b.angular_velocity - a.angular_velocity);
+    value.bias = a.angular_velocity.cross(axis).dot(b.angular_velocity);
     value.torque_a = -axis, value.torque_b = axis;
     return value;
   }
@@ -44,9 +46,17 @@ JointCoordinate::Value JointCoordinate::at(BodyColumns bodies) const {
   const Vec3 line = b.position - a.position;
   value.x = axis.dot(line) - start_;
   value.torque_a = axis.cross(line);
-  value.rate = axis.dot(b.velocity - a.velocity) + a.angular_velocity.dot(value.torque_a);
+  const Vec3 coming = b.velocity - a.velocity, turning = a.angular_velocity.cross(axis);
+  value.rate = axis.dot(coming) + a.angular_velocity.dot(value.torque_a);
+  value.bias = 2 * turning.dot(coming) + a.angular_velocity.cross(turning).dot(line);
   value.force = axis;
   return value;
+}
+
+double JointCoordinate::with_turns(double x, double near) const {
+  if (!turns_) return x;
+  constexpr double kTurn = 2 * std::numbers::pi;
+  return x + kTurn * std::round((near - x) / kTurn);
 }
 
 }  // namespace rigor

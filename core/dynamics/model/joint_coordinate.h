@@ -1,5 +1,6 @@
-// The one coordinate x of a hinge or a slider, on which its spring, damper and motors act: the angle [rad] by which b
-// has turned against a about the axis since t = 0, from -pi to pi, or the way [m] that b's centre has come along it.
+// The one coordinate x of a hinge or a slider, on which its spring, damper, limits and motors act: the angle [rad] by
+// which b has turned against a about the axis since t = 0, from -pi to pi, or the way [m] that b's centre has come
+// along it.
 #pragma once
 
 #include "core/engine/body_table.h"
@@ -17,10 +18,15 @@ class JointCoordinate {
 
   struct Value {
     double x = 0, rate = 0;                                 // rad, rad/s or m, m/s
+    double bias = 0;                                        // of the rate's own rate, what no acceleration makes
     Vec3 force = Vec3::Zero();                              // of a unit of effort on b; the opposite on a. N/N, in W
     Vec3 torque_a = Vec3::Zero(), torque_b = Vec3::Zero();  // about the centres of mass, in W
   };
   Value at(BodyColumns bodies) const;
+
+  bool turns() const { return turns_; }
+  // x and as many whole turns as bring it nearest to `near`; of a slider x itself.
+  double with_turns(double x, double near) const;
 
  private:
   int a_, b_;

@@ -1,6 +1,7 @@
 #include "core/dynamics/model/loads.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace rigor {
@@ -44,7 +45,7 @@ double share_of_step(double from, double until, double t, double dt) {
 }
 
 double JointDrive::effort(const JointCoordinate::Value& at, double t, double dt) const {
-  double sum = -stiffness * (at.x - rest) - damping * at.rate;
+  double sum = push - stiffness * (at.x - rest) - damping * at.rate;
   for (const Motor& motor : motors) sum += share_of_step(motor.from, motor.until, t, dt) * motor.effort;
   return sum;
 }
@@ -60,11 +61,22 @@ Loads::Loads(const Scene& scene)
 void Loads::add_drive(const Scene& scene, std::size_t k) {
   const Joint& joint = scene.joints[k];
   std::vector<Motor> motors;
+  bool has_speed = false;
   for (const Motor& motor : scene.motors) {
-    if (motor.joint == static_cast<int>(k) && !motor.speed) motors.push_back(motor);
+    if (motor.joint != static_cast<int>(k)) continue;
+    if (motor.speed)
+      has_speed = true;
+    else
+      motors.push_back(motor);
   }
-  if (joint.stiffness == 0 && joint.damping == 0 && motors.empty()) return;
-  drives_.push_back({JointCoordinate(scene, joint), joint.stiffness, joint.damping, joint.rest, std::move(motors)});
+  if (joint.stiffness == 0 && joint.damping == 0 && motors.empty() && !has_speed) return;
+  drives_.push_back({JointCoordinate(scene, joint), k, joint.stiffness, joint.damping, joint.rest, std::move(motors)});
+}
+
+void Loads::set_push(std::size_t joint, double effort) {
+  const auto drive = std::find_if(drives_.begin(), drives_.end(), [&](const auto& d) { return d.joint == joint; });
+  assert(drive != drives_.end() && "a joint whose motor has a speed has a drive");
+  drive->push = effort;
 }
 
 void Loads::evaluate(BodyColumns bodies, double t, double dt, Wrenches& out) const {

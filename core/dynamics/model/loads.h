@@ -36,8 +36,10 @@ inline double share_of_step(const TimedForce& force, double t, double dt) {
 // What acts on a joint's coordinate x: -stiffness (x - rest) - damping x', and the efforts of its motors.
 struct JointDrive {
   JointCoordinate coordinate;
+  std::size_t joint;  // index
   double stiffness, damping, rest;
   std::vector<Motor> motors = {};  // that give an effort
+  double push = 0;                 // N m, N: of motors that are on the way to their speed; see Loads::set_push()
 
   double effort(const JointCoordinate::Value& at, double t, double dt) const;
 };
@@ -87,6 +89,8 @@ class Loads {
   void set_force(std::size_t index, const Vec3& force, const Vec3& torque) {
     forces_[index].force = force, forces_[index].torque = torque;
   }
+  // What the motors of a joint that has one of a given speed put on its coordinate from now on [N m, N].
+  void set_push(std::size_t joint, double effort);
   const std::vector<JointDrive>& drives() const { return drives_; }
   bool empty() const { return springs_.empty() && forces_.empty() && drives_.empty(); }
   bool damped() const { return damped_; }

@@ -103,6 +103,12 @@ const std::vector<Row> kSpoilt = {
     {[](Scene& s) { s.joints[0].type = FixedJoint{}; }, "motor 1: joint"},
     {[](Scene& s) { s.motors[0].speed = 1; }, "motor 1: most"},
     {[](Scene& s) { s.motors[0].until = 0; }, "motor 1: until"},
+    {[](Scene& s) {
+       s.motors[0].speed = 1, s.motors[0].most = 2, s.motors[0].until = 3;
+       s.motors.push_back(s.motors[0]);
+       s.motors[1].from = 2, s.motors[1].until = 4;
+     },
+     "motor 1: speed"},
     {[](Scene& s) { s.contact_pairs[0].b = 1; }, "contact 1: b"},
     {[](Scene& s) {
        s.contact_pairs.push_back({2, 1, {}});

@@ -9,51 +9,16 @@
 // pushed bodies out leaves them no speed; and what came together fast gets its restitution,
 //   u_n' = -e u_n.
 // The row arithmetic is in kernels/contact_row_kernels-inl.h, several rows at a time.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
+#include "core/dynamics/contact/impulse/jointed_impulse.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
-#include "core/engine/option_values.h"
+#include "core/dynamics/contact/impulse/sub_steps.h"
 
 namespace rigor {
 namespace {
-
-// So short that what a spring as stiff as a sub-step allows gives way under ten bodies is a fraction of a millimetre.
-// Steps longer than kCoarse are chosen for their small number, and leave time for more work in each; and bodies that
-// weigh many times as much as others need it: of boxes in a pyramid on sub-steps of 1/480 s, a top of thirty or a
-// hundred times the others' mass moves them by 5 mm at most, one of three hundred by up to 10 cm.
-constexpr double kCoarse = 1.0 / 50, kLongestSubStep = 1.0 / 480, kShorterSubStep = 1.0 / 960;  // s
-constexpr double kUnevenMassRatio = 30;
-constexpr int kFewestSubSteps = 4;
-
-// Contacts keep their normals for so long.
-constexpr double kContactUpdateInterval = 1.0 / 120;  // s
-
-constexpr double kDampingRatio = 10;              // zeta of the soft constraint
-constexpr double kContactHertzPerSubStep = 0.25;  // its frequency, of that of the sub-steps
-constexpr double kMaxPushSpeed = 3;               // m/s
-
-// What comes together faster than gravity brings it in so many sub-steps is an impact.
-constexpr double kSubStepsOfFall = 4;
-constexpr int kMaxImpactSweeps = 30;       // over the points of an impact, of which few bodies have more than four
-constexpr double kImpactTolerance = 1e-3;  // of the restitution threshold
-
-// What is a whole number but for rounding is not made one more.
-int rounded_up(double count) { return static_cast<int>(std::ceil(count - 1e-9)); }
-
-bool has_uneven_masses(const Scene& scene) {
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (const Body& body : scene.bodies) {
-    if (!body.fixed && body.collides) least = std::min(least, body.mass), most = std::max(most, body.mass);
-  }
-  return most > kUnevenMassRatio * least;
-}
 
 // What integrate_corrections() does to the orientations of an integrator that keeps matrices.
 void turn_matrices(const AlignedDoubles& velocities, double h, MutableBodyColumns state) {
@@ -68,16 +33,11 @@ class ImpulseStepper : public ContactStepper {
  public:
   ImpulseStepper(const Scene& scene, const ContactParts& parts)
       : system_(parts.system),
-        sub_steps_(static_cast<int>(number_option(parts.settings, "substeps", 0))),
-        longest_sub_step_(has_uneven_masses(scene) ? kShorterSubStep : kLongestSubStep),
+        sub_steps_(scene, parts),
         manifolds_(scene),
         rows_(parts.system),
         positions_(kVelocity, parts.system.size()),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
-    // A semi-implicit method moves by the velocity after the sub-step, the others by the mean of both.
-    parameters_.theta = parts.integrator.leapfrog_stagger > 0 ? 1 : 0.5;
-    parameters_.max_push_speed = kMaxPushSpeed;
-    parameters_.max_sweeps = kMaxImpactSweeps;
     const std::size_t idle = rows_.idle_body();
     for (AlignedDoubles* records : {&velocities_, &displacements_, &inverse_inertias_})
       records->assign(kRecord * (idle + 2), 0.0);
@@ -87,7 +47,7 @@ class ImpulseStepper : public ContactStepper {
 
   void step(MutableBodyColumns state, double t, double dt) override {
     if (!(dt > 0)) return integrator_->step(state, t, dt);
-    const int count = sub_steps_of(dt), updates = std::min(count, rounded_up(dt / kContactUpdateInterval));
+    const int count = sub_steps_.of(dt), updates = std::min(count, rounded_up(dt / kContactUpdateInterval));
     const double h = dt / count;
     for (int update = 0, k = 0; update < updates; ++update) {
       const int end = (update + 1) * count / updates;
@@ -110,38 +70,16 @@ class ImpulseStepper : public ContactStepper {
   std::string solver_warning() const override { return integrator_->solver_warning(); }
 
   SettingsInForce settings_in_force() const override {
-    return {{"contact solver", "sequential impulses, two passes a sub-step, warm start"},
-            {"contacts", fmt::format("found once a step and every 1/{:.0f} s", 1 / kContactUpdateInterval)},
-            {"sub-steps",
-             sub_steps_ > 0
-                 ? fmt::format("{} a step", sub_steps_)
-                 : fmt::format("at least {} a step, none longer than 1/{:.0f} s (1/{:.0f} s in steps over 1/50 s)",
-                               kFewestSubSteps, 1 / longest_sub_step_, 1 / kShorterSubStep)}};
+    SettingsInForce settings = sub_steps_.settings_in_force();
+    settings.insert(settings.begin(), {"contact solver", "sequential impulses, two passes a sub-step, warm start"});
+    return settings;
   }
 
  private:
-  int sub_steps_of(double dt) const {
-    if (sub_steps_ > 0) return sub_steps_;
-    return std::max(kFewestSubSteps, rounded_up(dt / (dt > kCoarse ? kShorterSubStep : longest_sub_step_)));
-  }
-
-  // The soft constraint of frequency f and damping ratio zeta, omega = 2 pi f, integrated implicitly over h:
-  //   bias_rate = omega / (2 zeta + h omega),  mass_scale = a / (1 + a),  impulse_scale = 1 / (1 + a),
-  // with a = h omega (2 zeta + h omega).
-  void soften(double h) {
-    const double h_omega = 2 * std::numbers::pi * kContactHertzPerSubStep;
-    const double a1 = 2 * kDampingRatio + h_omega, a2 = h_omega * a1;
-    parameters_.h = h;
-    parameters_.bias_rate = h_omega / (h * a1);
-    parameters_.mass_scale = a2 / (1 + a2), parameters_.impulse_scale = 1 / (1 + a2);
-    parameters_.restitution_threshold = kSubStepsOfFall * h * system_.scene_gravity.norm();
-    parameters_.tolerance = kImpactTolerance * parameters_.restitution_threshold;
-  }
-
   // For sub-steps of h with these contacts: effective masses, and the last impulses, scaled to h.
   void prepare(BodyColumns state, const std::vector<ContactConstraint>& constraints, double h) {
     const double impulse_scale = parameters_.h > 0 ? h / parameters_.h : 1;
-    soften(h);
+    parameters_ = sub_steps_.parameters(h);
     for (int c = 0; c < kVelocity; ++c) std::copy_n(state.column(c), state.size(), positions_.column(c));
     kernels().gather_velocities(all_bodies(), state.column(0), velocities_.data());
     kernels().gather_inverse_inertias(all_bodies(), state.column(0), inverse_inertias_.data());
@@ -193,8 +131,7 @@ class ImpulseStepper : public ContactStepper {
   }
 
   const System& system_;
-  int sub_steps_;            // 0: as dt asks
-  double longest_sub_step_;  // s
+  SubSteps sub_steps_;
   Manifolds manifolds_;
   ContactRowLayout rows_;
   SolverParameters parameters_{};
@@ -206,21 +143,26 @@ class ImpulseStepper : public ContactStepper {
   std::unique_ptr<Stepper> integrator_;
 };
 
+std::unique_ptr<ContactStepper> make_impulse_stepper(const Scene& scene, const ContactParts& parts) {
+  if (parts.joints) return make_jointed_impulse_stepper(scene, parts);
+  return std::make_unique<ImpulseStepper>(scene, parts);
+}
+
 }  // namespace
 
 extern const ContactMethod kImpulseContact;
 const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
-    .features =
-        joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none", "restitution"}),
+    .features = joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none",
+                                                  "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
     .options = {{.name = "substeps",
                  .meaning = "of contact=impulse in a step; default: at least 4, none longer than 1/480 s, or 1/960 s "
                             "in steps over 1/50 s and where masses differ by more than 30 to 1",
                  .min = 1,
                  .max = 10000,
                  .whole = true}},
-    .make = make_contact_stepper<ImpulseStepper>,
+    .make = make_impulse_stepper,
 };
 
 }  // namespace rigor

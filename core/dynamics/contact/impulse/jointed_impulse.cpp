@@ -1,0 +1,97 @@
+// Contact by impulses (impulse.cpp) of bodies that joints hold together, with limits and motors. A sub-step is the same
+// but for three things: the integrator moves the bodies with their joints; the impulses of rows act through the joints
+// (jointed_rows.h); and the sub-step ends with the least motion that closes the joints again, for the corrections of
+// positions went along their tangents.
+#include "core/dynamics/contact/impulse/jointed_impulse.h"
+
+#include <algorithm>
+
+#include "core/dynamics/contact/impulse/jointed_rows.h"
+#include "core/dynamics/contact/impulse/sub_steps.h"
+
+namespace rigor {
+namespace {
+
+class JointedImpulseStepper : public ContactStepper {
+ public:
+  JointedImpulseStepper(const Scene& scene, const ContactParts& parts)
+      : joints_(*parts.joints),
+        sub_steps_(scene, parts),
+        manifolds_(scene),
+        rows_(scene, parts.system, joints_),
+        integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings, parts.joints})) {}
+
+  void step(MutableBodyColumns state, double t, double dt) override {
+    if (!(dt > 0)) return integrator_->step(state, t, dt);
+    const int count = sub_steps_.of(dt), updates = std::min(count, rounded_up(dt / kContactUpdateInterval));
+    const double h = dt / count;
+    for (int update = 0, k = 0; update < updates; ++update) {
+      const int end = (update + 1) * count / updates;
+      std::vector<ContactConstraint>& contacts = manifolds_.find(state, (end - k) * h);
+      rows_.assign(state, contacts, parameters_.h > 0 ? h / parameters_.h : 1);
+      parameters_ = sub_steps_.parameters(h);
+      for (; k < end; ++k) sub_step(state, t + k * h);
+      rows_.store_impulses(contacts);
+    }
+  }
+
+  std::string solver_warning() const override { return integrator_->solver_warning(); }
+
+  SettingsInForce settings_in_force() const override {
+    SettingsInForce settings = sub_steps_.settings_in_force();
+    settings.insert(settings.begin(),
+                    {"contact solver", "sequential impulses that act through the joints, two passes a sub-step"});
+    return settings;
+  }
+
+ private:
+  void sub_step(MutableBodyColumns state, double t) {
+    rows_.prepare(state, t, parameters_);
+    integrator_->step(state, t, parameters_.h);
+    rows_.load_velocities(state);
+    rows_.warm_start();
+    rows_.solve_with_bias();
+    integrate_corrections(state);
+    rows_.relax();
+    rows_.apply_restitution();
+    store_velocities(state);
+    joints_.project(state);
+  }
+
+  // The integrator has moved the bodies; what the impulses changed of the velocities moves them further.
+  void integrate_corrections(MutableBodyColumns state) {
+    const double h = parameters_.theta * parameters_.h;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const Vec6 change = rows_.change(i);
+      if (change.isZero(0)) continue;
+      state.set_position(i, state.position(i) + h * change.head<3>());
+      const Quat turn = rotation_by(h * change.tail<3>());
+      if (state.has_rotation()) state.set_rotation(i, matrix_of(turn) * state.rotation(i));
+      state.set_orientation(i, (turn * state.orientation(i)).normalized());
+    }
+  }
+
+  void store_velocities(MutableBodyColumns state) {
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const Vec6 change = rows_.change(i);
+      if (change.isZero(0)) continue;
+      state.set_velocity(i, state.velocity(i) + change.head<3>());
+      state.set_angular_velocity(i, state.angular_velocity(i) + change.tail<3>());
+    }
+  }
+
+  Joints& joints_;
+  SubSteps sub_steps_;
+  Manifolds manifolds_;
+  JointedRows rows_;
+  SolverParameters parameters_{};
+  std::unique_ptr<Stepper> integrator_;
+};
+
+}  // namespace
+
+std::unique_ptr<ContactStepper> make_jointed_impulse_stepper(const Scene& scene, const ContactParts& parts) {
+  return std::make_unique<JointedImpulseStepper>(scene, parts);
+}
+
+}  // namespace rigor

@@ -1,0 +1,306 @@
+#include "core/dynamics/contact/impulse/jointed_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+constexpr int kSweeps = 4;  // over all rows, in each of the two passes
+
+}  // namespace
+
+JointedRows::JointedRows(const Scene& scene, const System& system, Joints& joints)
+    : system_(system),
+      joints_(joints),
+      velocities_(system.size(), Vec6::Zero()),
+      loaded_(velocities_),
+      change_(velocities_) {
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    const Joint& joint = scene.joints[k];
+    std::vector<Motor> motors;
+    for (const Motor& motor : scene.motors) {
+      if (motor.joint == static_cast<int>(k) && motor.speed) motors.push_back(motor);
+    }
+    if (joint.has_limits() || !motors.empty())
+      coordinates_.push_back({JointCoordinate(scene, joint), joint.lower, joint.upper, joint.restitution, motors});
+  }
+}
+
+void JointedRows::assign(BodyColumns state, const std::vector<ContactConstraint>& contacts, double impulse_scale) {
+  pose_ = state;
+  joints_.velocity_impulse(state);  // for its factor
+  rows_.clear(), responses_.clear();
+  for (const ContactConstraint& contact : contacts) {
+    Row row = contact_row(state, contact);
+    row.impulse[0] = impulse_scale * contact.normal_impulse;
+    for (int d = 1; d < 3; ++d) row.impulse[d] = impulse_scale * row.J[d][0].head<3>().dot(contact.friction_impulse);
+    add(row);
+  }
+  contacts_ = rows_.size();
+  for (Coordinate& at : coordinates_) {
+    at.first_row = rows_.size();
+    const JointCoordinate::Value value = at.coordinate.at(state);
+    for (const double sign : {1.0, -1.0, 1.0}) add(coordinate_row(at.coordinate, value, sign, at.restitution));
+    rows_[at.first_row].impulse[0] = impulse_scale * at.lower_impulse;
+    rows_[at.first_row + 1].impulse[0] = impulse_scale * at.upper_impulse;
+    rows_[at.first_row + 2].impulse[0] = impulse_scale * at.motor_impulse;
+  }
+}
+
+void JointedRows::store_impulses(std::vector<ContactConstraint>& contacts) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Row& row = rows_[i];
+    contacts[i].normal_impulse = row.impulse[0];
+    contacts[i].friction_impulse = row.impulse[1] * row.J[1][0].head<3>() + row.impulse[2] * row.J[2][0].head<3>();
+  }
+  for (Coordinate& at : coordinates_) {
+    at.lower_impulse = rows_[at.first_row].impulse[0], at.upper_impulse = rows_[at.first_row + 1].impulse[0];
+    at.motor_impulse = rows_[at.first_row + 2].impulse[0];
+  }
+}
+
+JointedRows::Row JointedRows::contact_row(BodyColumns state, const ContactConstraint& contact) const {
+  Row row{.body = {contact.a, contact.b}, .directions = 3};
+  const Vec3 n = contact.normal, t = n.unitOrthogonal(), s = n.cross(t);
+  const Vec3 arms[2] = {contact.arm_a, contact.arm_b};
+  for (int end = 0; end < 2; ++end) {
+    const double sign = end == 0 ? 1 : -1;
+    int d = 0;
+    for (const Vec3& direction : {n, t, s}) row.J[d++][end] = sign * joined(direction, arms[end].cross(direction));
+    row.arm_B[end] = state.rotation(row.body[end]).transpose() * arms[end];
+  }
+  row.normal = n;
+  row.apart = state.position(contact.a) + contact.arm_a - state.position(contact.b) - contact.arm_b;
+  row.initial_gap = contact.gap;
+  row.friction = contact.friction, row.restitution = contact.restitution;
+  return row;
+}
+
+// Of x for a lower limit and a motor, of -x for an upper one.
+JointedRows::Row JointedRows::coordinate_row(const JointCoordinate& coordinate, const JointCoordinate::Value& at,
+                                             double sign, double restitution) const {
+  Row row{.body = {coordinate.a(), coordinate.b()}, .directions = 1};
+  row.J[0][0] = sign * joined(-at.force, at.torque_a);
+  row.J[0][1] = sign * joined(at.force, at.torque_b);
+  row.restitution = restitution;
+  return row;
+}
+
+// With what the joints leave of the row's impulses, of which those on one body alone are the ends.
+void JointedRows::add(Row row) {
+  row.first_response = responses_.size();
+  std::vector<int> bodies;
+  for (const int body : row.body) {
+    if (!moves(body)) continue;
+    const int component = joints_.component_of(body);
+    const std::vector<int> connected = component < 0 ? std::vector<int>{body} : joints_.bodies_of(component);
+    if (std::find(bodies.begin(), bodies.end(), connected.front()) == bodies.end())
+      bodies.insert(bodies.end(), connected.begin(), connected.end());
+  }
+  for (const int body : bodies) responses_.emplace_back().body = body;
+  for (int d = 0; d < row.directions; ++d) {
+    for (const int body : bodies) change_[body].setZero();
+    int last = -1;
+    for (int end = 0; end < 2; ++end) {
+      if (moves(row.body[end])) change_[row.body[end]] += velocity_by(row.body[end], row.J[d][end]);
+    }
+    for (const int body : bodies) {
+      const int component = joints_.component_of(body);
+      if (component >= 0 && component != last) joints_.restrict(component, change_), last = component;
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) responses_[row.first_response + i].by[d] = change_[bodies[i]];
+  }
+  row.last_response = responses_.size();
+  find_masses(row);
+  rows_.push_back(row);
+}
+
+Vec6 JointedRows::velocity_by(int body, const Vec6& impulse) const {
+  if (!moves(body)) return Vec6::Zero();
+  const Inertia& inertia = system_.bodies[body];
+  const Mat3 R = pose_.rotation(body);
+  const Vec3 torque_B = R.transpose() * impulse.tail<3>();
+  return joined(inertia.inverse_mass * impulse.head<3>(), R * (inertia.inverse_inertia_B * torque_B));
+}
+
+void JointedRows::find_masses(Row& row) const {
+  const auto K = [&](int d, int by) {
+    double sum = 0;
+    for (std::size_t i = row.first_response; i < row.last_response; ++i) {
+      for (int end = 0; end < 2; ++end) {
+        if (responses_[i].body == row.body[end]) sum += row.J[d][end].dot(responses_[i].by[by]);
+      }
+    }
+    return sum;
+  };
+  // What the joints do not let move at all takes no impulse.
+  const auto inverse = [](double k, double scale) { return k > 1e-12 * scale ? 1 / k : 0; };
+  const auto scale = [&](int d) {
+    double sum = 0;
+    for (int end = 0; end < 2; ++end) sum += row.J[d][end].dot(velocity_by(row.body[end], row.J[d][end]));
+    return sum;
+  };
+  row.mass = inverse(K(0, 0), scale(0));
+  if (row.directions == 1) return;
+  const double tt = K(1, 1), ss = K(2, 2), ts = K(1, 2), determinant = tt * ss - ts * ts, apart = 0.5 * (tt - ss);
+  const double size = scale(1) * scale(2), over = inverse(determinant, size);
+  row.slip_mass = inverse(0.5 * (tt + ss) + std::hypot(apart, ts), scale(1) + scale(2));
+  row.tangent_mass[0] = ss * over, row.tangent_mass[1] = tt * over, row.tangent_mass[2] = -ts * over;
+  if (over == 0) row.tangent_mass[0] = row.tangent_mass[1] = row.slip_mass;
+}
+
+void JointedRows::load_velocities(BodyColumns state) {
+  for (std::size_t i = 0; i < state.size(); ++i) loaded_[i] = joined(state.velocity(i), state.angular_velocity(i));
+  velocities_ = loaded_;
+}
+
+double JointedRows::speed(const Row& row, int direction) const {
+  double sum = 0;
+  for (int end = 0; end < 2; ++end) {
+    if (row.body[end] != kWorld) sum += row.J[direction][end].dot(velocities_[row.body[end]]);
+  }
+  return sum;
+}
+
+void JointedRows::apply(const Row& row, int direction, double impulse) {
+  for (std::size_t i = row.first_response; i < row.last_response; ++i)
+    velocities_[responses_[i].body] += impulse * responses_[i].by[direction];
+}
+
+double JointedRows::contact_gap(const Row& row, BodyColumns state) const {
+  Vec3 point[2];
+  for (int end = 0; end < 2; ++end)
+    point[end] = state.position(row.body[end]) + state.rotation(row.body[end]) * row.arm_B[end];
+  return row.initial_gap + row.normal.dot(point[0] - point[1] - row.apart);
+}
+
+void JointedRows::prepare_coordinate(Coordinate& at, BodyColumns state, double t) {
+  at.x = at.coordinate.with_turns(at.coordinate.at(state).x, at.x);
+  rows_[at.first_row].gap = at.x - at.lower, rows_[at.first_row + 1].gap = at.upper - at.x;
+  at.speed = at.most_impulse = 0;
+  for (const Motor& motor : at.motors) {
+    const double share = share_of_step(motor.from, motor.until, t, parameters_.h);
+    if (share > 0) at.speed = *motor.speed, at.most_impulse = share * motor.most * parameters_.h;
+  }
+}
+
+void JointedRows::prepare(BodyColumns state, double t, const SolverParameters& parameters) {
+  parameters_ = parameters;
+  load_velocities(state);
+  for (std::size_t i = 0; i < contacts_; ++i) rows_[i].gap = contact_gap(rows_[i], state);
+  for (Coordinate& at : coordinates_) prepare_coordinate(at, state, t);
+  for (Row& row : rows_) {
+    row.approach = -speed(row, 0);
+    row.bias = bias_of(row);
+    row.is_impact = row.approach > parameters.restitution_threshold && row.gap < 2 * parameters.h * row.approach;
+  }
+  for (const Coordinate& at : coordinates_) rows_[at.first_row + 2].is_impact = false;
+}
+
+// Speculative: the gap closes by h (theta u' + (1 - theta) u), of which only the velocity after, u', can be chosen.
+double JointedRows::bias_of(const Row& row) const {
+  const double theta = parameters_.theta;
+  if (!is_soft(row)) return std::max(0.0, row.gap) / (parameters_.h * theta) - (1 - theta) / theta * row.approach;
+  return std::max(-parameters_.max_push_speed, parameters_.bias_rate * row.gap);
+}
+
+void JointedRows::warm_start() {
+  for (const Row& row : rows_) {
+    for (int d = 0; d < row.directions; ++d) {
+      if (row.impulse[d] != 0) apply(row, d, row.impulse[d]);
+    }
+  }
+}
+
+void JointedRows::solve_normal(Row& row, double impulse) {
+  const double change = std::max(0.0, impulse) - row.impulse[0];
+  if (change == 0) return;
+  apply(row, 0, change);
+  row.impulse[0] += change;
+}
+
+// Onto Coulomb's disc of the normal impulse: sticking if that is within it, else against the slip, which only a step
+// with one mass for all directions converges to.
+void JointedRows::solve_friction(Row& row) {
+  if (row.directions == 1 || (row.impulse[0] == 0 && row.impulse[1] == 0 && row.impulse[2] == 0)) return;
+  const double radius = row.impulse[0] > 0 ? row.friction * row.impulse[0] : 0;
+  const double slip_t = speed(row, 1), slip_s = speed(row, 2), *const p = row.impulse, *const m = row.tangent_mass;
+  double p_t = p[1] - (m[0] * slip_t + m[2] * slip_s), p_s = p[2] - (m[2] * slip_t + m[1] * slip_s);
+  if (std::hypot(p_t, p_s) > radius) {
+    p_t = p[1] - row.slip_mass * slip_t, p_s = p[2] - row.slip_mass * slip_s;
+    const double size = std::hypot(p_t, p_s);
+    if (size > radius) p_t *= radius / size, p_s *= radius / size;
+  }
+  apply(row, 1, p_t - p[1]), apply(row, 2, p_s - p[2]);
+  row.impulse[1] = p_t, row.impulse[2] = p_s;
+}
+
+void JointedRows::solve_biased(Row& row) {
+  const bool soft = is_soft(row);
+  const double mass_scale = soft ? parameters_.mass_scale : 1, impulse_scale = soft ? parameters_.impulse_scale : 0;
+  const double p = row.impulse[0];
+  solve_normal(row, p - mass_scale * (speed(row, 0) + row.bias) * row.mass - impulse_scale * p);
+  solve_friction(row);
+}
+
+void JointedRows::solve_motors() {
+  for (const Coordinate& at : coordinates_) {
+    Row& row = rows_[at.first_row + 2];
+    const double p =
+        std::clamp(row.impulse[0] - (speed(row, 0) - at.speed) * row.mass, -at.most_impulse, at.most_impulse);
+    apply(row, 0, p - row.impulse[0]);
+    row.impulse[0] = p;
+  }
+}
+
+// Visits contacts and limits.
+template <typename Visit>
+void JointedRows::for_each_one_sided(const Visit& visit) {
+  for (const Coordinate& at : coordinates_) visit(rows_[at.first_row]), visit(rows_[at.first_row + 1]);
+  for (std::size_t i = 0; i < contacts_; ++i) visit(rows_[i]);
+}
+
+void JointedRows::solve_with_bias() {
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    solve_motors();
+    for_each_one_sided([&](Row& row) { solve_biased(row); });
+  }
+  sweep_impacts([&](Row& row) { solve_biased(row); });
+}
+
+void JointedRows::relax() {
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    solve_motors();
+    for_each_one_sided([&](Row& row) {
+      if (row.impulse[0] <= 0) return;
+      solve_normal(row, row.impulse[0] - speed(row, 0) * row.mass);
+      solve_friction(row);
+    });
+  }
+}
+
+void JointedRows::apply_restitution() {
+  sweep_impacts([&](Row& row) {
+    if (row.restitution == 0 || row.impulse[0] == 0) return;
+    solve_normal(row, row.impulse[0] + (row.restitution * row.approach - speed(row, 0)) * row.mass);
+    solve_friction(row);
+  });
+}
+
+// Until no impact's velocity changes by more than the tolerance.
+template <typename Solve>
+void JointedRows::sweep_impacts(const Solve& solve) {
+  for (int sweep = 0; sweep < parameters_.max_sweeps; ++sweep) {
+    double largest = 0;
+    for_each_one_sided([&](Row& row) {
+      if (!row.is_impact) return;
+      const double before = speed(row, 0);
+      solve(row);
+      largest = std::max(largest, std::abs(speed(row, 0) - before));
+    });
+    if (largest <= parameters_.tolerance) return;
+  }
+}
+
+}  // namespace rigor

@@ -1,0 +1,98 @@
+// Contact constraints, limits of joints and motors of given speed as rows of sequential impulses, for bodies that
+// joints hold together. An impulse of a row acts through the joints: with V the velocities and W = (1 - M⁻¹ Jᵀ S⁻¹ J)
+// M⁻¹ the inverse masses that they leave, it changes V by W rowᵀ p, of all bodies that are connected to the row's two.
+// So the velocities obey the joints after each single impulse, and a row's effective mass is that of the mechanism.
+#pragma once
+
+#include <vector>
+
+#include "core/dynamics/contact/impulse/manifolds.h"
+#include "core/dynamics/joints/joints.h"
+#include "core/dynamics/kernels/contact_rows.h"
+
+namespace rigor {
+
+class JointedRows {
+ public:
+  JointedRows(const Scene& scene, const System& system, Joints& joints);
+
+  // Rows for these contacts, and for limits and motors, at a pose; impulses times `impulse_scale`.
+  void assign(BodyColumns state, const std::vector<ContactConstraint>& contacts, double impulse_scale);
+  void store_impulses(std::vector<ContactConstraint>& contacts);
+
+  // Gaps, approach speeds and biases of a sub-step that begins at t with `state`.
+  void prepare(BodyColumns state, double t, const SolverParameters& parameters);
+  void load_velocities(BodyColumns state);
+  void warm_start();
+  void solve_with_bias();
+  void relax();
+  void apply_restitution();
+  // The change of a body's velocity (v, w) since load_velocities().
+  Vec6 change(std::size_t body) const { return velocities_[body] - loaded_[body]; }
+
+ private:
+  struct Response {  // of a body, to unit impulses of the row's directions
+    int body = kWorld;
+    Vec6 by[3] = {Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
+  };
+  struct Row {
+    int body[2] = {kWorld, kWorld};
+    int directions = 1;  // a normal alone, or with two tangents
+    Vec6 J[3][2] = {{Vec6::Zero(), Vec6::Zero()},
+                    {Vec6::Zero(), Vec6::Zero()},
+                    {Vec6::Zero(), Vec6::Zero()}};  // the wrench of a unit impulse on each body
+    Vec3 arm_B[2] = {Vec3::Zero(), Vec3::Zero()};   // m, of a contact, in the bodies' frames
+    Vec3 normal = Vec3::Zero(),
+         apart = Vec3::Zero();  // of a contact: unit; m, from b's point to a's when contacts were updated
+    double initial_gap = 0, friction = 0, restitution = 0;
+    std::size_t first_response = 0, last_response = 0;
+    double mass = 0, tangent_mass[3] = {}, slip_mass = 0;  // kg, as in contact_rows.h
+    double gap = 0, approach = 0, bias = 0;
+    double impulse[3] = {};
+    bool is_impact = false;
+  };
+  struct Coordinate {  // of a joint: its rows follow the contacts' ones
+    JointCoordinate coordinate;
+    double lower, upper, restitution;
+    std::vector<Motor> motors;
+    double x = 0, lower_impulse = 0, upper_impulse = 0, motor_impulse = 0;
+    double speed = 0, most_impulse = 0;  // of the motor that acts now
+    std::size_t first_row = 0;           // lower, upper, motor
+  };
+
+  Row contact_row(BodyColumns state, const ContactConstraint& contact) const;
+  Row coordinate_row(const JointCoordinate& coordinate, const JointCoordinate::Value& at, double sign,
+                     double restitution) const;
+  void add(Row row);
+  bool moves(int body) const { return body != kWorld && !system_.bodies[body].fixed; }
+  // What an impulse (force, torque) makes of the velocity of a body by itself; nothing of one that cannot move.
+  Vec6 velocity_by(int body, const Vec6& impulse) const;
+  void find_masses(Row& row) const;
+  double speed(const Row& row, int direction) const;  // of the row
+  void apply(const Row& row, int direction, double impulse);
+  void solve_normal(Row& row, double impulse);
+  void solve_friction(Row& row);
+  // Whether it rests or overlaps; what comes fast must not, even if it is there already.
+  bool is_soft(const Row& row) const { return row.gap <= 0 && row.approach <= parameters_.restitution_threshold; }
+  double bias_of(const Row& row) const;
+  void solve_biased(Row& row);
+  void solve_motors();
+  template <typename Visit>
+  void for_each_one_sided(const Visit& visit);
+  template <typename Solve>
+  void sweep_impacts(const Solve& solve);
+  double contact_gap(const Row& row, BodyColumns state) const;
+  void prepare_coordinate(Coordinate& coordinate, BodyColumns state, double t);
+
+  const System& system_;
+  Joints& joints_;
+  std::vector<Row> rows_;
+  std::vector<Response> responses_;
+  std::size_t contacts_ = 0;  // rows
+  std::vector<Coordinate> coordinates_;
+  std::vector<Vec6> velocities_, loaded_, change_;  // by body
+  BodyColumns pose_;                                // that of assign(), while it runs
+  SolverParameters parameters_{};
+};
+
+}  // namespace rigor

@@ -1,0 +1,42 @@
+// Limits of joints and motors of given speed with any method that takes joints: a step is divided at the instants at
+// which a limit is reached or let go, and a motor comes to its speed or can no longer keep it. Each is found as a root,
+// by taking the step anew with other lengths; between them nothing but smooth equations is integrated, so that the
+// method keeps its order. What goes on at such an instant is in joint_stops.h.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/joints/joint_stops.h"
+
+namespace rigor {
+
+class JointEvents : public Stepper {
+ public:
+  // `system` and `joints` must outlive it, and are those of `inner`; its loads get the efforts of motors.
+  JointEvents(const Scene& scene, System& system, Joints& joints, std::unique_ptr<Stepper> inner);
+
+  void step(MutableBodyColumns state, double t, double dt) override;
+  std::string solver_warning() const override { return solver_warning_; }
+
+ private:
+  // Takes the settled state from t until the first event, at most by h, and returns by how much.
+  double advance(MutableBodyColumns state, double t, double h);
+  // Where a step of length h from start_ ends, in trial_.
+  void attempt(double t, double h);
+  // The first instant in [0, h] at which it happens, where trial_ is at h and it has or may have happened; or h.
+  double time_of(std::size_t stop, JointStops::Event event, double t, double h);
+  // A root in [0, h] of a function that is below zero at 0 and not at h.
+  template <typename Function>
+  double root(const Function& f, double h, double at_end) const;
+  void warn(const std::string& what);
+
+  Joints& joints_;
+  JointStops stops_;
+  std::unique_ptr<Stepper> inner_;
+  BodyTable start_, trial_;
+  std::string noted_, solver_warning_;
+};
+
+}  // namespace rigor

@@ -1,0 +1,109 @@
+// The rows of all joints of a scene at one state, and what is made of them: S = J M⁻¹ Jᵀ, wrenches Jᵀ l, and what a
+// wrench does to velocities and poses. A hinge or slider with limits or a motor of given speed has a row more, that of
+// its coordinate, while that is kept at a limit or driven at a speed.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/joints/block_cholesky.h"
+#include "core/dynamics/joints/joint_constraint.h"
+#include "core/dynamics/model/joint_coordinate.h"
+#include "core/dynamics/model/system.h"
+#include "core/engine/columns.h"
+
+namespace rigor {
+
+// What the row of a coordinate x says.
+enum class CoordinateRow {
+  none,    // nothing: x is free
+  kept,    // x = target; an impulse leaves x' = rate
+  driven,  // x' = rate
+};
+
+struct JointRow {  // all rows of a joint
+  std::unique_ptr<JointConstraint> constraint;
+  int rows = 0, most_rows = 0;     // of the joint alone; room, with its coordinate's if it can have one
+  int end[2] = {kWorld, kWorld};   // the bodies at its ends
+  int body[2] = {kWorld, kWorld};  // of those the ones that can move, or kWorld
+  double J[2][6 * kMostRows] = {}, Y[2][6 * kMostRows] = {};  // most_rows x 6, column by column; Y = J M⁻¹
+  Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();               // zero beyond the rows in use
+
+  std::optional<JointCoordinate> coordinate = {};  // if it has limits or a motor of given speed
+  CoordinateRow row = CoordinateRow::none;
+  double target = 0, rate = 0;  // of the coordinate
+
+  int rows_in_use() const { return rows + (row != CoordinateRow::none ? 1 : 0); }
+};
+
+class JointRows {
+ public:
+  // The system must outlive it.
+  JointRows(const Scene& scene, const System& system);
+
+  std::size_t size() const { return joints_.size(); }
+  JointRow& joint(std::size_t k) { return joints_[k]; }
+  const JointRow& joint(std::size_t k) const { return joints_[k]; }
+  const std::vector<JointRow>& joints() const { return joints_; }
+  const std::vector<int>& moved() const { return moved_; }  // bodies at the ends of joints
+
+  BlockCholesky make_factor();
+
+  // Takes J, gaps and biases from a state; a coordinate that is driven has no gap.
+  void evaluate(BodyColumns state);
+  // The longest arm of a joint [m], what gaps are small against: what turns a rotation into a gap, the torque of a row
+  // over its force. Of the rows evaluated last; 1 if no row has an arm.
+  double longest_arm() const;
+  // Fills in S of the rows evaluated last.
+  void assemble(BlockCholesky& factor);
+  // The gaps alone, at other poses; a coordinate that is driven is to be at its target. The largest |gap|, not a number
+  // if one is not.
+  double measure_gaps(BodyColumns state);
+  double largest_gap() const;
+
+  // All at the pose that was evaluated last. Wrenches in columns (kernels.h) of stride().
+  std::size_t stride() const { return wrench_.stride(); }
+  const double* wrench_of(const std::vector<Vec6>& multipliers);  // Jᵀ l; valid until the next call
+  const double* last_wrench() const { return wrench_.data(); }    // of the last call
+  Vec6 times_velocity(const JointRow& joint) const;               // J V, as evaluated
+  Vec6 times_acceleration(const JointRow& joint, const std::vector<Vec6>& by_body) const;  // J a
+  Vec6 response(const JointRow& joint, const double* wrench) const;                        // J M⁻¹ times a wrench
+  double response_size(const JointRow& joint, const double* wrench) const;  // the largest of its terms' sizes
+  // M⁻¹ Jᵀ l of one joint, to changes of velocity by body.
+  void add_response(const JointRow& joint, const Vec6& multiplier, std::vector<Vec6>& by_body) const;
+  Vec6 free_acceleration(int body, const double* wrench) const;      // of gravity and a wrench, null if there is none
+  Vec6 acceleration_by(int body, const double* wrench) const;        // M⁻¹ times a wrench
+  void push(const double* impulse, MutableBodyColumns state) const;  // adds M⁻¹ times an impulse to v and w,
+  void note_velocities(BodyColumns state);                           // and then reads these for times_velocity()
+  void move(const double* wrench, MutableBodyColumns state) const;   // by M⁻¹ times it [m, rad]
+
+ private:
+  struct Coupling {  // two joints on a body
+    std::int32_t first, second;
+    std::int8_t first_end, second_end;
+    BlockCholesky::Place place;
+  };
+  struct Frame {  // of a body that some joint moves
+    EndMotion motion;
+    Mat3 inverse_inertia_W;  // 1/(kg m²)
+  };
+  void add_joint(const Scene& scene, std::size_t k);
+  void list_couplings();
+  void evaluate_frame(int body, BodyColumns state);
+  void evaluate_coordinate(JointRow& joint, BodyColumns state);
+
+  const System& system_;
+  std::vector<JointRow> joints_;
+  std::vector<int> moved_;
+  std::vector<Frame> frames_;         // by body
+  std::vector<EndMotion> elsewhere_;  // the poses of measure_gaps()
+  std::vector<Coupling> couplings_;
+  Columns wrench_;
+};
+
+// A body's column of wrench columns.
+Vec6 wrench_at(const double* columns, std::size_t stride, int body);
+
+}  // namespace rigor

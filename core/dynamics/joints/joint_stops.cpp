@@ -1,0 +1,248 @@
+#include "core/dynamics/joints/joint_stops.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+constexpr double kTouch = 1e-11;      // rad, m: from so near a limit on it is reached
+constexpr double kAtRest = 1e-9;      // rad/s, m/s: what slower comes to it, or is off a motor's speed, does not move
+constexpr double kLeaves = 1e-5;      // rad/s, m/s: faster than what closing a gap of kTouch makes of what was kept
+constexpr double kNoEffort = 1e-9;    // of the largest multiplier: ten thousand times what rounding leaves of one
+constexpr double kNoChange = 1e-9;    // of 1 + |g| [m/s², rad/s²]: an acceleration that rounding can make
+constexpr int kMostChangesEach = 16;  // of a coordinate's mode in the search for which hold
+
+}  // namespace
+
+JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, Joints& joints)
+    : joints_(joints),
+      loads_(loads),
+      wrenches_(system),
+      acceleration_tolerance_(kNoChange * (1 + scene.gravity.norm())) {
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    const Joint& joint = scene.joints[k];
+    std::vector<Motor> motors;
+    for (const Motor& motor : scene.motors) {
+      if (motor.joint == static_cast<int>(k) && motor.speed) motors.push_back(motor);
+    }
+    if (joint.has_limits() || !motors.empty())
+      stops_.push_back({k, JointCoordinate(scene, joint), joint.lower, joint.upper, joint.restitution, motors});
+  }
+}
+
+bool JointStops::are_in(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.has_limits(); }) ||
+         std::any_of(scene.motors.begin(), scene.motors.end(), [](const Motor& motor) { return motor.speed; });
+}
+
+void JointStops::read(BodyColumns state, double since) {
+  for (Stop& stop : stops_) {
+    const JointCoordinate::Value at = stop.coordinate.at(state);
+    const double expected = since == 0 ? stop.x : stop.settled_x + 0.5 * since * (stop.settled_rate + at.rate);
+    stop.x = stop.coordinate.with_turns(at.x, expected), stop.rate = at.rate;
+  }
+}
+
+void JointStops::read_settled() {
+  for (Stop& stop : stops_) stop.x = stop.settled_x, stop.rate = stop.settled_rate;
+}
+
+double JointStops::next_switch(double t, double end) const {
+  for (const Stop& stop : stops_) {
+    for (const Motor& motor : stop.motors) {
+      for (const double s : {motor.from, motor.until}) {
+        if (s > t && s < end) end = s;
+      }
+    }
+  }
+  return end;
+}
+
+// Positive by as much as x is beyond the limit of that side.
+double JointStops::Stop::touched(int side) const { return side > 0 ? x - upper : lower - x; }
+bool JointStops::touches(const Stop& stop, int side) const { return stop.touched(side) >= -kTouch; }
+bool JointStops::is_hit(const Stop& stop, int side) const { return touches(stop, side) && side * stop.rate > kAtRest; }
+int JointStops::hit_side(const Stop& stop) const { return is_hit(stop, 1) ? 1 : is_hit(stop, -1) ? -1 : 0; }
+
+bool JointStops::settle(MutableBodyColumns state, double t, double shortest_flight) {
+  choose_motors(t);
+  bool decided = resolve_impacts(state, t, shortest_flight);
+  guess_modes();
+  decided = find_modes(state, t) && decided;
+  for (Stop& stop : stops_) stop.settled_x = stop.x, stop.settled_rate = stop.rate;
+  return decided;
+}
+
+void JointStops::choose_motors(double t) {
+  for (Stop& stop : stops_) {
+    stop.motor = nullptr;
+    for (const Motor& motor : stop.motors) {
+      if (t >= motor.from && t < motor.until) stop.motor = &motor;
+    }
+  }
+}
+
+// Hands the rows and pushes as they are now to the joints and the loads.
+void JointStops::apply(BodyColumns state) {
+  for (const Stop& stop : stops_) {
+    const bool keeps = stop.drive == Drive::keeping && stop.at == 0;
+    const CoordinateRow row = stop.at != 0 ? CoordinateRow::kept : keeps ? CoordinateRow::driven : CoordinateRow::none;
+    const double target = stop.at > 0 ? stop.upper : stop.at < 0 ? stop.lower : stop.x;
+    joints_.set_coordinate(stop.joint, row, target, keeps ? *stop.motor->speed : stop.bounce);
+    if (!stop.motors.empty()) loads_.set_push(stop.joint, stop.drive == Drive::pushing ? stop.push : 0);
+  }
+  joints_.count_rows(state);
+}
+
+void JointStops::hold(BodyColumns state, double t) {
+  joints_.hold(state, wrenches_.over_step(state, t, 0), Joints::Rows::chosen_anew);
+  for (Stop& stop : stops_) stop.effort = joints_.coordinate_effort(stop.joint);
+  effort_tolerance_ = kNoEffort * joints_.largest_multiplier();
+}
+
+bool JointStops::resolve_impacts(MutableBodyColumns state, double t, double shortest_flight) {
+  if (std::none_of(stops_.begin(), stops_.end(), [&](const Stop& stop) { return hit_side(stop) != 0; })) return true;
+  // No motor has an impulse, for its effort has a bound.
+  for (Stop& stop : stops_) stop.at = 0, stop.drive = Drive::off, stop.bounce = 0;
+  find_bounces(state, t, shortest_flight);
+  const bool found = find_impulses(state);
+  read(state, 0);
+  for (Stop& stop : stops_) stop.bounce = 0;
+  return found;
+}
+
+// What is hit sends x' back times the restitution, unless it would be back at once.
+void JointStops::find_bounces(BodyColumns state, double t, double shortest_flight) {
+  apply(state);
+  hold(state, t);
+  for (Stop& stop : stops_) {
+    const int side = hit_side(stop);
+    if (side == 0) continue;
+    stop.at = side;
+    stop.bounce = -stop.restitution * stop.rate;
+    const double back = side * joints_.coordinate_acceleration(stop.joint, state);
+    if (back > 0 && 2 * std::abs(stop.bounce) < back * shortest_flight) stop.bounce = 0;
+  }
+}
+
+bool JointStops::find_impulses(MutableBodyColumns state) {
+  for (std::size_t n = 0; n < kMostChangesEach * (1 + stops_.size()); ++n) {
+    apply(state);
+    after_ = BodyColumns(state);
+    joints_.push(joints_.velocity_impulse(state), after_.columns());
+    const double none = kNoEffort * joints_.largest_multiplier();
+    const auto violated = std::find_if(stops_.begin(), stops_.end(), [&](Stop& stop) {
+      if (stop.at != 0) return stop.at * joints_.coordinate_effort(stop.joint) > none;
+      const double rate = stop.coordinate.at(after_.columns()).rate;
+      return (touches(stop, 1) && rate > kAtRest) || (touches(stop, -1) && rate < -kAtRest);
+    });
+    if (violated == stops_.end()) {
+      copy_columns(after_.columns(), state);
+      return true;
+    }
+    violated->at = violated->at != 0 ? 0 : touches(*violated, 1) ? 1 : -1;
+  }
+  return false;
+}
+
+// What held goes on to; a motor that has its speed, or may come to have it, keeps it.
+void JointStops::guess_modes() {
+  for (Stop& stop : stops_) {
+    if (stop.at != 0 && !touches(stop, stop.at)) stop.at = 0;
+    if (stop.at != 0 && std::abs(stop.rate) > kLeaves) stop.at = 0;
+    if (!stop.motor) {
+      stop.drive = Drive::off;
+      continue;
+    }
+    const double behind = *stop.motor->speed - stop.rate;
+    if (std::abs(behind) > kAtRest) {
+      stop.drive = Drive::pushing, stop.push = std::copysign(stop.motor->most, behind);
+    } else if (stop.drive == Drive::off) {
+      stop.drive = Drive::keeping;
+    } else if (stop.drive == Drive::pushing) {
+      stop.push = std::copysign(stop.motor->most, stop.push);
+    }
+  }
+}
+
+bool JointStops::find_modes(BodyColumns state, double t) {
+  for (std::size_t n = 0; n < kMostChangesEach * (1 + stops_.size()); ++n) {
+    apply(state);
+    hold(state, t);
+    const bool changed =
+        std::any_of(stops_.begin(), stops_.end(), [&](Stop& stop) { return change_if_violated(stop, state); });
+    if (!changed) return true;
+  }
+  return false;
+}
+
+bool JointStops::change_if_violated(Stop& stop, BodyColumns state) {
+  if (stop.at != 0) {
+    if (stop.at * stop.effort <= 0.5 * effort_tolerance_) return false;
+    stop.at = 0;
+    return true;
+  }
+  if (stop.drive == Drive::keeping) {
+    if (std::abs(stop.effort) <= stop.motor->most + 0.5 * effort_tolerance_) return false;
+    stop.drive = Drive::pushing, stop.push = std::copysign(stop.motor->most, stop.effort);
+    return true;
+  }
+  const double acceleration = joints_.coordinate_acceleration(stop.joint, state);
+  for (const int side : {1, -1}) {
+    if (touches(stop, side) && std::abs(stop.rate) <= kAtRest && side * acceleration > acceleration_tolerance_) {
+      stop.at = side;
+      return true;
+    }
+  }
+  const bool has_speed = stop.drive == Drive::pushing && std::abs(*stop.motor->speed - stop.rate) <= kAtRest;
+  if (has_speed && std::copysign(1, stop.push) * acceleration > acceleration_tolerance_) {
+    stop.drive = Drive::keeping;
+    return true;
+  }
+  return false;
+}
+
+double JointStops::distance_to(std::size_t i, Event event) const {
+  const Stop& stop = stops_[i];
+  if (event == Event::motor) {
+    if (stop.drive == Drive::keeping && stop.at == 0)
+      return std::abs(stop.effort) - stop.motor->most - effort_tolerance_;
+    if (stop.drive != Drive::pushing) return -1;
+    const double to = *stop.motor->speed - stop.settled_rate;
+    // What has its speed and yet pushes is saturated: what it must leave first is that speed.
+    if (std::abs(to) <= kAtRest) return std::copysign(1, stop.push) * (stop.rate - *stop.motor->speed) - 2 * kAtRest;
+    return std::copysign(1, to) * (stop.rate - *stop.motor->speed);
+  }
+  const int side = event == Event::upper ? 1 : -1;
+  if (stop.at == side) return side * stop.effort - effort_tolerance_;
+  if (stop.at != 0) return -1;
+  // What has bounced is not asked whether it is there: it must go further than it was.
+  const double at_start = side > 0 ? stop.settled_x - stop.upper : stop.lower - stop.settled_x;
+  return stop.touched(side) - (at_start >= -kTouch ? std::max(0.0, at_start) + 2 * kTouch : 0);
+}
+
+bool JointStops::may_have_touched(std::size_t i, Event event, double since) const {
+  const Stop& stop = stops_[i];
+  if (event == Event::motor || stop.at != 0) return false;
+  const double side = event == Event::upper ? 1 : -1, limit = event == Event::upper ? stop.upper : stop.lower;
+  const double going = side * stop.settled_rate, coming = -side * stop.rate;
+  if (!std::isfinite(limit) || !(going > 0 && coming > 0)) return false;
+  // A path that bends one way lies below the lines along which it begins and ends, which meet here.
+  const double from_start = side * stop.settled_x + going * since, from_end = side * stop.x + coming * since;
+  const double peak = (from_start * coming + from_end * going - going * coming * since) / (going + coming);
+  return peak > side * limit;
+}
+
+bool JointStops::needs_efforts() const {
+  return std::any_of(stops_.begin(), stops_.end(),
+                     [](const Stop& stop) { return stop.at != 0 || stop.drive == Drive::keeping; });
+}
+
+void JointStops::note_efforts(BodyColumns state, double t) {
+  const double tolerance = effort_tolerance_;
+  hold(state, t);
+  effort_tolerance_ = tolerance;  // one for a whole step: events are roots against it
+}
+
+}  // namespace rigor

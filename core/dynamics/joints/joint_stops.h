@@ -1,0 +1,86 @@
+// The limits of hinges and sliders, and motors of a given speed, at an instant:
+//   a limit x <= upper   takes an effort of at most 0, and none where x < upper; what hits it leaves with x' = -e x'
+//   a motor              keeps x' = speed as long as |effort| <= most, and else pushes by `most` towards it
+// Which of them hold and which do not is a linear complementarity problem, for impulses at an impact and for efforts
+// after it: here by principal pivoting, of the first that is violated each time (K. G. Murty, 1974).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/dynamics/joints/joints.h"
+#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/wrench_columns.h"
+
+namespace rigor {
+
+class JointStops {
+ public:
+  // All must outlive it. Efforts of motors that push are set in `loads`, which are those of the system.
+  JointStops(const Scene& scene, const System& system, Loads& loads, Joints& joints);
+
+  static bool are_in(const Scene& scene);  // whether there is anything for it to do
+
+  // Takes x and x' from a state, `since` [s] after the last; x is in the turn nearest to where x' has led.
+  void read(BodyColumns state, double since);
+  void read_settled();  // the values at which settle() left them
+
+  // What happens at this instant: impacts change velocities; then which limits and motors hold from now on. A bounce
+  // that ends within `shortest_flight` [s] does not take place. Returns false if that could not be decided.
+  bool settle(MutableBodyColumns state, double t, double shortest_flight);
+
+  // How far each of what may happen to a coordinate is from happening, at the state that was read last; below zero
+  // until it does.
+  enum class Event { upper, lower, motor };
+  static constexpr Event kEvents[] = {Event::upper, Event::lower, Event::motor};
+  std::size_t size() const { return stops_.size(); }
+  double distance_to(std::size_t stop, Event event) const;
+  double rate(std::size_t stop) const { return stops_[stop].rate; }
+  // Whether x may have gone over a limit and come back between the last settled state and the one read after `since`.
+  bool may_have_touched(std::size_t stop, Event event, double since) const;
+  // Whether distance_to() needs efforts, which note_efforts() takes from the state that was read last.
+  bool needs_efforts() const;
+  void note_efforts(BodyColumns state, double t);
+
+  // The first instant in (t, end) at which a motor of given speed begins or ends; `end` if there is none.
+  double next_switch(double t, double end) const;
+
+ private:
+  enum class Drive { off, pushing, keeping };
+  struct Stop {
+    std::size_t joint;
+    JointCoordinate coordinate;
+    double lower, upper, restitution;
+    std::vector<Motor> motors;  // of given speed
+    double x = 0, rate = 0;
+    double settled_x = 0, settled_rate = 0;  // when settle() was called last
+    double effort = 0;
+    int at = 0;  // kept at its lower (-1) or upper (1) limit, or at none
+    Drive drive = Drive::off;
+    const Motor* motor = nullptr;  // acts now
+    double push = 0;
+    double bounce = 0;  // x' that the impact at hand is to leave
+    double touched(int side) const;
+  };
+  bool touches(const Stop& stop, int side) const;
+  bool is_hit(const Stop& stop, int side) const;
+  int hit_side(const Stop& stop) const;
+  void choose_motors(double t);
+  void apply(BodyColumns state);
+  void hold(BodyColumns state, double t);
+  bool resolve_impacts(MutableBodyColumns state, double t, double shortest_flight);
+  void find_bounces(BodyColumns state, double t, double shortest_flight);
+  bool find_impulses(MutableBodyColumns state);
+  void guess_modes();
+  bool find_modes(BodyColumns state, double t);
+  bool change_if_violated(Stop& stop, BodyColumns state);
+
+  Joints& joints_;
+  Loads& loads_;
+  WrenchColumns wrenches_;
+  std::vector<Stop> stops_;
+  BodyTable after_;
+  double effort_tolerance_ = 0, acceleration_tolerance_ = 0;
+};
+
+}  // namespace rigor

@@ -1,0 +1,90 @@
+// Products and triangular solves of the blocks that joints make: up to six by six, column by column without gaps, the
+// number of rows known when compiled. Larger libraries lose more in calls and generality than the arithmetic costs.
+#pragma once
+
+#include <type_traits>
+
+#include "core/dynamics/joints/constraint_rows.h"
+
+namespace rigor {
+
+// Calls f with `rows`, 1 to 6, as a type: f(std::integral_constant<int, rows>{}).
+template <typename F>
+void with_rows(int rows, const F& f) {
+  switch (rows) {
+    case 1:
+      return f(std::integral_constant<int, 1>{});
+    case 2:
+      return f(std::integral_constant<int, 2>{});
+    case 3:
+      return f(std::integral_constant<int, 3>{});
+    case 4:
+      return f(std::integral_constant<int, 4>{});
+    case 5:
+      return f(std::integral_constant<int, 5>{});
+    default:
+      return f(std::integral_constant<int, 6>{});
+  }
+}
+
+// to (R x columns) += Sign a (R x inner) bᵀ, with b (columns x inner).
+template <int R, int Sign = 1>
+void add_product(double* to, const double* a, const double* b, int columns, int inner) {
+  for (int j = 0; j < columns; ++j) {
+    double sum[R] = {};
+    for (int k = 0; k < inner; ++k) {
+      const double factor = b[j + k * columns];
+      for (int i = 0; i < R; ++i) sum[i] += a[i + k * R] * factor;
+    }
+    for (int i = 0; i < R; ++i) to[i + j * R] += Sign * sum[i];
+  }
+}
+
+// Of a lower triangular L the inverses of the diagonal are kept in its place: divisions take long.
+// b (R x n) <- b L⁻ᵀ, L (n x n).
+template <int R>
+void solve_on_the_right(double* b, const double* L, int n) {
+  for (int k = 0; k < n; ++k) {
+    double* const at = b + k * R;
+    for (int l = 0; l < k; ++l) {
+      const double factor = L[k + l * n];
+      for (int i = 0; i < R; ++i) at[i] -= factor * b[i + l * R];
+    }
+    const double inverse = L[k + k * n];
+    for (int i = 0; i < R; ++i) at[i] *= inverse;
+  }
+}
+
+// x <- L⁻¹ x, and x <- L⁻ᵀ x.
+template <int R>
+void solve_lower(const double* L, double* x) {
+  for (int k = 0; k < R; ++k) {
+    x[k] *= L[k + k * R];
+    for (int i = k + 1; i < R; ++i) x[i] -= L[i + k * R] * x[k];
+  }
+}
+template <int R>
+void solve_lower_transposed(const double* L, double* x) {
+  for (int k = R; k-- > 0;) {
+    for (int i = k + 1; i < R; ++i) x[k] -= L[i + k * R] * x[i];
+    x[k] *= L[k + k * R];
+  }
+}
+
+// y (R) -= a (R x n) x, and y (n) -= aᵀ x (R).
+template <int R>
+void subtract_product(double* y, const double* a, const double* x, int n) {
+  for (int k = 0; k < n; ++k) {
+    for (int i = 0; i < R; ++i) y[i] -= a[i + k * R] * x[k];
+  }
+}
+template <int R>
+void subtract_transposed_product(double* y, const double* a, const double* x, int n) {
+  for (int k = 0; k < n; ++k) {
+    double sum = 0;
+    for (int i = 0; i < R; ++i) sum += a[i + k * R] * x[i];
+    y[k] -= sum;
+  }
+}
+
+}  // namespace rigor
