@@ -8,6 +8,7 @@
 
 #include "core/dynamics/integrators/orientation_updates.h"
 #include "core/dynamics/integrators/velocity_correction.h"
+#include "core/dynamics/model/constraint_forces.h"
 #include "core/dynamics/model/system.h"
 #include "core/engine/engine.h"
 
@@ -33,10 +34,15 @@ inline constexpr double kDefaultTolerance = 1e-12;
 // What a stepper is made from. Outlives it.
 struct StepperParts {
   const System& system;
-  Contact* contact;                      // null where nothing can touch
-  const OrientationUpdate* orientation;  // for methods with that option; null for the others
-  Settings settings = {};                // with the values of the row's own options
-  Joints* joints = nullptr;              // null where nothing holds the bodies together
+  Contact* contact;                            // null where nothing can touch
+  const OrientationUpdate* orientation;        // for methods with that option; null for the others
+  Settings settings = {};                      // with the values of the row's own options
+  Joints* joints = nullptr;                    // null where nothing holds the bodies together
+  ConstraintForces* contact_forces = nullptr;  // null where no contact is held at each stage
+
+  // What a method that holds_at_stages asks at each of its stages: the joints or the contact forces, which no scene has
+  // both of; null where there are none.
+  ConstraintForces* constraints() const;
 };
 
 struct Integrator {
@@ -50,6 +56,7 @@ struct Integrator {
   bool adaptive = false;            // see MethodInfo; it then has an option "tolerance"
   bool takes_contact = true;        // false: an impact would make what it remembers worthless
   bool takes_joints = false;
+  bool holds_at_stages = false;  // each of its stages asks StepperParts::constraints(), so that they keep its order
   bool takes_dampers_with_joints = true;  // of those that take joints
   std::vector<OptionInfo> options = {};   // of this method alone
   std::string twin_of = "";               // see MethodInfo

@@ -44,7 +44,7 @@ bool ConeNewton::set_up(BodyColumns state, const std::vector<ConeConstraint>& po
     };
     add(point.a, point.arm_a, 1, row.a, row.by_a, row.to_a);
     add(point.b, point.arm_b, -1, row.b, row.by_b, row.to_b);
-    row.start = ConeSolver::velocity_at(point, state);
+    row.start = ConeSolver::velocity_at(point, state) + point.offset;
     row.known = row.centre = row.impulse = point.impulse;
     row.mass = 3 / point.inverse_mass.trace();
     rows_.push_back(row);

@@ -105,7 +105,7 @@ void ConeSolver::push(const ConeConstraint& point, const Vec3& impulse, MutableB
 double ConeSolver::sweep(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
   double largest = 0;
   for (ConeConstraint& point : points) {
-    const Vec3 impulse = impulse_at(point, velocity_at(point, state));
+    const Vec3 impulse = impulse_at(point, velocity_at(point, state) + point.offset);
     const Vec3 change = impulse - point.impulse;
     if (change.isZero(0)) continue;
     push(point, change, state);

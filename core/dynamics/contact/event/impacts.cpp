@@ -1,5 +1,7 @@
 #include "core/dynamics/contact/event/impacts.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rigor {
@@ -7,6 +9,9 @@ namespace {
 
 constexpr int kMostRounds = 2000;     // before every touching point is taken together, without rebound
 constexpr double kNewEnergy = 1e-12;  // of the energy before: rounding
+// Infinite friction stops a slip at once, by an impulse that needs a normal one, however small: one that leaves so
+// little of a speed [m/s]. Slower slips are none.
+constexpr double kJamming = 1e-9, kJammed = 1e-11;
 
 void copy_velocities(BodyColumns from, MutableBodyColumns to) {
   for (std::size_t i = 0; i < to.size(); ++i) {
@@ -41,12 +46,15 @@ bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact
   bool hit = false;
   for (std::size_t i = 0; i < contact_points.size(); ++i) {
     ConeConstraint& point = points_[i];
-    const double approach = -ConeSolver::velocity_at(point, state).x();
-    const bool hits = approach > kStillSpeed;
+    const Vec3 u = ConeSolver::velocity_at(point, state);
+    const double approach = -u.x();
+    const bool jams = std::isinf(point.friction) && approach > -kStillSpeed && u.tail<2>().norm() > kJamming;
+    const bool hits = approach > kStillSpeed || jams;
     hit = hit || hits;
     const bool rebounds = approach > restitution_threshold_ && !inelastic && !all && contact_points[i].restitution > 0;
-    rebound_ = rebound_ || (hits && approach > restitution_threshold_);
+    rebound_ = rebound_ || (hits && approach > restitution_threshold_) || jams;
     point.target_velocity = rebounds ? contact_points[i].restitution * approach : 0;
+    if (jams) point.target_velocity = std::max(point.target_velocity, kJammed);
     if (hits || all || contact_points[i].restitution == 0) chosen_.push_back(point);
   }
   return hit;
