@@ -71,8 +71,8 @@ double ConeNewton::take_impulse(const ConeConstraint& point, const Vec3& u, Row&
   if (normal > 0) row.slope(0, 0) = r;
   double energy = normal * normal / (2 * r);
   const double bearing = is_coupled_ ? normal : row.centre.x();
-  if (!(bearing > 0) || point.friction == 0) return energy;
-  const double radius = point.friction * bearing, size = z.tail<2>().norm();
+  if (!point.grips && (!(bearing > 0) || point.friction == 0)) return energy;
+  const double size = z.tail<2>().norm(), radius = point.grips ? size : point.friction * bearing;
   if (size <= radius) {
     row.impulse.tail<2>() = z.tail<2>();
     row.slope.bottomRightCorner<2, 2>() = r * Eigen::Matrix2d::Identity();

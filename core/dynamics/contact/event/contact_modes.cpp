@@ -8,6 +8,7 @@ namespace {
 
 // Of the accelerations: what parts, and what begins to slide. A mode ends at twice as much, so that what is chosen at
 // its end is not the same again.
+constexpr double kPulling = 1e-9;  // of the forces
 constexpr double kParting = 1e-8, kSlipping = 1e-7, kEnding = 2;
 constexpr double kSlip = 1e4;  // of the accelerations: what a slip counts as beside them; its direction errs by 1/kSlip
 
@@ -59,7 +60,7 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
     if (acceleration.x() > kParting * size_) continue;
     const Eigen::Vector2d slip = point.velocity.tail<2>(), change = acceleration.tail<2>();
     const bool slides = slip.norm() > kSliding && std::isfinite(point.friction());
-    point.begins_to_slip = !slides && change.norm() > kSlipping * size_;
+    point.begins_to_slip = !slides && std::isfinite(point.friction()) && change.norm() > kSlipping * size_;
     point.mode =
         slides || point.begins_to_slip || point.friction() == 0 ? HeldPoint::Mode::slides : HeldPoint::Mode::sticks;
     point.slip_direction.setZero();
@@ -69,7 +70,29 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
     kept.push_back(point);
   }
   points.swap(kept);
-  return true;
+  return drop_pulling_points(state, wrench);
+}
+
+// Where points slide, how their forces are shared out matters, and of the least forces some may pull: without their
+// points the others carry the body. False if it then sinks there, for which there are no forces (Painlevé).
+bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) {
+  std::vector<HeldPoint>& points = held_.points();
+  std::vector<HeldPoint> dropped;
+  while (held_.has_friction_of_slip()) {
+    held_.begin_attempt();
+    held_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
+    const auto least = std::min_element(
+        points.begin(), points.end(), [](const HeldPoint& a, const HeldPoint& b) { return a.force.x() < b.force.x(); });
+    if (least->force.x() >= -kPulling * held_.largest_force()) break;
+    dropped.push_back(*least);
+    points.erase(least);
+  }
+  if (dropped.empty()) return true;
+  held_.begin_attempt();
+  const double* total = held_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
+  return std::none_of(dropped.begin(), dropped.end(), [&](HeldPoint& point) {
+    return held_.normal_acceleration(state, total, point) < -kParting * size_;
+  });
 }
 
 double ContactModes::violation(BodyColumns state, const double* wrench) {

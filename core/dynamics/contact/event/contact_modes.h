@@ -23,6 +23,7 @@ class ContactModes {
   static constexpr double kSliding = 1e-9;
 
  private:
+  bool drop_pulling_points(BodyColumns state, const double* wrench);
   bool solve(BodyColumns state, const double* wrench);
   Vec3 acceleration_of(std::size_t point) const;  // m/s², in the frame
 

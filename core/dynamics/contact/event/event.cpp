@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTouching = 1e-10;      // m: gaps this small are closed; at 1 m/s it is 1e-10 s
-constexpr double kRounding = 2e-13;      // m: of the gap of bodies that touched at the start
+constexpr double kRounding = 1e-15;      // m: of the gap of bodies that touched at the start
 constexpr double kInstant = 1e-6;        // s
 constexpr int kMostInstants = 100;       // in a step
 constexpr double kInelasticStep = 1e-3;  // s
@@ -194,7 +194,7 @@ class EventStepper : public ContactStepper {
   double skip_instant(MutableBodyColumns state) {
     is_smooth_ = false;
     if (++instants_ > kMostInstants)
-      note("no forces between the touching bodies obey the laws of contact and friction");
+      note("no forces between the touching bodies obey the laws of contact and friction (Painlevé's paradox)");
     return take_inelastic_step(state, instants_ > kMostInstants ? kInelasticStep : kInstant);
   }
 
@@ -258,7 +258,9 @@ class EventStepper : public ContactStepper {
     for (const auto& [a, b] : pairs_) {
       double drift = 0;
       const auto is_of_pair = [&](const auto& point) { return point.a == a && point.b == b; };
-      if (std::any_of(touching_.begin(), touching_.end(), is_of_pair)) drift = kRounding;
+      for (const ContactPoint& point : touching_) {
+        if (is_of_pair(point)) drift = std::max(drift, kRounding - point.gap);
+      }
       for (const HeldPoint& point : held) {
         if (is_of_pair(point.contact)) drift = std::max(drift, kRounding + 4 * std::abs(point.touch.gap));
       }

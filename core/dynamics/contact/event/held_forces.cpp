@@ -29,6 +29,7 @@ HeldForces::HeldForces(const System& system, const std::vector<Collider>& collid
 
 void HeldForces::begin_attempt() {
   largest_.assign(system_.size(), {});
+  for (HeldPoint& point : points_) point.least_slip = point.largest_slip = 0;
   list_bodies();
 }
 
@@ -62,6 +63,8 @@ void HeldForces::place(BodyColumns state) {
     point.bias = point.frame.transpose() * bias + Vec3(touch.normal_rate.dot(u), 0, 0);
     const Vec3 slip = u - touch.normal * touch.normal.dot(u);
     point.slip = std::copysign(slip.norm(), slip.dot(point.slip_direction));
+    point.least_slip = std::min(point.least_slip, point.slip);
+    point.largest_slip = std::max(point.largest_slip, point.slip);
   }
 }
 
@@ -122,46 +125,84 @@ std::pair<Vec3, Vec3> HeldForces::free_acceleration(BodyColumns state, const dou
           angular_acceleration(inertia, R, state.angular_velocity(body), torque)};
 }
 
-template <typename Factor>
-void HeldForces::refine(const Factor& factor, const Eigen::VectorXd& free) {
-  Eigen::VectorXd acceleration = free, right_side(free.size());
-  std::vector<double> residual(rows_.size());
+double HeldForces::normal_acceleration(BodyColumns state, const double* total, const HeldPoint& point) const {
+  const auto along = [&](int body, const Vec3& arm) {
+    const auto [linear, angular] = free_acceleration(state, total, body);
+    return point.touch.normal.dot(linear + angular.cross(arm));
+  };
+  return along(point.contact.cone.a, point.arm_a) - along(point.contact.cone.b, point.arm_b) + point.bias.x();
+}
+
+bool HeldForces::has_friction_of_slip() const {
+  return std::any_of(points_.begin(), points_.end(), [](const HeldPoint& point) {
+    return point.mode == HeldPoint::Mode::slides && point.friction() > 0;
+  });
+}
+
+double HeldForces::largest_force() const {
+  double largest = 0;
+  for (const HeldPoint& point : points_) largest = std::max(largest, point.force.norm());
+  return largest;
+}
+
+// What the rows' accelerations still lack.
+double HeldForces::find_residuals(const Eigen::VectorXd& free) {
+  acceleration_ = free;
+  for (const Row& row : rows_) {
+    for (const Side& side : row.side) {
+      if (side.place >= 0) acceleration_.segment<6>(6 * side.place) += row.multiplier * side.of_P;
+    }
+  }
+  residual_.resize(static_cast<Eigen::Index>(rows_.size()));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    double r = -rows_[i].bias;
+    for (const Side& side : rows_[i].side) {
+      if (side.place >= 0) r -= side.of_J.dot(acceleration_.segment<6>(6 * side.place));
+    }
+    residual_[static_cast<Eigen::Index>(i)] = r;
+  }
+  return rows_.empty() ? 0 : residual_.cwiseAbs().maxCoeff();
+}
+
+template <typename Change>
+void HeldForces::refine(const Eigen::VectorXd& free, const Change& change) {
   double size = 0;
   for (int round = 0; round < kMostRounds; ++round) {
-    right_side.setZero();
-    double largest = 0;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const Row& row = rows_[i];
-      double r = -row.bias;
-      for (const Side& side : row.side) {
-        if (side.place >= 0) r -= side.of_J.dot(acceleration.segment<6>(6 * side.place));
-      }
-      residual[i] = r;
-      largest = std::max(largest, std::abs(r));
-      for (const Side& side : row.side) {
-        if (side.place >= 0) right_side.segment<6>(6 * side.place) += row.weight * r * side.of_P;
-      }
-    }
+    const double largest = find_residuals(free);
     if (round == 0) size = largest;
     if (!(largest > kSettled * size)) break;
-    const Eigen::VectorXd change = factor.solve(right_side);
-    acceleration = free;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      Row& row = rows_[i];
-      double r = residual[i];
-      for (const Side& side : row.side) {
-        if (side.place >= 0) r -= side.of_J.dot(change.segment<6>(6 * side.place));
-      }
-      row.multiplier += row.weight * r;
-      for (const Side& side : row.side) {
-        if (side.place >= 0) acceleration.segment<6>(6 * side.place) += row.multiplier * side.of_P;
-      }
-    }
+    change();
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].multiplier += change_[static_cast<Eigen::Index>(i)];
   }
 }
 
-void HeldForces::factorise_and_refine(const Eigen::VectorXd& free) {
-  matrix_.setIdentity(free.size(), free.size());
+// dl = rho (r - J dV'),   (M + Pᵀ rho J) dV' = Pᵀ rho r.
+template <typename Factor>
+void HeldForces::solve_in_accelerations(const Factor& factor, const Eigen::VectorXd& free) {
+  Eigen::VectorXd right_side(free.size());
+  change_.resize(static_cast<Eigen::Index>(rows_.size()));
+  refine(free, [&] {
+    right_side.setZero();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      for (const Side& side : rows_[i].side) {
+        if (side.place >= 0)
+          right_side.segment<6>(6 * side.place) +=
+              rows_[i].weight * residual_[static_cast<Eigen::Index>(i)] * side.of_P;
+      }
+    }
+    const Eigen::VectorXd by = factor.solve(right_side);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      double r = residual_[static_cast<Eigen::Index>(i)];
+      for (const Side& side : rows_[i].side) {
+        if (side.place >= 0) r -= side.of_J.dot(by.segment<6>(6 * side.place));
+      }
+      change_[static_cast<Eigen::Index>(i)] = rows_[i].weight * r;
+    }
+  });
+}
+
+void HeldForces::assemble_in_accelerations(Eigen::Index size) {
+  matrix_.setIdentity(size, size);
   for (const Row& row : rows_) {
     for (const Side& of : row.side) {
       for (const Side& by : row.side) {
@@ -171,10 +212,33 @@ void HeldForces::factorise_and_refine(const Eigen::VectorXd& free) {
       }
     }
   }
-  if (is_symmetric_)
-    refine(matrix_.llt(), free);
-  else
-    refine(matrix_.partialPivLu(), free);
+}
+
+void HeldForces::assemble_in_forces() {
+  const auto count = static_cast<Eigen::Index>(rows_.size());
+  matrix_.setZero(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    matrix_(i, i) = 1 / rows_[static_cast<std::size_t>(i)].weight;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      for (const Side& of : rows_[static_cast<std::size_t>(i)].side) {
+        for (const Side& by : rows_[static_cast<std::size_t>(j)].side) {
+          if (of.place >= 0 && of.place == by.place) matrix_(i, j) += of.of_J.dot(by.of_P);
+        }
+      }
+    }
+  }
+}
+
+// In whichever there are fewer of.
+void HeldForces::find_multipliers(const Eigen::VectorXd& free) {
+  if (static_cast<Eigen::Index>(rows_.size()) < free.size()) {
+    assemble_in_forces();
+    const auto by = [&](const auto& factor) { refine(free, [&] { change_ = factor.solve(residual_); }); };
+    is_symmetric_ ? by(matrix_.llt()) : by(matrix_.partialPivLu());
+    return;
+  }
+  assemble_in_accelerations(free.size());
+  is_symmetric_ ? solve_in_accelerations(matrix_.llt(), free) : solve_in_accelerations(matrix_.partialPivLu(), free);
 }
 
 void HeldForces::solve(BodyColumns state, const double* wrench) {
@@ -191,7 +255,7 @@ void HeldForces::solve(BodyColumns state, const double* wrench) {
         inertia_root_B_[body].transpose() * (system_.bodies[body].inertia_B * (R.transpose() * angular));
   }
   list_rows();
-  factorise_and_refine(free);
+  find_multipliers(free);
 }
 
 void HeldForces::set_forces() {

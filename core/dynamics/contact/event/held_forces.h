@@ -6,7 +6,7 @@
 // direction of its slip: Coulomb's force. Points may be more than the motion can tell apart; then, of all l that do it,
 // nearly the least is taken, by rounds of
 //   (J M⁻¹ Pᵀ + 1/rho) dl = -J'V - J V',
-// each solved in the bodies' accelerations, of which there are six a body however many points it has.
+// each solved in forces or, where points are many, in the bodies' accelerations, of which there are six a body.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,6 +34,7 @@ struct HeldPoint {
   Vec3 velocity = Vec3::Zero(), bias = Vec3::Zero();  // m/s and m/s², of a against b, in the frame
   Vec3 force = Vec3::Zero();                          // N, in the frame
   double slip = 0;                                    // m/s, signed
+  double least_slip = 0, largest_slip = 0;            // m/s, at all instants since begin_attempt()
 
   double friction() const { return contact.cone.friction; }
 };
@@ -52,6 +53,10 @@ class HeldForces : public ConstraintForces {
   void place(BodyColumns state);
   // V' of a body under the loads alone: linear and angular.
   std::pair<Vec3, Vec3> free_acceleration(BodyColumns state, const double* wrench, int body) const;
+  // Of a point at `state`, under wrench columns of everything that acts on the bodies [m/s²].
+  double normal_acceleration(BodyColumns state, const double* total, const HeldPoint& point) const;
+  bool has_friction_of_slip() const;
+  double largest_force() const;  // N, of one point
   // The most that was on each body at any instant since begin_attempt().
   const std::vector<Loading>& largest_loads() const { return largest_; }
   void begin_attempt();
@@ -75,9 +80,14 @@ class HeldForces : public ConstraintForces {
   void list_rows();
   void add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force);
   void solve(BodyColumns state, const double* wrench);
-  void factorise_and_refine(const Eigen::VectorXd& free);
+  void find_multipliers(const Eigen::VectorXd& free);
+  void assemble_in_accelerations(Eigen::Index size);
+  void assemble_in_forces();
+  double find_residuals(const Eigen::VectorXd& free);
+  template <typename Change>
+  void refine(const Eigen::VectorXd& free, const Change& change);
   template <typename Factor>
-  void refine(const Factor& factor, const Eigen::VectorXd& free);
+  void solve_in_accelerations(const Factor& factor, const Eigen::VectorXd& free);
   const double* as_wrench(const double* wrench);
   void set_forces();
 
@@ -90,6 +100,7 @@ class HeldForces : public ConstraintForces {
   std::vector<Row> rows_;
   bool is_symmetric_ = true;
   Eigen::MatrixXd matrix_;
+  Eigen::VectorXd acceleration_, residual_, change_;
   Columns wrench_;
   std::vector<Loading> largest_;
 };

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/engine/option_values.h"
+
 namespace rigor {
 namespace {
 
@@ -12,8 +14,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kClosed = 1e-13;  // m: a few roundings of a position of one metre
 constexpr int kMostMoves = 20;
 constexpr double kTouching = 1e-3;    // m: a point that drifted further than this is not in contact any more
-constexpr double kSeparating = 1e-9;  // m/s: ten times what an impact may leave, a hundredth of the least rebound
 constexpr double kBeginning = 1e-11;  // m/s: how much a slip that begins may go the wrong way, by rounding
+constexpr double kPulling = 2e-9;     // of the forces: twice what is still chosen
+constexpr double kReversed = 0.1;     // of the fastest slip at any stage: what stages differ by is less
+constexpr double kSlow = 10;          // of the restitution threshold: what parts no faster, and comes back, stays
 constexpr double kStill = 1e-15;      // of the speeds: what is left of a velocity that is to be zero
 
 // Of no lower order than `own`, and asks for forces at its stages.
@@ -41,7 +45,8 @@ PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& c
       held_stepper_(in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, &held_})),
       loads_(system_),
       solver_(system_),
-      projection_(system_) {}
+      projection_(system_),
+      restitution_threshold_(number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)) {}
 
 bool PersistentContact::select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t,
                                double dt) {
@@ -51,14 +56,15 @@ bool PersistentContact::select(MutableBodyColumns state, const std::vector<Conta
   const auto& colliders = contact_points_.colliders();
   for (const ContactPoint& contact : contact_points) {
     const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
-    if (u.x() > kSeparating) continue;
+    if (u.x() > kSlow * restitution_threshold_) continue;
     HeldPoint point;
     point.contact = contact;
     const Collider &a = colliders[contact.a], &b = colliders[contact.b];
     const ManifoldPoint place{contact.cone.frame.col(0), state.position(contact.cone.a) + contact.cone.arm_a,
                               contact.gap, contact.feature};
     point.features = features_at(place, a, pose_of(state, a.body), b, pose_of(state, b.body));
-    const bool slides = contact.cone.friction == 0 || u.tail<2>().norm() > ContactModes::kSliding;
+    const bool slides = contact.cone.friction == 0 ||
+                        (std::isfinite(contact.cone.friction) && u.tail<2>().norm() > ContactModes::kSliding);
     point.mode = slides ? HeldPoint::Mode::slides : HeldPoint::Mode::sticks;
     const auto old = std::find_if(old_points_.begin(), old_points_.end(),
                                   [&](const HeldPoint& p) { return p.contact.same_place(contact); });
@@ -66,8 +72,9 @@ bool PersistentContact::select(MutableBodyColumns state, const std::vector<Conta
     points.push_back(point);
   }
   if (points.empty()) return true;
+  const bool are_found = modes_.choose(state, loads_.over_step(state, t, dt));
   stop_points(state);
-  return modes_.choose(state, loads_.over_step(state, t, dt));
+  return are_found;
 }
 
 void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
@@ -86,25 +93,34 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
 
 // Of the forces: how far they are from pulling, or from passing their cones.
 double PersistentContact::margin() const {
-  double size = 0, least = kInfinity;
-  for (const HeldPoint& point : points()) size = std::max(size, point.force.norm());
+  double least = kInfinity;
   for (const HeldPoint& point : points()) {
     least = std::min(least, point.force.x());
     if (point.mode == HeldPoint::Mode::sticks && std::isfinite(point.friction()))
       least = std::min(least, point.friction() * point.force.x() - point.force.tail<2>().norm());
   }
-  return size > 0 ? least / size : 0;
+  return least;
+}
+
+// Of the slips, and of the forces where their shares matter.
+double PersistentContact::slipping_margin() const {
+  double least = kInfinity;
+  const bool shares_matter = held_.has_friction_of_slip();
+  const double size = held_.largest_force();
+  for (const HeldPoint& point : points()) {
+    if (shares_matter && size > 0) least = std::min(least, point.force.x() / size + kPulling);
+    if (point.mode != HeldPoint::Mode::slides || point.friction() == 0) continue;
+    least = std::min(least, point.slip + (point.begins_to_slip ? kBeginning : 0));
+    // A slip that ended within a long step, and began again.
+    if (point.least_slip < -kReversed * point.largest_slip) least = std::min(least, point.least_slip);
+  }
+  return least;
 }
 
 double PersistentContact::distance_from_change() {
   if (points().empty()) return kInfinity;
-  double least = kInfinity;
-  for (const HeldPoint& point : points()) {
-    if (point.mode != HeldPoint::Mode::slides || point.friction() == 0) continue;
-    least = std::min(least, point.slip + (point.begins_to_slip ? kBeginning : 0));
-  }
-  const double of_forces = margin();
-  if (of_forces >= 0 || least < 0) return least;
+  const double least = slipping_margin();
+  if (least < 0 || margin() >= 0) return least;
   const double violation = modes_.violation(end_, wrench_at_end_);
   return violation > 0 ? -violation : least;
 }
@@ -115,8 +131,9 @@ void PersistentContact::take_inelastic_step(MutableBodyColumns state, std::vecto
   ++passes_;
   cones_.clear();
   for (ContactPoint& contact : touching) {
-    if (contact_points_.follow(state, contact)) cones_.push_back(contact.cone);
-    cones_.back().impulse.setZero(), cones_.back().target_velocity = 0;
+    if (!contact_points_.follow(state, contact)) continue;
+    cones_.push_back(contact.cone);
+    cones_.back().grips = std::isinf(contact.cone.friction);
   }
   solver_.prepare(state, cones_);
   solver_.solve(state, cones_);

@@ -45,6 +45,7 @@ class PersistentContact {
 
  private:
   double margin() const;
+  double slipping_margin() const;
   bool carries(const ContactPoint& contact) const;
   void add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral);
 
@@ -57,6 +58,7 @@ class PersistentContact {
   WrenchColumns loads_;
   ConeSolver solver_;
   MassWeightedProjection projection_;
+  double restitution_threshold_;  // m/s
   BodyColumns end_;
   const double* wrench_at_end_ = nullptr;
   std::vector<HeldPoint> old_points_;
