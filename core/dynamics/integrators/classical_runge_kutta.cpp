@@ -34,7 +34,8 @@ void ClassicalRungeKutta::step(MutableBodyColumns state, double t, double dt) {
 
 void ClassicalRungeKutta::smooth_part(MutableBodyColumns state, double t, double dt) {
   const BodyConstants& bodies = parts_.system.constants;
-  if (parts_.system.loads.empty() && !parts_.joints) {
+  ConstraintForces* const constraints = parts_.constraints();
+  if (parts_.system.loads.empty() && !constraints) {
     bodies.for_each_block([&](const Bodies& block) {
       for (std::size_t s = 0; s < kStages; ++s) take_stage(s, block, state, nullptr, dt);
     });
@@ -43,8 +44,8 @@ void ClassicalRungeKutta::smooth_part(MutableBodyColumns state, double t, double
   for (std::size_t s = 0; s < kStages; ++s) {
     const BodyColumns at = s == 0 ? state : stage_.columns();
     const double* wrench = loads_.over_step(at, t, dt);
-    if (parts_.joints)
-      wrench = parts_.joints->hold(at, wrench, s == 0 ? Joints::Rows::chosen_anew : Joints::Rows::as_chosen);
+    using Rows = ConstraintForces::Rows;
+    if (constraints) wrench = constraints->hold(at, wrench, s == 0 ? Rows::chosen_anew : Rows::as_chosen);
     bodies.for_each_block([&](const Bodies& block) { take_stage(s, block, state, wrench, dt); });
   }
 }

@@ -25,7 +25,7 @@ class DormandPrince : public Stepper {
   explicit DormandPrince(const StepperParts& parts)
       : parts_(parts),
         tolerance_(number_option(parts.settings, "tolerance", kDefaultTolerance)),
-        equations_(parts.system, parts.joints),
+        equations_(parts.system, parts.constraints()),
         y_(parts.system.size()),
         next_(parts.system.size()),
         estimate_(parts.system.size()) {
@@ -126,6 +126,7 @@ const Integrator kDormandPrince = {
     .default_orientation = "",
     .adaptive = true,
     .takes_joints = true,
+    .holds_at_stages = true,
     .options = {{.name = "tolerance",
                  .meaning =
                      fmt::format("error of an inner step, relative to 1 + the value in m, rad, m/s, rad/s; default {}",

@@ -14,7 +14,8 @@ class ExplicitEuler : public Stepper {
 
   void step(MutableBodyColumns state, double t, double dt) override {
     const double* wrench = wrenches_.over_step(state, t, dt);
-    if (parts_.joints) wrench = parts_.joints->hold(state, wrench, Joints::Rows::chosen_anew);
+    if (ConstraintForces* forces = parts_.constraints())
+      wrench = forces->hold(state, wrench, ConstraintForces::Rows::chosen_anew);
     parts_.system.constants.for_each_block(
         [&](const Bodies& block) { passes_.kick_and_drift_at_once(block, state, wrench, dt); });
     if (parts_.joints) parts_.joints->project(state);
@@ -38,6 +39,7 @@ const Integrator kExplicitEuler = {
     .leapfrog_stagger = 0,
     .default_orientation = "quaternion-exponential",
     .takes_joints = true,
+    .holds_at_stages = true,
     .make = make_stepper<ExplicitEuler>,
 };
 

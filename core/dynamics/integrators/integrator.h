@@ -8,6 +8,7 @@
 
 #include "core/dynamics/integrators/orientation_updates.h"
 #include "core/dynamics/integrators/velocity_correction.h"
+#include "core/dynamics/model/constraint_forces.h"
 #include "core/dynamics/model/system.h"
 #include "core/engine/engine.h"
 
@@ -39,6 +40,11 @@ struct StepperParts {
   Joints* joints = nullptr;              // null where nothing holds the bodies together
   // There only while a stepper is made, for one that holds joints its own way; null where contacts are carried.
   const Scene* scene = nullptr;
+  ConstraintForces* contact_forces = nullptr;  // null where no contact is held at each stage
+
+  // What a method that holds_at_stages asks at each of its stages: the joints or the contact forces, which no scene has
+  // both of; null where there are none.
+  ConstraintForces* constraints() const;
 };
 
 struct Integrator {
@@ -52,6 +58,7 @@ struct Integrator {
   bool adaptive = false;            // see MethodInfo; it then has an option "tolerance"
   bool takes_contact = true;        // false: an impact would make what it remembers worthless
   bool takes_joints = false;
+  bool holds_at_stages = false;  // each of its stages asks StepperParts::constraints(), so that they keep its order
   bool takes_dampers_with_joints = true;  // of those that take joints
   Features lacks = {};                    // what else of features.h it cannot express
   std::vector<OptionInfo> options = {};   // of this method alone

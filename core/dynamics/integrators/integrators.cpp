@@ -2,8 +2,11 @@
 #include <cassert>
 
 #include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/joints/joints.h"
 
 namespace rigor {
+
+ConstraintForces* StepperParts::constraints() const { return contact_forces ? contact_forces : joints; }
 
 extern const Integrator kAdams, kDormandPrince, kExplicitEuler, kExponentialAdams, kImplicitMidpoint,
     kLinearlyImplicitEuler, kMoserVeselov, kRk4, kRkmk4, kSemiImplicitEuler, kSymplectic4, kSymplectic8,

@@ -14,6 +14,7 @@ const Integrator kRk4 = {
     .leapfrog_stagger = 0,
     .default_orientation = "",
     .takes_joints = true,
+    .holds_at_stages = true,
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
       return std::make_unique<ClassicalRungeKutta>(parts, OrientationChart::quaternion);
     },

@@ -11,9 +11,10 @@ AccelerationBounds::AccelerationBounds(const System& system) : system_(system) {
   }
 }
 
-bool AccelerationBounds::find(BodyColumns from, BodyColumns to, double t, double h) {
+bool AccelerationBounds::find(BodyColumns from, BodyColumns to, double t, double h,
+                              const std::vector<Loading>& contacts) {
   const Ends ends{from, to, t, h};
-  load_by_forces(ends);
+  load_by_forces(ends, contacts);
   guess_.assign(system_.size(), {});
   apply(ends, guess_, bounds_);
   for (AccelerationBound& bound : bounds_) bound.linear *= 2, bound.angular *= 2;
@@ -25,8 +26,8 @@ bool AccelerationBounds::find(BodyColumns from, BodyColumns to, double t, double
   return true;
 }
 
-// Gravity and the timed forces, none of which begins or ends on the way.
-void AccelerationBounds::load_by_forces(const Ends& ends) {
+// Gravity, contacts and the timed forces, none of which begins or ends on the way.
+void AccelerationBounds::load_by_forces(const Ends& ends, const std::vector<Loading>& contacts) {
   Wrenches constant(system_.size());
   std::vector<double> turning(system_.size());  // N m, of forces whose arms turn with the body
   for (std::size_t i = 0; i < system_.size(); ++i) constant[i].force = system_.bodies[i].mass * system_.scene_gravity;
@@ -36,7 +37,8 @@ void AccelerationBounds::load_by_forces(const Ends& ends) {
   });
   by_forces_.clear();
   for (std::size_t i = 0; i < system_.size(); ++i) {
-    by_forces_.push_back({constant[i].force.norm(), constant[i].torque.norm() + turning[i]});
+    by_forces_.push_back(
+        {constant[i].force.norm() + contacts[i].force, constant[i].torque.norm() + turning[i] + contacts[i].torque});
   }
 }
 

@@ -26,13 +26,19 @@ struct AccelerationBound {
   double of_point(double reach) const { return linear + (spin * spin + angular) * reach; }
 };
 
+// How much of a force and of a torque acts on a body at most.
+struct Loading {
+  double force = 0, torque = 0;  // N, N m
+};
+
 class AccelerationBounds {
  public:
   explicit AccelerationBounds(const System& system);
 
-  // From one state at t to the other at t + h; no timed force begins or ends between them. False if nothing is
-  // enclosed, as over a shorter time it is; the bounds are then but a guess.
-  bool find(BodyColumns from, BodyColumns to, double t, double h);
+  // From one state at t to the other at t + h; no timed force begins or ends between them, and contacts load the bodies
+  // by no more than `contacts`, one for each of them. False if nothing is enclosed, as over a shorter time it is; the
+  // bounds are then but a guess.
+  bool find(BodyColumns from, BodyColumns to, double t, double h, const std::vector<Loading>& contacts);
   const AccelerationBound& of(int body) const { return bounds_[body]; }
 
  private:
@@ -41,11 +47,8 @@ class AccelerationBounds {
     BodyColumns from, to;
     double t, h;
   };
-  struct Loading {
-    double force = 0, torque = 0;  // N, N m
-  };
 
-  void load_by_forces(const Ends& ends);
+  void load_by_forces(const Ends& ends, const std::vector<Loading>& contacts);
   void load_by_springs(const Ends& ends, const Bounds& guess);
   double largest_spin(std::size_t body, const Ends& ends, double torque) const;
   void apply(const Ends& ends, const Bounds& guess, Bounds& out);

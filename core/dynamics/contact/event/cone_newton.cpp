@@ -44,7 +44,7 @@ bool ConeNewton::set_up(BodyColumns state, const std::vector<ConeConstraint>& po
     };
     add(point.a, point.arm_a, 1, row.a, row.by_a, row.to_a);
     add(point.b, point.arm_b, -1, row.b, row.by_b, row.to_b);
-    row.start = ConeSolver::velocity_at(point, state);
+    row.start = ConeSolver::velocity_at(point, state) + point.offset;
     row.known = row.centre = row.impulse = point.impulse;
     row.mass = 3 / point.inverse_mass.trace();
     rows_.push_back(row);
@@ -71,8 +71,8 @@ double ConeNewton::take_impulse(const ConeConstraint& point, const Vec3& u, Row&
   if (normal > 0) row.slope(0, 0) = r;
   double energy = normal * normal / (2 * r);
   const double bearing = is_coupled_ ? normal : row.centre.x();
-  if (!(bearing > 0) || point.friction == 0) return energy;
-  const double radius = point.friction * bearing, size = z.tail<2>().norm();
+  if (!point.grips && (!(bearing > 0) || point.friction == 0)) return energy;
+  const double size = z.tail<2>().norm(), radius = point.grips ? size : point.friction * bearing;
   if (size <= radius) {
     row.impulse.tail<2>() = z.tail<2>();
     row.slope.bottomRightCorner<2, 2>() = r * Eigen::Matrix2d::Identity();

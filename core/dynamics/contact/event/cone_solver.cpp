@@ -47,10 +47,14 @@ Mat3 contact_frame(const Vec3& n) {
 Vec3 impulse_at(const ConeConstraint& point, const Vec3& u) {
   const Mat3& W = point.inverse_mass;
   const Vec3 free = u - W * point.impulse;  // the velocity there would be without this point's impulse
-  if (free.x() >= point.target_velocity) return Vec3::Zero();
+  if (free.x() >= point.target_velocity && !point.grips) return Vec3::Zero();
   // Sticking, if the cone allows it.
   const Vec3 stick = W.inverse() * (Vec3(point.target_velocity, 0, 0) - free);
-  if (stick.x() > 0 && stick.tail<2>().norm() <= disc(point.friction, stick.x())) return stick;
+  if (stick.x() > 0 && (point.grips || stick.tail<2>().norm() <= disc(point.friction, stick.x()))) return stick;
+  if (point.grips) {
+    const Eigen::Vector2d slip = free.tail<2>(), grip = W.bottomRightCorner<2, 2>().inverse() * -slip;
+    return {0, grip.x(), grip.y()};
+  }
   if (point.friction == 0) return {(point.target_velocity - free.x()) / W(0, 0), 0, 0};
   // Sliding: normal and tangential parts in turn; from one sweep to the next they settle together.
   constexpr int kTurns = 8;
@@ -105,7 +109,7 @@ void ConeSolver::push(const ConeConstraint& point, const Vec3& impulse, MutableB
 double ConeSolver::sweep(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
   double largest = 0;
   for (ConeConstraint& point : points) {
-    const Vec3 impulse = impulse_at(point, velocity_at(point, state));
+    const Vec3 impulse = impulse_at(point, velocity_at(point, state) + point.offset);
     const Vec3 change = impulse - point.impulse;
     if (change.isZero(0)) continue;
     push(point, change, state);

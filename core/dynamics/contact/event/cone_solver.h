@@ -18,7 +18,9 @@ struct ConeConstraint {
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  // m, from the centres of mass to the point, in W
   Mat3 frame = Mat3::Identity();                    // columns: the normal from b to a and two tangents, in W
   double friction = 0;                              // may be kInfiniteFriction
+  bool grips = false;                               // its slip is stopped however little it is pressed
   double target_velocity = 0;                       // m/s, normal, the least allowed afterwards
+  Vec3 offset = Vec3::Zero();   // m/s, in the frame: what the velocity there has beside that of the bodies
   Vec3 impulse = Vec3::Zero();  // N s, in the frame; what it is before solving, the velocities know already
 
   Mat3 inverse_mass = Mat3::Zero();   // 1/kg, of the point, in the frame; from prepare()

@@ -1,16 +1,18 @@
-// Contact by events. Inside a step the instants are found at which bodies meet and at which sliding ends, as roots of
-// gaps and of sliding speeds along the integrator's own sub-steps from the last such instant; there impacts are
-// resolved (impacts.h), and between them what touches is persistent (held_motion.h). A sequence of bounces ends by the
-// rule of kRestitutionThreshold. Bodies that overlap at the start are moved apart at once, without velocity. After
-// kMostEvents in one step the rest of that step has no rebounds, after twice as many no events, and the run says so.
-// Where bodies are not sure to stay apart (conservative_advancement.h, acceleration_bounds.h) the time is halved, so
-// that nothing passes through and no graze is missed.
+// Contact by events. Inside a step the instants are found at which bodies meet, part, begin to slide or cease to, as
+// roots of gaps, forces and slips along the integrator's own sub-steps from the last such instant; there impacts are
+// resolved (impacts.h), and between them what touches is persistent (persistent_contact.h). A sequence of bounces ends
+// by the rule of kRestitutionThreshold. Bodies that overlap at the start are moved apart at once, without velocity.
+// Where no forces between touching bodies obey the laws (Painlevé's paradox: a rod that slides at a steep angle), an
+// impact without collision, of a step of kInstant, leads on. After kMostEvents in one step its rest is taken in
+// inelastic steps, and the run says so. Where bodies are not sure to stay apart (conservative_advancement.h,
+// acceleration_bounds.h) the time is halved, so that nothing passes through and no graze is missed.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "core/dynamics/collision/conservative_advancement.h"
@@ -22,7 +24,11 @@ namespace rigor {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTouching = 1e-10;  // m: gaps this small are closed; at 1 m/s it is 1e-10 s
+constexpr double kTouching = 1e-10;      // m: gaps this small are closed; at 1 m/s it is 1e-10 s
+constexpr double kRounding = 1e-15;      // m: of the gap of bodies that touched at the start
+constexpr double kInstant = 1e-6;        // s
+constexpr int kMostInstants = 100;       // in a step
+constexpr double kInelasticStep = 1e-3;  // s
 constexpr int kMostEvents = 1000;
 constexpr int kMostPieces = 10000;  // of the time to the next event, while bodies are not seen to stay apart
 
@@ -38,10 +44,10 @@ class EventStepper : public ContactStepper {
  public:
   EventStepper(const Scene& scene, const ContactParts& parts)
       : contact_points_(scene),
-        persistent_contact_(scene, parts.integrator, parts.orientation, parts.settings, contact_points_),
-        impacts_(persistent_contact_.system(),
-                 number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
-        bounds_(persistent_contact_.system()) {}
+        loads_(parts.system.loads),
+        persistent_contact_(parts, contact_points_),
+        impacts_(parts.system, number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
+        bounds_(parts.system) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     solver_warning_.clear();
@@ -50,14 +56,13 @@ class EventStepper : public ContactStepper {
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
     double done = 0;
+    instants_ = 0;
     for (int events = 0; done < dt; ++events) {
       if (!is_finite(state)) return note("the state of a body is no longer finite");
-      if (events == kMostEvents) note(fmt::format("more than {} events in a step: no rebounds in its rest", events));
-      begin_part(state, events >= kMostEvents);
-      const double end = persistent_contact_.system().loads.next_switch(t + done, t + dt);
+      const double end = loads_.next_switch(t + done, t + dt);
       is_smooth_ = is_smooth_ && end == t + dt;
       part_ = {t, done, end == t + dt ? dt : end - t};
-      done = events < 2 * kMostEvents ? advance(state) : finish(state);
+      done = events < kMostEvents ? take_part(state) : finish(state);
     }
     note(persistent_contact_.take_projection_warning());
   }
@@ -69,6 +74,7 @@ class EventStepper : public ContactStepper {
   SettingsInForce settings_in_force() const override {
     return {
         {"impacts", "at their own instants, simultaneous ones together"},
+        {"held contact", "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
         {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.restitution_threshold())},
         {"most events in a step", fmt::format("{}", kMostEvents)}};
   }
@@ -85,19 +91,20 @@ class EventStepper : public ContactStepper {
   }
 
   void step_without_contact(MutableBodyColumns state, double t, double dt) {
-    persistent_contact_.select(state, {});
+    persistent_contact_.select(state, {}, t, dt);
     start_ = BodyColumns(state);
     persistent_contact_.advance(start_.columns(), state, t, dt);
   }
 
   // Impacts now, and what stays in contact until the next event.
-  void begin_part(MutableBodyColumns state, bool inelastic) {
+  double take_part(MutableBodyColumns state) {
     pairs_ = contact_points_.candidates(state);
     touching_.clear();
     contact_points_.find(state, pairs_, kTouching, touching_);
-    if (impacts_.resolve(state, touching_, inelastic)) is_smooth_ = false;
+    if (impacts_.resolve(state, touching_, false)) is_smooth_ = false;
     note(impacts_.solver_warning());
-    persistent_contact_.select(state, touching_);
+    if (!persistent_contact_.select(state, touching_, part_.t + part_.from, part_.length())) return skip_instant(state);
+    return advance(state);
   }
 
   // As far as the next event, or to the part's end. Returns how far, in the time of the step.
@@ -106,8 +113,8 @@ class EventStepper : public ContactStepper {
     end_ = BodyColumns(state);
     pairs_.clear();
     part_.to = std::min(part_.to, part_.from + longest_);
+    longest_ = kInfinity;
     attempt(part_.length());
-    shorten_until_settled();
     shorten_until_bounded();
     pairs_ = contact_points_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length(), bounds_);
     clear_ = std::as_const(start_).columns();
@@ -134,9 +141,7 @@ class EventStepper : public ContactStepper {
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
     return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
       const auto [a, b] = pair;
-      const auto is_of_pair = [&](const PersistentPoint& persistent) {
-        return persistent.at_end.a == a && persistent.at_end.b == b;
-      };
+      const auto is_of_pair = [&](const HeldPoint& held) { return held.contact.a == a && held.contact.b == b; };
       if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair))
         return true;
       const Collider &first = contact_points_.colliders()[a], &second = contact_points_.colliders()[b];
@@ -151,17 +156,6 @@ class EventStepper : public ContactStepper {
     return {bound.linear, bound.of_point(collider.bounding_radius)};
   }
 
-  // The forces of what is persistent turn with it; in long steps they may find no end to that.
-  void shorten_until_settled() {
-    constexpr int kMostTimes = 20;
-    longest_ = kInfinity;
-    for (int k = 0; k < kMostTimes && !has_settled_; ++k) {
-      part_.to = part_.from + 0.5 * part_.length();
-      attempt(part_.length());
-      longest_ = 2 * part_.length();  // of the next part
-    }
-  }
-
   // Of what a stiff spring may do within a long step there is no bound.
   void shorten_until_bounded() {
     constexpr int kMostTimes = 30;
@@ -174,33 +168,51 @@ class EventStepper : public ContactStepper {
 
   // The accelerations on the way from the state after `after` to end_, h after it.
   bool are_bounded(BodyColumns from, double after, double h) {
-    return bounds_.find(from, std::as_const(end_).columns(), part_.t + part_.from + after, h);
+    return bounds_.find(from, std::as_const(end_).columns(), part_.t + part_.from + after, h,
+                        persistent_contact_.largest_loads());
   }
 
   // The state after h into end_. Positive before the first event, negative after it.
   double attempt(double h) {
-    has_settled_ = persistent_contact_.advance(start_.columns(), end_.columns(), part_.t + part_.from, h);
+    persistent_contact_.advance(start_.columns(), end_.columns(), part_.t + part_.from, h);
     return distance_from_event();
   }
 
-  double distance_from_event() { return std::min(persistent_contact_.distance_from_sticking(), least_free_gap()); }
+  double distance_from_event() { return std::min(persistent_contact_.distance_from_change(), least_free_gap()); }
 
   double commit(MutableBodyColumns state, double done) {
     copy_columns(std::as_const(end_).columns(), state);
     note(persistent_contact_.solver_warning());
+    if (persistent_contact_.points().empty()) return done;
     pairs_ = contact_points_.candidates(state);
-    if (persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all))
-      persistent_contact_.stop_carrying_points(state);
+    persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all);
+    persistent_contact_.stop_points(state);
     return done;
   }
 
-  // Without looking for events: what touches stays in contact, whatever its velocity.
+  // Over an instant for which there are no forces that obey the laws.
+  double skip_instant(MutableBodyColumns state) {
+    is_smooth_ = false;
+    if (++instants_ > kMostInstants)
+      note("no forces between the touching bodies obey the laws of contact and friction (Painlevé's paradox)");
+    return take_inelastic_step(state, instants_ > kMostInstants ? kInelasticStep : kInstant);
+  }
+
+  double take_inelastic_step(MutableBodyColumns state, double longest) {
+    const double h = std::min(part_.length(), longest);
+    persistent_contact_.take_inelastic_step(state, touching_, part_.t + part_.from, h);
+    pairs_ = contact_points_.candidates(state);
+    persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
+    return h == part_.length() ? part_.to : part_.from + h;
+  }
+
+  // Without looking for events.
   double finish(MutableBodyColumns state) {
-    note("too many events in a step: its rest was taken in one");
-    start_ = BodyColumns(state);
-    end_ = BodyColumns(state);
-    persistent_contact_.advance(start_.columns(), end_.columns(), part_.t + part_.from, part_.length());
-    return commit(state, part_.to);
+    note(fmt::format("more than {} events in a step: its rest was taken in steps without rebounds", kMostEvents));
+    pairs_ = contact_points_.candidates(state);
+    touching_.clear();
+    contact_points_.find(state, pairs_, kTouching, touching_);
+    return take_inelastic_step(state, kInelasticStep);
   }
 
   // The first event lies between `low`, where all is clear, and `high`.
@@ -218,60 +230,59 @@ class EventStepper : public ContactStepper {
         }
         high = middle, distance_high = distance;
       }
-      if (halvings == kMostHalvings) return keep_slow_ones(state);
+      if (halvings == kMostHalvings) return skip_instant(state);
     } else {
       distance_low = attempt(low);
     }
-    if (distance_low > 0) low = root(low, high, distance_low, distance_high);
-    attempt(low);
     is_smooth_ = false;
-    return commit(state, part_.from + low);
+    if (distance_low > 0) std::tie(low, high) = root(low, high, distance_low, distance_high);
+    // What a mode ends with is chosen anew beyond its end; bodies that meet are stopped before they overlap.
+    const bool is_change = (attempt(high), persistent_contact_.distance_from_change() < 0) && least_free_gap() >= 0;
+    if (!is_change) attempt(low), high = low;
+    return commit(state, part_.from + high);
   }
 
-  double root(double low, double high, double distance_low, double distance_high) {
+  std::pair<double, double> root(double low, double high, double distance_low, double distance_high) {
     std::uintmax_t most = 200;
     // A step's own rounding: its share of dt, and that of a gap at the speed of sound.
     const double width = 1e-14 * part_.length();
     return boost::math::tools::toms748_solve([this](double h) { return attempt(h); }, low, high, distance_low,
-                                             distance_high, [=](double a, double b) { return b - a <= width; }, most)
-        .first;
-  }
-
-  // What separates so slowly that rounding hides its gap stays in contact after all; where nothing does, the rest of
-  // the part goes without looking for events.
-  double keep_slow_ones(MutableBodyColumns state) {
-    if (persistent_contact_.add_slower_than(10 * impacts_.restitution_threshold(), state, touching_))
-      return advance(state);
-    return finish(state);
+                                             distance_high, [=](double a, double b) { return b - a <= width; }, most);
   }
 
   // The least gap of points not in persistent contact. Where others of the pair are, what these drift is allowed to
   // them too.
   double least_free_gap() {
     double least = kInfinity;
+    const std::vector<HeldPoint>& held = persistent_contact_.points();
     for (const auto& [a, b] : pairs_) {
       double drift = 0;
-      for (const PersistentPoint& persistent : persistent_contact_.points()) {
-        if (persistent.at_end.a == a && persistent.at_end.b == b)
-          drift = std::max(drift, 4 * std::abs(persistent.at_end.gap));
+      const auto is_of_pair = [&](const auto& point) { return point.a == a && point.b == b; };
+      for (const ContactPoint& point : touching_) {
+        if (is_of_pair(point)) drift = std::max(drift, kRounding - point.gap);
+      }
+      for (const HeldPoint& point : held) {
+        if (is_of_pair(point.contact)) drift = std::max(drift, kRounding + 4 * std::abs(point.touch.gap));
       }
       for (const ManifoldPoint& point : contact_points_.manifold(end_.columns(), a, b)) {
-        const bool is_persistent = std::any_of(
-            persistent_contact_.points().begin(), persistent_contact_.points().end(),
-            [&](const auto& h) { return h.at_end.a == a && h.at_end.b == b && h.at_end.feature == point.feature; });
-        if (!is_persistent) least = std::min(least, point.gap + drift);
+        const bool is_held = std::any_of(held.begin(), held.end(), [&](const HeldPoint& h) {
+          return is_of_pair(h.contact) && h.contact.feature == point.feature;
+        });
+        if (!is_held) least = std::min(least, point.gap + drift);
       }
     }
     return least;
   }
 
   ContactPoints contact_points_;
+  const Loads& loads_;
   PersistentContact persistent_contact_;
   Impacts impacts_;
   AccelerationBounds bounds_;
   Part part_;
   double longest_ = kInfinity;  // s, of the next part
-  bool has_settled_ = true, is_smooth_ = true;
+  int instants_ = 0;            // skipped in this step
+  bool is_smooth_ = true;
   BodyTable start_, end_, clear_;
   std::vector<double> ahead_;  // s, ends of the intervals still to be looked at, the next one last
   std::vector<ContactPoint> touching_;
@@ -284,7 +295,7 @@ class EventStepper : public ContactStepper {
 extern const ContactMethod kEventContact;
 const ContactMethod kEventContact = {
     .name = "event",
-    .summary = "impacts at their own instants, persistent contact by exact forces; for few bodies",
+    .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
     .features =
         joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none", "restitution"}),
     .options = {{"restitution-threshold", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1}},

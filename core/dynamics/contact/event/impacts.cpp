@@ -1,5 +1,7 @@
 #include "core/dynamics/contact/event/impacts.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rigor {
@@ -7,6 +9,10 @@ namespace {
 
 constexpr int kMostRounds = 2000;     // before every touching point is taken together, without rebound
 constexpr double kNewEnergy = 1e-12;  // of the energy before: rounding
+// Infinite friction stops a slip at once, by an impulse that needs a normal one, however small: one that leaves so
+// little of a speed [m/s]. Slower slips are none.
+constexpr int kRoundsOfInfinity = 2;
+constexpr double kJamming = 1e-9, kJammed = 1e-11;
 
 void copy_velocities(BodyColumns from, MutableBodyColumns to) {
   for (std::size_t i = 0; i < to.size(); ++i) {
@@ -24,15 +30,21 @@ bool Impacts::resolve(MutableBodyColumns state, std::vector<ContactPoint>& conta
   for (const ContactPoint& contact : contact_points) points_.push_back(contact.cone);
   for (ConeConstraint& point : points_) point.impulse.setZero();
   solver_.prepare(state, points_);
-  int round = 0;
-  while (choose(state, contact_points, inelastic, round >= kMostRounds)) {
+  for (int round = 0;; ++round) {
+    if (round == kRoundsOfInfinity) let_infinite_friction_grip();
+    if (!choose(state, contact_points, inelastic, round >= kMostRounds)) break;
     solve_round(state);
-    if (round++ > kMostRounds) {
-      solver_warning_ = "an impact of several bodies did not come to an end; what was left of it was dropped";
-      break;
-    }
+    if (round <= kMostRounds) continue;
+    solver_warning_ = "an impact of several bodies did not come to an end; what was left of it was dropped";
+    break;
   }
   return rebound_;
+}
+
+// Where infinite friction at a point asks for a pull there are no impulses, unless it stops slips without pressure:
+// what ever greater friction tends to.
+void Impacts::let_infinite_friction_grip() {
+  for (ConeConstraint& point : points_) point.grips = std::isinf(point.friction);
 }
 
 // Fills chosen_ with this round's points; false if none approaches.
@@ -41,12 +53,15 @@ bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact
   bool hit = false;
   for (std::size_t i = 0; i < contact_points.size(); ++i) {
     ConeConstraint& point = points_[i];
-    const double approach = -ConeSolver::velocity_at(point, state).x();
-    const bool hits = approach > kStillSpeed;
+    const Vec3 u = ConeSolver::velocity_at(point, state);
+    const double approach = -u.x();
+    const bool jams = std::isinf(point.friction) && approach > -kStillSpeed && u.tail<2>().norm() > kJamming;
+    const bool hits = approach > kStillSpeed || jams;
     hit = hit || hits;
     const bool rebounds = approach > restitution_threshold_ && !inelastic && !all && contact_points[i].restitution > 0;
-    rebound_ = rebound_ || (hits && approach > restitution_threshold_);
+    rebound_ = rebound_ || (hits && approach > restitution_threshold_) || jams;
     point.target_velocity = rebounds ? contact_points[i].restitution * approach : 0;
+    if (jams) point.target_velocity = std::max(point.target_velocity, kJammed);
     if (hits || all || contact_points[i].restitution == 0) chosen_.push_back(point);
   }
   return hit;
@@ -62,7 +77,9 @@ void Impacts::solve_round(MutableBodyColumns state) {
     if (!solver_.solve(state, points)) solver_warning_ = "the impulses of an impact did not settle";
     return kinetic_energy(state) <= energy * (1 + kNewEnergy);
   };
-  if (attempt(1)) return;
+  const bool rebounds =
+      std::any_of(chosen_.begin(), chosen_.end(), [](const auto& p) { return p.target_velocity > 0; });
+  if (attempt(1) || !rebounds) return;
   double low = 0, high = 1;
   for (int k = 0; k < 50; ++k) {
     const double share = 0.5 * (low + high);

@@ -30,6 +30,7 @@ class Impacts {
 
  private:
   bool choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool inelastic, bool all);
+  void let_infinite_friction_grip();
   void solve_round(MutableBodyColumns state);
   double kinetic_energy(BodyColumns state) const;
 

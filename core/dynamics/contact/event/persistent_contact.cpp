@@ -1,36 +1,29 @@
 #include "core/dynamics/contact/event/persistent_contact.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "core/engine/option_values.h"
 
 namespace rigor {
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// The forces turn with the points that they act at, and so feed back on themselves: by some dt² F / (m r) in a pass.
-constexpr int kMostPasses = 50, kFewestPasses = 4;
-constexpr double kSettling = 0.1;   // what so many passes leave of a change at most: else a shorter step is quicker
-constexpr double kSettled = 1e-12;  // of 1 m/s, the speeds and what the forces make of them in a step
-constexpr double kNearlySettled = 1e-10;  // likewise, where roundings leave no more: forces on the verge of sliding
-constexpr double kClosed = 1e-13;         // m: a few roundings of a position of one metre
+constexpr double kClosed = 1e-13;  // m: a few roundings of a position of one metre
 constexpr int kMostMoves = 20;
-constexpr double kSliding = 1e-9;   // m/s: ten times what an impact or a stop may leave
-constexpr double kTouching = 1e-3;  // m: a point that drifted further than this is not in contact any more
+constexpr double kTouching = 1e-3;    // m: a point that drifted further than this is not in contact any more
+constexpr double kBeginning = 1e-11;  // m/s: how much a slip that begins may go the wrong way, by rounding
+constexpr double kPulling = 2e-9;     // of the forces: twice what is still chosen
+constexpr double kReversed = 0.1;     // of the fastest slip at any stage: what stages differ by is less
+constexpr double kSlow = 10;          // of the restitution threshold: what parts no faster, and comes back, stays
+constexpr double kStill = 1e-15;      // of the speeds: what is left of a velocity that is to be zero
 
-Scene with_contact_forces(Scene scene) {
-  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
-    if (scene.bodies[i].collides && !scene.bodies[i].fixed)
-      scene.forces.push_back({.body = i, .from = -kInfinity, .until = kInfinity});
-  }
-  return scene;
-}
-
-double speed_of(BodyColumns state) {
-  double most = 0;
-  for (std::size_t i = 0; i < state.size(); ++i) most = std::max(most, state.velocity(i).norm());
-  return most;
+// Of no lower order than `own`, and asks for forces at its stages.
+const Integrator& integrator_in_contact(const Integrator& own) {
+  if (own.holds_at_stages) return own;
+  return integrator(own.order <= 4 ? "rkmk4" : "dormand-prince");
 }
 
 void move(MutableBodyColumns state, std::size_t i, const PoseStep& motion) {
@@ -42,137 +35,114 @@ void move(MutableBodyColumns state, std::size_t i, const PoseStep& motion) {
 
 }  // namespace
 
-PersistentContact::PersistentContact(const Scene& scene, const Integrator& integrator,
-                                     const OrientationUpdate* orientation, const Settings& settings,
-                                     ContactPoints& contact_points)
-    : system_(with_contact_forces(scene)),
-      force_of_body_(scene.bodies.size(), kNone),
-      stepper_(integrator.make({system_, nullptr, orientation, settings})),
+PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& contact_points)
+    : system_(parts.system),
+      in_contact_(rigor::integrator_in_contact(parts.integrator)),
+      contact_points_(contact_points),
+      held_(system_, contact_points.colliders()),
+      modes_(system_, held_),
+      free_stepper_(parts.integrator.make({system_, nullptr, parts.orientation, parts.settings})),
+      held_stepper_(in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, nullptr, &held_})),
+      loads_(system_),
       solver_(system_),
       projection_(system_),
-      contact_points_(contact_points),
-      wrenches_(scene.bodies.size()),
-      old_wrenches_(scene.bodies.size()) {
-  const auto& forces = system_.loads.forces();
-  for (std::size_t k = scene.forces.size(); k < forces.size(); ++k) force_of_body_[forces[k].body] = k;
-}
+      restitution_threshold_(number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)) {}
 
-void PersistentContact::select(BodyColumns state, const std::vector<ContactPoint>& contact_points) {
-  old_points_.swap(points_);
-  points_.clear();
+bool PersistentContact::select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t,
+                               double dt) {
+  std::vector<HeldPoint>& points = held_.points();
+  old_points_.swap(points);
+  points.clear();
+  const auto& colliders = contact_points_.colliders();
   for (const ContactPoint& contact : contact_points) {
     const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
-    constexpr double kSeparating = 1e-9;  // m/s: ten times what an impact may leave, a hundredth of the least rebound
-    if (u.x() > kSeparating) continue;
-    PersistentPoint point{contact, contact, u.tail<2>().norm(), 0, Vec3::Zero()};
+    if (u.x() > kSlow * restitution_threshold_) continue;
+    HeldPoint point;
+    point.contact = contact;
+    const Collider &a = colliders[contact.a], &b = colliders[contact.b];
+    const ManifoldPoint place{contact.cone.frame.col(0), state.position(contact.cone.a) + contact.cone.arm_a,
+                              contact.gap, contact.feature};
+    point.features = features_at(place, a, pose_of(state, a.body), b, pose_of(state, b.body));
+    const bool slides = contact.cone.friction == 0 ||
+                        (std::isfinite(contact.cone.friction) && u.tail<2>().norm() > ContactModes::kSliding);
+    point.mode = slides ? HeldPoint::Mode::slides : HeldPoint::Mode::sticks;
     const auto old = std::find_if(old_points_.begin(), old_points_.end(),
-                                  [&](const PersistentPoint& p) { return p.at_start.same_place(contact); });
-    if (old != old_points_.end()) {
-      point.force = contact.cone.frame.transpose() * (old->at_start.cone.frame * old->force);
-    }
-    points_.push_back(point);
+                                  [&](const HeldPoint& p) { return p.contact.same_place(contact); });
+    if (old != old_points_.end()) point.force = contact.cone.frame.transpose() * (old->frame * old->force);
+    points.push_back(point);
   }
+  if (points.empty()) return true;
+  const bool are_found = modes_.choose(state, loads_.over_step(state, t, dt));
+  stop_points(state);
+  return are_found;
 }
 
-bool PersistentContact::add_slower_than(double speed, BodyColumns state,
-                                        const std::vector<ContactPoint>& contact_points) {
-  const std::size_t before = points_.size();
-  for (const ContactPoint& contact : contact_points) {
-    const bool is_persistent = std::any_of(points_.begin(), points_.end(), [&](const PersistentPoint& point) {
-      return point.at_start.same_place(contact);
-    });
-    const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
-    if (!is_persistent && u.x() < speed) points_.push_back({contact, contact, u.tail<2>().norm(), 0, Vec3::Zero()});
+void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
+  held_.begin_attempt();
+  copy_columns(start, end);
+  ++passes_;
+  if (points().empty()) return free_stepper_->step(end, t, dt);
+  held_stepper_->step(end, t, dt);
+  if (end.has_rotation() && held_stepper_ && in_contact_.default_orientation.empty()) {
+    for (std::size_t i = 0; i < end.size(); ++i) end.set_rotation(i, matrix_of(end.orientation(i)));
   }
-  return points_.size() > before;
+  end_ = end;
+  wrench_at_end_ = loads_.over_step(end, t, dt);
+  held_.hold(end, wrench_at_end_, ConstraintForces::Rows::as_chosen);
 }
 
-// The points' forces as loads on the bodies. Returns by how much a step of dt moves a surface's velocity otherwise
-// than it would have before [m/s].
-double PersistentContact::apply_forces(double dt) {
-  old_wrenches_.swap(wrenches_);
-  wrenches_.assign(system_.size(), Wrench{});
-  velocity_scale_ = 0;
-  for (const PersistentPoint& point : points_) {
-    const ConeConstraint &start = point.at_start.cone, &end = point.at_end.cone;
-    const Vec3 force = 0.5 * (start.frame + end.frame) * point.force;
-    wrenches_[start.a].force += force;
-    wrenches_[start.a].torque += (0.5 * (start.arm_a + end.arm_a)).cross(force);
-    wrenches_[start.b].force -= force;
-    wrenches_[start.b].torque -= (0.5 * (start.arm_b + end.arm_b)).cross(force);
-    const double inverse_mass = std::max(system_.bodies[start.a].inverse_mass, system_.bodies[start.b].inverse_mass);
-    velocity_scale_ = std::max(velocity_scale_, dt * inverse_mass * force.norm());
-  }
-  double largest = 0;
-  for (const Collider& collider : contact_points_.colliders()) {
-    if (collider.fixed) continue;
-    const int i = collider.body;
-    system_.loads.set_force(force_of_body_[i], wrenches_[i].force, wrenches_[i].torque);
-    const Inertia& body = system_.bodies[i];
-    const Vec3 push = body.inverse_mass * (wrenches_[i].force - old_wrenches_[i].force);
-    const double turn = body.inverse_inertia_B.norm() * (wrenches_[i].torque - old_wrenches_[i].torque).norm();
-    largest = std::max(largest, dt * (push.norm() + turn * collider.bounding_radius));
-  }
-  return largest;
-}
-
-// Brings the end's velocities in line with the laws, and the forces with them.
-void PersistentContact::correct(MutableBodyColumns end, double dt) {
-  cones_.clear();
-  for (PersistentPoint& point : points_) {
-    contact_points_.follow(end, point.at_end);
-    cones_.push_back(point.at_end.cone);
-    cones_.back().impulse = dt * point.force;
-  }
-  solver_.prepare(end, cones_);
-  if (!solver_.solve(end, cones_)) solver_warning_ = "the forces of the touching bodies did not settle";
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    points_[i].force = cones_[i].impulse / dt;
-    points_[i].slip_at_end = ConeSolver::velocity_at(cones_[i], end).tail<2>().norm();
-  }
-}
-
-bool PersistentContact::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
-  solver_warning_.clear();
-  for (PersistentPoint& point : points_) point.at_end = point.at_start;
-  apply_forces(dt);
-  const double speed = speed_of(start);
-  double last = kInfinity;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    copy_columns(start, end);
-    stepper_->step(end, t, dt);
-    ++passes_;
-    if (points_.empty()) return true;
-    solver_warning_.clear();  // only of the last pass
-    correct(end, dt);
-    const double change = apply_forces(dt);
-    const double size = 1 + speed + velocity_scale_;
-    if (change <= kSettled * size) return true;
-    if (pass % kFewestPasses != 0) continue;
-    if (!(change < last) && change <= kNearlySettled * size) return true;
-    if (!(change < kSettling * last) && change > kNearlySettled * size) break;
-    last = change;
-  }
-  solver_warning_ = "the motion of touching bodies and the forces between them did not settle";
-  return false;
-}
-
-double PersistentContact::distance_from_sticking() const {
+// Of the forces: how far they are from pulling, or from passing their cones.
+double PersistentContact::margin() const {
   double least = kInfinity;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const ConeConstraint& cone = cones_[i];
-    if (points_[i].slip_at_start <= kSliding || cone.impulse.x() <= 0) continue;
-    if (cone.friction == 0 || std::isinf(cone.friction)) continue;
-    const double spare = cone.friction * cone.impulse.x() - cone.impulse.tail<2>().norm();
-    least = std::min(least, points_[i].slip_at_end - std::max(0.0, spare) / cone.tangent_effective_mass);
+  for (const HeldPoint& point : points()) {
+    least = std::min(least, point.force.x());
+    if (point.mode == HeldPoint::Mode::sticks && std::isfinite(point.friction()))
+      least = std::min(least, point.friction() * point.force.x() - point.force.tail<2>().norm());
   }
   return least;
 }
 
+// Of the slips, and of the forces where their shares matter.
+double PersistentContact::slipping_margin() const {
+  double least = kInfinity;
+  const bool shares_matter = held_.has_friction_of_slip();
+  const double size = held_.largest_force();
+  for (const HeldPoint& point : points()) {
+    if (shares_matter && size > 0) least = std::min(least, point.force.x() / size + kPulling);
+    if (point.mode != HeldPoint::Mode::slides || point.friction() == 0) continue;
+    least = std::min(least, point.slip + (point.begins_to_slip ? kBeginning : 0));
+    // A slip that ended within a long step, and began again.
+    if (point.least_slip < -kReversed * point.largest_slip) least = std::min(least, point.least_slip);
+  }
+  return least;
+}
+
+double PersistentContact::distance_from_change() {
+  if (points().empty()) return kInfinity;
+  const double least = slipping_margin();
+  if (least < 0 || margin() >= 0) return least;
+  const double violation = modes_.violation(end_, wrench_at_end_);
+  return violation > 0 ? -violation : least;
+}
+
+void PersistentContact::take_inelastic_step(MutableBodyColumns state, std::vector<ContactPoint>& touching, double t,
+                                            double dt) {
+  free_stepper_->step(state, t, dt);
+  ++passes_;
+  cones_.clear();
+  for (ContactPoint& contact : touching) {
+    if (!contact_points_.follow(state, contact)) continue;
+    cones_.push_back(contact.cone);
+    cones_.back().grips = std::isinf(contact.cone.friction);
+  }
+  solver_.prepare(state, cones_);
+  solver_.solve(state, cones_);
+  held_.points().clear();
+}
+
 bool PersistentContact::carries(const ContactPoint& contact) const {
-  return std::any_of(points_.begin(), points_.end(), [&](const PersistentPoint& point) {
-    return point.at_end.same_place(contact) && point.force.x() > 0;
-  });
+  return std::any_of(points().begin(), points().end(),
+                     [&](const HeldPoint& point) { return point.contact.same_place(contact) && point.force.x() > 0; });
 }
 
 bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,
@@ -199,23 +169,32 @@ bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<s
   return true;
 }
 
-void PersistentContact::stop_carrying_points(MutableBodyColumns state) {
+void PersistentContact::stop_points(MutableBodyColumns state) {
+  if (points().empty()) return;
+  held_.place(state);
   targets_.clear();
-  for (const PersistentPoint& point : points_) {
-    ContactPoint now = point.at_end;
-    if (!(point.force.x() > 0) || !contact_points_.follow(state, now) || now.gap > kTouching) continue;
-    const Vec3 u = ConeSolver::velocity_at(now.cone, state);
-    add_target(now.cone, 0, -u.x(), true);
-    if (point.slip_at_end > kSliding || now.cone.friction == 0) continue;
-    add_target(now.cone, 1, -u.y(), true);
-    add_target(now.cone, 2, -u.z(), true);
+  double most = 0, speed = 0;
+  for (const HeldPoint& point : points()) {
+    ConeConstraint cone = point.contact.cone;
+    cone.arm_a = point.arm_a, cone.arm_b = point.arm_b, cone.frame = point.frame;
+    const int last = point.mode == HeldPoint::Mode::sticks ? 2 : 0;
+    for (int axis = 0; axis <= last; ++axis) {
+      add_target(cone, axis, -point.velocity[axis], true);
+      most = std::max(most, std::abs(point.velocity[axis]));
+    }
+    speed = std::max({speed, state.velocity(cone.a).norm(), state.velocity(cone.b).norm()});
   }
+  if (most <= kStill * speed) return;
   const std::vector<PoseStep>& motion = projection_.project(state, targets_);
   for (std::size_t i = 0; i < motion.size(); ++i) {
     if (motion[i].isZero(0)) continue;
     state.set_velocity(i, state.velocity(i) + motion[i].head<3>());
     state.set_angular_velocity(i, state.angular_velocity(i) + motion[i].tail<3>());
   }
+}
+
+std::string PersistentContact::solver_warning() const {
+  return points().empty() ? free_stepper_->solver_warning() : held_stepper_->solver_warning();
 }
 
 void PersistentContact::add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral) {

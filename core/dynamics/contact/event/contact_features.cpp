@@ -1,0 +1,169 @@
+#include "core/dynamics/contact/event/contact_features.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+using Kind = ContactFeature::Kind;
+
+constexpr double kOnEdge = 1e-7;    // of a body's size: how near an edge or an end a point counts as on it
+constexpr double kAligned = 1e-12;  // 1 - the cosine between a normal and a side's: 1.4e-6 rad
+constexpr double kParallel = 0.1;   // the sine between lines whose cross product is no normal
+
+// What a shape may touch with at one of its surface's points.
+struct Choices {
+  std::optional<ContactFeature> plane, line;
+  ContactFeature point;
+  bool is_corner = false;
+};
+
+// The surface's point and its outward normal, both in B.
+struct SurfacePoint {
+  Vec3 at, normal;
+
+  Choices operator()(const Sphere& sphere) const { return {{}, {}, {.radius = sphere.radius}}; }
+
+  Choices operator()(const Plane& plane) const {
+    return {ContactFeature{Kind::plane, plane.offset * plane.normal, plane.normal}, {}, {.at = at}};
+  }
+
+  Choices operator()(const Capsule& capsule) const {
+    const double half = 0.5 * capsule.length, s = at.z() - capsule.radius * normal.z();
+    const bool is_end = std::abs(s) >= half - kOnEdge * (half + capsule.radius);
+    Choices choices{{}, {}, {.at = {0, 0, is_end ? std::copysign(half, s) : s}, .radius = capsule.radius}};
+    if (!is_end) choices.line = ContactFeature{Kind::line, Vec3::Zero(), Vec3::UnitZ(), capsule.radius};
+    return choices;
+  }
+
+  Choices operator()(const Box& box) const {
+    const Vec3 half = 0.5 * box.size;
+    Vec3 snapped = at;
+    int count = 0, along = 0;
+    Choices choices;
+    for (int i = 0; i < 3; ++i) {
+      if (std::abs(at[i]) < half[i] - kOnEdge * half.maxCoeff()) {
+        along = i;
+        continue;
+      }
+      ++count;
+      snapped[i] = std::copysign(half[i], at[i]);
+      if (std::copysign(1.0, at[i]) * normal[i] > 1 - kAligned) {
+        const Vec3 outward = std::copysign(1.0, at[i]) * Vec3::Unit(i);
+        choices.plane = ContactFeature{Kind::plane, half[i] * outward, outward};
+      }
+    }
+    choices.point.at = snapped;
+    choices.is_corner = count == 3;
+    if (count == 2) choices.line = ContactFeature{Kind::line, snapped, Vec3::Unit(along)};
+    return choices;
+  }
+};
+
+struct Moving {  // a feature in W
+  Vec3 p, v;     // of `at`
+  Vec3 d, rate;  // `direction`
+  double radius;
+};
+
+Moving moving(const ContactFeature& feature, const RigidMotion& body) {
+  const Vec3 arm = body.pose.R * feature.at, d = body.pose.R * feature.direction;
+  return {body.pose.p + arm, body.v + body.w.cross(arm), d, body.w.cross(d), feature.radius};
+}
+
+// A unit vector along `line`, and its rate of change.
+struct Direction {
+  Vec3 n, rate;
+  double length;
+};
+Direction direction_of(const Vec3& line, const Vec3& rate) {
+  const double length = line.norm();
+  const Vec3 n = line / length;
+  return {n, (rate - n * n.dot(rate)) / length, length};
+}
+
+Touch point_on_plane(const Moving& point, const Moving& plane) {
+  const Vec3& n = plane.d;
+  const double gap = n.dot(point.p - plane.p) - point.radius;
+  return {n, point.p - (point.radius + 0.5 * gap) * n, gap, plane.rate, point.v - point.radius * plane.rate};
+}
+
+Touch point_on_point(const Moving& a, const Moving& b) {
+  const Direction line = direction_of(a.p - b.p, a.v - b.v);
+  const double gap = line.length - a.radius - b.radius;
+  return {line.n, b.p + (b.radius + 0.5 * gap) * line.n, gap, line.rate, b.v + b.radius * line.rate};
+}
+
+Touch point_on_line(const Moving& point, const Moving& line) {
+  const Vec3 from = point.p - line.p;
+  const double s = line.d.dot(from), s_rate = line.rate.dot(from) + line.d.dot(point.v - line.v);
+  const Moving foot{line.p + s * line.d, line.v + s_rate * line.d + s * line.rate, {}, {}, line.radius};
+  return point_on_point(point, foot);
+}
+
+// From a + s ea = b + t eb + D n and its derivative.
+Touch line_on_line(const Moving& a, const Moving& b, double side) {
+  const Direction across = direction_of(side * a.d.cross(b.d), side * (a.rate.cross(b.d) + a.d.cross(b.rate)));
+  const Vec3& n = across.n;
+  Mat3 directions;
+  directions << a.d, -b.d, -n;
+  const Mat3 inverse = directions.inverse();
+  const Vec3 at = inverse * (b.p - a.p);
+  const Vec3 rate = inverse * (b.v - a.v - at[0] * a.rate + at[1] * b.rate + at[2] * across.rate);
+  const double gap = at[2] - a.radius - b.radius;
+  return {n, b.p + at[1] * b.d + (b.radius + 0.5 * gap) * n, gap, across.rate,
+          b.v + rate[1] * b.d + at[1] * b.rate + b.radius * across.rate};
+}
+
+Touch reversed(Touch touch) {
+  touch.normal *= -1, touch.normal_rate *= -1;
+  return touch;
+}
+
+}  // namespace
+
+RigidMotion motion_of(BodyColumns state, const Collider& collider) {
+  if (std::holds_alternative<Plane>(collider.shape)) return {};
+  const int i = collider.body;
+  const Mat3 R = state.has_rotation() ? state.rotation(i) : matrix_of(state.orientation(i).normalized());
+  return {{state.position(i), R}, state.velocity(i), state.angular_velocity(i)};
+}
+
+FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pose& pose_a, const Collider& b,
+                        const Pose& pose_b) {
+  const auto choices_of = [&](const Collider& collider, const Pose& pose, const Vec3& outward) {
+    if (std::holds_alternative<Plane>(collider.shape))
+      return std::visit(SurfacePoint{point.point, outward}, collider.shape);
+    const Mat3 to_B = pose.R.transpose();
+    return std::visit(SurfacePoint{to_B * (point.point - pose.p), to_B * outward}, collider.shape);
+  };
+  const Choices of_a = choices_of(a, pose_a, -point.normal), of_b = choices_of(b, pose_b, point.normal);
+  if (of_a.line && of_b.line) {
+    const Vec3 across = (pose_a.R * of_a.line->direction).cross(pose_b.R * of_b.line->direction);
+    if (across.norm() > kParallel) return {*of_a.line, *of_b.line, across.dot(point.normal) < 0 ? -1.0 : 1.0};
+  }
+  // Of two sides that lie on each other the one with a corner there gives the point.
+  if (of_b.plane && !(of_a.plane && of_b.is_corner && !of_a.is_corner)) return {of_a.point, *of_b.plane};
+  if (of_a.plane) return {*of_a.plane, of_b.point};
+  if (of_a.point.radius + of_b.point.radius > 0) {
+    if (of_b.line) return {of_a.point, *of_b.line};
+    if (of_a.line) return {*of_a.line, of_b.point};
+    return {of_a.point, of_b.point};
+  }
+  // Two corners, a corner on an edge, or two edges side by side: no normal is theirs but the one found here.
+  return {of_a.point, {Kind::plane, of_b.point.at, pose_b.R.transpose() * point.normal}};
+}
+
+Touch touch_of(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b) {
+  const Moving of_a = moving(features.a, a), of_b = moving(features.b, b);
+  const Kind kind_a = features.a.kind, kind_b = features.b.kind;
+  if (kind_b == Kind::plane) return point_on_plane(of_a, of_b);
+  if (kind_a == Kind::plane) return reversed(point_on_plane(of_b, of_a));
+  if (kind_a == Kind::line && kind_b == Kind::line) return line_on_line(of_a, of_b, features.side);
+  if (kind_b == Kind::line) return point_on_line(of_a, of_b);
+  if (kind_a == Kind::line) return reversed(point_on_line(of_b, of_a));
+  return point_on_point(of_a, of_b);
+}
+
+}  // namespace rigor

@@ -1,0 +1,47 @@
+// What two bodies touch with, for the method `event`: a point, a line or a plane of each, with a radius round it. They
+// stay the same as long as a contact lasts, so that its gap, its normal and its place are smooth functions of the
+// poses, with rates of change in closed form:
+//   a corner, the centre of a ball or of a capsule's end   a point
+//   an edge, a capsule's axis                              a line
+//   a side of a box, a plane                               a plane
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/dynamics/collision/colliders.h"
+
+namespace rigor {
+
+struct ContactFeature {
+  enum class Kind : std::uint8_t { point, line, plane } kind = Kind::point;
+  Vec3 at = Vec3::Zero();         // m, in B: the point, or one of the line or the plane
+  Vec3 direction = Vec3::Zero();  // unit, in B: along the line, or the plane's outward normal
+  double radius = 0;              // m
+};
+
+struct FeaturePair {
+  ContactFeature a, b;
+  double side = 1;  // of two lines: the normal is side ea x eb
+};
+
+// How a body moves: its pose and its velocities, in W.
+struct RigidMotion {
+  Pose pose;
+  Vec3 v = Vec3::Zero(), w = Vec3::Zero();
+};
+// Of the collider's body; a plane's feature is at rest in W.
+RigidMotion motion_of(BodyColumns state, const Collider& collider);
+
+struct Touch {
+  Vec3 normal = Vec3::UnitX(), point = Vec3::Zero();  // unit, from b to a; m, midway between the surfaces; in W
+  double gap = 0;                                     // m
+  Vec3 normal_rate = Vec3::Zero(), point_rate = Vec3::Zero();  // 1/s, m/s
+};
+
+// The features at a point of a manifold, where the bodies touch.
+FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pose& pose_a, const Collider& b,
+                        const Pose& pose_b);
+Touch touch_of(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b);
+
+}  // namespace rigor

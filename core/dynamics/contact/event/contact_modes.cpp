@@ -1,0 +1,110 @@
+#include "core/dynamics/contact/event/contact_modes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+// Of the accelerations: what parts, and what begins to slide. A mode ends at twice as much, so that what is chosen at
+// its end is not the same again.
+constexpr double kPulling = 1e-9;  // of the forces
+constexpr double kParting = 1e-8, kSlipping = 1e-7, kEnding = 2;
+constexpr double kSlip = 1e4;  // of the accelerations: what a slip counts as beside them; its direction errs by 1/kSlip
+
+}  // namespace
+
+bool ContactModes::solve(BodyColumns state, const double* wrench) {
+  accelerations_ = state;
+  const MutableBodyColumns table = accelerations_.columns();
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const auto [linear, angular] = held_.free_acceleration(state, wrench, static_cast<int>(i));
+    table.set_velocity(i, linear), table.set_angular_velocity(i, angular);
+  }
+  cones_.clear();
+  size_ = 0;
+  for (const HeldPoint& point : held_.points()) {
+    ConeConstraint cone = point.contact.cone;
+    cone.arm_a = point.arm_a, cone.arm_b = point.arm_b, cone.frame = point.frame;
+    cone.offset = point.bias;
+    cone.target_velocity = 0;
+    cone.impulse = point.force.x() > 0 ? point.force : Vec3::Zero();
+    size_ = std::max(size_, (ConeSolver::velocity_at(cone, table) + point.bias).norm());
+    cones_.push_back(cone);
+  }
+  for (std::size_t i = 0; i < cones_.size(); ++i) {
+    const HeldPoint& point = held_.points()[i];
+    const double slip = point.velocity.tail<2>().norm();
+    if (slip > kSliding && std::isfinite(point.friction()))
+      cones_[i].offset.tail<2>() += kSlip * size_ / slip * point.velocity.tail<2>();
+  }
+  solver_.prepare(table, cones_);
+  for (const ConeConstraint& cone : cones_) solver_.push(cone, cone.impulse, table);
+  const bool has_settled = solver_.solve(table, cones_);
+  for (const ConeConstraint& cone : cones_) size_ = std::max(size_, (cone.inverse_mass * cone.impulse).norm());
+  return has_settled;
+}
+
+Vec3 ContactModes::acceleration_of(std::size_t point) const {
+  return ConeSolver::velocity_at(cones_[point], accelerations_.columns()) + held_.points()[point].bias;
+}
+
+bool ContactModes::choose(BodyColumns state, const double* wrench) {
+  std::vector<HeldPoint>& points = held_.points();
+  held_.place(state);
+  if (!solve(state, wrench)) return false;
+  std::vector<HeldPoint> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    HeldPoint& point = points[i];
+    const Vec3 acceleration = acceleration_of(i);
+    if (acceleration.x() > kParting * size_) continue;
+    const Eigen::Vector2d slip = point.velocity.tail<2>(), change = acceleration.tail<2>();
+    const bool slides = slip.norm() > kSliding && std::isfinite(point.friction());
+    point.begins_to_slip = !slides && std::isfinite(point.friction()) && change.norm() > kSlipping * size_;
+    point.mode =
+        slides || point.begins_to_slip || point.friction() == 0 ? HeldPoint::Mode::slides : HeldPoint::Mode::sticks;
+    point.slip_direction.setZero();
+    if (slides) point.slip_direction = point.frame.rightCols<2>() * slip.normalized();
+    if (point.begins_to_slip) point.slip_direction = point.frame.rightCols<2>() * change.normalized();
+    point.force = cones_[i].impulse;
+    kept.push_back(point);
+  }
+  points.swap(kept);
+  return drop_pulling_points(state, wrench);
+}
+
+// Where points slide, how their forces are shared out matters, and of the least forces some may pull: without their
+// points the others carry the body. False if it then sinks there, for which there are no forces (Painlevé).
+bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) {
+  std::vector<HeldPoint>& points = held_.points();
+  std::vector<HeldPoint> dropped;
+  while (held_.has_friction_of_slip()) {
+    held_.begin_attempt();
+    held_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
+    const auto least = std::min_element(
+        points.begin(), points.end(), [](const HeldPoint& a, const HeldPoint& b) { return a.force.x() < b.force.x(); });
+    if (least->force.x() >= -kPulling * held_.largest_force()) break;
+    dropped.push_back(*least);
+    points.erase(least);
+  }
+  if (dropped.empty()) return true;
+  held_.begin_attempt();
+  const double* total = held_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
+  return std::none_of(dropped.begin(), dropped.end(), [&](HeldPoint& point) {
+    return held_.normal_acceleration(state, total, point) < -kParting * size_;
+  });
+}
+
+double ContactModes::violation(BodyColumns state, const double* wrench) {
+  const bool has_settled = solve(state, wrench);
+  double most = has_settled ? -1 : 1;
+  for (std::size_t i = 0; i < held_.points().size(); ++i) {
+    const Vec3 acceleration = acceleration_of(i) / size_;
+    most = std::max(most, acceleration.x() - kEnding * kParting);
+    if (held_.points()[i].mode == HeldPoint::Mode::sticks)
+      most = std::max(most, acceleration.tail<2>().norm() - kEnding * kSlipping);
+  }
+  return most;
+}
+
+}  // namespace rigor

@@ -1,0 +1,38 @@
+// Which of the points that touch stay in contact, and which of them slide, for the method `event`: the forces are found
+// that obey the contact laws in accelerations, with the laws of an impact's velocities,
+//   0 <= u'_n ⊥ f_n >= 0,   |f_t| <= mu f_n, against u'_t where that is not zero; of a point that slides, against u_t.
+// Where the points are more than the motion can tell apart this finds some forces within the cones if there are any,
+// which HeldForces, of the same accelerations, need not be.
+#pragma once
+
+#include "core/dynamics/contact/event/held_forces.h"
+
+namespace rigor {
+
+class ContactModes {
+ public:
+  ContactModes(const System& system, HeldForces& held) : solver_(system), system_(system), held_(held) {}
+
+  // Gives each of the held points its mode, and drops those that part. False if no forces were found.
+  bool choose(BodyColumns state, const double* wrench);
+  // By how much the modes that the points have break the laws at this instant, of the accelerations: more than 0 where
+  // others have to be chosen. After held_.hold() there.
+  double violation(BodyColumns state, const double* wrench);
+
+  // m/s: what slides more slowly sticks, if the cone allows it; ten times what an impact or a stop may leave.
+  static constexpr double kSliding = 1e-9;
+
+ private:
+  bool drop_pulling_points(BodyColumns state, const double* wrench);
+  bool solve(BodyColumns state, const double* wrench);
+  Vec3 acceleration_of(std::size_t point) const;  // m/s², in the frame
+
+  ConeSolver solver_;
+  const System& system_;
+  HeldForces& held_;
+  std::vector<ConeConstraint> cones_;
+  BodyTable accelerations_;
+  double size_ = 0;  // m/s²
+};
+
+}  // namespace rigor

@@ -1,0 +1,309 @@
+#include "core/dynamics/contact/event/held_forces.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rigor {
+namespace {
+
+// rho of a row, in units of its own effective mass. Each round leaves some 1/rho of an error and loses as many digits,
+// which the next one wins back.
+constexpr double kSteepness = 1e6;
+constexpr int kMostRounds = 6;
+constexpr double kSettled = 1e-15;  // of the accelerations without forces
+constexpr double kStill = 1e-9;     // m/s: a slip that has no direction of its own
+
+}  // namespace
+
+HeldForces::HeldForces(const System& system, const std::vector<Collider>& colliders)
+    : system_(system), colliders_(colliders), place_(system.size(), -1), largest_(system.size()) {
+  for (const Inertia& body : system.bodies) {
+    const Mat3 root = body.fixed ? Mat3::Zero().eval() : Mat3(body.inverse_inertia_B.llt().matrixL());
+    inertia_root_B_.push_back(root);
+  }
+  wrench_.resize(kWrenchColumns, system.size());
+}
+
+void HeldForces::begin_attempt() {
+  largest_.assign(system_.size(), {});
+  for (HeldPoint& point : points_) point.least_slip = point.largest_slip = 0;
+  list_bodies();
+}
+
+void HeldForces::list_bodies() {
+  for (const int body : bodies_) place_[body] = -1;
+  bodies_.clear();
+  for (const HeldPoint& point : points_) {
+    for (const int body : {point.contact.cone.a, point.contact.cone.b}) {
+      if (system_.bodies[body].fixed || place_[body] >= 0) continue;
+      place_[body] = static_cast<int>(bodies_.size());
+      bodies_.push_back(body);
+    }
+  }
+}
+
+void HeldForces::place(BodyColumns state) {
+  for (HeldPoint& point : points_) {
+    const ConeConstraint& cone = point.contact.cone;
+    const RigidMotion a = motion_of(state, colliders_[point.contact.a]),
+                      b = motion_of(state, colliders_[point.contact.b]);
+    point.touch = touch_of(point.features, a, b);
+    const Touch& touch = point.touch;
+    point.frame = contact_frame(touch.normal);
+    point.arm_a = touch.point - state.position(cone.a), point.arm_b = touch.point - state.position(cone.b);
+    const auto velocity = [&](const RigidMotion& body) {
+      return Vec3(body.v + body.w.cross(touch.point - body.pose.p));
+    };
+    const Vec3 of_a = velocity(a), of_b = velocity(b), u = of_a - of_b;
+    const Vec3 bias = a.w.cross(touch.point_rate - a.v) - b.w.cross(touch.point_rate - b.v);
+    point.velocity = point.frame.transpose() * u;
+    point.bias = point.frame.transpose() * bias + Vec3(touch.normal_rate.dot(u), 0, 0);
+    const Vec3 slip = u - touch.normal * touch.normal.dot(u);
+    point.slip = std::copysign(slip.norm(), slip.dot(point.slip_direction));
+    point.least_slip = std::min(point.least_slip, point.slip);
+    point.largest_slip = std::max(point.largest_slip, point.slip);
+  }
+}
+
+void HeldForces::add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force) {
+  const HeldPoint& at = points_[point];
+  Row row;
+  row.point = point, row.axis = axis;
+  double square = 0;
+  for (int end = 0; end < 2; ++end) {
+    const int body = end == 0 ? at.contact.cone.a : at.contact.cone.b, place = place_[body];
+    if (place < 0) continue;
+    const double sign = end == 0 ? 1 : -1, root = sign * std::sqrt(system_.bodies[body].inverse_mass);
+    const Vec3& arm = end == 0 ? at.arm_a : at.arm_b;
+    Side& side = row.side[end];
+    side.place = place;
+    side.of_J << root * direction, sign * (root_W_[place].transpose() * arm.cross(direction));
+    side.of_P << root * force, sign * (root_W_[place].transpose() * arm.cross(force));
+    square += side.of_J.squaredNorm();
+  }
+  if (square == 0) return;
+  row.bias = at.bias[axis];
+  row.weight = kSteepness / square;
+  rows_.push_back(row);
+}
+
+void HeldForces::list_rows() {
+  rows_.clear();
+  is_symmetric_ = true;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const HeldPoint& point = points_[i];
+    const Vec3 n = point.touch.normal;
+    if (point.mode == HeldPoint::Mode::sticks) {
+      for (int axis = 0; axis < 3; ++axis) add_row(i, axis, point.frame.col(axis), point.frame.col(axis));
+      continue;
+    }
+    if (point.friction() == 0) {
+      add_row(i, 0, n, n);
+      continue;
+    }
+    // Past the instant at which it would stop the friction goes on as it was, so that the instant can be found.
+    Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
+    slip = std::abs(point.slip) > kStill ? Vec3(slip / point.slip) : Vec3(point.slip_direction);
+    add_row(i, 0, n, n - point.friction() * slip);
+    is_symmetric_ = false;
+  }
+}
+
+std::pair<Vec3, Vec3> HeldForces::free_acceleration(BodyColumns state, const double* wrench, int body) const {
+  const Inertia& inertia = system_.bodies[body];
+  if (inertia.fixed) return {Vec3::Zero(), Vec3::Zero()};
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  for (int k = 0; k < 3 && wrench; ++k) {
+    force[k] = wrench[static_cast<std::size_t>(kForce + k) * wrench_.stride() + body];
+    torque[k] = wrench[static_cast<std::size_t>(kTorque + k) * wrench_.stride() + body];
+  }
+  const Mat3 R = state.has_rotation() ? state.rotation(body) : matrix_of(state.orientation(body).normalized());
+  return {system_.scene_gravity + inertia.inverse_mass * force,
+          angular_acceleration(inertia, R, state.angular_velocity(body), torque)};
+}
+
+double HeldForces::normal_acceleration(BodyColumns state, const double* total, const HeldPoint& point) const {
+  const auto along = [&](int body, const Vec3& arm) {
+    const auto [linear, angular] = free_acceleration(state, total, body);
+    return point.touch.normal.dot(linear + angular.cross(arm));
+  };
+  return along(point.contact.cone.a, point.arm_a) - along(point.contact.cone.b, point.arm_b) + point.bias.x();
+}
+
+bool HeldForces::has_friction_of_slip() const {
+  return std::any_of(points_.begin(), points_.end(), [](const HeldPoint& point) {
+    return point.mode == HeldPoint::Mode::slides && point.friction() > 0;
+  });
+}
+
+double HeldForces::largest_force() const {
+  double largest = 0;
+  for (const HeldPoint& point : points_) largest = std::max(largest, point.force.norm());
+  return largest;
+}
+
+// What the rows' accelerations still lack.
+double HeldForces::find_residuals(const Eigen::VectorXd& free) {
+  acceleration_ = free;
+  for (const Row& row : rows_) {
+    for (const Side& side : row.side) {
+      if (side.place >= 0) acceleration_.segment<6>(6 * side.place) += row.multiplier * side.of_P;
+    }
+  }
+  residual_.resize(static_cast<Eigen::Index>(rows_.size()));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    double r = -rows_[i].bias;
+    for (const Side& side : rows_[i].side) {
+      if (side.place >= 0) r -= side.of_J.dot(acceleration_.segment<6>(6 * side.place));
+    }
+    residual_[static_cast<Eigen::Index>(i)] = r;
+  }
+  return rows_.empty() ? 0 : residual_.cwiseAbs().maxCoeff();
+}
+
+template <typename Change>
+void HeldForces::refine(const Eigen::VectorXd& free, const Change& change) {
+  double size = 0;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double largest = find_residuals(free);
+    if (round == 0) size = largest;
+    if (!(largest > kSettled * size)) break;
+    change();
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].multiplier += change_[static_cast<Eigen::Index>(i)];
+  }
+}
+
+// dl = rho (r - J dV'),   (M + Pᵀ rho J) dV' = Pᵀ rho r.
+template <typename Factor>
+void HeldForces::solve_in_accelerations(const Factor& factor, const Eigen::VectorXd& free) {
+  Eigen::VectorXd right_side(free.size());
+  change_.resize(static_cast<Eigen::Index>(rows_.size()));
+  refine(free, [&] {
+    right_side.setZero();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      for (const Side& side : rows_[i].side) {
+        if (side.place >= 0)
+          right_side.segment<6>(6 * side.place) +=
+              rows_[i].weight * residual_[static_cast<Eigen::Index>(i)] * side.of_P;
+      }
+    }
+    const Eigen::VectorXd by = factor.solve(right_side);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      double r = residual_[static_cast<Eigen::Index>(i)];
+      for (const Side& side : rows_[i].side) {
+        if (side.place >= 0) r -= side.of_J.dot(by.segment<6>(6 * side.place));
+      }
+      change_[static_cast<Eigen::Index>(i)] = rows_[i].weight * r;
+    }
+  });
+}
+
+void HeldForces::assemble_in_accelerations(Eigen::Index size) {
+  matrix_.setIdentity(size, size);
+  for (const Row& row : rows_) {
+    for (const Side& of : row.side) {
+      for (const Side& by : row.side) {
+        if (of.place >= 0 && by.place >= 0)
+          matrix_.block<6, 6>(6 * of.place, 6 * by.place).noalias() +=
+              (row.weight * of.of_P).lazyProduct(by.of_J.transpose());
+      }
+    }
+  }
+}
+
+void HeldForces::assemble_in_forces() {
+  const auto count = static_cast<Eigen::Index>(rows_.size());
+  matrix_.setZero(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    matrix_(i, i) = 1 / rows_[static_cast<std::size_t>(i)].weight;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      for (const Side& of : rows_[static_cast<std::size_t>(i)].side) {
+        for (const Side& by : rows_[static_cast<std::size_t>(j)].side) {
+          if (of.place >= 0 && of.place == by.place) matrix_(i, j) += of.of_J.dot(by.of_P);
+        }
+      }
+    }
+  }
+}
+
+// In whichever there are fewer of.
+void HeldForces::find_multipliers(const Eigen::VectorXd& free) {
+  if (static_cast<Eigen::Index>(rows_.size()) < free.size()) {
+    assemble_in_forces();
+    const auto by = [&](const auto& factor) { refine(free, [&] { change_ = factor.solve(residual_); }); };
+    is_symmetric_ ? by(matrix_.llt()) : by(matrix_.partialPivLu());
+    return;
+  }
+  assemble_in_accelerations(free.size());
+  is_symmetric_ ? solve_in_accelerations(matrix_.llt(), free) : solve_in_accelerations(matrix_.partialPivLu(), free);
+}
+
+void HeldForces::solve(BodyColumns state, const double* wrench) {
+  root_W_.resize(bodies_.size());
+  Eigen::VectorXd free(6 * bodies_.size());
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const int body = bodies_[k];
+    const Mat3 R = state.has_rotation() ? state.rotation(body) : matrix_of(state.orientation(body).normalized());
+    root_W_[k] = R * inertia_root_B_[body];
+    const auto [linear, angular] = free_acceleration(state, wrench, body);
+    free.segment<3>(6 * static_cast<Eigen::Index>(k)) = std::sqrt(system_.bodies[body].mass) * linear;
+    // The root's inverse: G⁻¹ = Gᵀ I.
+    free.segment<3>(6 * static_cast<Eigen::Index>(k) + 3) =
+        inertia_root_B_[body].transpose() * (system_.bodies[body].inertia_B * (R.transpose() * angular));
+  }
+  list_rows();
+  find_multipliers(free);
+}
+
+void HeldForces::set_forces() {
+  for (HeldPoint& point : points_) point.force.setZero();
+  for (const Row& row : rows_) {
+    HeldPoint& point = points_[row.point];
+    point.force[row.axis] += row.multiplier;
+    if (point.mode == HeldPoint::Mode::sticks || point.friction() == 0) continue;
+    Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
+    slip = std::abs(point.slip) > kStill ? Vec3(slip / point.slip) : Vec3(point.slip_direction);
+    point.force -= point.friction() * row.multiplier * (point.frame.transpose() * slip);
+  }
+}
+
+const double* HeldForces::as_wrench(const double* wrench) {
+  for (std::size_t c = 0; c < kWrenchColumns; ++c) {
+    double* const to = wrench_.column(c);
+    if (wrench)
+      std::copy_n(wrench + c * wrench_.stride(), system_.size(), to);
+    else
+      std::fill_n(to, system_.size(), 0.0);
+  }
+  std::vector<Loading> now(bodies_.size());
+  for (const HeldPoint& point : points_) {
+    const Vec3 force = point.frame * point.force;
+    for (int end = 0; end < 2; ++end) {
+      const int body = end == 0 ? point.contact.cone.a : point.contact.cone.b;
+      if (place_[body] < 0) continue;
+      const Vec3 push = end == 0 ? force : Vec3(-force), turn = (end == 0 ? point.arm_a : point.arm_b).cross(push);
+      for (int k = 0; k < 3; ++k) {
+        wrench_.column(static_cast<std::size_t>(kForce + k))[body] += push[k];
+        wrench_.column(static_cast<std::size_t>(kTorque + k))[body] += turn[k];
+      }
+      now[place_[body]].force += push.norm(), now[place_[body]].torque += turn.norm();
+    }
+  }
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    Loading& most = largest_[bodies_[k]];
+    most.force = std::max(most.force, now[k].force), most.torque = std::max(most.torque, now[k].torque);
+  }
+  return wrench_.data();
+}
+
+const double* HeldForces::hold(BodyColumns state, const double* wrench, Rows) {
+  place(state);
+  solve(state, wrench);
+  set_forces();
+  return as_wrench(wrench);
+}
+
+}  // namespace rigor

@@ -1,0 +1,108 @@
+// The forces at points that stay in contact, as the equations of motion see them at an instant, for the method `event`.
+// With J the rows of velocities that have to stay zero, P the directions that the forces act along, and V' the
+// accelerations,
+//   M V' = f + Pᵀ l,   J V' = -J'V.
+// A point that sticks or rolls has three rows in both. One that slides has its normal n in J, and n - mu t in P, t the
+// direction of its slip: Coulomb's force. Points may be more than the motion can tell apart; then, of all l that do it,
+// nearly the least is taken, by rounds of
+//   (J M⁻¹ Pᵀ + 1/rho) dl = -J'V - J V',
+// each solved in forces or, where points are many, in the bodies' accelerations, of which there are six a body.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/dynamics/contact/event/contact_features.h"
+#include "core/dynamics/contact/event/contact_points.h"
+#include "core/dynamics/model/constraint_forces.h"
+#include "core/engine/columns.h"
+
+namespace rigor {
+
+struct HeldPoint {
+  enum class Mode : std::uint8_t { sticks, slides } mode = Mode::sticks;
+  ContactPoint contact;  // as it was at the start
+  FeaturePair features;
+  // Unit, in W: of the slip at the start, or of how it begins. A slip against it counts as negative.
+  Vec3 slip_direction = Vec3::Zero();
+  bool begins_to_slip = false;
+
+  // At the last instant asked for.
+  Touch touch;
+  Mat3 frame = Mat3::Identity();                      // columns: the normal and two tangents
+  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();    // m, in W
+  Vec3 velocity = Vec3::Zero(), bias = Vec3::Zero();  // m/s and m/s², of a against b, in the frame
+  Vec3 force = Vec3::Zero();                          // N, in the frame
+  double slip = 0;                                    // m/s, signed
+  double least_slip = 0, largest_slip = 0;            // m/s, at all instants since begin_attempt()
+
+  double friction() const { return contact.cone.friction; }
+};
+
+class HeldForces : public ConstraintForces {
+ public:
+  HeldForces(const System& system, const std::vector<Collider>& colliders);
+
+  std::vector<HeldPoint>& points() { return points_; }
+  const std::vector<HeldPoint>& points() const { return points_; }
+
+  const double* hold(BodyColumns state, const double* wrench, Rows rows) override;
+
+  // Where the points are at `state`, how they move there, and what their velocities' rates are without any
+  // acceleration. Part of hold().
+  void place(BodyColumns state);
+  // V' of a body under the loads alone: linear and angular.
+  std::pair<Vec3, Vec3> free_acceleration(BodyColumns state, const double* wrench, int body) const;
+  // Of a point at `state`, under wrench columns of everything that acts on the bodies [m/s²].
+  double normal_acceleration(BodyColumns state, const double* total, const HeldPoint& point) const;
+  bool has_friction_of_slip() const;
+  double largest_force() const;  // N, of one point
+  // The most that was on each body at any instant since begin_attempt().
+  const std::vector<Loading>& largest_loads() const { return largest_; }
+  void begin_attempt();
+
+ private:
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
+  // All of them in units of the bodies' square roots of mass.
+  struct Side {
+    int place = -1;  // of a moving body, or -1
+    Vec6 of_J = Vec6::Zero(), of_P = Vec6::Zero();
+  };
+  struct Row {
+    std::size_t point = 0;
+    int axis = 0;  // of the frame
+    Side side[2];
+    double bias = 0, weight = 0;  // m/s², kg
+    double multiplier = 0;        // N
+  };
+
+  void list_bodies();
+  void list_rows();
+  void add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force);
+  void solve(BodyColumns state, const double* wrench);
+  void find_multipliers(const Eigen::VectorXd& free);
+  void assemble_in_accelerations(Eigen::Index size);
+  void assemble_in_forces();
+  double find_residuals(const Eigen::VectorXd& free);
+  template <typename Change>
+  void refine(const Eigen::VectorXd& free, const Change& change);
+  template <typename Factor>
+  void solve_in_accelerations(const Factor& factor, const Eigen::VectorXd& free);
+  const double* as_wrench(const double* wrench);
+  void set_forces();
+
+  const System& system_;
+  const std::vector<Collider>& colliders_;
+  std::vector<Mat3> inertia_root_B_;  // G with G Gᵀ the inverse inertia, of each body
+  std::vector<HeldPoint> points_;
+  std::vector<int> place_, bodies_;  // by body; the moving bodies at points
+  std::vector<Mat3> root_W_;         // R G, by place
+  std::vector<Row> rows_;
+  bool is_symmetric_ = true;
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd acceleration_, residual_, change_;
+  Columns wrench_;
+  std::vector<Loading> largest_;
+};
+
+}  // namespace rigor
