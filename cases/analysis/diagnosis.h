@@ -17,6 +17,7 @@ struct Diagnosis {
   std::string cause = "";         // the engine's own setting that explains it; empty if it tells of none
   std::vector<std::pair<StepSize, double>> over = {};  // the metric at each step, from the coarsest to the finest
   Instant worst = {};                                  // of the step that `value` is of
+  double beside = 0;                                   // what `value` is held against; of no meaning for some topics
 };
 
 }  // namespace rigor

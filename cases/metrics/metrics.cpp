@@ -13,12 +13,18 @@ MetricRow energy_drift_synchronised();
 MetricRow energy_gain();
 MetricRow friction_anisotropy();
 MetricRow impact_time_error();
+MetricRow joint_gap();
+MetricRow joint_gap_rate();
+MetricRow joint_twist();
+MetricRow joint_twist_rate();
 MetricRow linear_momentum_drift();
 MetricRow orientation_error();
 MetricRow orthonormality_error();
 MetricRow penetration();
 MetricRow phase_error();
 MetricRow position_error();
+MetricRow reaction_error();
+MetricRow reaction_torque_error();
 MetricRow restitution_error();
 MetricRow stop_distance_error();
 MetricRow survival();
@@ -41,12 +47,18 @@ const std::vector<MetricRow>& metrics() {
       energy_gain(),
       friction_anisotropy(),
       impact_time_error(),
+      joint_gap(),
+      joint_gap_rate(),
+      joint_twist(),
+      joint_twist_rate(),
       linear_momentum_drift(),
       orientation_error(),
       orthonormality_error(),
       penetration(),
       phase_error(),
       position_error(),
+      reaction_error(),
+      reaction_torque_error(),
       restitution_error(),
       stop_distance_error(),
       survival(),

@@ -13,23 +13,43 @@ TruthRow asymmetric_top_truth();
 TruthRow axisymmetric_top_truth();
 TruthRow bounce_truth();
 TruthRow events_truth();
+TruthRow heavy_top_truth();
 TruthRow line_impacts_truth();
+TruthRow linkage_truth();
 TruthRow oscillator_truth();
+TruthRow pendulum_truth();
 TruthRow principal_torque_truth();
 TruthRow projectile_truth();
 TruthRow pushed_truth();
 TruthRow reference_truth();
 TruthRow rolling_truth();
+TruthRow slider_truth();
 TruthRow sliding_truth();
 TruthRow sprung_ball_truth();
 TruthRow steady_precession_truth();
+TruthRow welded_truth();
 
 const std::vector<TruthRow>& truths() {
   static const std::vector<TruthRow> table = {
-      asymmetric_top_truth(), axisymmetric_top_truth(),  bounce_truth(),           events_truth(),
-      line_impacts_truth(),   oscillator_truth(),        principal_torque_truth(), projectile_truth(),
-      pushed_truth(),         reference_truth(),         rolling_truth(),          sliding_truth(),
-      sprung_ball_truth(),    steady_precession_truth(),
+      asymmetric_top_truth(),
+      axisymmetric_top_truth(),
+      bounce_truth(),
+      events_truth(),
+      heavy_top_truth(),
+      line_impacts_truth(),
+      linkage_truth(),
+      oscillator_truth(),
+      pendulum_truth(),
+      principal_torque_truth(),
+      projectile_truth(),
+      pushed_truth(),
+      reference_truth(),
+      rolling_truth(),
+      slider_truth(),
+      sliding_truth(),
+      sprung_ball_truth(),
+      steady_precession_truth(),
+      welded_truth(),
   };
   return table;
 }

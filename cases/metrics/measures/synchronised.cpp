@@ -2,6 +2,10 @@
 
 namespace rigor {
 
+Synchroniser::Synchroniser(const Scene& scene, double dt, double lag) : system_(scene), advance_(lag * dt) {
+  if (!scene.joints.empty() && advance_ != 0) joints_.emplace(scene);
+}
+
 void Synchroniser::apply(double time, MutableBodyColumns bodies) {
   if (advance_ == 0) return;
   system_.wrenches(bodies, time, 0, wrenches_);
@@ -13,6 +17,7 @@ void Synchroniser::apply(double time, MutableBodyColumns bodies) {
     bodies.set_angular_velocity(i,
                                 w + advance_ * angular_acceleration(body, bodies.rotation(i), w, wrenches_[i].torque));
   }
+  if (joints_) joints_->project_velocities(bodies);
 }
 
 }  // namespace rigor

@@ -3,6 +3,9 @@
 // not loss (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed., section I.3.1: Störmer-Verlet).
 #pragma once
 
+#include <optional>
+
+#include "cases/metrics/measures/joints/joint_reactions.h"
 #include "core/dynamics/model/system.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
@@ -12,15 +15,17 @@ namespace rigor {
 class Synchroniser {
  public:
   // `lag`: steps by which the velocities are behind, see MethodInfo::leapfrog_stagger.
-  Synchroniser(const Scene& scene, double dt, double lag) : system_(scene), advance_(lag * dt) {}
+  Synchroniser(const Scene& scene, double dt, double lag);
 
-  // v + lag dt v' and w + lag dt w', with the scene's own accelerations at the bodies' positions and time.
+  // v + lag dt v' and w + lag dt w', with the scene's own accelerations at the bodies' positions and time; then to the
+  // nearest velocities that the joints allow there, for a joint turns velocities as the bodies go on.
   void apply(double time, MutableBodyColumns bodies);
 
  private:
   System system_;
   double advance_;  // s
   Wrenches wrenches_;
+  std::optional<JointReactions> joints_;  // where there are any, and velocities to bring forward
 };
 
 }  // namespace rigor

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cases/report/wording/contact_explanation.h"
+#include "cases/report/wording/joint_explanation.h"
 
 namespace rigor {
 namespace {
@@ -207,6 +208,7 @@ class Explainer {
 std::vector<std::string> explanations(const Results& results, const CaseResult& result) {
   std::vector<std::string> sentences = Explainer(results, result).sentences();
   for (std::string& sentence : contact_explanations(results, result)) sentences.push_back(std::move(sentence));
+  for (std::string& sentence : joint_explanations(results, result)) sentences.push_back(std::move(sentence));
   return sentences;
 }
 

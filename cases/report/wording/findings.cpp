@@ -13,6 +13,7 @@
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/report/wording/explanation.h"
 #include "cases/report/wording/impacts_finding.h"
+#include "cases/report/wording/joints_finding.h"
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/report/wording/wording.h"
 
@@ -40,6 +41,7 @@ class Finder {
     say_where_energy_goes();
     say_whose_friction_is_a_pyramid();
     if (const auto impacts = impacts_finding(results_, runs())) found_.push_back(*impacts);
+    if (const auto joints = joints_finding(results_, runs(), dt_)) found_.push_back(*joints);
     say_who_blows_up();
     say_what_sampling_does();
     say_what_is_unexplained();

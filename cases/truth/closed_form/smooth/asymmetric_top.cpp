@@ -14,7 +14,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
-#include "cases/truth/closed_form/closed_form.h"
+#include "cases/truth/closed_form/smooth/asymmetric_top.h"
 #include "cases/truth/closed_form/smooth/jacobi_elliptic.h"
 #include "core/base/error.h"
 
@@ -151,11 +151,15 @@ class AsymmetricTop final : public BodyMotion {
 
 }  // namespace
 
+std::unique_ptr<BodyMotion> asymmetric_top(const Body& body, const Vec3& gravity) {
+  return std::make_unique<AsymmetricTop>(body, gravity);
+}
+
 TruthRow asymmetric_top_truth() {
   return {"asymmetric-top", "free bodies with three principal moments, in Jacobi's elliptic functions",
           [](const Scene& scene, double) {
             check_needs(scene, "asymmetric-top", "bodies in free flight");
-            return closed_form(scene, [&](const Body& b) { return std::make_unique<AsymmetricTop>(b, scene.gravity); });
+            return closed_form(scene, [&](const Body& b) { return asymmetric_top(b, scene.gravity); });
           }};
 }
 

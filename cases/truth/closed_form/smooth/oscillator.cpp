@@ -1,14 +1,13 @@
 // A body on one spring and damper through its centre of mass, moving along the spring's line:
 //   m r'' = -k (r - rest) - c r' + m g,   r the distance from the fixed end.
-// With s = r - rest - m g / k, decay = c / 2m, w0² = k / m and w² = |w0² - decay²|,
-//   s  = e^(-decay t) (s0 C + (v0 + decay s0) S),   s' = e^(-decay t) (v0 C - (decay v0 + w0² s0) S),
-// where C and S are cos wt and sin wt / w, 1 and t, or cosh wt and sinh wt / w: under-, critically and over-damped
-// (Landau and Lifshitz, Mechanics, 3rd ed., sections 21 and 25). The spring has no torque about the centre of mass.
+// With s = r - rest - m g / k, decay = c / 2m and w0² = k / m it is damped_oscillation.h's. The spring has no torque
+// about the centre of mass.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "cases/truth/closed_form/smooth/damped_oscillation.h"
 #include "cases/truth/closed_form/smooth/principal_spin.h"
 #include "core/base/error.h"
 
@@ -84,11 +83,11 @@ class Oscillator final : public BodyMotion {
     if (spring.rest_length == 0) return;
     if (least <= 0) refuse("it passes through the spring's other end, where the force jumps");
     const Extended pressed = std::max<Extended>(0, spring.rest_length - least);
-    buckling_ = std::sqrt(square_ * pressed / least);
+    buckling_ = std::sqrt(moving_.square * pressed / least);
   }
 
   ExtendedState at(Extended t) const override {
-    const Along along = along_at(t);
+    const DampedOscillation::Along along = moving_.at(t);
     return {hanging_.anchor + (middle_ + along.offset) * hanging_.line, spin_.orientation(w_.norm() * t),
             along.velocity * hanging_.line, w_};
   }
@@ -96,78 +95,40 @@ class Oscillator final : public BodyMotion {
   // The rounding to double of the farthest it can be, and a phase's. Where the scene's rounding misses the line, the
   // body leaves it, and ever faster while the spring is pressed.
   double error(double t) const override {
-    const Extended speed = std::abs(velocity_) + (decay_ + std::sqrt(square_)) * std::abs(start_);
-    const Extended swing = speed / std::sqrt(square_), phase = (std::sqrt(square_) + decay_) * t;
-    const Extended farthest = hanging_.anchor.norm() + std::abs(middle_) + swing;
+    const Extended speed = moving_.swing() * std::sqrt(moving_.square);
+    const Extended farthest = hanging_.anchor.norm() + std::abs(middle_) + moving_.swing();
     const Extended beside =
         hanging_.misses == 0 ? 0 : hanging_.misses * (farthest + speed * t) * std::cosh(buckling_ * t);
-    return kEpsilon * static_cast<double>(farthest) + 8 * kExtendedEpsilon * static_cast<double>(phase * swing) +
-           static_cast<double>(beside) + spin_.error(static_cast<double>(w_.norm()) * t);
+    return kEpsilon * static_cast<double>(farthest) + static_cast<double>(moving_.error(t) + beside) +
+           spin_.error(static_cast<double>(w_.norm()) * t);
   }
 
  private:
   Oscillator(const Scene& scene, const Body& body, const Spring& spring, const Hanging& hanging)
-      : hanging_(hanging),
-        spin_(body, body.angular_velocity),
-        w_(extended(body.angular_velocity)),
-        decay_(spring.damping / (2 * extended_mass(body))),
-        square_(spring.stiffness / extended_mass(body)) {
+      : hanging_(hanging), spin_(body, body.angular_velocity), w_(extended(body.angular_velocity)) {
+    moving_.decay = spring.damping / (2 * extended_mass(body)), moving_.square = spring.stiffness / extended_mass(body);
     if (!spin_.holds()) refuse(fmt::format("body '{}' would tumble", body.name));
-    middle_ = spring.rest_length + extended(scene.gravity).dot(hanging.line) / square_;
-    start_ = (extended(body.position) - hanging.anchor).dot(hanging.line) - middle_;
-    velocity_ = extended(body.velocity).dot(hanging.line);
+    middle_ = spring.rest_length + extended(scene.gravity).dot(hanging.line) / moving_.square;
+    moving_.start = (extended(body.position) - hanging.anchor).dot(hanging.line) - middle_;
+    moving_.velocity = extended(body.velocity).dot(hanging.line);
   }
   static Extended extended_mass(const Body& body) { return body.mass; }
 
-  struct Along {
-    Extended offset;    // m, s
-    Extended velocity;  // m/s
-  };
-  struct Waves {
-    Extended C, S;  // times e^(-decay t)
-  };
-
-  Waves waves(Extended t) const {
-    const Extended difference = square_ - decay_ * decay_, w = std::sqrt(std::abs(difference));
-    if (difference == 0) return {std::exp(-decay_ * t), t * std::exp(-decay_ * t)};
-    if (difference > 0) return {std::exp(-decay_ * t) * std::cos(w * t), std::exp(-decay_ * t) * std::sin(w * t) / w};
-    // The slow decay, decay - w, without its cancellation.
-    const Extended slow = std::exp(-square_ / (decay_ + w) * t);
-    return {slow * (1 + std::exp(-2 * w * t)) / 2, -slow * std::expm1(-2 * w * t) / (2 * w)};
-  }
-
-  Along along_at(Extended t) const {
-    const Waves at = waves(t);
-    return {start_ * at.C + (velocity_ + decay_ * start_) * at.S,
-            velocity_ * at.C - (decay_ * velocity_ + square_ * start_) * at.S};
-  }
-
-  // The first instants at which it turns round: where C / S is (decay v0 + w0² s0) / v0. Later turns are less wide.
-  std::vector<Extended> turns() const {
-    const Extended difference = square_ - decay_ * decay_, w = std::sqrt(std::abs(difference));
-    const Extended pull = decay_ * velocity_ + square_ * start_;
-    if (difference == 0) return {velocity_ / pull};
-    if (difference < 0) return {std::atanh(velocity_ * w / pull) / w};
-    const Extended first = std::atan2(velocity_ * w, pull) / w, half_period = std::acos(-1.0L) / w;
-    return {first, first + half_period, first + 2 * half_period};
-  }
-
   // The least distance [m] from the fixed end, in [0, duration].
   Extended nearest(double duration) const {
-    Extended least = middle_ + std::min(start_, along_at(duration).offset);
-    for (const Extended t : turns()) {
-      if (t > 0 && t < duration) least = std::min(least, middle_ + along_at(t).offset);
+    Extended least = middle_ + std::min(moving_.start, moving_.at(duration).offset);
+    for (const Extended t : moving_.turns()) {
+      if (t > 0 && t < duration) least = std::min(least, middle_ + moving_.at(t).offset);
     }
     return least;
   }
 
   Hanging hanging_;
   PrincipalSpin spin_;
-  ExtendedVec3 w_;                     // rad/s, in W
-  Extended decay_, square_;            // 1/s; w0² in 1/s²
-  Extended middle_ = 0;                // m from the anchor: where it would rest
-  Extended start_ = 0, velocity_ = 0;  // m and m/s at t = 0, from there, away from the anchor
-  Extended buckling_ = 0;              // 1/s, the rate at which it leaves the line at most
+  ExtendedVec3 w_;            // rad/s, in W
+  Extended middle_ = 0;       // m from the anchor: where it would rest
+  DampedOscillation moving_;  // from there, away from the anchor
+  Extended buckling_ = 0;     // 1/s, the rate at which it leaves the line at most
 };
 
 }  // namespace

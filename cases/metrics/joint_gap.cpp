@@ -1,0 +1,26 @@
+// How far the two ends of a joint are apart, and how fast, in what the joint holds of their places
+// (joint_geometry.h). The first thing that tells stabilisations apart: none lets the gap grow with time, Baumgarte's
+// and ERP keep it at a level that depends on dt, a projection at rounding.
+#include "cases/metrics/measures/joints/joint_series.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run, const std::string& what, OfJoint quantity) {
+  if (run.scene.joints.empty()) return {{}, kNoJoints};
+  return worst_joint(run, what, quantity);
+}
+
+}  // namespace
+
+MetricRow joint_gap() {
+  return {"joint_gap", "m", "largest distance between what a joint holds together",
+          [](const JudgedRun& run) { return measure(run, "gap", &JointGeometry::gap); }};
+}
+
+MetricRow joint_gap_rate() {
+  return {"joint_gap_rate", "m/s", "largest speed, as read, at which a joint's ends move where it holds them",
+          [](const JudgedRun& run) { return measure(run, "gap's rate", &JointGeometry::gap_rate); }};
+}
+
+}  // namespace rigor

@@ -1,0 +1,26 @@
+// By what angle the two ends of a joint have turned against each other, and how fast, where the joint lets them not
+// (joint_geometry.h).
+#include "cases/metrics/measures/joints/joint_series.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure(const JudgedRun& run, const std::string& what, OfJoint quantity) {
+  if (run.scene.joints.empty()) return {{}, kNoJoints};
+  if (!any_holds_angle(run.scene)) return {{}, kNoAngle};
+  return worst_joint(run, what, quantity);
+}
+
+}  // namespace
+
+MetricRow joint_twist() {
+  return {"joint_twist", "rad", "largest angle by which a joint's ends have turned where it does not let them",
+          [](const JudgedRun& run) { return measure(run, "twist", &JointGeometry::twist); }};
+}
+
+MetricRow joint_twist_rate() {
+  return {"joint_twist_rate", "rad/s", "largest rate, as read, at which a joint's ends turn where it does not let them",
+          [](const JudgedRun& run) { return measure(run, "twist's rate", &JointGeometry::twist_rate); }};
+}
+
+}  // namespace rigor

@@ -1,0 +1,99 @@
+#include "cases/metrics/measures/joints/joint_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+double angle_of(const Vec3& u, const Vec3& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); }
+
+}  // namespace
+
+EndMotion end_motion(const JointEnd& end, BodyColumns bodies) {
+  EndMotion motion;
+  if (end.body != kWorld) {
+    const auto i = static_cast<std::size_t>(end.body);
+    motion.R = bodies.rotation(i), motion.orientation = bodies.orientation(i);
+    motion.centre = bodies.position(i), motion.velocity = bodies.velocity(i), motion.w = bodies.angular_velocity(i);
+  }
+  motion.arm = motion.R * end.point, motion.axis = motion.R * end.axis;
+  return motion;
+}
+
+JointGeometry::JointGeometry(const Scene& scene, const Joint& joint)
+    : a_{joint.a, Vec3::Zero(), Vec3::Zero()}, b_{joint.b, Vec3::Zero(), Vec3::Zero()} {
+  const BodyPose pose_a = scene.pose(joint.a), pose_b = scene.pose(joint.b);
+  start_turn_ = pose_a.orientation.conjugate() * pose_b.orientation;
+  set_ends(pose_a, pose_b, joint);
+  const Vec3 axis_a = pose_a.orientation * a_.axis, axis_b = pose_b.orientation * b_.axis;
+  start_angle_ = angle_of(axis_a, axis_b);
+  const Vec3 apart = pose_b.position + pose_b.orientation * b_.point - pose_a.position - pose_a.orientation * a_.point;
+  start_length_ = apart.norm();
+}
+
+void JointGeometry::set_ends(const BodyPose& pose_a, const BodyPose& pose_b, const Joint& joint) {
+  const auto share = [&](const Vec3& place) {
+    a_.point = pose_a.orientation.conjugate() * (place - pose_a.position);
+    b_.point = pose_b.orientation.conjugate() * (place - pose_b.position);
+  };
+  const auto axes = [&](const Vec3& of_a, const Vec3& of_b) {
+    a_.axis = pose_a.orientation.conjugate() * of_a, b_.axis = pose_b.orientation.conjugate() * of_b;
+  };
+  if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
+    share(ball->anchor);
+  } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
+    share(hinge->anchor), axes(hinge->axis, hinge->axis), holds_ = Angle::axis;
+  } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
+    share(universal->anchor), axes(universal->axis, universal->axis2), holds_ = Angle::right_angle;
+  } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
+    share(pose_b.position), axes(slider->axis, slider->axis), holds_ = Angle::all, place_ = Place::line;
+  } else if (std::holds_alternative<FixedJoint>(joint.type)) {
+    share(pose_b.position), holds_ = Angle::all;
+  } else {
+    const auto& distance = std::get<DistanceJoint>(joint.type);
+    a_.point = distance.point_a, b_.point = distance.point_b, place_ = Place::distance;
+  }
+}
+
+double JointGeometry::gap(BodyColumns bodies) const {
+  const EndMotion a = end_motion(a_, bodies), b = end_motion(b_, bodies);
+  const Vec3 apart = b.point() - a.point();
+  if (place_ == Place::distance) return std::abs(apart.norm() - start_length_);
+  return place_ == Place::line ? a.axis.cross(apart).norm() : apart.norm();
+}
+
+double JointGeometry::gap_rate(BodyColumns bodies) const {
+  const EndMotion a = end_motion(a_, bodies), b = end_motion(b_, bodies);
+  if (place_ == Place::distance) {
+    const Vec3 apart = b.point() - a.point(), rate = b.point_velocity() - a.point_velocity();
+    return apart.isZero(0) ? rate.norm() : std::abs(apart.normalized().dot(rate));
+  }
+  const bool is_in_frame_of_a = holds_ == Angle::all;
+  const Vec3 rate = b.point_velocity() - (is_in_frame_of_a ? a.velocity_at(b.point()) : a.point_velocity());
+  return place_ == Place::line ? a.axis.cross(rate).norm() : rate.norm();
+}
+
+double JointGeometry::twist(BodyColumns bodies) const {
+  if (holds_ == Angle::none) return 0;
+  const EndMotion a = end_motion(a_, bodies), b = end_motion(b_, bodies);
+  if (holds_ == Angle::all) return angle_between(start_turn_, a.orientation.conjugate() * b.orientation);
+  return std::abs(angle_of(a.axis, b.axis) - (holds_ == Angle::right_angle ? start_angle_ : 0));
+}
+
+double JointGeometry::twist_rate(BodyColumns bodies) const {
+  if (holds_ == Angle::none) return 0;
+  const EndMotion a = end_motion(a_, bodies), b = end_motion(b_, bodies);
+  const Vec3 rate = b.w - a.w;
+  if (holds_ == Angle::all) return rate.norm();
+  if (holds_ == Angle::axis) return a.axis.cross(rate).norm();
+  const Vec3 across = a.axis.cross(b.axis);
+  return across.isZero(0) ? rate.norm() : std::abs(across.normalized().dot(rate));
+}
+
+bool any_holds_angle(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(),
+                     [&](const Joint& joint) { return JointGeometry(scene, joint).holds_angle(); });
+}
+
+}  // namespace rigor

@@ -1,0 +1,83 @@
+#include "cases/report/wording/joint_explanation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "cases/report/wording/contact_explanation.h"
+
+namespace rigor {
+namespace {
+
+// The number that an engine's words begin with; not one if they begin with none.
+double leading_number(const std::string& words) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(words.data(), words.data() + words.size(), number);
+  return error == std::errc() ? number : std::nan("");
+}
+
+// Where each step opens a joint by the same and closes a share of its gap, what stands is the one over the other.
+std::string standing_gap(const Diagnosis& found, double share) {
+  if (!(share > 0 && share < 1)) return "";
+  return fmt::format(" A step takes back {:g} of a gap, so that what stands is what {:.3g} steps open, {:.2g} m each.",
+                     share, 1 / share, share * found.value);
+}
+
+std::string text_of_gap(const Diagnosis& found, const std::string& names) {
+  constexpr double kGrows = 3;
+  const bool grows = found.beside > 0 && found.value > kGrows * found.beside;
+  const std::string marker = "\"erp\": ";
+  const auto at = found.cause.find(marker);
+  const double share = at == std::string::npos ? std::nan("") : leading_number(found.cause.substr(at + marker.size()));
+  return fmt::format("Why: with {} joints come apart; the worst is the {}: {} (m at s).{} {}", names,
+                     found.worst.component, text_over_steps(found),
+                     grows ? fmt::format(" It grows with time: {:.2g} m within the first second.", found.beside)
+                           : standing_gap(found, share),
+                     found.cause);
+}
+
+std::string text_of_chain(const Diagnosis& found, const std::string& names, const std::string& other,
+                          const Scene& scene) {
+  return fmt::format(
+      "Why: sweeping from joint to joint, {} stretches {} joints in a row, of masses up to {:.3g} : 1, by {:.2g} m at "
+      "dt = {} s; {} leaves {:.2g} m. A sweep carries a load on by one joint, and by little of it past a light body "
+      "under a heavy one. {}",
+      names, joints_in_a_row(scene), mass_ratio(scene), found.value, found.over.front().first.text, other, found.beside,
+      found.cause);
+}
+
+std::string text_of_energy(const Diagnosis& found, const std::string& names) {
+  return fmt::format(
+      "Why: with {} joints take energy that they should keep: {} of what is in play (at s), as the power {:.2g} of dt. "
+      "A step turns velocities onto the joints as they stand at its beginning, and what lies across them is lost.",
+      names, text_over_steps(found), found.beside);
+}
+
+}  // namespace
+
+std::vector<std::string> joint_explanations(const Results& results, const CaseResult& result) {
+  const auto text_of = [&](const Diagnosis& found, const std::string& names) {
+    if (found.topic == kJointsPart) return text_of_gap(found, names);
+    if (found.topic == kJointsTakeEnergy) return text_of_energy(found, names);
+    return text_of_chain(found, names, results.runs[found.runs[1]].text, result.definition.scene);
+  };
+  std::vector<std::pair<Diagnosis, std::string>> said;  // and of whom: the same is said of several at once
+  for (const Diagnosis& found : joint_diagnoses(results, result)) {
+    const std::string& name = results.runs[found.runs.front()].text;
+    const auto same = std::find_if(said.begin(), said.end(),
+                                   [&](const auto& one) { return text_of(one.first, "") == text_of(found, ""); });
+    if (same == said.end()) {
+      said.emplace_back(found, name);
+    } else {
+      same->second += ", " + name;
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [found, names] : said) sentences.push_back(text_of(found, names));
+  return sentences;
+}
+
+}  // namespace rigor

@@ -1,0 +1,171 @@
+// The joint metrics on runs with known gaps, and what the energy metrics know of joints.
+#include <boost/test/unit_test.hpp>
+
+#include "tests/cases/judged.h"
+
+using namespace rigor;
+
+namespace {
+
+// A rod of 1 m and 1 kg on a hinge about z at its end, let go level.
+Scene pendulum() {
+  Scene scene;
+  scene.gravity = {0, -9.81, 0};
+  scene.bodies = {test::body("rod", 1, {0.001, 1.0 / 12, 1.0 / 12}, {0.5, 0, 0})};
+  scene.joints = {{.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3::UnitZ()}}};
+  return scene;
+}
+
+const char* const kOfJoints[] = {"joint_gap",        "joint_gap_rate", "joint_twist",
+                                 "joint_twist_rate", "reaction_error", "reaction_torque_error"};
+
+double value_of(const std::string& metric, const JudgedRun& run) {
+  const MetricResult result = test::measured(metric, run);
+  BOOST_TEST_CONTEXT(metric << ": " << result.not_applicable) BOOST_REQUIRE(result.measurement.has_value());
+  return result.measurement->value;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_metrics_joint_metrics)
+
+BOOST_AUTO_TEST_CASE(a_scene_without_joints_has_no_value) {
+  const Scene scene = test::fixed_spring();
+  Trajectory still{1, {{0, BodyTable(1)}}};
+  for (const char* metric : kOfJoints)
+    BOOST_TEST(test::measured(metric, {scene, still, nullptr, 0}).not_applicable == "the scene has no joints");
+}
+
+BOOST_AUTO_TEST_CASE(a_truth_holds_its_joints_and_carries_what_it_carries) {
+  const Scene scene = pendulum();
+  const auto truth = make_truth("reference", scene, 2);
+  const Trajectory run = test::played(*truth, scene, 0.02, 100);
+  const TruthSamples samples = test::sampled(*truth, run, scene, 5);
+  for (const char* metric : kOfJoints)  // roundings of a metre, 5 m/s and 25 N
+    BOOST_TEST_CONTEXT(metric) BOOST_TEST(value_of(metric, {scene, run, &samples, 0}) < 1e-13);
+}
+
+BOOST_AUTO_TEST_CASE(a_known_gap_is_found_at_its_time_and_joint) {
+  Scene scene = pendulum();
+  scene.bodies.push_back(test::body("lower", 1, {0.001, 1.0 / 12, 1.0 / 12}, {1.5, 0, 0}));
+  scene.joints.push_back({.a = 0, .b = 1, .type = HingeJoint{{1, 0, 0}, Vec3::UnitZ()}});
+  const auto truth = make_truth("reference", scene, 1);
+  Trajectory run = test::played(*truth, scene, 0.1, 10);
+  const MutableBodyColumns moved = run.samples[7].bodies.columns();
+  moved.set_position(1, moved.position(1) + Vec3(0, 0.003, 0.004));
+  moved.set_angular_velocity(1, moved.angular_velocity(1) + Vec3(0.02, 0, 5));  // 5 rad/s about its axis are free
+  const Measurement gap = *test::measured("joint_gap", {scene, run, nullptr, 0}).measurement;
+  BOOST_TEST(gap.value == 0.005, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(gap.worst.time == run.samples[7].time);
+  BOOST_TEST(gap.worst.body == 1);
+  BOOST_TEST(gap.worst.component == "gap of the hinge of 'rod' and 'lower'");
+  BOOST_TEST(gap.series.size() == 11);
+  BOOST_TEST(value_of("joint_twist_rate", {scene, run, nullptr, 0}) == 0.02, boost::test_tools::tolerance(1e-10));
+}
+
+BOOST_AUTO_TEST_CASE(no_joint_holds_an_angle_no_twist) {
+  Scene scene = pendulum();
+  scene.joints[0].type = BallJoint{Vec3::Zero()};
+  Trajectory still{1, {{0, BodyTable(1)}}};
+  for (const char* metric : {"joint_twist", "joint_twist_rate", "reaction_torque_error"})
+    BOOST_TEST(test::measured(metric, {scene, still, nullptr, 0}).not_applicable ==
+               "no joint of the scene holds an angle");
+}
+
+// A tenth faster, the hinge carries m d w² ((1.1)² - 1) more towards it.
+BOOST_AUTO_TEST_CASE(a_known_speed_is_a_known_reaction) {
+  const Scene scene = pendulum();
+  const auto truth = make_truth("reference", scene, 1);
+  Trajectory run = test::played(*truth, scene, 0.01, 100);
+  const TruthSamples samples = test::sampled(*truth, run, scene, 5);
+  const MutableBodyColumns faster = run.samples[50].bodies.columns();
+  const double w = faster.angular_velocity(0).z();
+  faster.set_velocity(0, 1.1 * faster.velocity(0)), faster.set_angular_velocity(0, 1.1 * faster.angular_velocity(0));
+  const Measurement found = *test::measured("reaction_error", {scene, run, &samples, 0}).measurement;
+  BOOST_TEST(found.value == 0.5 * w * w * 0.21, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(found.worst.time == run.samples[50].time);
+  BOOST_TEST(found.worst.component == "force of the hinge of 'world' and 'rod'");
+}
+
+BOOST_AUTO_TEST_CASE(what_the_equations_do_not_tell_has_no_reaction_error) {
+  const auto why = [](void (*spoil)(Scene&)) {
+    Scene scene = pendulum();
+    const auto truth = make_truth("reference", scene, 0.2);
+    spoil(scene);
+    Trajectory run = test::played(*truth, pendulum(), 0.1, 2);
+    const TruthSamples samples = test::sampled(*truth, run, pendulum(), 5);
+    return test::measured("reaction_error", {scene, run, &samples, 0}).not_applicable;
+  };
+  BOOST_TEST(why([](Scene& s) { s.joints[0].upper = 1; }).find("a joint has limits") == 0);
+  BOOST_TEST(why([](Scene& s) { s.motors = {{.joint = 0, .speed = 1, .most = 2}}; }).find("a motor keeps") == 0);
+  BOOST_TEST(why([](Scene& s) { s.joints.push_back(s.joints[0]); }) ==
+             "the equations of motion leave no joint's force unique");
+  const Scene scene = pendulum();
+  Trajectory still{1, {{0, BodyTable(1)}}};
+  BOOST_TEST(test::measured("reaction_error", {scene, still, nullptr, 0}).not_applicable == "the case has no truth");
+}
+
+// A slider on a spring: without its spring's energy the run would seem to lose half of k x².
+BOOST_AUTO_TEST_CASE(energy_knows_a_joints_spring_and_what_its_damper_takes) {
+  Scene scene;
+  scene.bodies = {test::body("mass", 2, {1, 1, 1})};
+  scene.joints = {{.a = kWorld, .b = 0, .type = SliderJoint{Vec3::UnitX()}, .stiffness = 50, .rest = 0.8}};
+  const double stored = 0.5 * 50 * 0.8 * 0.8;  // J
+  auto truth = make_truth("reference", scene, 5);
+  const Trajectory kept = test::played(*truth, scene, 0.05, 100);
+  BOOST_TEST(value_of("energy_drift",
+                      {.scene = scene, .trajectory = kept, .truth = nullptr, .leapfrog_stagger = 0, .duration = 5}) <
+             1e-12);
+  scene.joints[0].damping = 3;
+  truth = make_truth("reference", scene, 5);
+  Trajectory damped = test::played(*truth, scene, 0.05, 100);
+  const TruthSamples samples = test::sampled(*truth, damped, scene, stored);
+  const JudgedRun alone{.scene = scene, .trajectory = damped, .truth = nullptr, .leapfrog_stagger = 0, .duration = 5};
+  BOOST_TEST(value_of("energy_drift", alone) < 1e-12);                         // a loss is a damper's
+  BOOST_TEST(value_of("energy_drift", {scene, damped, &samples, 0}) < 1e-12);  // and this much of it
+  // A run that keeps what the damper should have taken is found out by the truth.
+  const JudgedRun undamped{scene, kept, &samples, 0};
+  BOOST_TEST(value_of("energy_drift", undamped) > 0.9);
+}
+
+// A motor's constant torque does work by the angle: E = tau theta; and nothing is expected of it without a truth.
+BOOST_AUTO_TEST_CASE(energy_knows_what_a_motor_gives) {
+  Scene scene = pendulum();
+  scene.gravity.setZero();
+  scene.motors = {{.joint = 0, .effort = 0.4, .speed = {}}};
+  const auto truth = make_truth("reference", scene, 2);
+  const Trajectory run = test::played(*truth, scene, 0.1, 20);
+  const double about_hinge = 1.0 / 12 + 0.25, angle = 0.4 / about_hinge * 2 * 2 / 2;
+  const TruthSamples samples = test::sampled(*truth, run, scene, 0.4 * angle);
+  const Measurement drift = *test::measured("energy_drift", {scene, run, &samples, 0}).measurement;
+  BOOST_TEST(drift.value < 1e-12);
+  const BodyColumns end = run.samples.back().bodies.columns();
+  const double kinetic = 0.5 * about_hinge * end.angular_velocity(0).squaredNorm();
+  BOOST_TEST(kinetic == 0.4 * angle, boost::test_tools::tolerance(1e-12));
+  Trajectory slower = run;
+  for (Sample& sample : slower.samples) {
+    const MutableBodyColumns bodies = sample.bodies.columns();
+    bodies.set_velocity(0, 0.9 * bodies.velocity(0)), bodies.set_angular_velocity(0, 0.9 * bodies.angular_velocity(0));
+  }
+  BOOST_TEST(value_of("energy_drift", {scene, slower, &samples, 0}) == 0.19, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(test::measured("energy_drift", {scene, run, nullptr, 0}).not_applicable.find("forces or motors") == 0);
+}
+
+// The velocity of a semi-implicit step lies half a step before the position, and along the path as it was there. With
+// gravity alone it would be brought off the path, by g dt/2 at the bottom; brought on to it, what is left is of second
+// order: a fourth at half the step.
+BOOST_AUTO_TEST_CASE(synchronised_velocities_keep_to_the_joints) {
+  const Scene scene = pendulum();
+  double before = 0;
+  for (const double dt : {1.0 / 60, 1.0 / 120, 1.0 / 240}) {
+    const Trajectory run =
+        simulate(find_engine(engines(), "core"), test::core_method("semi-implicit-euler"), scene, dt, 4).trajectory;
+    const JudgedRun judged{.scene = scene, .trajectory = run, .truth = nullptr, .leapfrog_stagger = 0.5, .duration = 4};
+    const double drift = value_of("energy_drift_synchronised", judged), raw = value_of("energy_drift", judged);
+    BOOST_TEST(drift < 0.2 * raw);
+    if (before > 0) BOOST_TEST(before / drift > 3.5);
+    before = drift;
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

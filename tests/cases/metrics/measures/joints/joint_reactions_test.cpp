@@ -1,0 +1,152 @@
+// What joints carry: against numbers worked out elsewhere, and against the accelerations of a truth that knows of no
+// reactions.
+#include "cases/metrics/measures/joints/joint_reactions.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "cases/case/case_reader.h"
+#include "cases/case/suite.h"
+#include "cases/truth/truth.h"
+#include "core/scene/toml/scene_reader.h"
+#include "core/scene/toml/table_reader.h"
+#include "tests/cases/judged.h"
+
+using namespace rigor;
+
+namespace {
+
+Scene suite_scene(const std::string& id) {
+  return read_scene(TomlFile::read(default_suite_dir() + "/" + id + ".toml").root(case_keys()).at("scene"));
+}
+
+BodyTable start_of(const Scene& scene) {
+  BodyTable bodies(scene.bodies.size());
+  set_initial_state(scene, bodies.columns());
+  return bodies;
+}
+
+JointReaction first_reaction(const Scene& scene, BodyColumns bodies) {
+  JointReactions reactions(scene);
+  return reactions.at(bodies, 0).value().front();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_joints_joint_reactions)
+
+// A rod on a hinge: m g/(1 + m d²/I) = m g/4 (nearly) where it is let go, and m (g + w² d) at the bottom.
+BOOST_AUTO_TEST_CASE(the_force_on_a_pendulums_hinge) {
+  const Scene scene = suite_scene("joints/pendulum-90");
+  BodyTable bodies = start_of(scene);
+  const JointReaction level = first_reaction(scene, bodies.columns());
+  BOOST_TEST((level.force - Vec3(0, 2.457095565, 0)).norm() < 0.5e-9);  // half of its last digit
+  BOOST_TEST(level.couple.norm() < 1e-15);
+  const double w = std::sqrt(2 * 9.81 * 0.5 / (0.08354166666666667 + 0.25));
+  bodies.columns().set_body(0, {{0, -0.5, 0}, Quat(1, 0, 0, -1).normalized(), {-0.5 * w, 0, 0}, {0, 0, -w}});
+  BOOST_TEST((first_reaction(scene, bodies.columns()).force - Vec3(0, 24.515808869, 0)).norm() < 0.5e-9);
+}
+
+BOOST_AUTO_TEST_CASE(the_tension_of_the_conical_pendulum) {
+  const Scene scene = suite_scene("joints/conical");
+  const JointReaction pull = first_reaction(scene, start_of(scene).columns());
+  BOOST_TEST(std::abs(pull.force.norm() - 11.327612282) < 0.6e-9);  // m g/cos 30°, printed to nine decimals
+  BOOST_TEST((pull.force.normalized() - Vec3(-0.5, 0, std::sqrt(0.75))).norm() < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(what_holds_a_level_gyroscope) {
+  const Scene scene = suite_scene("joints/gyroscope");
+  const Vec3 force = first_reaction(scene, start_of(scene).columns()).force;
+  BOOST_TEST((force - Vec3(-1.5397776, 0, 19.62)).norm() < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(the_bearings_of_unbalanced_rotors) {
+  const Scene level = suite_scene("joints/rotor-unbalanced");
+  const JointReaction rotor = first_reaction(level, start_of(level).columns());
+  BOOST_TEST((rotor.force - Vec3(0, -36.5291391, 149.2712583)).norm() < 1e-7);
+  BOOST_TEST((rotor.couple - Vec3(0, -116.200593, -14.2874553)).norm() < 1e-6);  // its last digit is of 1e-6
+  const Scene off_axis = suite_scene("joints/hinge-off-axis");
+  const JointReaction wobbling = first_reaction(off_axis, start_of(off_axis).columns());
+  BOOST_TEST((wobbling.couple - Vec3(0.6, -2.64, 2.04)).norm() < 1e-12);
+}
+
+// A truth's velocities, differentiated, are accelerations that owe nothing to any reaction: m a - m g is what joints
+// and springs put on a body, whatever their redundancy.
+BOOST_AUTO_TEST_CASE(reactions_and_loads_move_each_body_as_the_truth_moves) {
+  for (const char* id : {"joints/cart-pendulum", "joints/welded-pair", "mechanisms/cardan-shaft", "mechanisms/four-bar",
+                         "mechanisms/slider-crank", "mechanisms/satellite", "joints/spherical-pendulum"}) {
+    const Scene scene = suite_scene(id);
+    const auto truth = make_truth("reference", scene, 1);
+    constexpr double kTime = 0.7, kHalf = 1e-4;  // s; central differences are off by kHalf² a'' / 6
+    const std::size_t count = scene.bodies.size();
+    const BodyTable before = test::truth_at(*truth, kTime - kHalf, count), now = test::truth_at(*truth, kTime, count),
+                    after = test::truth_at(*truth, kTime + kHalf, count);
+    JointReactions reactions(scene);
+    const auto carried = reactions.at(now.columns(), kTime).value();
+    const System system(scene);
+    Wrenches sums;
+    system.wrenches(now.columns(), kTime, 0, sums);
+    for (std::size_t k = 0; k < carried.size(); ++k) {
+      const JointGeometry joint(scene, scene.joints[k]);
+      const Vec3 place = end_motion(joint.b(), now.columns()).point();
+      const auto put = [&](int body, double sign) {
+        if (body == kWorld) return;
+        const Vec3 arm = place - now.columns().position(body);
+        sums[body].force += sign * carried[k].force;
+        sums[body].torque += sign * (arm.cross(carried[k].force) + carried[k].couple);
+      };
+      put(scene.joints[k].a, -1), put(scene.joints[k].b, 1);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Inertia& body = system.bodies[i];
+      if (body.fixed) continue;
+      const Vec3 a = (after.columns().velocity(i) - before.columns().velocity(i)) / (2 * kHalf),
+                 turning = (after.columns().angular_velocity(i) - before.columns().angular_velocity(i)) / (2 * kHalf),
+                 expected = angular_acceleration(body, now.columns().rotation(i), now.columns().angular_velocity(i),
+                                                 sums[i].torque);
+      BOOST_TEST_CONTEXT(id << " '" << scene.bodies[i].name << "'") {
+        BOOST_TEST((a - body.inverse_mass * sums[i].force).norm() < 1e-5 * (1 + a.norm()));
+        BOOST_TEST((turning - expected).norm() < 1e-5 * (1 + turning.norm()));
+      }
+    }
+  }
+}
+
+// Hinges that all turn about y leave of each other's reactions unknown what acts along y or bends them.
+BOOST_AUTO_TEST_CASE(only_in_its_plane_a_plane_loop_tells_what_its_joints_carry) {
+  const Scene scene = suite_scene("mechanisms/four-bar");
+  JointReactions reactions(scene);
+  const auto found = reactions.unique_at(start_of(scene).columns()).value();
+  for (const UniqueReaction& unique : found) {
+    BOOST_TEST((unique.force - Mat3(Vec3(1, 0, 1).asDiagonal())).norm() < 1e-9);
+    BOOST_TEST(unique.couple.norm() == 0);
+  }
+  const Scene tree = suite_scene("joints/double-pendulum");
+  JointReactions of_tree(tree);
+  const auto all = of_tree.unique_at(start_of(tree).columns()).value();
+  for (const UniqueReaction& unique : all)
+    BOOST_TEST((unique.force - Mat3::Identity()).norm() + (unique.couple - Mat3::Identity()).norm() < 1e-14);
+}
+
+// Of two equal hinges no one can say which carries what; what they move is the same.
+BOOST_AUTO_TEST_CASE(nothing_is_unique_in_a_joint_that_is_there_twice) {
+  Scene scene = suite_scene("joints/pendulum-90");
+  scene.joints.push_back(scene.joints[0]);
+  JointReactions reactions(scene);
+  const auto none = reactions.unique_at(start_of(scene).columns()).value();
+  for (const UniqueReaction& unique : none) BOOST_TEST(unique.force.norm() + unique.couple.norm() == 0);
+  const auto carried = reactions.at(start_of(scene).columns(), 0).value();
+  BOOST_TEST((carried[0].force + carried[1].force - Vec3(0, 2.457095565, 0)).norm() < 0.5e-9);
+}
+
+BOOST_AUTO_TEST_CASE(velocities_are_brought_to_the_nearest_that_joints_allow) {
+  const Scene scene = suite_scene("joints/pendulum-90");
+  BodyTable bodies = start_of(scene);
+  bodies.columns().set_velocity(0, {1, -2, 3}), bodies.columns().set_angular_velocity(0, {4, 5, -4});
+  JointReactions(scene).project_velocities(bodies.columns());
+  // Of m (r x v) + I w about the anchor only the part about z is left: turning at it over I + m d².
+  const double w = (0.5 * -2 + 0.08354166666666667 * -4) / (0.08354166666666667 + 0.25);
+  BOOST_TEST((bodies.columns().angular_velocity(0) - Vec3(0, 0, w)).norm() < 1e-14);
+  BOOST_TEST((bodies.columns().velocity(0) - Vec3(0, 0.5 * w, 0)).norm() < 1e-14);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

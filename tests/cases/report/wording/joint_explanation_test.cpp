@@ -1,0 +1,75 @@
+// What is said of joints that do not hold, and that nothing is said of those that do.
+#include "cases/report/wording/joint_explanation.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "cases/report/wording/findings.h"
+#include "tests/cases/report/jointed_results.h"
+
+using namespace rigor;
+
+namespace {
+
+std::vector<std::string> said_of(const Results& grid) { return joint_explanations(grid, grid.cases.front()); }
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string joints_found(const Results& grid) {
+  for (const Finding& finding : findings(grid)) {
+    if (finding.topic == "joints") return finding.text;
+  }
+  return "";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_report_wording_joint_explanation)
+
+// Every step opens the joint by ½ a dt²; at a share of 0.2 five of these stand.
+BOOST_AUTO_TEST_CASE(a_gap_that_stands_is_told_with_what_a_step_opens) {
+  Results grid = test::jointed_results(test::chain_of(2, 1));
+  BOOST_TEST(said_of(grid).empty());
+  for (const std::size_t run : {0, 1})
+    test::set_gaps(grid, run, {0.01, 0.0025}), test::set_setting(grid, run, "erp", "0.2: that share of a gap");
+  const auto said = said_of(grid);
+  BOOST_REQUIRE(said.size() == 1);  // of both at once
+  BOOST_TEST(has(said[0], "with good, wild joints come apart"));
+  BOOST_TEST(has(said[0], "the ball of 'world' and 'link0'"));
+  BOOST_TEST(has(said[0], "takes back 0.2 of a gap, so that what stands is what 5 steps open, 0.002 m each"));
+  BOOST_TEST(has(said[0], "that share of a gap."));
+}
+
+BOOST_AUTO_TEST_CASE(a_gap_that_grows_stands_nowhere) {
+  Results grid = test::jointed_results(test::chain_of(2, 1));
+  test::set_gaps(grid, 0, {0.01, 0.0025}), test::set_setting(grid, 0, "erp", "0.2");
+  grid.cases[0].cells[0].metrics["joint_gap"].first_second = 0.001;
+  const auto said = said_of(grid);
+  BOOST_REQUIRE(said.size() == 1);
+  BOOST_TEST(has(said[0], "grows with time: 0.001 m within the first second"));
+  BOOST_TEST(!has(said[0], "steps open"));
+}
+
+BOOST_AUTO_TEST_CASE(a_stretched_chain_is_told_with_its_sweeps_joints_and_masses) {
+  Results grid = test::jointed_results(test::chain_of(8, 40));
+  grid.runs[1].engine = grid.runs[0].engine;
+  test::set_gaps(grid, 0, {0.3, 0.2}), test::set_setting(grid, 0, "iterations", "20");
+  test::set_gaps(grid, 1, {0.02, 0.01});
+  const auto said = said_of(grid);
+  BOOST_REQUIRE(said.size() == 1);
+  for (const char* part : {"good stretches 8 joints in a row, of masses up to 40 : 1, by 0.3 m", "wild leaves 0.02 m",
+                           "\"iterations\": 20."})
+    BOOST_TEST_CONTEXT(said[0]) BOOST_TEST(has(said[0], part));
+}
+
+BOOST_AUTO_TEST_CASE(the_first_screen_says_whose_joints_hold) {
+  Results grid = test::jointed_results(test::chain_of(2, 1));
+  BOOST_TEST(joints_found(grid) == "");  // nothing was measured
+  test::set_gaps(grid, 0, {1e-9, 1e-9}), test::set_gaps(grid, 1, {0.05, 0.01});
+  const std::string text = joints_found(grid);
+  BOOST_TEST(has(text, "joints hold in good, to a millionth of their reach"));
+  BOOST_TEST(has(text, "they stretch in wild by 0.05 m at a reach of 0.5 m (family/case)"));
+  for (Cell& cell : grid.cases[0].cells) cell.stability.verdict = Verdict::blown_up;
+  BOOST_TEST(joints_found(grid) == "");  // what blew up is told elsewhere
+}
+
+BOOST_AUTO_TEST_SUITE_END()
