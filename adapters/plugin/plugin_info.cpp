@@ -142,6 +142,14 @@ std::vector<MethodInfo> read_methods(const InfoTable& table) {
   return methods;
 }
 
+// The two shapes of a contact may come in either order.
+std::string spelt(const std::string& feature) {
+  const std::string start = "contact:";
+  const std::size_t hyphen = feature.find('-');
+  if (!feature.starts_with(start) || hyphen == std::string::npos) return feature;
+  return contact_feature(feature.substr(start.size(), hyphen - start.size()), feature.substr(hyphen + 1));
+}
+
 // Forces and torques on the bodies are all that these need.
 Features with_wrenches(Features features) {
   if (!features.contains("wrench")) return features;
@@ -172,7 +180,7 @@ PluginInfo read_plugin_info(const std::string& line, const std::string& what) {
   info.engine.precision = table.text("precision");
   if (info.engine.precision != "double" && info.engine.precision != "single")
     table.refuse("precision", table.find("precision"), "\"double\" or \"single\"");
-  for (const std::string& feature : table.texts("features")) info.declared.insert(feature);
+  for (const std::string& feature : table.texts("features")) info.declared.insert(spelt(feature));
   info.engine.features = with_wrenches(info.declared);
   info.engine.methods = read_methods(table);
   const std::vector<std::string> calls = table.texts("calls");

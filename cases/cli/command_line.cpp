@@ -110,6 +110,7 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
     command.add_flag("--quick", line.quick, "only gates whose cells take a moment; for each change, not each night");
   if (takes("--resume"))
     command.add_flag("--resume", line.resume, "go on from where a run to the same folder was stopped");
+  if (takes("--json")) command.add_flag("--json", line.json, "print JSON instead");
   if (takes("--deviations")) {
     command.add_option("--deviations", line.adapters_dir, "folder of ENGINE/known_deviations.toml")
         ->type_name("DIR")

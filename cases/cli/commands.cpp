@@ -50,6 +50,12 @@ const std::vector<CommandRow>& commands() {
        "a case file",
        {},
        settle_command},
+      {"conform",
+       "say whether an engine, one from outside above all, does what the seam asks; exit 1 if not",
+       "",
+       "",
+       {"--engine", "--json", "--plugin", "--timeout"},
+       conform_command},
   };
   return table;
 }
