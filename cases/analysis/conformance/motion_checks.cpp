@@ -94,7 +94,7 @@ OrderFound errors_of_top(const Trial& trial, int steps) {
 Outcome a_top_turns_as_its_order_says(const Trial& trial) {
   constexpr int kSteps = 100;
   const OrderFound found = errors_of_top(trial, kSteps);
-  const double rounding = 1e3 * kSteps * rounding_of(trial);
+  const double rounding = 20 * kSteps * rounding_of(trial);  // ten of numbers of about 1 for each step of the longer
   // A body without a gyroscopic term, or that takes w in another frame, is off by a good part of w² t in a second; of
   // a first order step the error is w² dt.
   constexpr double kFirstOrder = 2.0 / kSteps;
