@@ -28,7 +28,7 @@ static void rotate(const double* q, double sign, const double* v, double* out) {
   cross(u, t, s);
   for (int i = 0; i < 3; ++i) out[i] = v[i] + 2 * (q[0] * t[i] + s[i]);
 }
-static void in_world(const double m[3][3], const double* q, const double* v, double* out) { /* R m R^T v */
+static void in_world(double m[3][3], const double* q, const double* v, double* out) { /* R m R^T v */
   double b[3], c[3];
   rotate(q, -1, v, b);
   for (int i = 0; i < 3; ++i) c[i] = m[i][0] * b[0] + m[i][1] * b[1] + m[i][2] * b[2];

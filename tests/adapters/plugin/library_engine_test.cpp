@@ -4,6 +4,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <regex>
 
 #include "adapters/plugin/library_engine.h"
@@ -92,6 +93,21 @@ BOOST_AUTO_TEST_CASE(the_example_steps_as_the_process_does) {
       BOOST_TEST((one.bodies().position(i) - scene.bodies[i].position).norm() > 0.01);  // it has been somewhere
     }
   }
+}
+
+// As an author finds it: C11 without extensions, from where cmake --install has put it.
+BOOST_AUTO_TEST_CASE(the_header_is_installed_and_is_plain_c) {
+  const Folder folder;
+  const std::string in = folder.path.string();
+  const auto does = [&](const std::string& command) {
+    return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
+  };
+  BOOST_TEST(does("cmake --install " RIGOR_BUILD_DIR " --component plugin --prefix " + in));
+  for (const char* file : {"include/rigor_engine.h", "share/rigor/scene.schema.json", "share/rigor/examples/toy.py"})
+    BOOST_TEST(std::filesystem::exists(folder.path / file), file);
+  folder.write("engine.c", "#include <rigor_engine.h>\nint size(void) { return (int)sizeof(rigor_engine_v1); }\n");
+  const std::string compile = "cc -std=c11 -pedantic -Wall -Wextra -Werror -c -I " + in + "/include -o " + in;
+  BOOST_TEST(does(compile + "/engine.o " + in + "/engine.c"));
 }
 
 BOOST_AUTO_TEST_CASE(one_that_does_not_say_what_it_is_is_bad_input) {

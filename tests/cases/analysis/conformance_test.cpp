@@ -5,6 +5,7 @@
 
 #include "adapters/engines.h"
 #include "cases/analysis/conformance/conformance.h"
+#include "core/engine/run_name.h"
 #include "tests/faults/broken_engine.h"
 
 using namespace rigor;
@@ -29,34 +30,41 @@ std::map<std::string, Outcome> broken_by(const Trial& trial) {
   return found;
 }
 
-void for_each_row(MutableBodyColumns bodies, const std::function<void(std::size_t)>& change) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) change(i);
-}
-
 struct Mistake {
   Fault fault;
   std::string found_by;
 };
 
-Fault on_load(std::function<void(Scene&)> change) { return {.name = "", .scene = std::move(change)}; }
-Fault on_step(std::function<void(Moment&)> change) { return {.name = "", .step = std::move(change)}; }
+Fault on_load(std::function<void(Scene&)> change) {
+  Fault fault;
+  fault.scene = std::move(change);
+  return fault;
+}
+Fault on_step(std::function<void(Moment&)> change) {
+  Fault fault;
+  fault.step = std::move(change);
+  return fault;
+}
+Fault on_read_of_all(std::function<void(MutableBodyColumns, const Scene&)> change) {
+  Fault fault;
+  fault.read = std::move(change);
+  return fault;
+}
 Fault on_read(std::function<void(MutableBodyColumns, std::size_t)> change) {
-  return {.name = "", .read = [change](MutableBodyColumns bodies, const Scene&) {
-            for_each_row(bodies, [&](std::size_t i) { change(bodies, i); });
-          }};
+  return on_read_of_all([change](MutableBodyColumns bodies, const Scene&) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) change(bodies, i);
+  });
 }
 
 std::map<std::string, Mistake> mistakes() {
   std::map<std::string, Mistake> all;
   all["no gravity"] = {on_load([](Scene& s) { s.gravity.setZero(); }), "free-fall"};
   all["gravity upside down"] = {on_load([](Scene& s) { s.gravity *= -1; }), "free-fall"};
-  all["bodies in another order"] = {{.name = "",
-                                     .read =
-                                         [](MutableBodyColumns bodies, const Scene&) {
-                                           if (bodies.size() < 3) return;
-                                           const BodyState first = bodies.body(0);
-                                           bodies.set_body(0, bodies.body(2)), bodies.set_body(2, first);
-                                         }},
+  all["bodies in another order"] = {on_read_of_all([](MutableBodyColumns bodies, const Scene&) {
+                                      if (bodies.size() < 3) return;
+                                      const BodyState first = bodies.body(0);
+                                      bodies.set_body(0, bodies.body(2)), bodies.set_body(2, first);
+                                    }),
                                     "load-then-read"};
   all["angular velocity in the body's frame"] = {on_read([](MutableBodyColumns b, std::size_t i) {
                                                    b.set_angular_velocity(
