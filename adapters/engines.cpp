@@ -16,6 +16,7 @@
 #include "adapters/ode/ode_engine.h"
 #include "adapters/ode/ode_twin.h"
 #include "core/base/error.h"
+#include "core/engine/remote.h"
 
 namespace rigor {
 namespace {
@@ -56,11 +57,12 @@ const EngineTable& engines() {
   return table;
 }
 
-void EngineTable::add(std::unique_ptr<Engine> engine) {
+void EngineTable::add(std::unique_ptr<Engine> engine, std::string identity) {
   EngineInfo info = engine->info();
   const bool is_taken = std::any_of(infos_.begin(), infos_.end(), [&](const auto& i) { return i.name == info.name; });
   if (is_taken) throw InputError(fmt::format("there are two engines called '{}'", info.name));
   engines_.push_back(std::move(engine)), infos_.push_back(std::move(info));
+  identities_.push_back(std::move(identity));
 }
 
 std::size_t EngineTable::index_of(const std::string& name) const {
@@ -70,6 +72,14 @@ std::size_t EngineTable::index_of(const std::string& name) const {
 }
 
 const EngineInfo& EngineTable::info_of(const std::string& name) const { return infos_[index_of(name)]; }
+
+const std::string& EngineTable::identity_of(const std::string& name) const { return identities_[index_of(name)]; }
+
+void EngineTable::rest() const {
+  for (const auto& engine : engines_) {
+    if (const auto* remote = dynamic_cast<const RemoteEngine*>(engine.get())) remote->rest();
+  }
+}
 
 const Engine& EngineTable::find(const std::string& name) const { return *engines_[index_of(name)]; }
 

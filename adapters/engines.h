@@ -11,12 +11,16 @@ namespace rigor {
 // Asks each engine for its facts once, when it is added.
 class EngineTable {
  public:
-  // Throws InputError for a name that is there already.
-  void add(std::unique_ptr<Engine> engine);
+  // Throws InputError for a name that is there already. `identity`: of an engine that is not part of this program, what
+  // tells one version of it from another.
+  void add(std::unique_ptr<Engine> engine, std::string identity = "");
 
   const std::vector<EngineInfo>& infos() const { return infos_; }
-  const EngineInfo& info_of(const std::string& name) const;  // the name must be there
-  const Engine& find(const std::string& name) const;         // likewise
+  const EngineInfo& info_of(const std::string& name) const;       // the name must be there
+  const Engine& find(const std::string& name) const;              // likewise
+  const std::string& identity_of(const std::string& name) const;  // likewise; empty for one of this program
+  // Ends what engines have started outside this process; they start it again when they are next asked for a world.
+  void rest() const;
   auto begin() const { return engines_.begin(); }
   auto end() const { return engines_.end(); }
 
@@ -25,6 +29,7 @@ class EngineTable {
 
   std::vector<std::unique_ptr<Engine>> engines_;
   std::vector<EngineInfo> infos_;  // of the engines, in their order
+  std::vector<std::string> identities_;
 };
 
 // An engine that Rigor knows and that this build was made without.

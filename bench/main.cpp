@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   bench::register_steps();
   bench::register_limits();
   bench::register_harness();
+  bench::register_plugins();
   bench::RatioTable table;
   const std::string filter = all ? "." : filtered ? benchmark::GetBenchmarkFilter() : bench::filter_of_table();
   const std::size_t matched = benchmark::RunSpecifiedBenchmarks(&table, filter);

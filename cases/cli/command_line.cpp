@@ -67,6 +67,15 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
         ->allow_extra_args(false)
         ->type_name("E");
   }
+  if (takes("--plugin")) {
+    command
+        .add_option(
+            "--plugin", line.plugins,
+            "an engine from outside: a path that ends in .so, or a command line; may be repeated. RIGOR_PLUGINS "
+            "names more, separated by colons")
+        ->allow_extra_args(false)
+        ->type_name("P");
+  }
   if (takes("--dt")) {
     command.add_option("--dt", typed.dt, "step size in s, a number or a fraction such as 1/30; may be repeated")
         ->allow_extra_args(false)
@@ -101,6 +110,7 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
     command.add_flag("--quick", line.quick, "only gates whose cells take a moment; for each change, not each night");
   if (takes("--resume"))
     command.add_flag("--resume", line.resume, "go on from where a run to the same folder was stopped");
+  if (takes("--json")) command.add_flag("--json", line.json, "print JSON instead");
   if (takes("--deviations")) {
     command.add_option("--deviations", line.adapters_dir, "folder of ENGINE/known_deviations.toml")
         ->type_name("DIR")

@@ -23,8 +23,9 @@ struct CommandLine {
   std::string out = "out";
   std::string suite_dir;
   std::string adapters_dir;  // of the known deviations
+  std::vector<std::string> plugins;  // engines from outside: paths of shared libraries, and command lines
   std::string regression;    // the engine whose recorded values `baseline` prints; empty: the baseline itself
-  bool quick = false, resume = false;
+  bool quick = false, resume = false, json = false;
   std::string printed;  // --help or --version: what to print instead of doing anything
 };
 

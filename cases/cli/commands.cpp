@@ -3,18 +3,19 @@
 namespace rigor {
 
 const std::vector<CommandRow>& commands() {
-  static const std::vector<std::string> grid_options = {"--deviations", "--dt",     "--duration", "--engine", "--jobs",
-                                                        "--out",        "--resume", "--suite",    "--timeout"};
-  static const std::vector<std::string> gate_options = {"--deviations", "--dt",     "--duration", "--engine",
-                                                        "--jobs",       "--out",    "--quick",    "--resume",
+  static const std::vector<std::string> grid_options = {"--deviations", "--dt",     "--duration", "--engine",
+                                                        "--jobs",       "--out",    "--plugin",   "--resume",
                                                         "--suite",      "--timeout"};
+  static const std::vector<std::string> gate_options = {"--deviations", "--dt",    "--duration", "--engine",
+                                                        "--jobs",       "--out",   "--plugin",   "--quick",
+                                                        "--resume",     "--suite", "--timeout"};
   static const std::string grid_words = "cases by id, family, file or folder; default: the whole suite";
   static const std::vector<CommandRow> table = {
       {"list",
        "say what there is",
        "KIND",
        "cases, engines, integrators, metrics or truths; default: all",
-       {"--suite"},
+       {"--plugin", "--suite"},
        list_command},
       {"run", "simulate and judge; print the table and write the reports", "CASE", grid_words, grid_options,
        run_command},
@@ -35,7 +36,7 @@ const std::vector<CommandRow>& commands() {
        "print one run's trajectory as CSV",
        "CASE",
        "a case or a file",
-       {"--dt", "--duration", "--engine", "--every", "--suite", "--timeout"},
+       {"--dt", "--duration", "--engine", "--every", "--plugin", "--suite", "--timeout"},
        trace_command},
       {"truth",
        "print the truth's states, and its own error, as CSV",
@@ -49,6 +50,12 @@ const std::vector<CommandRow>& commands() {
        "a case file",
        {},
        settle_command},
+      {"conform",
+       "say whether an engine, one from outside above all, does what the seam asks; exit 1 if not",
+       "",
+       "",
+       {"--engine", "--json", "--plugin", "--timeout"},
+       conform_command},
   };
   return table;
 }

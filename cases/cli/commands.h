@@ -30,6 +30,7 @@ int baseline_command(const CommandLine& line, const EngineTable& engines);
 int trace_command(const CommandLine& line, const EngineTable& engines);
 int truth_command(const CommandLine& line, const EngineTable& engines);
 int settle_command(const CommandLine& line, const EngineTable& engines);
+int conform_command(const CommandLine& line, const EngineTable& engines);
 
 // The one case that the words of `trace` and `truth` name.
 Case the_case(const CommandLine& line, const EngineTable& engines);

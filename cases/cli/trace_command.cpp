@@ -15,6 +15,7 @@
 #include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
+#include "core/engine/engine_failure.h"
 
 namespace rigor {
 namespace {
@@ -102,8 +103,14 @@ int trace_command(const CommandLine& line, const EngineTable& engines) {
   const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt);
   if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
   return print_from_child(run.text, line.limit, [&](const Channel& channel) {
-    send_trajectory(simulate(engine, run.settings, definition.scene, dt, definition.duration), definition.scene,
-                    line.every, channel);
+    try {
+      send_trajectory(simulate(engine, run.settings, definition.scene, dt, definition.duration), definition.scene,
+                      line.every, channel);
+    } catch (const EngineFailure& failure) {
+      if (failure.kind() != FailureKind::unsupported) throw;
+      throw InputError(fmt::format("{}: unsupported: {}", run.text, failure.what()));
+    }
+    engines.rest();
   });
 }
 

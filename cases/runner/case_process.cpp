@@ -18,6 +18,7 @@
 #include "cases/runner/stable_step.h"
 #include "cases/runner/twin_run.h"
 #include "core/base/error.h"
+#include "core/engine/engine_failure.h"
 
 namespace rigor {
 namespace {
@@ -34,11 +35,28 @@ TruthSamples sample_truth(const Truth& truth, const Trajectory& trajectory, std:
   return samples;
 }
 
+Status status_of(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::unsupported:
+      return Status::unsupported;
+    case FailureKind::diverged:
+      return Status::diverged;
+    case FailureKind::crashed:
+      return Status::crashed;
+    case FailureKind::timed_out:
+      return Status::timed_out;
+    case FailureKind::invalid:
+      break;
+  }
+  return Status::invalid;
+}
+
 void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
   if (cell.stability.verdict == Verdict::blown_up) {
     cell.status = Status::diverged;
     cell.reason = fmt::format("blown up at {:.2f} s: {}; {}", cell.stability.time, scene.body_name(cell.stability.body),
                               cell.stability.why);
+    if (run.not_finite && !run.solver_warning.empty()) cell.reason += "; " + run.solver_warning;
   } else if (!run.solver_warning.empty()) {
     cell.status = Status::invalid;
     cell.reason =
@@ -166,7 +184,12 @@ class CaseJobs {
       channel.send(message_of_failure(jobs_[left[index]], end));
     };
     const auto work = [&](const JobSpec& job, const Channel& to) {
-      is_cell(job) ? do_cell(job, to) : do_stable_step(job, to);
+      try {
+        is_cell(job) ? do_cell(job, to) : do_stable_step(job, to);
+      } catch (const EngineFailure& failure) {
+        to.send(joined({message_of_failure(job, status_of(failure.kind()), failure.what()), ""}));
+      }
+      engines_.rest();
     };
     ProcessExecutor(options_.jobs).run(jobs, work, on_message, on_end);
     channel.send(message_of_spreads(spreads()));
@@ -199,7 +222,17 @@ class CaseJobs {
   std::string message_of_failure(const JobSpec& job, const JobEnd& end) const {
     const Cell planned = is_cell(job) ? planned_.cells[job.part] : Cell();
     const Cell failed = cell_that_ended(planned, end, job.limit);
+    return message_of_failure(job, failed);
+  }
+  // Of a job whose engine said so, and whose process goes on.
+  std::string message_of_failure(const JobSpec& job, Status status, const std::string& why) const {
+    Cell failed = is_cell(job) ? planned_.cells[job.part] : Cell();
+    failed.status = status, failed.reason = why, failed.trajectory.clear();
+    return message_of_failure(job, failed);
+  }
+  std::string message_of_failure(const JobSpec& job, const Cell& failed) const {
     if (!is_cell(job)) return message_of_stable_step(job.part, {failed.status, failed.reason, {}});
+    const Cell& planned = planned_.cells[job.part];
     for (const auto& recorder : options_.recorders) recorder->discard(planned);
     return message_of_cell(job.part, failed, planned_.definition.scene);
   }
@@ -266,12 +299,13 @@ std::string journal_of(const CaseResult& planned, const Results& grid, const Gri
 }
 
 // All that the case's results depend on: another program, too, makes other results.
-std::string plan_of(const Results& grid, const CaseResult& planned, const GridOptions& options) {
+std::string plan_of(const Results& grid, const CaseResult& planned, const EngineTable& engines,
+                    const GridOptions& options) {
   const Case& definition = planned.definition;
   std::string plan = fmt::format("{}\n{}\n{}\n{:.17g} {} {} {}\n", build_identity(), definition.id, definition.text,
                                  definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
   for (const auto& recorder : options.recorders) plan += recorder->name() + "\n";
-  for (const RunName& run : grid.runs) plan += run.text + "\n";
+  for (const RunName& run : grid.runs) plan += fmt::format("{} {}\n", run.text, engines.identity_of(run.engine));
   for (const Gate& gate : definition.gates) plan += gate.metric + "\n";  // some metrics are measured for a gate alone
   for (const Cell& cell : planned.cells)
     plan += fmt::format("{} {:.17g} {} {}\n", cell.run, cell.dt.seconds, word_of(cell.status), cell.trajectory);
@@ -335,7 +369,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel) {
   const Case& definition = planned.definition;
-  Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, options));
+  Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, engines, options));
   forget_what_is_wrong(journal, planned, options);
   const auto known_truth = journal.found().find(Journal::kTruth);
   const bool is_done = known_truth != journal.found().end() && journal.found().size() == 1 + jobs_in(planned);

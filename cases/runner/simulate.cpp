@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/engine/remote.h"
+
 namespace rigor {
 namespace {
 
@@ -15,6 +17,9 @@ double cpu_seconds_so_far() {
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+// The same, with what an engine in another process has spent for this world.
+double cpu_seconds_so_far(const World& world) { return cpu_seconds_so_far() + remote_cpu_seconds(world); }
 
 // What a pair of clock readings measures of itself: it would otherwise be a good part of a small scene's step.
 double cost_of_reading_the_clock() {
@@ -63,6 +68,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
   const long steps = steps_in(duration, dt),
              every = steps_per_sample_told.value_or(steps_per_sample(steps, now.bodies()));
   run.steps_per_sample = every;
+  expect_steps(*world, dt, steps, 1);  // each is looked at
   if (!is_timed) run.cpu_seconds = std::numeric_limits<double>::quiet_NaN();
   for (long n = 0;; ++n) {
     if (const auto body = body_not_finite(now.bodies())) {
@@ -72,9 +78,9 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     if (n % every == 0 || n == steps) run.trajectory.samples.push_back({now.time, BodyTable(now.bodies())});
     if (n == steps) return run;
 
-    const double begin = is_timed ? cpu_seconds_so_far() : 0;
+    const double begin = is_timed ? cpu_seconds_so_far(*world) : 0;
     world->step(dt);
-    if (is_timed) run.cpu_seconds += std::max(0.0, cpu_seconds_so_far() - begin - cost_of_reading_the_clock());
+    if (is_timed) run.cpu_seconds += std::max(0.0, cpu_seconds_so_far(*world) - begin - cost_of_reading_the_clock());
     world->read(now);
     if (run.solver_warning.empty()) {
       run.solver_warning = world->solver_warning();
@@ -93,9 +99,10 @@ double timed_again(const Engine& engine, const Settings& settings, const Scene& 
   double quickest = run.cpu_seconds, spent = 0;
   for (int repeat = 0; repeat < kMost && spent < kEnough; ++repeat) {
     const std::unique_ptr<World> world = engine.load(scene, settings);
-    const double begin = cpu_seconds_so_far();
+    expect_steps(*world, dt, steps, steps);
+    const double begin = cpu_seconds_so_far(*world);
     for (long n = 0; n < steps; ++n) world->step(dt);
-    const double seconds = cpu_seconds_so_far() - begin;
+    const double seconds = cpu_seconds_so_far(*world) - begin;
     quickest = repeat == 0 ? seconds : std::min(quickest, seconds);
     spent += seconds;
   }

@@ -5,6 +5,7 @@
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/metrics/stability.h"
 #include "core/dynamics/model/energy.h"
+#include "core/engine/remote.h"
 #include "core/engine/simulation.h"
 #include "core/scene/contact_laws.h"
 
@@ -27,6 +28,7 @@ bool survives(const Engine& engine, const Settings& settings, const Scene& scene
   const bool may_lose = contact_may_lose(scene);
   const long whole = steps_in(horizon, dt),
              steps = static_cast<double>(whole) * dt < horizon * (1 - 1e-9) ? whole + 1 : whole;
+  expect_steps(*world, dt, steps, 1);
   for (long n = 0; n < steps; ++n) {
     world->step(dt);
     world->read(now);

@@ -1,0 +1,116 @@
+#include "adapters/plugin/answer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "adapters/plugin/in_quotes.h"
+
+namespace rigor {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+// The words of a message's own, whatever the engine wrote there.
+std::string text_of(const Json& answer, const char* key, const std::string& otherwise) {
+  const auto found = answer.find(key);
+  return found != answer.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+std::string said_at(const Json& answer) {
+  const auto time = answer.find("time");
+  return time != answer.end() && time->is_number() ? fmt::format(" at {:.6g} s", time->get<double>()) : "";
+}
+
+[[noreturn]] void report_refusal(const Json& answer, const Asked& asked) {
+  const std::string status = text_of(answer, "status", ""),
+                    why = in_quotes(text_of(answer, "why", "no reason given"), 400);
+  if (status == "unsupported")
+    throw EngineFailure(FailureKind::unsupported, fmt::format("{} says so itself: {}", asked.engine, why));
+  if (status == "failed")
+    throw EngineFailure(FailureKind::crashed,
+                        fmt::format("{} says that '{}' failed{}: {}", asked.engine, asked.call, said_at(answer), why));
+  if (status == "diverged") {
+    const auto body = answer.find("body");
+    throw EngineDiverged(fmt::format("{} says that it diverged{}: {}", asked.engine, said_at(answer), why),
+                         body != answer.end() && body->is_number_unsigned() ? body->get<int>() : 0);
+  }
+  refuse_answer(asked, fmt::format("its status is {}; allowed: unsupported, diverged, failed", in_quotes(status)));
+}
+
+// A key that an answer need not carry, but not with another value than the request's.
+void check_echo(const Json& answer, const char* key, const Json& due, const Asked& asked) {
+  const auto found = answer.find(key);
+  if (found != answer.end() && *found != due)
+    refuse_answer(asked, fmt::format("its {} is {}, and {} was asked", key, in_quotes(dumped(*found)), dumped(due)));
+}
+
+}  // namespace
+
+void refuse_answer(const Asked& asked, const std::string& complaint) {
+  throw EngineFailure(FailureKind::invalid,
+                      fmt::format("{} gave no answer to '{}': {}", asked.engine, asked.call, complaint));
+}
+
+Json parsed_answer(const std::string& line, const Asked& asked) {
+  Json answer;
+  try {
+    answer = Json::parse(line);
+  } catch (const Json::exception&) {
+    refuse_answer(asked, fmt::format("the line {} is not JSON", in_quotes(line)));
+  }
+  if (!answer.is_object()) refuse_answer(asked, fmt::format("the line {} is not an object", in_quotes(line)));
+  const auto ok = answer.find("ok");
+  if (ok == answer.end() || !ok->is_boolean())
+    refuse_answer(asked, fmt::format("the line {} has no \"ok\" that is true or false", in_quotes(line)));
+  if (asked.world) check_echo(answer, "world", *asked.world, asked);
+  check_echo(answer, "call", asked.call, asked);
+  if (!ok->get<bool>()) report_refusal(answer, asked);
+  return answer;
+}
+
+void read_bodies(const Json& answer, const Asked& asked, MutableBodyColumns into) {
+  const auto bodies = answer.find("bodies");
+  if (bodies == answer.end() || !bodies->is_array() || bodies->size() != into.size()) {
+    refuse_answer(asked, fmt::format("its bodies are {}; a list of {} is due, in the scene's order",
+                                     bodies == answer.end() ? "not there"
+                                     : bodies->is_array()   ? fmt::format("{}", bodies->size())
+                                                            : in_quotes(dumped(*bodies)),
+                                     into.size()));
+  }
+  for (std::size_t i = 0; i < into.size(); ++i) {
+    const Json& row = (*bodies)[i];
+    if (!row.is_array() || row.size() != kColumnNames.size())
+      refuse_answer(asked, fmt::format("body {} is {}; thirteen numbers are due", i, in_quotes(dumped(row))));
+    for (int c = 0; c < 13; ++c) {
+      const Json& number = row[static_cast<std::size_t>(c)];
+      if (!number.is_number())
+        refuse_answer(asked, fmt::format("{} of body {} is {}; a finite number is due", kColumnNames[c], i,
+                                         in_quotes(dumped(number))));
+      into.column(c)[i] = number.get<double>();
+    }
+  }
+}
+
+void check_time(const Json& answer, const Asked& asked, double due, double dt) {
+  const auto time = answer.find("time");
+  if (time == answer.end() || !time->is_number())
+    refuse_answer(asked, fmt::format("its time is {}; a finite number is due",
+                                     time == answer.end() ? "not there" : in_quotes(dumped(*time))));
+  check_time(time->get<double>(), asked, due, dt);
+}
+
+void check_time(double time, const Asked& asked, double due, double dt) {
+  // A clock that adds up steps in single precision is a few parts in a million off, an answer to another request a
+  // step.
+  constexpr double kOfSinglePrecision = 1e-5, kOfAStep = 1e-3;
+  if (std::abs(time - due) <= kOfAStep * dt + kOfSinglePrecision * due) return;
+  refuse_answer(asked,
+                fmt::format("its time is {:.17g} s; after the steps that it was asked for it is {:.17g} s", time, due));
+}
+
+}  // namespace rigor

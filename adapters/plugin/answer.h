@@ -1,0 +1,44 @@
+// One answer of an engine from outside, read strictly: what is not one is an EngineFailure that quotes it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "core/engine/body_table.h"
+#include "core/engine/engine_failure.h"
+
+namespace rigor {
+
+// The state is no longer finite, by the engine's own word.
+class EngineDiverged : public EngineFailure {
+ public:
+  EngineDiverged(const std::string& sentence, int body) : EngineFailure(FailureKind::diverged, sentence), body_(body) {}
+  int body() const { return body_; }  // index; 0 where it does not say
+
+ private:
+  int body_;
+};
+
+// What an answer was asked for, for messages and checks.
+struct Asked {
+  std::string engine;  // as messages call it
+  std::string call;
+  std::optional<int> world = {};
+};
+
+// The object in the line, if it says "ok": true. Throws EngineFailure: unsupported, diverged (EngineDiverged) or
+// crashed, as the engine says; invalid for a line that is not an answer to what was asked.
+nlohmann::json parsed_answer(const std::string& line, const Asked& asked);
+
+// Of "bodies": a row of thirteen finite numbers for each. Throws EngineFailure (invalid) for anything else.
+void read_bodies(const nlohmann::json& answer, const Asked& asked, MutableBodyColumns into);
+
+// Of "time" [s]: what it should be after so many steps, but for roundings of a clock in single precision.
+void check_time(const nlohmann::json& answer, const Asked& asked, double due, double dt);
+
+void check_time(double time, const Asked& asked, double due, double dt);
+
+[[noreturn]] void refuse_answer(const Asked& asked, const std::string& complaint);
+
+}  // namespace rigor

@@ -1,0 +1,59 @@
+// A command as a child process that answers each line with one line. Whatever the child does, the caller gets an answer
+// or an EngineFailure within the time limit, in bounded memory. The child has its own process group, which is killed
+// at the end, and dies with the process that started it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <string>
+
+namespace rigor {
+
+class ChildProcess {
+ public:
+  // Bytes of data that a child may have in memory: RLIMIT_DATA, for address space alone is reserved by the gigabyte in
+  // WebAssembly.
+  static constexpr std::size_t kMostMemory = std::size_t{4} << 30;
+
+  // `command` is a simple command, its words split and quoted as a shell does: /bin/sh -c "exec COMMAND". `limit`:
+  // seconds of the clock for each request, and of CPU time for all of them together. `log`: a descriptor to which what
+  // the child says on stderr is passed on, behind the name; -1 for none.
+  ChildProcess(std::string command, double limit, int log, std::string name);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // Sends the line, waits for one line, and returns it without its end. `request`: how a message calls it.
+  std::string ask(const std::string& line, const std::string& request, std::size_t longest_answer);
+  // The raw bytes that follow the last answer.
+  void receive(char* into, std::size_t bytes, const std::string& request);
+  double cpu_seconds() const;  // of the child so far
+  bool is_ours() const;        // false in a fork of the process that started it
+  const std::string& name() const { return name_; }
+
+ private:
+  [[noreturn]] void become_the_child(int in, int out, int err, pid_t parent) const;
+  void refuse_unasked(const std::string& request);
+  // Until `done`: writes what is left of `out_`, reads into `in_`.
+  template <typename Done>
+  void exchange(const std::string& request, const Done& done);
+  bool read_answer();  // false at its end
+  void read_words();
+  void pass_on(const std::string& words);
+  void check_time(const std::string& request) const;
+  [[noreturn]] void report_end(const std::string& request);
+  std::string last_words() const;
+  void close_pipes();
+
+  std::string command_, name_;
+  double limit_;
+  int log_;
+  pid_t pid_ = -1, owner_ = -1;
+  int to_ = -1, from_ = -1, words_from_ = -1;
+  std::string out_, in_, words_;
+  std::size_t passed_on_ = 0;  // bytes
+  std::chrono::steady_clock::time_point begin_, asked_;
+};
+
+}  // namespace rigor

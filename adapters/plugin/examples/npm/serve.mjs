@@ -1,0 +1,114 @@
+// What the engines of this folder share: the protocol's loop over an engine { info, load(scene, settings) }, whose load
+// gives a world { step(dt, wrenches), rows(), settings, free() }; and what their conversions need.
+import { readSync, writeSync } from "node:fs";
+
+// What an engine or its runtime prints must not get among the answers. Import this before the engine.
+for (const name of ["log", "info", "debug"]) console[name] = console.error;
+
+export class Unsupported extends Error {}
+export class Diverged extends Error {}
+
+const diverged = (time) => ({ ok: false, status: "diverged", why: "a number is not finite", time });
+
+const calls = {
+  load({ engine, worlds }, { world, scene, settings }) {
+    worlds.set(world, { time: 0, of: engine.load(scene, settings) });
+    return { ok: true, settings: worlds.get(world).of.settings };
+  },
+  step({ worlds }, { world, dt, wrenches }) {
+    worlds.get(world).of.step(dt, wrenches), (worlds.get(world).time += dt);
+    return { ok: true };
+  },
+  read({ worlds }, { world }) {
+    const { time, of } = worlds.get(world), bodies = of.rows();
+    return bodies.flat().every(Number.isFinite) ? { ok: true, time, bodies } : diverged(time);
+  },
+  run(state, { world, dt, count, every }) {
+    const samples = [];
+    for (let n = 1; n <= count; ++n) {
+      calls.step(state, { world, dt });
+      if (n % every !== 0 && n !== count) continue;
+      const { ok, time, bodies } = calls.read(state, { world });
+      if (!ok) return diverged(time);
+      samples.push({ time, bodies });
+    }
+    return { ok: true, samples };
+  },
+  unload({ worlds }, { world }) {
+    worlds.get(world).of.free?.(), worlds.delete(world);
+    return { ok: true };
+  },
+};
+
+function answer(state, line) {
+  try {
+    const asked = JSON.parse(line);
+    if (asked.call === "info") return { ok: true, ...state.engine.info };
+    return calls[asked.call]?.(state, asked) ?? { ok: false, status: "unsupported", why: `no call ${asked.call}` };
+  } catch (error) {
+    const status = error instanceof Unsupported ? "unsupported" : error instanceof Diverged ? "diverged" : "failed";
+    return { ok: false, status, why: String(error.message ?? error) || "an error" };
+  }
+}
+
+export function serve(engine) {
+  const state = { engine, worlds: new Map() }, chunk = Buffer.alloc(1 << 16);
+  let text = Buffer.alloc(0);
+  for (let size; (size = readSync(0, chunk)) > 0; ) {
+    text = Buffer.concat([text, chunk.subarray(0, size)]);
+    for (let end; (end = text.indexOf(10)) >= 0; text = text.subarray(end + 1)) {
+      const line = Buffer.from(JSON.stringify(answer(state, text.subarray(0, end))) + "\n");
+      for (let at = 0; at < line.length; ) at += writeSync(1, line, at);
+    }
+  }
+  process.exit(0); // a runtime's own threads and timers do not keep it
+}
+
+// Of [xx, yy, zz, xy, xz, yz]: moments, and the quaternion (w, x, y, z) of the frame in which they are principal, by
+// Jacobi's rotations.
+export function principal([xx, yy, zz, xy, xz, yz]) {
+  const a = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+  let q = [1, 0, 0, 0];
+  for (let sweep = 0; sweep < 30; ++sweep) {
+    for (const [i, j, k] of [[0, 1, 2], [1, 2, 0], [2, 0, 1]]) {
+      if (a[i][j] === 0) continue;
+      const sign = a[i][i] < a[j][j] ? -1 : 1; // by at most an eighth of a turn, or it need not converge
+      const angle = 0.5 * Math.atan2(2 * sign * a[i][j], sign * (a[i][i] - a[j][j])), c = Math.cos(angle), s = Math.sin(angle);
+      const axis = [0, 0, 0];
+      axis[k] = Math.sin(angle / 2);
+      q = times(q, [Math.cos(angle / 2), ...axis]);
+      const [ii, jj, ij, ik, jk] = [a[i][i], a[j][j], a[i][j], a[i][k], a[j][k]];
+      a[i][i] = c * c * ii + 2 * s * c * ij + s * s * jj;
+      a[j][j] = s * s * ii - 2 * s * c * ij + c * c * jj;
+      a[i][j] = a[j][i] = 0;
+      a[i][k] = a[k][i] = c * ik + s * jk;
+      a[j][k] = a[k][j] = c * jk - s * ik;
+    }
+  }
+  return { moments: [a[0][0], a[1][1], a[2][2]], frame: q };
+}
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]);
+export const times = ([a, ...u], [b, ...v]) => [a * b - dot(u, v), ...v.map((x, i) => a * x + b * u[i] + cross(u, v)[i])];
+export const rotate = (q, v) => times(times(q, [0, ...v]), back(q)).slice(1);
+export const back = ([w, x, y, z]) => [w, -x, -y, -z];
+
+// A body's pose at t = 0; of a plane, and of the world, that of W.
+export function pose(scene, name) {
+  const body = scene.body.find((one) => one.name === name);
+  return { x: body?.position ?? [0, 0, 0], q: body?.orientation_wxyz ?? [1, 0, 0, 0] };
+}
+// A point and a direction of W in a body's frame at t = 0.
+export const pointIn = ({ x, q }, p) => rotate(back(q), add(p, x, -1));
+export const directionIn = ({ q }, v) => rotate(back(q), v);
+
+// The one law of all contacts, for an engine whose materials are a body's and not a pair's.
+export function oneLaw(scene) {
+  const { restitution, friction } = scene.contact_default;
+  for (const pair of scene.contact ?? []) {
+    if (pair.restitution !== restitution || pair.friction !== friction) throw new Unsupported("pairs of bodies have laws of their own");
+  }
+  return { restitution, friction: friction === "infinite" ? 1e6 : friction };
+}

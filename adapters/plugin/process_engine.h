@@ -1,0 +1,30 @@
+// An engine that is another process, which speaks JSON lines (README.md of this folder).
+#pragma once
+
+#include <memory>
+
+#include "adapters/plugin/process_session.h"
+#include "core/engine/remote.h"
+
+namespace rigor {
+
+class ProcessEngine : public RemoteEngine {
+ public:
+  // Starts the command once, to ask what it is. Throws InputError, in one sentence, if it does not say.
+  explicit ProcessEngine(PluginStart start);
+  ~ProcessEngine() override;
+
+  EngineInfo info() const override { return info_.engine; }
+  const PluginInfo& plugin_info() const { return info_; }
+  // Throws EngineFailure. The process is started with the first world, and serves all that come after it.
+  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override;
+  std::string twin(const Settings&) const override { return ""; }
+  void rest() const override;
+
+ private:
+  PluginStart start_;
+  PluginInfo info_;
+  mutable std::shared_ptr<ProcessSession> session_;  // none until it is needed
+};
+
+}  // namespace rigor

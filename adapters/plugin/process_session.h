@@ -1,0 +1,54 @@
+// The conversation with a process plug-in: its requests, written and read to the letter of the protocol.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "adapters/plugin/answer.h"
+#include "adapters/plugin/child_process.h"
+#include "adapters/plugin/plugin_info.h"
+
+namespace rigor {
+
+// How a plug-in is started.
+struct PluginStart {
+  std::string command;
+  double limit;  // s: of the clock for a request, of CPU time for all of them
+  int log;       // see ChildProcess
+};
+
+class ProcessSession {
+ public:
+  // Starts the command and shakes hands. Throws InputError for an info that is none, EngineFailure for no answer.
+  explicit ProcessSession(const PluginStart& start);
+
+  const PluginInfo& info() const { return info_; }
+  const ChildProcess& child() const { return *child_; }
+  bool is_usable() const { return is_sound_ && child_->is_ours(); }
+
+  // Each throws EngineFailure; after one that is not `unsupported` or `diverged` no other request makes sense.
+  int load(const Scene& scene, const Settings& settings, SettingsInForce& in_force);  // the number of a new world
+  void step(int world, double dt, const std::vector<double>& wrenches);               // none: no wrenches
+  void read(int world, double due, double dt, MutableBodyColumns into);
+  // `count` steps, of which each `every`-th, and the last, is sampled into one of the tables; `begin`: s.
+  void run(int world, double begin, double dt, long count, long every, std::vector<BodyTable>& samples);
+  void unload(int world);
+
+ private:
+  nlohmann::json ask(const std::string& line, const std::string& call, std::size_t longest, int world = 0);
+  // Reads an answer's parts; where that fails the conversation is out of step.
+  template <typename Read>
+  void checked(const Read& read);
+  void receive_raw(const Asked& asked, std::size_t bodies);
+  void copy_raw(const Asked& asked, std::size_t n, MutableBodyColumns into) const;
+
+  PluginInfo info_;
+  std::unique_ptr<ChildProcess> child_;
+  bool is_sound_ = true;
+  int worlds_ = 0;
+  std::vector<double> raw_;
+};
+
+}  // namespace rigor

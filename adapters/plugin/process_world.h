@@ -1,0 +1,58 @@
+// A world of a process plug-in: one request a step and a read, or one for many steps where it is known that they come.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "adapters/plugin/process_session.h"
+#include "adapters/plugin/rigor_loads.h"
+#include "core/engine/clock.h"
+#include "core/engine/remote.h"
+
+namespace rigor {
+
+class ProcessWorld : public RemoteWorld {
+ public:
+  ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings);
+  ~ProcessWorld() override;
+
+  void step(double dt) override;
+  void read(Snapshot& out) const override;
+  SettingsInForce settings_in_force() const override { return in_force_; }
+  std::string solver_warning() const override { return lost_why_; }
+  void expect(double dt, long steps, long every) override;
+  double remote_cpu_seconds() const override { return session_->child().cpu_seconds(); }
+
+ private:
+  // Steps that are announced, and those of them that the engine has taken already.
+  struct Ahead {
+    double dt = 0;
+    long left = 0, every = 1;   // of what was announced, not yet asked for
+    long count = 0, taken = 0;  // of the last request, and how many of its steps have been handed out
+    std::vector<BodyTable> samples;
+  };
+
+  void run_ahead();
+  void step_alone(double dt);
+  void go_back_and_step();
+  void lose(const std::string& why, int body) const;  // from now on that body's state is not finite
+  void read_now() const;
+  std::size_t bodies() const { return scene_.bodies.size(); }
+
+  std::shared_ptr<ProcessSession> session_;
+  const Scene scene_;
+  const Settings settings_;
+  RigorLoads loads_;
+  SettingsInForce in_force_;
+  int world_ = 0;
+  Clock clock_;
+  double last_dt_ = 0;
+  long steps_ = 0;
+  bool steps_are_equal_ = true;  // all so far were of last_dt_
+  Ahead ahead_;
+  mutable BodyTable state_;
+  mutable bool is_read_ = false;  // state_ is of now
+  mutable std::string lost_why_;  // not empty: the state is no longer finite
+};
+
+}  // namespace rigor

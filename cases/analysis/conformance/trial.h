@@ -1,0 +1,60 @@
+// What the checks share: scenes, worlds taken some steps on, and the words for what differs.
+#pragma once
+
+#include <string>
+
+#include "cases/analysis/conformance/conformance.h"
+
+namespace rigor::conformance {
+
+Outcome holds();
+Outcome not_asked(const std::string& why);
+Outcome broken(const std::string& sent, const std::string& came, const std::string& due);
+
+// The unit roundoff of the numbers that the engine says it holds.
+double rounding_of(const Trial& trial);
+
+// The first of several things that is further off than it may be.
+class Comparison {
+ public:
+  explicit Comparison(std::string sent) : sent_(std::move(sent)) {}
+  void number(const std::string& what, double came, double due, double tolerance);
+  void vector(const std::string& what, const Vec3& came, const Vec3& due, double tolerance);
+  void orientation(const Quat& came, const Quat& due, double tolerance);  // rad
+  Outcome outcome() const { return outcome_; }
+
+ private:
+  std::string sent_;
+  Outcome outcome_;
+};
+
+// A world that remembers what was asked of it.
+class TriedWorld {
+ public:
+  TriedWorld(const Trial& trial, const Scene& scene);
+  TriedWorld& step(double dt, int count = 1);
+  BodyTable state();
+  double time();
+  const std::string& sent() const { return sent_; }
+
+ private:
+  std::unique_ptr<World> world_;
+  std::string sent_;
+};
+
+// A tilted, moving body with all six entries of inertia; a ball with equal moments; both of 3 kg.
+Body odd_body();
+Body round_body();
+Scene scene_of(Body body, const Vec3& gravity = Vec3::Zero());
+Body solid(const std::string& name, const Shape& shape, const Vec3& position);
+
+// Empty if the engine says that it can run the scene, else why it is not asked to.
+std::string why_not(const Trial& trial, const Scene& scene, double dt);
+
+// The rows of a table of checks, a file each.
+std::vector<ConformanceCheck> seam_checks();
+std::vector<ConformanceCheck> motion_checks();
+std::vector<ConformanceCheck> load_checks();
+std::vector<ConformanceCheck> constraint_checks();
+
+}  // namespace rigor::conformance

@@ -1,0 +1,71 @@
+// The engines of the npm registry that the examples plug in, as package-lock.json names them: each conforms, and in
+// single precision each is as far from the truth as its scheme must be and no further.
+#include <sys/wait.h>
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/folder.h"
+
+using namespace rigor;
+
+namespace {
+
+struct Answer {
+  int code;
+  std::string out;
+};
+
+Answer run(const Folder& folder, const std::string& words) {
+  const std::string out = (folder.path / "stdout").string();
+  const int status = std::system((RIGOR_PROGRAM " " + words + " >" + out + " 2>&1 </dev/null").c_str());
+  std::ifstream file(out);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, {std::istreambuf_iterator<char>(file), {}}};
+}
+
+std::string plugin(const std::string& name) {
+  return " --plugin 'node " RIGOR_BUILD_DIR "/plugins/npm/" + name + ".mjs'";
+}
+
+constexpr const char* kEngines[][2] = {
+    {"jolt", "jolt"}, {"mujoco", "mujoco-js"}, {"physx", "physx"}, {"rapier", "rapier"}};
+
+}  // namespace
+
+// They are installed by npm, as what the HTML report's page is made of.
+BOOST_AUTO_TEST_SUITE(adapters_plugin_npm_engines, *boost::unit_test::enable_if<RIGOR_HTML_REPORT>())
+
+BOOST_AUTO_TEST_CASE(each_of_them_conforms) {
+  const Folder folder;
+  for (const auto& [file, name] : kEngines) {
+    const Answer answer = run(folder, "conform" + plugin(file));
+    BOOST_TEST(answer.code == 0, answer.out);
+    BOOST_TEST(answer.out.find(std::string(name) + " conforms") != std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(each_steps_exactly_once_by_dt) {
+  const Folder folder;
+  for (const auto& [file, name] : kEngines) {
+    BOOST_TEST_CONTEXT(name) {
+      // Semi-implicit Euler falls g dt t / 2 = 0.16333 m too far in a second of 1/30 s steps; an engine that divides
+      // its steps by four would be a quarter of that off.
+      const Answer fall = run(folder, "trace ballistic/free-fall --dt 1/30 --duration 1 --every 30 --engine " +
+                                          std::string(name) + plugin(file));
+      BOOST_TEST_REQUIRE(fall.code == 0, fall.out);
+      const std::size_t last = fall.out.rfind('\n', fall.out.size() - 2);
+      double time = 0, z = 0;
+      BOOST_TEST_REQUIRE(std::sscanf(fall.out.c_str() + last + 1, "%lf,stone,%*f,%*f,%lf", &time, &z) == 2);
+      BOOST_TEST(time == 1);
+      // Thirty roundings of 500 m in single precision are 1e-3 m.
+      BOOST_TEST(std::abs(z - (500 - 4.905 - 0.1635)) < 2e-3);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,195 @@
+// rigor conform: every engine of the table conforms, and each of these mistakes is found by the check that is about it.
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <map>
+
+#include "adapters/engines.h"
+#include "cases/analysis/conformance/conformance.h"
+#include "core/engine/run_name.h"
+#include "tests/faults/broken_engine.h"
+
+using namespace rigor;
+using test::BrokenEngine;
+using test::Fault;
+using test::Moment;
+
+namespace {
+
+Trial trial_of(const Engine& engine, const std::string& run) {
+  const RunName name = parse_run_name(run, engines().infos());
+  return {engine, engine.info(), name.settings};
+}
+
+// The checks that this engine breaks, with what they say.
+std::map<std::string, Outcome> broken_by(const Trial& trial) {
+  std::map<std::string, Outcome> found;
+  for (const ConformanceCheck& check : conformance_checks()) {
+    const Outcome outcome = outcome_of(check, trial);
+    if (outcome.answer == Outcome::Answer::broken) found[check.name] = outcome;
+  }
+  return found;
+}
+
+struct Mistake {
+  Fault fault;
+  std::string found_by;
+};
+
+Fault on_load(std::function<void(Scene&)> change) {
+  Fault fault;
+  fault.scene = std::move(change);
+  return fault;
+}
+Fault on_step(std::function<void(Moment&)> change) {
+  Fault fault;
+  fault.step = std::move(change);
+  return fault;
+}
+Fault on_read_of_all(std::function<void(MutableBodyColumns, const Scene&)> change) {
+  Fault fault;
+  fault.read = std::move(change);
+  return fault;
+}
+Fault on_read(std::function<void(MutableBodyColumns, std::size_t)> change) {
+  return on_read_of_all([change](MutableBodyColumns bodies, const Scene&) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) change(bodies, i);
+  });
+}
+
+std::map<std::string, Mistake> mistakes() {
+  std::map<std::string, Mistake> all;
+  all["no gravity"] = {on_load([](Scene& s) { s.gravity.setZero(); }), "free-fall"};
+  all["gravity upside down"] = {on_load([](Scene& s) { s.gravity *= -1; }), "free-fall"};
+  all["bodies in another order"] = {on_read_of_all([](MutableBodyColumns bodies, const Scene&) {
+                                      if (bodies.size() < 3) return;
+                                      const BodyState first = bodies.body(0);
+                                      bodies.set_body(0, bodies.body(2)), bodies.set_body(2, first);
+                                    }),
+                                    "load-then-read"};
+  all["angular velocity in the body's frame"] = {on_read([](MutableBodyColumns b, std::size_t i) {
+                                                   b.set_angular_velocity(
+                                                       i, b.orientation(i).conjugate() * b.angular_velocity(i));
+                                                 }),
+                                                 "load-then-read"};
+  all["quaternion with w last"] = {on_read([](MutableBodyColumns b, std::size_t i) {
+                                     const Quat q = b.orientation(i);
+                                     b.set_orientation(i, {q.z(), q.w(), q.x(), q.y()});
+                                   }),
+                                   "load-then-read"};
+  all["quaternion from W to B"] = {
+      on_read([](MutableBodyColumns b, std::size_t i) { b.set_orientation(i, b.orientation(i).conjugate()); }),
+      "load-then-read"};
+  all["double that is single"] = {on_read([](MutableBodyColumns b, std::size_t i) {
+                                    for (int c = 0; c < 13; ++c) b.column(c)[i] = static_cast<float>(b.column(c)[i]);
+                                  }),
+                                  "load-then-read"};
+  all["half the step"] = {on_step([](Moment& m) { m.dt *= 0.5; }), "straight-line"};
+  all["damping"] = {on_step([](Moment& m) {
+                      for (Body& body : m.scene.bodies)
+                        body.velocity *= 1 - 1e-3 * m.dt, body.angular_velocity *= 1 - 1e-3 * m.dt;
+                    }),
+                    "straight-line"};
+  all["sleep"] = {on_step([](Moment& m) {
+                    for (Body& body : m.scene.bodies) {
+                      if (body.velocity.norm() < 0.01) body.velocity.setZero();
+                    }
+                  }),
+                  "no-sleep"};
+  all["inertia without its products"] = {on_load([](Scene& s) {
+                                           for (Body& body : s.bodies)
+                                             body.inertia = Mat3(body.inertia.diagonal().asDiagonal());
+                                         }),
+                                         "spin"};
+  all["torque in the body's frame"] = {on_load([](Scene& s) {
+                                         for (TimedForce& force : s.forces)
+                                           force.torque = s.bodies[force.body].orientation * force.torque;
+                                       }),
+                                       "wrench"};
+  all["a force that stays"] = {on_load([](Scene& s) {
+                                 for (TimedForce& force : s.forces) force.until += 0.05;
+                               }),
+                               "wrench"};
+  all["springs pull on one end"] = {on_load([](Scene& s) {
+                                      for (Spring& spring : s.springs) {
+                                        if (spring.a != kWorld) spring.a = kWorld, spring.point_a = {1, -2, 3};
+                                      }
+                                    }),
+                                    "momentum"};
+  all["springs at the centre"] = {on_load([](Scene& s) {
+                                    for (Spring& spring : s.springs) spring.point_b.setZero();
+                                  }),
+                                  "spring"};
+  all["boxes of half size"] = {on_load([](Scene& s) {
+                                 for (Body& body : s.bodies) {
+                                   if (auto* box = body.shape ? std::get_if<Box>(&*body.shape) : nullptr)
+                                     box->size *= 0.5;
+                                 }
+                               }),
+                               "contacts"};
+  all["a prefered direction"] = {on_step([](Moment& m) {
+                                   for (Body& body : m.scene.bodies)
+                                     body.velocity.x() += 1e-6 * m.dt * body.velocity.z();
+                                 }),
+                                 "turned-frame"};
+  return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_analysis_conformance)
+
+BOOST_AUTO_TEST_CASE(every_engine_of_the_table_conforms) {
+  for (const EngineInfo& info : engines().infos()) {
+    for (const auto& [check, outcome] : broken_by(trial_of(engines().find(info.name), info.name)))
+      BOOST_ERROR(info.name << ": " << check << ": came " << outcome.came << ", due " << outcome.due);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(each_mistake_is_found_and_told_with_what_was_sent_what_came_and_what_was_due) {
+  for (const auto& [name, mistake] : mistakes()) {
+    BOOST_TEST_CONTEXT(name) {
+      const BrokenEngine engine(engines().find("ode"), mistake.fault);
+      const auto found = broken_by(trial_of(engine, "ode"));
+      BOOST_TEST_REQUIRE(found.contains(mistake.found_by));
+      const Outcome& outcome = found.at(mistake.found_by);
+      BOOST_TEST((!outcome.sent.empty() && !outcome.came.empty() && !outcome.due.empty()));
+    }
+  }
+}
+
+// What an engine says of its method is held against what the method does.
+BOOST_AUTO_TEST_CASE(a_method_that_says_too_much_of_itself_is_found) {
+  class Boaster : public Engine {
+   public:
+    Boaster(const std::string& method, const std::function<void(MethodInfo&)>& boast)
+        : method_(method), boast_(boast) {}
+    EngineInfo info() const override {
+      EngineInfo info = core().info();
+      for (MethodInfo& method : info.methods) {
+        if (method.name == method_) boast_(method);
+      }
+      return info;
+    }
+    std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {
+      return core().load(scene, settings);
+    }
+    std::string twin(const Settings&) const override { return ""; }
+
+   private:
+    static const Engine& core() { return engines().find("core"); }
+    std::string method_;
+    std::function<void(MethodInfo&)> boast_;
+  };
+  const Boaster order("semi-implicit-euler", [](MethodInfo& m) { m.order = 4, m.leapfrog_stagger = 0; });
+  const auto of_order = broken_by(trial_of(order, "core:semi-implicit-euler"));
+  BOOST_TEST((of_order.contains("free-fall") && of_order.contains("spin")));
+  const Boaster stagger("rk4", [](MethodInfo& m) { m.leapfrog_stagger = 0.5; });
+  BOOST_TEST(broken_by(trial_of(stagger, "core:rk4")).contains("free-fall"));
+  for (const char* method : {"explicit-euler", "rk4"}) {
+    const Boaster symplectic(method, [](MethodInfo& m) { m.symplectic = true; });
+    BOOST_TEST(broken_by(trial_of(symplectic, std::string("core:") + method)).contains("symplectic"), method);
+  }
+  BOOST_TEST(!broken_by(trial_of(engines().find("core"), "core:velocity-verlet")).contains("symplectic"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
