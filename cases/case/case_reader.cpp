@@ -8,6 +8,7 @@
 #include "cases/case/run_selector.h"
 #include "cases/case/seconds_reader.h"
 #include "core/base/error.h"
+#include "core/scene/toml/file_reader.h"
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/table_reader.h"
 
@@ -60,7 +61,11 @@ const std::vector<std::string>& case_keys() {
 }
 
 Case read_case(const std::string& path, const std::string& id, const Vocabulary& words) {
-  const TomlFile file = TomlFile::read(path);
+  return read_case_text(read_text_file(path), path, id, words);
+}
+
+Case read_case_text(const std::string& text, const std::string& path, const std::string& id, const Vocabulary& words) {
+  const TomlFile file = TomlFile::parse(text, path);
   const TableReader root = file.root(case_keys());
   Case out;
   out.id = id;

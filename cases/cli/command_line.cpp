@@ -11,6 +11,7 @@
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/gates/deviations.h"
+#include "cases/report/json/machine.h"
 #include "cases/results/changes.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
@@ -21,15 +22,15 @@ namespace {
 // As typed; numbers are read afterwards, so that each is refused in the same words as one in a case file.
 struct Typed {
   std::vector<std::string> dt;
-  std::string duration, jobs, every = "1", limit = "60", times, factor = fmt::format("{:g}", kDefaultFactor);
+  std::string duration, jobs, shard, samples, seed, every = "1", limit = "60", times,
+                                                    factor = fmt::format("{:g}", kDefaultFactor);
 };
 
-int parse_count(const std::string& text, const std::string& what) {
-  constexpr int kMost = 100000;
+int parse_count(const std::string& text, const std::string& what, int most = 100000) {
   int count = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count < 1 || count > kMost) {
-    throw InputError(fmt::format("{}: '{}' is not a whole number from 1 to {}", what, text, kMost));
+  if (error != std::errc() || end != text.data() + text.size() || count < 1 || count > most) {
+    throw InputError(fmt::format("{}: '{}' is not a whole number from 1 to {}", what, text, most));
   }
   return count;
 }
@@ -111,6 +112,37 @@ void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Ty
   if (takes("--resume"))
     command.add_flag("--resume", line.resume, "go on from where a run to the same folder was stopped");
   if (takes("--json")) command.add_flag("--json", line.json, "print JSON instead");
+  if (takes("--shard")) {
+    command.add_option("--shard", typed.shard, "only the K-th of N parts of the grid, for 'rigor merge'")
+        ->type_name("K/N");
+  }
+  if (takes("--vary")) {
+    command
+        .add_option("--vary", line.vary,
+                    "dt, duration, a method's option or a path below scene, and its values: 10,20,50 or 0.1..0.9:9 or "
+                    "1/1000..1/10:log:20; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUES");
+  }
+  if (takes("--metric")) {
+    command.add_option("--metric", line.metrics, "measure this and not the usual ones; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("M");
+  }
+  if (takes("--sample"))
+    command.add_option("--sample", typed.samples, "draw N points of the space instead of its full grid")
+        ->type_name("N");
+  if (takes("--seed"))
+    command.add_option("--seed", typed.seed, "of what is drawn; the same seed draws the same")->type_name("S");
+  if (takes("--within")) {
+    command
+        .add_option("--within", line.within,
+                    "a bound: 1mm (position), 1mrad (orientation), 2% energy, or METRIC=VALUE; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("BOUND");
+  }
+  if (takes("--file"))
+    command.add_option("--file", line.file, "the history's file")->type_name("FILE")->capture_default_str();
   if (takes("--deviations")) {
     command.add_option("--deviations", line.adapters_dir, "folder of ENGINE/known_deviations.toml")
         ->type_name("DIR")
@@ -135,6 +167,33 @@ void refuse_empty_words(int argc, const char* const* argv) {
     if (word.starts_with("--") && word.ends_with("="))
       throw InputError(fmt::format("{}: needs a value, and what is given is empty", word.substr(0, word.size() - 1)));
   }
+}
+
+// What two parts of one grid may be asked differently is left out.
+std::vector<std::string> arguments_of(int argc, const char* const* argv) {
+  const std::vector<std::string> differ = {"--jobs", "--out", "--shard"};
+  const auto is_one = [&](const std::string& word) {
+    return std::find(differ.begin(), differ.end(), word) != differ.end();
+  };
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (is_one(word)) {
+      ++i;
+    } else if (!is_one(word.substr(0, word.find('='))) && word != "--resume") {
+      arguments.push_back(word);
+    }
+  }
+  return arguments;
+}
+
+// The compiler, and each engine with its precision.
+std::string versions_of_parts() {
+  const Machine machine = this_machine();
+  std::string text = fmt::format("{}, {}\n", machine.compiler, machine.build_type);
+  for (const EngineInfo& engine : engines().infos())
+    text += fmt::format("{} {}, {} precision\n", engine.name, engine.version, engine.precision);
+  return text;
 }
 
 std::vector<std::string> command_names() {
@@ -178,6 +237,9 @@ void read_typed(const Typed& typed, CommandLine& line) {
   line.every = parse_count(typed.every, "--every");
   line.limit = parse_step_size(typed.limit, "--timeout").seconds;
   line.factor = parse_factor(typed.factor);
+  if (!typed.samples.empty()) line.samples = static_cast<std::size_t>(parse_count(typed.samples, "--sample", 1000000));
+  if (!typed.seed.empty()) line.seed = static_cast<unsigned long>(parse_count(typed.seed, "--seed", 1000000000));
+  if (!typed.shard.empty()) line.shard = parse_shard(typed.shard, "--shard");
   if (!typed.times.empty()) line.times = parse_times(typed.times);
 }
 
@@ -208,7 +270,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     line.printed = chosen.empty() ? app.help() : chosen.front()->help();
     return line;
   } catch (const CLI::CallForVersion&) {
-    line.printed = app.version() + "\n";
+    line.printed = app.version() + "\n" + versions_of_parts();
     return line;
   } catch (const CLI::ParseError& error) {
     throw InputError(error.what());
@@ -218,8 +280,16 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   const CommandRow* row = chosen.empty() ? nullptr : find_command(chosen.front()->get_name());
   if (!unknown.empty()) refuse_word(unknown.front(), row);
   if (!row)
-    throw InputError(fmt::format("what to do? rigor has the commands: {}; see rigor --help", listed(command_names())));
+    throw InputError(
+        fmt::format("what to do? To begin with:\n"
+                    "  rigor run springs/fixed-spring   one case by every engine, and a report in out/\n"
+                    "  rigor list                       what there is\n"
+                    "  rigor new my-case                a case of your own, which runs\n"
+                    "  rigor gate --quick               exit code 1 where an engine is not as right as it was\n"
+                    "Of all commands ({}) rigor --help says more",
+                    listed(command_names())));
   line.command = row->name;
+  line.arguments = arguments_of(argc, argv);
   read_typed(typed, line);
   return line;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cases/case/case.h"
+#include "cases/runner/shard.h"
 
 namespace rigor {
 
@@ -26,7 +27,14 @@ struct CommandLine {
   std::vector<std::string> plugins;  // engines from outside: paths of shared libraries, and command lines
   std::string regression;    // the engine whose recorded values `baseline` prints; empty: the baseline itself
   bool quick = false, resume = false, json = false;
-  std::string printed;  // --help or --version: what to print instead of doing anything
+  Shard shard;                             // of run and gate: all, or a part for `rigor merge`
+  std::vector<std::string> vary, metrics;  // of a sweep: KEY=VALUES; the metrics asked for
+  std::size_t samples = 0;                 // of a sweep; 0: the full grid
+  unsigned long seed = 1;
+  std::vector<std::string> within;     // of tune: bounds, "1mm"
+  std::string file = "history.jsonl";  // of history
+  std::vector<std::string> arguments;  // as typed, without where to, how many at once, and which shard
+  std::string printed;                 // --help or --version: what to print instead of doing anything
 };
 
 // Throws InputError, with the near match of a word that is not known.

@@ -25,10 +25,15 @@ const std::vector<CommandRow>& commands();  // in the order of the README
 int list_command(const CommandLine& line, const EngineTable& engines);
 int run_command(const CommandLine& line, const EngineTable& engines);
 int gate_command(const CommandLine& line, const EngineTable& engines);
+int sweep_command(const CommandLine& line, const EngineTable& engines);
+int tune_command(const CommandLine& line, const EngineTable& engines);
+int history_command(const CommandLine& line, const EngineTable& engines);
+int merge_command(const CommandLine& line, const EngineTable& engines);
 int compare_command(const CommandLine& line, const EngineTable& engines);
 int baseline_command(const CommandLine& line, const EngineTable& engines);
 int trace_command(const CommandLine& line, const EngineTable& engines);
 int truth_command(const CommandLine& line, const EngineTable& engines);
+int new_command(const CommandLine& line, const EngineTable& engines);
 int settle_command(const CommandLine& line, const EngineTable& engines);
 int conform_command(const CommandLine& line, const EngineTable& engines);
 

@@ -1,187 +1,114 @@
-// rigor run and rigor gate: the grid, its reports, its exit code.
+// rigor run and rigor gate: the grid, its reports, its exit code; or one shard of it, for `rigor merge`.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
+#include <filesystem>
 
-#include "cases/case/run_selector.h"
-#include "cases/case/selection.h"
-#include "cases/case/suite.h"
-#include "cases/cli/commands.h"
+#include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress.h"
-#include "cases/cli/vocabulary.h"
-#include "cases/gates/deviations.h"
-#include "cases/gates/gates.h"
-#include "cases/gates/quick.h"
-#include "cases/report/console/console_table.h"
-#include "cases/report/github/job_summary.h"
-#include "cases/report/reports.h"
-#include "cases/runner/grid.h"
-#include "cases/runner/output_folder.h"
-#include "cases/runner/process_pool.h"
+#include "cases/report/json/machine.h"
+#include "cases/runner/build_identity.h"
+#include "cases/runner/part.h"
 #include "core/base/error.h"
 
 namespace rigor {
 namespace {
 
-std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<EngineInfo>& infos) {
-  if (line.engines.empty()) return default_runs(infos);
-  std::vector<RunName> runs;
-  for (const std::string& name : line.engines) {
-    RunName run = parse_run_name(name, infos);
-    const auto is_it = [&](const RunName& other) { return is_same_run(other, run); };
-    if (std::none_of(runs.begin(), runs.end(), is_it)) runs.push_back(std::move(run));
-  }
-  return runs;
+void run_with_progress(Results& grid, const EngineTable& engines, const GridOptions& options) {
+  Progress progress;
+  run_grid(grid, engines, options, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
 }
 
-// A gate wants what its gates judge, and no more than that unless engines or steps are named.
-bool is_gate(const CommandLine& line) { return line.command == "gate"; }
-
-Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
-  if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
-  for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
-  if (line.quick) cases = quick_selection(cases, engines.infos());
-  const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
-  // Who names engines wants these and no others.
-  const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, engines.infos()) : std::vector<RunName>();
-  const Scope scope{!is_gate(line), is_gate(line) && line.engines.empty() && line.dt.empty()};
-  return plan_grid(cases, runs, engines, scope, of_gates);
+std::vector<std::string> all_files() {
+  std::vector<std::string> names = report_files();
+  names.push_back(kPartFile);
+  return names;
 }
 
-void run_and_judge(Results& grid, const CommandLine& line, const EngineTable& engines, const RecordedValues& recorded,
-                   const std::vector<KnownDeviation>& deviations, const OutputFolder& folder) {
-  {
-    Progress progress;
-    run_grid(grid, engines,
-             {line.jobs, line.limit, recorders_for(grid, folder.trajectories()), !is_gate(line), !is_gate(line),
-              folder.journals()},
-             [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-  }
-  for (CaseResult& result : grid.cases) {
-    check_gates(result, grid, recorded);
-    apply_known_deviations(result, grid, deviations);
-  }
-}
-
-// Each report by itself, then all that could be written into place. Returns what could not, a sentence each; then the
-// folder keeps what was computed, for another run to go on from.
-std::vector<std::string> write_reports(const Results& grid, OutputFolder& folder) {
-  std::vector<std::string> faults, trajectories;
-  for (const ReportRow& report : reports()) {
-    try {
-      folder.write(report.file_name, report.write(grid));
-    } catch (const std::exception& error) {
-      faults.push_back(fmt::format("{} was not written: {}", report.file_name, error.what()));
-    }
-  }
-  if (!faults.empty()) folder.keep();
-  if (faults.size() == reports().size()) {
-    faults.push_back("no report was written, so no output was changed; --resume goes on from what was computed");
-    return faults;
-  }
-  for (const CaseResult& result : grid.cases) {
-    for (const Cell& cell : result.cells) {
-      if (!cell.trajectory.empty() && cell.status != Status::unsupported) trajectories.push_back(cell.trajectory);
-    }
-  }
-  folder.publish(trajectories);
-  if (!faults.empty()) faults.push_back("the other outputs are in place; --resume writes all of them again");
-  return faults;
-}
-
-struct Written {
-  Results grid;
-  bool is_whole = true;  // every report could be written
-};
-
-Written simulated_and_written(const CommandLine& line, const EngineTable& engines) {
-  const auto deviations = read_known_deviations(line.adapters_dir, engines.infos());
-  const RecordedValues recorded = read_recorded_values(line.adapters_dir, engines.infos());
-  Written out{planned(line, engines, deviations)};
-  std::vector<std::string> file_names;
-  for (const ReportRow& report : reports()) file_names.push_back(report.file_name);
-  OutputFolder folder(line.out, file_names, line.resume);
+int run_whole(const CommandLine& line, const EngineTable& engines) {
+  GridRun run = plan_run(line, engines);
+  OutputFolder folder(line.out, all_files(), line.resume);
+  bool is_whole = false;
   try {
-    run_and_judge(out.grid, line, engines, recorded, deviations, folder);
-    const auto faults = write_reports(out.grid, folder);
-    for (const std::string& fault : faults) say(fault);
-    out.is_whole = faults.empty();
+    run_with_progress(run.grid, engines, options_of(run, folder));
+    judge(run);
+    is_whole = write_reports(run.grid, folder);
   } catch (...) {  // Interrupted, too
     folder.keep();
     throw;
   }
-  return out;
+  return answer(run, is_whole);
 }
 
-// A cell that crashed or ran out of time. The search for a stable step may take longer than it is given, which leaves a
-// gap in the table and says nothing against an engine; a crash in it does.
-bool something_broke(const Results& grid) {
-  return std::any_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& result) {
-    return std::any_of(
-               result.cells.begin(), result.cells.end(),
-               [](const Cell& cell) { return cell.status == Status::crashed || cell.status == Status::timed_out; }) ||
-           std::any_of(result.stable_steps.begin(), result.stable_steps.end(),
-                       [](const StableStepResult& stable) { return stable.status == Status::crashed; });
-  });
+PartTitle title_of(const GridRun& run, const EngineTable& engines, const GridOptions& options, double wall_seconds) {
+  const auto whole = [](const std::string& path) {
+    std::error_code error;
+    return std::filesystem::absolute(path, error).lexically_normal().string();
+  };
+  return {run.line.shard,
+          this_machine().program_version,
+          build_identity(),
+          run.line.arguments,
+          whole(run.line.suite_dir),
+          whole(run.line.adapters_dir),
+          plans_of(run.grid, engines, options),
+          wall_seconds};
 }
 
-// What `run` answers with, gates aside.
-int ending_of(const Written& written) {
-  const Results& grid = written.grid;
-  for (const CaseResult& result : grid.cases) {
-    if (result.error_is_input) return say(result.error), kBadInput;
+// How many there are of its own, and what they came to.
+std::string summary_of(const CommandLine& line, const Results& share) {
+  std::map<std::string, int> counts;
+  int all = 0;
+  long searches = 0;
+  for (const CaseResult& result : share.cases) {
+    searches += std::count_if(result.stable_steps.begin(), result.stable_steps.end(),
+                              [](const StableStepResult& stable) { return stable.status != Status::unsupported; });
+    for (const Cell& cell : result.cells) {
+      if (cell.status != Status::unsupported) ++counts[word_of(cell.status)], ++all;
+    }
   }
-  int ending = written.is_whole && !something_broke(grid) ? kGood : kBroken;
-  for (const CaseResult& result : grid.cases) {
-    if (!result.error.empty()) say(fmt::format("{}: {}", result.definition.id, result.error)), ending = kBroken;
+  std::string text = fmt::format("shard {} of {}: {} cells", line.shard.index, line.shard.count, all);
+  // Before its gates are judged, which takes all parts, `pass` says no more than that it ran.
+  for (const auto& [word, count] : counts) text += fmt::format(", {} {}", count, word == "pass" ? "ran" : word);
+  return text + fmt::format(
+                    "\nThis is a part and no result: 'rigor merge DIR... --out DIR' makes the whole of all {} "
+                    "parts and judges it.\n",
+                    line.shard.count);
+}
+
+int run_shard(const CommandLine& line, const EngineTable& engines) {
+  GridRun run = plan_run(line, engines);
+  OutputFolder folder(line.out, all_files(), line.resume);
+  const GridOptions options = options_of(run, folder);
+  const Results planned = share_of(run.grid, line.shard);
+  Results share = planned;
+  try {
+    run_with_progress(share, engines, options);
+    folder.write(kPartFile, part_text(title_of(run, engines, options, share.wall_seconds), planned, share, engines, options));
+    std::vector<std::string> trajectories;
+    for (const CaseResult& result : share.cases) {
+      for (const Cell& cell : result.cells) {
+        if (!cell.trajectory.empty() && cell.status != Status::unsupported) trajectories.push_back(cell.trajectory);
+      }
+    }
+    folder.publish(trajectories);
+  } catch (...) {
+    folder.keep();
+    throw;
   }
-  return ending;
+  print_table(summary_of(line, share));
+  return ending_of(share, true);
 }
 
-// On a GitHub runner: annotations on stdout, where it looks for them, and the job's summary.
-void tell_the_runner(const Results& grid, const std::vector<Shortfall>& rows) {
-  const char *is_one = std::getenv("GITHUB_ACTIONS"), *summary = std::getenv("GITHUB_STEP_SUMMARY");
-  if (is_one && std::string(is_one) == "true") print_table(annotations(rows));
-  if (!summary || !*summary) return;
-  std::ofstream file(summary, std::ios::binary | std::ios::app);
-  file << job_summary(grid);
-  file.close();
-  if (!file) say(fmt::format("the job's summary could not be written to '{}'", summary));
-}
-
-// Of the whole suite each gate of a family has to meet something; of a part of it, another part may be meant.
-std::vector<Shortfall> unmet_of_whole_suite(const CommandLine& line, const Results& grid) {
-  std::vector<Shortfall> rows;
-  if (!line.words.empty() || !line.engines.empty() || !line.dt.empty() || line.quick) return rows;
-  for (const Gate& gate : unmet_family_gates(grid))
-    rows.push_back(
-        {"the suite", "", "", gate.metric, "", "", "", "no cell of any case has it for this gate", gate.where});
-  return rows;
+int run_or_part(const CommandLine& line, const EngineTable& engines) {
+  return line.shard.is_all() ? run_whole(line, engines) : run_shard(line, engines);
 }
 
 }  // namespace
 
-int run_command(const CommandLine& line, const EngineTable& engines) {
-  const Written written = simulated_and_written(line, engines);
-  const int ending = ending_of(written);
-  print_table(console_table(written.grid));
-  return ending;
-}
+int run_command(const CommandLine& line, const EngineTable& engines) { return run_or_part(line, engines); }
 
-int gate_command(const CommandLine& line, const EngineTable& engines) {
-  const Written written = simulated_and_written(line, engines);
-  const Results& grid = written.grid;
-  const int ending = ending_of(written);
-  std::vector<Shortfall> rows = shortfalls(grid);
-  const std::vector<Shortfall> unmet = unmet_of_whole_suite(line, grid);
-  rows.insert(rows.end(), unmet.begin(), unmet.end());
-  print_table(console_table(grid) + gate_summary(grid) + shortfalls_text(rows));
-  tell_the_runner(grid, rows);
-  return ending == kGood && !(all_gates_hold(grid) && unmet.empty()) ? int{kGateFailed} : ending;
-}
+int gate_command(const CommandLine& line, const EngineTable& engines) { return run_or_part(line, engines); }
 
 }  // namespace rigor

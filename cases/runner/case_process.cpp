@@ -13,7 +13,7 @@
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/executor.h"
-#include "cases/runner/journal.h"
+#include "cases/runner/shard.h"
 #include "cases/runner/simulate.h"
 #include "cases/runner/stable_step.h"
 #include "cases/runner/twin_run.h"
@@ -67,6 +67,8 @@ void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
   }
 }
 
+}  // namespace
+
 TruthFacts facts_of(const Case& definition, const Truth* truth) {
   TruthFacts facts;
   facts.largest_kinetic_energy = largest_kinetic_energy(definition.scene, truth, definition.duration);
@@ -77,6 +79,8 @@ TruthFacts facts_of(const Case& definition, const Truth* truth) {
   }
   return facts;
 }
+
+namespace {
 
 Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
   cell.reason = sentence_of(end, limit);
@@ -96,12 +100,19 @@ bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
                      [&](const Gate& gate) { return metrics.contains(gate.metric); });
 }
 
+bool is_asked_for(const std::set<std::string>& metrics, const Case& definition, const GridOptions& options) {
+  const auto& only = options.only_metrics;
+  if (only.empty()) return options.is_thorough || has_gate_on(definition, metrics);
+  return std::any_of(only.begin(), only.end(), [&](const std::string& name) { return metrics.contains(name); });
+}
+
 // Their series over time come out apart: no result keeps them.
 std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options,
                                             std::vector<NamedSeries>& series) {
   std::map<std::string, MetricValue> values;
   for (const MetricRow& row : metrics()) {
-    const bool is_wanted = options.is_thorough || !row.is_costly || has_gate_on(definition, {row.name});
+    const bool is_wanted =
+        is_asked_for({row.name}, definition, options) || (!row.is_costly && options.only_metrics.empty());
     MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
     values[row.name] = condensed(found, run.trajectory);
     if (found.measurement) series.push_back({row.name, std::move(found.measurement->series)});
@@ -115,8 +126,10 @@ double stability_horizon(const Case& definition) { return std::max(30.0, definit
 // A truth need not hold that long where no stable step is searched for.
 bool searches_steps(const CaseResult& planned, const GridOptions& options) {
   const auto& steps = planned.stable_steps;
-  return options.stable_steps && std::any_of(steps.begin(), steps.end(),
-                                             [](const auto& stable) { return stable.status != Status::unsupported; });
+  // Another shard's search counts: the truth must be the same in all of them.
+  return options.stable_steps && std::any_of(steps.begin(), steps.end(), [](const auto& stable) {
+           return stable.status != Status::unsupported || is_of_another_shard(stable.status, stable.reason);
+         });
 }
 
 // The jobs of one case: first the stable steps, which take longest, then the cells.
@@ -192,7 +205,7 @@ class CaseJobs {
       engines_.rest();
     };
     ProcessExecutor(options_.jobs).run(jobs, work, on_message, on_end);
-    channel.send(message_of_spreads(spreads()));
+    channel.send(message_of_spreads(spreads_of(planned_, paths_)));
   }
 
  private:
@@ -260,21 +273,6 @@ class CaseJobs {
     paths_[subject.index] = std::move(path);
   }
 
-  // Every pair of runs at the same dt that both left a path.
-  std::vector<Spread> spreads() const {
-    std::vector<Spread> found;
-    for (const auto& [a, path_a] : paths_) {
-      for (auto later = paths_.upper_bound(a); later != paths_.end(); ++later) {
-        const Cell &one = planned_.cells[a], &other = planned_.cells[later->first];
-        if (one.dt != other.dt) continue;
-        Spread spread = spread_between(path_a, later->second);
-        spread.first = one.run, spread.second = other.run, spread.dt = one.dt;
-        found.push_back(spread);
-      }
-    }
-    return found;
-  }
-
   const Results& grid_;
   const CaseResult& planned_;
   const EngineTable& engines_;
@@ -283,8 +281,8 @@ class CaseJobs {
   TruthFacts facts_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<JobSpec> jobs_;
-  CaseResult heard_;                   // of what is heard, to see whether it can be read
-  std::map<std::size_t, Path> paths_;  // by index of the cell
+  CaseResult heard_;  // of what is heard, to see whether it can be read
+  PathsOfCells paths_;
 };
 
 std::size_t jobs_in(const CaseResult& planned) {
@@ -298,7 +296,8 @@ std::string journal_of(const CaseResult& planned, const Results& grid, const Gri
   return fmt::format("{}/{}.journal", options.journals, &planned - grid.cases.data());
 }
 
-// All that the case's results depend on: another program, too, makes other results.
+}  // namespace
+
 std::string plan_of(const Results& grid, const CaseResult& planned, const EngineTable& engines,
                     const GridOptions& options) {
   const Case& definition = planned.definition;
@@ -312,6 +311,32 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const Engine
   for (const StableStepResult& stable : planned.stable_steps) plan += word_of(stable.status) + "\n";
   return plan;
 }
+
+std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned,
+                                          const EngineTable& engines, const GridOptions& options) {
+  const Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, engines, options));
+  std::vector<Journal::Record> answers;
+  for (const auto& [job, record] : journal.found()) {
+    if (job != Journal::kTruth) answers.push_back(record);
+  }
+  return answers;
+}
+
+std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths) {
+  std::vector<Spread> found;
+  for (const auto& [a, path_a] : paths) {
+    for (auto later = paths.upper_bound(a); later != paths.end(); ++later) {
+      const Cell &one = planned.cells[a], &other = planned.cells[later->first];
+      if (one.dt != other.dt) continue;
+      Spread spread = spread_between(path_a, later->second);
+      spread.first = one.run, spread.second = other.run, spread.dt = one.dt;
+      found.push_back(spread);
+    }
+  }
+  return found;
+}
+
+namespace {
 
 // Not believed: what cannot be read, and a cell whose trajectory is no longer there.
 void forget_what_is_wrong(Journal& journal, const CaseResult& planned, const GridOptions& options) {
@@ -338,14 +363,14 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   const Scene& scene = definition.scene;
   const Engine& engine = find_engine(engines, run_name.engine);
   const double leapfrog_stagger = method_of(engines.info_of(run_name.engine), run_name.settings).leapfrog_stagger;
-  const bool is_timed = options.is_thorough || has_gate_on(definition, {"cost"});
+  const bool is_timed = is_asked_for({"cost"}, definition, options);
   const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed);
   cell.settings = run.settings;
   cell.cpu_seconds = is_timed ? timed_again(engine, run_name.settings, scene, run) : run.cpu_seconds;
   std::optional<TruthSamples> samples;
   if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), facts.largest_kinetic_energy);
   std::optional<RunName> twin_name;
-  if (options.is_thorough || has_gate_on(definition, kOfTwins)) twin_name = twin_of(engines, run_name, scene);
+  if (is_asked_for(kOfTwins, definition, options)) twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;
   if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
   JudgedRun judged{

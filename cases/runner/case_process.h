@@ -2,7 +2,10 @@
 // own, which inherits the truth. Results go to the grid's process as messages (cases/results/result_json.h).
 #pragma once
 
+#include <map>
+
 #include "cases/runner/grid.h"
+#include "cases/runner/journal.h"
 #include "cases/runner/process_pool.h"
 
 namespace rigor {
@@ -18,5 +21,20 @@ struct JudgedCell {
 };
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, const TruthFacts& facts, const GridOptions& options);
+
+// `truth` may be null.
+TruthFacts facts_of(const Case& definition, const Truth* truth);
+
+// All that the case's results depend on: another program, too, makes other results.
+std::string plan_of(const Results& grid, const CaseResult& planned, const EngineTable& engines,
+                    const GridOptions& options);
+
+// What the cells and stable steps of a case that has run have left in its journal; those that failed left nothing.
+std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned,
+                                          const EngineTable& engines, const GridOptions& options);
+
+// Of every pair of runs at the same dt that both left a path.
+using PathsOfCells = std::map<std::size_t, Path>;  // by index of the cell
+std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths);
 
 }  // namespace rigor

@@ -30,6 +30,7 @@ struct GridOptions {
   bool is_thorough = true;             // times each run and repeats it by its twin, also where no gate asks for it
   std::string journals = {};           // folder of what cases have come to so far (journal.h); empty: it is not kept
   const Executor* executor = nullptr;  // of the cases; null: processes of this machine
+  std::vector<std::string> only_metrics = {};  // measure these, costly or not, and no others; empty: all as above
 };
 
 // Which of all cells are in the grid.

@@ -22,7 +22,14 @@ struct Head {
 
 std::string title_of(const std::string& plan) { return fmt::format("rigor journal {:016x}\n", content_hash(plan)); }
 
-// The record at `at`, which is moved behind it; false if there is no whole one.
+}  // namespace
+
+std::string framed(std::size_t job, const Journal::Record& record) {
+  const std::string text = record.message + record.path;
+  const Head head{job, record.message.size(), record.path.size(), content_hash(text)};
+  return std::string(reinterpret_cast<const char*>(&head), sizeof head) + text;
+}
+
 bool take_record(const std::string& bytes, std::size_t& at, std::size_t& job, Journal::Record& record) {
   Head head;
   if (bytes.size() - at < sizeof head) return false;
@@ -36,8 +43,6 @@ bool take_record(const std::string& bytes, std::size_t& at, std::size_t& job, Jo
   at = begin + head.message + head.path;
   return true;
 }
-
-}  // namespace
 
 Journal::Journal(const std::string& file, const std::string& plan) {
   if (file.empty()) return;
@@ -72,10 +77,6 @@ void Journal::append(const std::string& bytes) {
   }
 }
 
-void Journal::add(std::size_t job, const Record& record) {
-  const std::string text = record.message + record.path;
-  const Head head{job, record.message.size(), record.path.size(), content_hash(text)};
-  append(std::string(reinterpret_cast<const char*>(&head), sizeof head) + text);
-}
+void Journal::add(std::size_t job, const Record& record) { append(framed(job, record)); }
 
 }  // namespace rigor

@@ -35,4 +35,8 @@ class Journal {
   int descriptor_ = -1;
 };
 
+// A record as a journal holds it, and the one at `at`, which is moved behind it; false if there is no whole one.
+std::string framed(std::size_t job, const Journal::Record& record);
+bool take_record(const std::string& bytes, std::size_t& at, std::size_t& job, Journal::Record& record);
+
 }  // namespace rigor

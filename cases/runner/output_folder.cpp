@@ -36,6 +36,8 @@ constexpr const char *kPartial = ".rigor-partial", *kTrajectories = "trajectorie
   throw fs::filesystem_error("", path, std::error_code(number, std::generic_category()));
 }
 
+constexpr ino_t kNoInode = static_cast<ino_t>(-1);  // of no folder, nor what stands for one that is not there
+
 ino_t inode_of(const fs::path& path) {
   struct stat about {};
   return stat(path.c_str(), &about) == 0 ? about.st_ino : 0;
@@ -205,7 +207,16 @@ void OutputFolder::stage_trajectories(const std::vector<std::string>& trajectori
 
 void OutputFolder::publish(const std::vector<std::string>& trajectories) {
   stage_trajectories(trajectories);
-  std::string ready = fmt::format("{}\n", inode_of(staged_ / kTrajectories));
+  put_in_place(inode_of(staged_ / kTrajectories));
+}
+
+void OutputFolder::publish_files() {
+  fs::remove_all(staged_ / kTrajectories);
+  put_in_place(kNoInode);
+}
+
+void OutputFolder::put_in_place(ino_t of_trajectories) {
+  std::string ready = fmt::format("{}\n", of_trajectories);
   for (const std::string& name : file_names_) {
     if (!fs::exists(staged_ / "reports" / name)) ready += name + "\n";
   }

@@ -4,6 +4,8 @@
 // place leaves that for the next run to finish, whatever that run is about.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,15 +24,19 @@ class OutputFolder {
 
   std::string journals() const { return (partial_ / "journals").string(); }
   std::string trajectories() const { return (partial_ / "trajectories").string(); }  // where they grow
+  // Where one of `file_names` may be written bit by bit; not seen until published.
+  std::string growing(const std::string& file_name) const { return (staged_ / "reports" / file_name).string(); }
   // One of `file_names`; not seen until published. Throws std::runtime_error, with the reason, if it cannot be written.
   void write(const std::string& file_name, const std::string& text);
   // The folder of trajectories becomes the new one, with these files and no others; what stood there that is no
   // trajectory of Rigor's stays. Those of `file_names` that were not written are no longer there: they would be of
   // another run. Works on if this process is killed meanwhile.
   void publish(const std::vector<std::string>& trajectories);
+  void publish_files();  // those alone; trajectories stay as they are
   void keep() { is_kept_ = true; }  // for another run to go on from
 
  private:
+  void put_in_place(ino_t of_trajectories);
   void stage_trajectories(const std::vector<std::string>& trajectories) const;
 
   std::filesystem::path folder_, partial_, staged_;

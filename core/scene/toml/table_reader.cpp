@@ -12,6 +12,7 @@
 #include "core/base/unit_vector.h"
 #include "core/scene/toml/file_reader.h"
 #include "core/scene/toml/library_limits.h"
+#include "core/scene/toml/text_offset.h"
 
 namespace rigor {
 
@@ -25,17 +26,6 @@ namespace {
 
 std::string place(const std::string& path, const toml::source_position& position) {
   return fmt::format("{}:{}:{}", path, std::max<unsigned>(position.line, 1), std::max<unsigned>(position.column, 1));
-}
-
-// The library counts lines and columns from 1, and columns in characters of UTF-8.
-std::size_t offset_of(const std::string& text, const toml::source_position& position) {
-  std::size_t at = 0;
-  for (toml::source_index line = 1; line < position.line; ++line) at = text.find('\n', at) + 1;
-  for (toml::source_index column = 1; column < position.column && at < text.size(); ++column) {
-    ++at;
-    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) ++at;
-  }
-  return at;
 }
 
 std::string described(const toml::node& node) {
@@ -95,7 +85,8 @@ std::string shown(std::string_view text, std::size_t longest) {
 std::string TomlValue::where() const { return place(document_->path, node_->source().begin); }
 
 TextRange TomlValue::range() const {
-  return {offset_of(document_->text, node_->source().begin), offset_of(document_->text, node_->source().end)};
+  const auto offset = [&](const toml::source_position& at) { return offset_of(document_->text, at.line, at.column); };
+  return {offset(node_->source().begin), offset(node_->source().end)};
 }
 
 std::string TomlValue::label() const { return name_.empty() ? where() : fmt::format("{}: {}", where(), name_); }

@@ -1,0 +1,13 @@
+// The calls that BulletWorld makes for a run's settings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/engine/engine.h"
+
+namespace rigor {
+
+std::vector<std::string> bullet_calls(const Settings& settings, const std::string& dt);
+
+}  // namespace rigor

@@ -1,0 +1,24 @@
+#include "adapters/calls.h"
+
+#include "adapters/bullet/bullet_calls.h"
+#include "adapters/ode/ode_calls.h"
+
+namespace rigor {
+namespace {
+
+struct CallsRow {
+  std::string engine;
+  std::vector<std::string> (*calls)(const Settings& settings, const std::string& dt);
+};
+
+}  // namespace
+
+std::vector<std::string> engine_calls(const RunName& run, const std::string& dt) {
+  static const std::vector<CallsRow> rows = {{"bullet", bullet_calls}, {"ode", ode_calls}};
+  for (const CallsRow& row : rows) {
+    if (row.engine == run.engine) return row.calls(run.settings, dt);
+  }
+  return {};
+}
+
+}  // namespace rigor

@@ -1,0 +1,241 @@
+// How a sweep runs: jobs are its variants, answers the rows of each.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cases/analysis/sweep.h"
+#include "cases/results/result_json.h"
+#include "cases/runner/build_identity.h"
+#include "cases/runner/case_process.h"
+#include "cases/truth/truth.h"
+#include "core/base/error.h"
+
+namespace rigor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Rows = std::vector<SweepRow>;
+
+std::string message_of(std::size_t index, const SweepRow& row) {
+  return text_of(Json::array({index, word_of(row.status), row.reason, row.verdict, row.metrics}), -1);
+}
+
+// Throws std::exception for a message that is none of these rows.
+void apply_row(Rows& rows, const std::string& message) {
+  const Json json = Json::parse(message);
+  SweepRow& row = rows.at(json.at(0).get<std::size_t>());
+  SweepRow heard = row;
+  heard.status = status_of(json.at(1).get<std::string>());
+  heard.reason = json.at(2).get<std::string>(), heard.verdict = json.at(3).get<std::string>();
+  if (json.at(4).size() != heard.metrics.size()) throw std::runtime_error("it has other metrics");
+  for (std::size_t i = 0; i < heard.metrics.size(); ++i) heard.metrics[i] = number_of(json.at(4).at(i));
+  row = std::move(heard);
+}
+
+bool is_unheard(const SweepRow& row) { return row.status == Status::crashed && row.reason == SweepRow().reason; }
+
+void fail(SweepRow& row, const JobEnd& end, double limit) {
+  row.reason = sentence_of(end, limit);
+  row.status = end.how == Ending::refused     ? Status::invalid
+               : end.how == Ending::timed_out ? Status::timed_out
+                                              : Status::crashed;
+}
+
+// Inside the process of one variant.
+class VariantProcess {
+ public:
+  VariantProcess(const Sweep& sweep, const EngineTable& engines, const SweepOptions& options, int jobs)
+      : sweep_(sweep), engines_(engines), limit_(options.limit), jobs_(jobs) {
+    grid_options_.stable_steps = grid_options_.is_thorough = false;
+    if (sweep.asks_for_metrics()) grid_options_.only_metrics = sweep.metrics();
+  }
+
+  void run(std::size_t variant, const Channel& channel) const {
+    const Case definition = sweep_.definition_of(variant);
+    Rows rows = sweep_.rows_of(variant);
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::string why = why_not(rows[i], definition.scene);
+      if (why.empty()) {
+        left.push_back(i);
+      } else {
+        rows[i].status = Status::unsupported, rows[i].reason = why;
+        channel.send(message_of(i, rows[i]));
+      }
+    }
+    if (left.empty()) return;
+    const auto truth = make_truth(definition.truth, definition.scene, definition.duration);
+    const TruthFacts facts = facts_of(definition, truth.get());
+    const auto work = [&](std::size_t i, const Channel& to) {
+      judge(rows[i], definition, truth.get(), facts);
+      to.send(message_of(i, rows[i]));
+    };
+    if (rows.size() == 1) return work(0, channel);  // this process is apart from others already
+    run_apart(rows, left, work, channel);
+  }
+
+ private:
+  std::string why_not(const SweepRow& row, const Scene& scene) const {
+    try {
+      const RunName run = sweep_.run_of(row);
+      return why_unsupported(engines_.info_of(run.engine), run.settings, scene, row.dt.seconds);
+    } catch (const InputError& error) {  // an option that this method does not have
+      return error.what();
+    }
+  }
+
+  void judge(SweepRow& row, const Case& definition, const Truth* truth, const TruthFacts& facts) const {
+    Cell planned;
+    planned.dt = row.dt;
+    const Cell cell = run_cell(planned, definition, engines_, sweep_.run_of(row), truth, facts, grid_options_).cell;
+    row.status = cell.status, row.reason = cell.reason, row.verdict = word_of(cell.stability.verdict);
+    for (std::size_t i = 0; i < row.metrics.size(); ++i) {
+      const auto found = cell.metrics.find(sweep_.metrics()[i]);
+      if (found != cell.metrics.end() && found->second.not_applicable.empty()) row.metrics[i] = found->second.value;
+    }
+  }
+
+  template <typename Work>
+  void run_apart(Rows& rows, const std::vector<std::size_t>& left, const Work& work, const Channel& channel) const {
+    channel.send("");  // the truth is made: from here on each cell has a limit of its own
+    std::vector<JobSpec> jobs;
+    for (const std::size_t i : left) jobs.push_back({JobSpec::Kind::cell, 0, limit_, i});
+    std::vector<bool> heard(left.size());
+    ProcessExecutor(jobs_).run(
+        jobs, [&](const JobSpec& job, const Channel& to) { work(job.part, to); },
+        [&](std::size_t job, const std::string& message) {
+          try {
+            apply_row(rows, message);
+          } catch (const std::exception&) {
+            return;  // as if it had not answered
+          }
+          heard[job] = true, channel.send(message);
+        },
+        [&](std::size_t job, const JobEnd& end) {
+          if (heard[job]) return;
+          fail(rows[left[job]], end, limit_);
+          channel.send(message_of(left[job], rows[left[job]]));
+        });
+  }
+
+  const Sweep& sweep_;
+  const EngineTable& engines_;
+  double limit_;
+  int jobs_;
+  GridOptions grid_options_;
+};
+
+// Hands rows out in their order, and keeps those that came too early.
+class InOrder {
+ public:
+  explicit InOrder(const std::function<void(const SweepRow&)>& on_row) : on_row_(on_row) {}
+  void add(std::size_t variant, Rows rows) {
+    early_[variant] = std::move(rows);
+    for (auto next = early_.find(next_); next != early_.end(); next = early_.find(next_)) {
+      for (const SweepRow& row : next->second) on_row_(row);
+      early_.erase(next);
+      ++next_;
+    }
+  }
+
+ private:
+  const std::function<void(const SweepRow&)>& on_row_;
+  std::map<std::size_t, Rows> early_;  // by variant
+  std::size_t next_ = 0;
+};
+
+// The rows of a variant as they come in, and the journal of those that are whole.
+class SweepProgress {
+ public:
+  SweepProgress(const Sweep& sweep, const SweepOptions& options, const std::function<void(const SweepRow&)>& on_row)
+      : sweep_(sweep),
+        limit_(options.limit),
+        journal_(options.journal, options.journal.empty() ? "" : build_identity() + "\n" + sweep.plan()),
+        in_order_(on_row) {}
+
+  // Whether a run before this one has been through it.
+  bool take_from_journal(std::size_t variant) {
+    const auto kept = journal_.found().find(variant);
+    if (kept == journal_.found().end()) return false;
+    Rows rows = sweep_.rows_of(variant);
+    try {
+      for (const Json& message : Json::parse(kept->second.message)) apply_row(rows, message.get<std::string>());
+    } catch (const std::exception&) {
+      return false;
+    }
+    if (std::any_of(rows.begin(), rows.end(), is_unheard)) return false;
+    in_order_.add(variant, std::move(rows));
+    return true;
+  }
+
+  void hear(std::size_t variant, const std::string& message) {
+    if (message.empty()) return;
+    Variant& open = open_of(variant);
+    try {
+      apply_row(open.rows, message);
+      open.messages.push_back(message);
+    } catch (const std::exception& error) {
+      open.flaw = fmt::format("its message could not be read: {}", error.what());
+    }
+  }
+
+  void end(std::size_t variant, JobEnd end) {
+    Variant open = std::move(open_of(variant));
+    open_.erase(variant);
+    if (!open.flaw.empty()) end.how = Ending::threw, end.text = open.flaw;
+    bool is_whole = end.how == Ending::finished;
+    for (SweepRow& row : open.rows) {
+      if (is_unheard(row)) fail(row, end, limit_), is_whole = false;
+      is_whole &= row.status != Status::crashed && row.status != Status::timed_out;
+    }
+    if (is_whole) journal_.add(variant, {text_of(Json(open.messages), -1), ""});
+    in_order_.add(variant, std::move(open.rows));
+  }
+
+ private:
+  struct Variant {
+    Rows rows;
+    std::vector<std::string> messages;
+    std::string flaw;
+  };
+  Variant& open_of(std::size_t variant) {
+    const auto [found, is_new] = open_.try_emplace(variant);
+    if (is_new) found->second.rows = sweep_.rows_of(variant);
+    return found->second;
+  }
+
+  const Sweep& sweep_;
+  double limit_;
+  Journal journal_;
+  InOrder in_order_;
+  std::map<std::size_t, Variant> open_;
+};
+
+}  // namespace
+
+void run_sweep(const Sweep& sweep, const EngineTable& engines, const SweepOptions& options,
+               const std::function<void(const SweepRow& row)>& on_row) {
+  constexpr std::size_t kBatch = 5000;  // jobs known at a time
+  if (!options.journal.empty()) build_identity();
+  const int at_once = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(options.jobs), sweep.variants()));
+  const VariantProcess process(sweep, engines, options, options.jobs / std::max(1, at_once));
+  const ProcessExecutor processes(at_once);
+  const Executor& executor = options.executor ? *options.executor : processes;
+  // A variant of one cell makes its truth and runs it under one limit.
+  const double limit = sweep.cells() == sweep.variants() ? 2 * options.limit : options.limit;
+  SweepProgress progress(sweep, options, on_row);
+  for (std::size_t next = 0; next < sweep.variants();) {
+    std::vector<JobSpec> jobs;
+    for (; next < sweep.variants() && jobs.size() < kBatch; ++next) {
+      if (!progress.take_from_journal(next)) jobs.push_back({JobSpec::Kind::whole_case, next, limit});
+    }
+    executor.run(
+        jobs, [&](const JobSpec& job, const Channel& channel) { process.run(job.of_case, channel); },
+        [&](std::size_t job, const std::string& message) { progress.hear(jobs[job].of_case, message); },
+        [&](std::size_t job, const JobEnd& end) { progress.end(jobs[job].of_case, end); });
+  }
+}
+
+}  // namespace rigor

@@ -1,0 +1,169 @@
+#include "cases/cli/grid_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "cases/case/run_selector.h"
+#include "cases/case/selection.h"
+#include "cases/case/suite.h"
+#include "cases/cli/output.h"
+#include "cases/cli/vocabulary.h"
+#include "cases/gates/failures.h"
+#include "cases/gates/quick.h"
+#include "cases/report/console/console_table.h"
+#include "cases/report/github/job_summary.h"
+#include "cases/report/reports.h"
+#include "core/base/error.h"
+
+namespace rigor {
+namespace {
+
+// A gate wants what its gates judge, and no more than that unless engines or steps are named.
+bool is_gate(const CommandLine& line) { return line.command == "gate"; }
+
+Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
+  if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
+  for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
+  if (line.quick) cases = quick_selection(cases, engines.infos());
+  const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
+  // Who names engines wants these and no others.
+  const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, engines.infos()) : std::vector<RunName>();
+  const Scope scope{!is_gate(line), is_gate(line) && line.engines.empty() && line.dt.empty()};
+  return plan_grid(cases, runs, engines, scope, of_gates);
+}
+
+// Each report by itself, then all that could be written into place. Returns what could not, a sentence each; then the
+// folder keeps what was computed, for another run to go on from.
+std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& folder) {
+  std::vector<std::string> faults, trajectories;
+  for (const ReportRow& report : reports()) {
+    try {
+      folder.write(report.file_name, report.write(grid));
+    } catch (const std::exception& error) {
+      faults.push_back(fmt::format("{} was not written: {}", report.file_name, error.what()));
+    }
+  }
+  if (!faults.empty()) folder.keep();
+  if (faults.size() == reports().size()) {
+    faults.push_back("no report was written, so no output was changed; --resume goes on from what was computed");
+    return faults;
+  }
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) {
+      if (!cell.trajectory.empty() && cell.status != Status::unsupported) trajectories.push_back(cell.trajectory);
+    }
+  }
+  folder.publish(trajectories);
+  if (!faults.empty()) faults.push_back("the other outputs are in place; --resume writes all of them again");
+  return faults;
+}
+
+// A cell that crashed or ran out of time. The search for a stable step may take longer than it is given, which leaves a
+// gap in the table and says nothing against an engine; a crash in it does.
+bool something_broke(const Results& grid) {
+  return std::any_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& result) {
+    return std::any_of(
+               result.cells.begin(), result.cells.end(),
+               [](const Cell& cell) { return cell.status == Status::crashed || cell.status == Status::timed_out; }) ||
+           std::any_of(result.stable_steps.begin(), result.stable_steps.end(),
+                       [](const StableStepResult& stable) { return stable.status == Status::crashed; });
+  });
+}
+
+// On a GitHub runner: annotations on stdout, where it looks for them, and the job's summary.
+void tell_the_runner(const Results& grid, const std::vector<Shortfall>& rows) {
+  const char *is_one = std::getenv("GITHUB_ACTIONS"), *summary = std::getenv("GITHUB_STEP_SUMMARY");
+  if (is_one && std::string(is_one) == "true") print_table(annotations(rows));
+  if (!summary || !*summary) return;
+  std::ofstream file(summary, std::ios::binary | std::ios::app);
+  file << job_summary(grid);
+  file.close();
+  if (!file) say(fmt::format("the job's summary could not be written to '{}'", summary));
+}
+
+// Of the whole suite each gate of a family has to meet something; of a part of it, another part may be meant.
+std::vector<Shortfall> unmet_of_whole_suite(const CommandLine& line, const Results& grid) {
+  std::vector<Shortfall> rows;
+  if (!line.words.empty() || !line.engines.empty() || !line.dt.empty() || line.quick) return rows;
+  for (const Gate& gate : unmet_family_gates(grid))
+    rows.push_back(
+        {"the suite", "", "", gate.metric, "", "", "", "no cell of any case has it for this gate", gate.where});
+  return rows;
+}
+
+int answer_of_gate(const GridRun& run, int ending) {
+  std::vector<Shortfall> rows = shortfalls(run.grid);
+  const std::vector<Shortfall> unmet = unmet_of_whole_suite(run.line, run.grid);
+  rows.insert(rows.end(), unmet.begin(), unmet.end());
+  print_table(console_table(run.grid) + gate_summary(run.grid) + shortfalls_text(rows));
+  tell_the_runner(run.grid, rows);
+  return ending == kGood && !(all_gates_hold(run.grid) && unmet.empty()) ? int{kGateFailed} : ending;
+}
+
+}  // namespace
+
+std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<EngineInfo>& infos) {
+  if (line.engines.empty()) return default_runs(infos);
+  std::vector<RunName> runs;
+  for (const std::string& name : line.engines) {
+    RunName run = parse_run_name(name, infos);
+    const auto is_it = [&](const RunName& other) { return is_same_run(other, run); };
+    if (std::none_of(runs.begin(), runs.end(), is_it)) runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+GridRun plan_run(const CommandLine& line, const EngineTable& engines) {
+  auto deviations = read_known_deviations(line.adapters_dir, engines.infos());
+  RecordedValues recorded = read_recorded_values(line.adapters_dir, engines.infos());
+  Results grid = planned(line, engines, deviations);
+  return {line, engines, std::move(deviations), std::move(recorded), std::move(grid)};
+}
+
+GridOptions options_of(const GridRun& run, const OutputFolder& folder) {
+  return {run.line.jobs,      run.line.limit,     recorders_for(run.grid, folder.trajectories()),
+          !is_gate(run.line), !is_gate(run.line), folder.journals()};
+}
+
+std::vector<std::string> report_files() {
+  std::vector<std::string> names;
+  for (const ReportRow& report : reports()) names.push_back(report.file_name);
+  return names;
+}
+
+void judge(GridRun& run) {
+  for (CaseResult& result : run.grid.cases) {
+    check_gates(result, run.grid, run.recorded);
+    apply_known_deviations(result, run.grid, run.deviations);
+  }
+}
+
+bool write_reports(const Results& grid, OutputFolder& folder) {
+  const auto faults = faults_of_writing(grid, folder);
+  for (const std::string& fault : faults) say(fault);
+  return faults.empty();
+}
+
+int ending_of(const Results& grid, bool is_whole) {
+  for (const CaseResult& result : grid.cases) {
+    if (result.error_is_input) return say(result.error), kBadInput;
+  }
+  int ending = is_whole && !something_broke(grid) ? kGood : kBroken;
+  for (const CaseResult& result : grid.cases) {
+    if (!result.error.empty()) say(fmt::format("{}: {}", result.definition.id, result.error)), ending = kBroken;
+  }
+  return ending;
+}
+
+int answer(const GridRun& run, bool is_whole) {
+  const int ending = ending_of(run.grid, is_whole);
+  if (is_gate(run.line)) return answer_of_gate(run, ending);
+  print_table(console_table(run.grid));
+  return ending;
+}
+
+}  // namespace rigor

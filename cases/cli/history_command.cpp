@@ -1,0 +1,73 @@
+// rigor history: add a run's outcome to a file that keeps them from commit to commit, and show how they moved.
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "cases/report/console/history_table.h"
+#include "core/base/error.h"
+#include "core/base/near_match.h"
+
+namespace rigor {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string now() {
+  const std::time_t seconds = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  std::array<char, 32> text{};
+  const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return {text.data(), length};
+}
+
+// Of the repository that the current folder is in, or what a runner says; empty where there is none.
+std::string current_commit() {
+  constexpr std::size_t kShort = 12;
+  for (const char* variable : {"RIGOR_COMMIT", "GITHUB_SHA", "CI_COMMIT_SHA"}) {
+    const char* value = std::getenv(variable);
+    if (value && *value) return std::string(value).substr(0, kShort);
+  }
+  FILE* git = popen("git rev-parse --short=12 HEAD 2>/dev/null", "r");
+  if (!git) return "";
+  std::array<char, 64> text{};
+  const std::size_t length = std::fread(text.data(), 1, text.size() - 1, git);
+  const bool is_good = pclose(git) == 0;
+  std::string commit(text.data(), length);
+  while (!commit.empty() && commit.back() == '\n') commit.pop_back();
+  return is_good ? commit : "";
+}
+
+int add(const CommandLine& line) {
+  if (line.words.size() != 2)
+    throw InputError("rigor history add: takes one folder that 'rigor run' wrote, or its results.json");
+  std::error_code error;
+  const fs::path given = line.words[1], file = fs::is_directory(given, error) ? given / "results.json" : given;
+  const HistoryEntry entry = history_entry(file.string(), current_commit(), now());
+  add_to_history(line.file, entry);
+  say(fmt::format("{} cells of commit {} are added to {}", entry.cells.size(),
+                  entry.commit.empty() ? "unknown" : entry.commit, line.file));
+  return kGood;
+}
+
+}  // namespace
+
+int history_command(const CommandLine& line, const EngineTable&) {
+  const std::vector<std::string> known = {"add", "show"};
+  const std::string what = line.words.empty() ? "" : line.words.front();
+  if (what == "add") return add(line);
+  if (what == "show") {
+    print_table(history_table(read_history(line.file), {line.words.begin() + 1, line.words.end()}));
+    return kGood;
+  }
+  throw InputError(fmt::format("rigor history: found '{}'{}; allowed: add DIR, or show [CASE or ENGINE]", what,
+                               did_you_mean(what, known)));
+}
+
+}  // namespace rigor

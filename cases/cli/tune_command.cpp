@@ -1,0 +1,116 @@
+// rigor tune: the cheapest setting of an engine that keeps bounds, its own calls to paste, and the other engines beside
+// it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "adapters/calls.h"
+#include "cases/analysis/tuning.h"
+#include "cases/case/suite.h"
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "cases/cli/vocabulary.h"
+#include "cases/runner/grid.h"
+#include "core/base/error.h"
+
+namespace rigor {
+namespace {
+
+constexpr std::size_t kSettings = 48, kSettingsBeside = 16;  // tried of the engine itself; of each of the others
+
+std::vector<Case> cases_of(const CommandLine& line, const EngineTable& engines) {
+  if (line.words.empty()) throw InputError("rigor tune: takes at least one case; see rigor list cases");
+  if (line.engines.size() != 1) throw InputError("rigor tune: takes exactly one --engine; see rigor list engines");
+  if (line.within.empty())
+    throw InputError("rigor tune: takes at least one --within BOUND, as 1mm, 1mrad, '2% energy' or METRIC=VALUE");
+  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
+  for (Case& definition : cases) override_run(definition, {{}, line.duration});
+  return cases;
+}
+
+std::vector<Bound> bounds_of(const CommandLine& line) {
+  std::vector<Bound> bounds;
+  for (const std::string& text : line.within) {
+    bounds.push_back(parse_bound(text));
+    for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
+      if (bounds[i].metric == bounds.back().metric)
+        throw InputError(fmt::format("--within: '{}' and '{}' both bound {}; give one of them", bounds[i].text, text,
+                                     bounds[i].metric));
+    }
+  }
+  return bounds;
+}
+
+std::string milliseconds(double cost) { return fmt::format("{:.3g}", 1e3 * cost); }
+
+std::string row(const TunedPoint& point) {
+  return fmt::format("  {:>10} {:>12}  {:<9} {}\n", fmt::format("{:.3g}", point.error), milliseconds(point.cost),
+                     point.dt.text, point.run.text);
+}
+
+std::string front_text(const Tuning& tuning) {
+  std::string text = fmt::format("{}: error against cost, from {} settings in {} runs\n  {:>10} {:>12}  {:<9} {}\n",
+                                 tuning.engine, tuning.settings, tuning.runs, "error", "cost [ms/s]", "dt [s]", "run");
+  for (const TunedPoint& point : tuning.front) text += row(point);
+  if (!tuning.without_effect.empty())
+    text += fmt::format("  without effect here: {}\n", fmt::join(tuning.without_effect, ", "));
+  return text + "\n";
+}
+
+std::string winner_text(const CommandLine& line, const Tuning& tuning, const EngineTable& engines) {
+  const TunedPoint& best = *tuning.winner;
+  std::string text = fmt::format(
+      "winner: {} at {} s, {} ms of CPU a simulated second ({} to {} in 5 repeats), {:.3g} of the bound\n"
+      "  rigor run {} --engine {} --dt {}\n",
+      best.run.text, best.dt.text, milliseconds(best.cost), milliseconds(best.least), milliseconds(best.most),
+      best.error, fmt::join(line.words, " "), best.run.text, best.dt.text);
+  const auto calls =
+      engine_calls(parse_run_name(best.run.text, engines.infos()), fmt::format("{}.0 / {}", 1, best.dt.text.substr(2)));
+  if (!calls.empty()) text += fmt::format("  in the engine's own calls:\n    {}\n", fmt::join(calls, "\n    "));
+  if (!tuning.ties.empty()) {
+    text += "  no dearer, as far as repeats can tell:\n";
+    for (const TunedPoint& tie : tuning.ties) text += "  " + row(tie);
+  }
+  return text + "\n";
+}
+
+std::string beside_text(const std::vector<Tuning>& others) {
+  std::string text = fmt::format("the same of the other engines\n  {:>10} {:>12}  {:<9} {}\n", "error", "cost [ms/s]",
+                                 "dt [s]", "run");
+  for (const Tuning& other : others) {
+    text += other.winner ? row(*other.winner)
+                         : fmt::format("  {:>10} {:>12}  {:<9} {}: {}\n", "-", "-", "-", other.engine,
+                                       other.nearest.empty() ? "nothing ran" : other.nearest);
+  }
+  return text;
+}
+
+}  // namespace
+
+int tune_command(const CommandLine& line, const EngineTable& engines) {
+  const std::vector<Case> cases = cases_of(line, engines);
+  const std::vector<Bound> bounds = bounds_of(line);
+  const std::string asked_for = parse_run_name(line.engines.front(), engines.infos()).engine;
+  TuneOptions options{line.jobs, line.limit, line.seed, kSettings};
+  const Tuning tuning = tune(line.engines.front(), cases, bounds, engines, options);
+  std::string held;
+  for (const Bound& bound : bounds)
+    held += fmt::format("{}{} (|{}| up to {:g})", held.empty() ? "" : ", ", bound.text, bound.metric, bound.most);
+  std::string text =
+      fmt::format("within {} on {}\nerror: the largest share of a bound; cost: CPU of a simulated second\n\n", held,
+                  fmt::join(line.words, ", "));
+  if (!tuning.front.empty()) text += front_text(tuning);
+  text += tuning.winner ? winner_text(line, tuning, engines)
+                        : fmt::format("no setting of {} keeps {}{}{}\n\n", tuning.engine, held,
+                                      tuning.nearest.empty() ? "" : "; ", tuning.nearest);
+  print_table(text);
+  options.settings = kSettingsBeside;
+  std::vector<Tuning> others;
+  for (const EngineInfo& engine : engines.infos()) {
+    if (engine.name != asked_for) others.push_back(tune(engine.name, cases, bounds, engines, options));
+  }
+  print_table(beside_text(others));
+  return tuning.winner ? kGood : kGateFailed;
+}
+
+}  // namespace rigor

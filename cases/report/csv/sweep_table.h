@@ -1,0 +1,18 @@
+// The table of a sweep, a row a cell: as CSV, with units in its header, and as JSON lines of the same columns.
+#pragma once
+
+#include <string>
+
+#include "cases/analysis/sweep.h"
+
+namespace rigor {
+
+std::string sweep_csv_header(const Sweep& sweep);
+std::string sweep_csv_row(const Sweep& sweep, const SweepRow& row);
+std::string sweep_json_row(const Sweep& sweep, const SweepRow& row);
+
+// "dt [s]", "scene.spring[0].stiffness [N/m]"
+std::string with_unit(const std::string& name, const std::string& unit);
+std::string unit_of_metric(const std::string& name);
+
+}  // namespace rigor

@@ -1,0 +1,62 @@
+#include "cases/report/html/svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rigor {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string svg_text(double x, double y, const std::string& text, const char* anchor, double turn) {
+  const std::string turned = turn == 0 ? "" : fmt::format(" transform=\"rotate({:g} {:.1f} {:.1f})\"", turn, x, y);
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>", x, y, anchor, turned,
+                     escaped(text));
+}
+
+std::string svg_line(double x1, double y1, double x2, double y2, const char* css_class) {
+  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>", x1, y1, x2, y2,
+                     css_class);
+}
+
+// Five points of the map "viridis" (van der Walt, Smith, SciPy 2015), from its light end.
+std::string shade(double share) {
+  constexpr std::array<std::array<double, 3>, 5> stops = {
+      {{253, 231, 37}, {94, 201, 98}, {33, 145, 140}, {59, 82, 139}, {68, 1, 84}}};
+  const double at = std::clamp(share, 0.0, 1.0) * 4;
+  const auto i = static_cast<std::size_t>(std::min(3.0, std::floor(at)));
+  const double rest = at - static_cast<double>(i);
+  std::array<int, 3> mixed{};
+  for (std::size_t c = 0; c < 3; ++c) mixed[c] = static_cast<int>(stops[i][c] + rest * (stops[i + 1][c] - stops[i][c]));
+  return fmt::format("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2]);
+}
+
+std::string tick(double value) {
+  if (value != 0 && (std::abs(value) < 1e-3 || std::abs(value) >= 1e5)) return fmt::format("{:.2g}", value);
+  return fmt::format("{:.3g}", value);
+}
+
+}  // namespace rigor

@@ -1,0 +1,30 @@
+// A history: what results came to from commit to commit, one JSON object a line, which is only ever added to.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rigor {
+
+struct HistoryEntry {
+  std::string commit, date, machine;  // the date as 2026-01-31T12:00:00Z
+  struct Cell {
+    std::string status;
+    std::map<std::string, double> metrics;  // as in a baseline: four digits, not finite where the run had no number
+    std::optional<double> cost;             // s/s
+  };
+  std::map<std::string, Cell> cells;  // case, engine and dt parted by tabs
+};
+
+// Of a results.json. Throws InputError for a file that is none.
+HistoryEntry history_entry(const std::string& results_file, const std::string& commit, const std::string& date);
+
+// Adds a line in one write. Throws InputError if the file is no history or cannot be written.
+void add_to_history(const std::string& file, const HistoryEntry& entry);
+
+// Throws InputError, with the line, for a file that cannot be read or is no history.
+std::vector<HistoryEntry> read_history(const std::string& file);
+
+}  // namespace rigor

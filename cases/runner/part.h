@@ -1,0 +1,61 @@
+// What the run of one shard leaves for `rigor merge`: one file, whose first line says as JSON what grid it is a part
+// of, and behind it the answers of the shard's cells, with the paths that spreads between cells of different shards
+// need.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cases/runner/grid.h"
+#include "cases/runner/journal.h"
+#include "cases/runner/shard.h"
+
+namespace rigor {
+
+inline constexpr const char* kPartFile = "part.journal";
+
+struct PartTitle {
+  Shard shard;
+  std::string version, build;          // of the program; see build_identity.h
+  std::vector<std::string> arguments;  // the command and what was asked of it, without what may differ between parts
+  std::string suite, adapters;         // the folders, absolute
+  std::vector<std::pair<std::string, std::string>> plans;  // of the whole grid: each case's id and the hash of its plan
+  double wall_seconds = 0;
+};
+
+struct Part {
+  std::string folder;  // as it was named
+  PartTitle title;
+  struct Answer {
+    std::string of_case;  // its id
+    Journal::Record record;
+  };
+  std::vector<Answer> answers;
+};
+
+// Each case's id and the hash of all that its results depend on.
+std::vector<std::pair<std::string, std::string>> plans_of(const Results& grid, const EngineTable& engines,
+                                                         const GridOptions& options);
+
+// The file's text. `planned`: the shard's share before it ran; its journals are there still.
+std::string part_text(const PartTitle& title, const Results& planned, const Results& share,
+                      const EngineTable& engines, const GridOptions& options);
+
+// Throws InputError for a folder that holds no part, or one that is damaged or cut short.
+Part read_part(const std::string& folder);
+
+// Throws InputError, with what differs, unless the parts are of one grid and each of another shard of it.
+void check_same_grid(const std::vector<Part>& parts);
+
+// What merging came to, beside the grid that it filled in.
+struct Merged {
+  std::vector<std::string> missing;                 // sentences: shards, cells; these cells are `crashed`
+  std::vector<std::string> remarks;                 // sentences
+  std::map<std::string, std::string> trajectories;  // file name -> the folder of the part that has it
+};
+
+// Fills in a planned grid. Throws InputError for an answer that is none.
+Merged fill_in(Results& grid, const std::vector<Part>& parts);
+
+}  // namespace rigor

@@ -1,0 +1,45 @@
+// A fixed share of a grid's jobs, for many machines to have one each: `--shard K/N`. Every job is in exactly one shard,
+// which follows from the grid and N alone. Shards are stretches of the grid of about the same work, so that one makes
+// the truths of few cases.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/results/results.h"
+
+namespace rigor {
+
+struct Shard {
+  int index = 1, count = 1;  // from 1 to `count`
+  bool is_all() const { return count == 1; }
+  bool operator==(const Shard&) const = default;
+};
+
+inline constexpr int kMostShards = 100000;
+
+// "2/8". Throws InputError, begun by `what`, for anything but whole numbers of which the first is at most the second.
+Shard parse_shard(const std::string& text, const std::string& what);
+
+// Which shard does what of a planned grid. Cells and stable steps that are `unsupported` are nobody's: 0.
+class Partition {
+ public:
+  struct OfCase {
+    int truth = 0;
+    std::vector<int> stable_steps, cells;
+    bool has(int shard) const;  // whether the shard needs the case, its truth too
+  };
+  Partition(const Results& grid, int count);
+  const std::vector<OfCase>& cases() const { return cases_; }
+
+ private:
+  std::vector<OfCase> cases_;
+};
+
+// The grid with the cases of one shard alone, in their order, and in them as `unsupported` what other shards do.
+Results share_of(const Results& grid, const Shard& shard);
+
+// Whether share_of made it unsupported.
+bool is_of_another_shard(Status status, const std::string& reason);
+
+}  // namespace rigor
