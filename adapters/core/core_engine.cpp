@@ -85,9 +85,18 @@ class CoreWorld : public World {
 };
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
-const Features kJointFeatures = {"joint:ball",   "joint:distance", "joint:fixed",         "joint:hinge",
-                                 "joint:slider", "joint:universal", "joint-spring",        "joint-damper",
-                                 "motor:effort", "motor:speed",     "joints-with-dampers", "joint-limit",
+const Features kJointFeatures = {"joint:ball",
+                                 "joint:distance",
+                                 "joint:fixed",
+                                 "joint:hinge",
+                                 "joint:slider",
+                                 "joint:universal",
+                                 "joint-spring",
+                                 "joint-damper",
+                                 "motor:effort",
+                                 "motor:speed",
+                                 "joints-with-dampers",
+                                 "joint-limit",
                                  "joint-limit:beyond-half-turn"};
 
 template <typename Rows>

@@ -23,9 +23,9 @@ struct CommandLine {
   double factor = 0;  // by which an error has to grow to be worse
   std::string out = "out";
   std::string suite_dir;
-  std::string adapters_dir;  // of the known deviations
+  std::string adapters_dir;          // of the known deviations
   std::vector<std::string> plugins;  // engines from outside: paths of shared libraries, and command lines
-  std::string regression;    // the engine whose recorded values `baseline` prints; empty: the baseline itself
+  std::string regression;            // the engine whose recorded values `baseline` prints; empty: the baseline itself
   bool quick = false, resume = false, json = false;
   Shard shard;                             // of run and gate: all, or a part for `rigor merge`
   std::vector<std::string> vary, metrics;  // of a sweep: KEY=VALUES; the metrics asked for

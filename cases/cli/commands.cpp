@@ -3,12 +3,12 @@
 namespace rigor {
 
 const std::vector<CommandRow>& commands() {
-  static const std::vector<std::string> grid_options = {"--deviations", "--dt",     "--duration", "--engine",
-                                                        "--jobs",       "--out",    "--plugin",   "--resume",
-                                                        "--shard",      "--suite",  "--timeout"};
-  static const std::vector<std::string> gate_options = {
-      "--deviations", "--dt",     "--duration", "--engine", "--jobs",  "--out",
-      "--plugin",     "--quick",  "--resume",   "--shard",  "--suite", "--timeout"};
+  static const std::vector<std::string> grid_options = {"--deviations", "--dt",    "--duration", "--engine",
+                                                        "--jobs",       "--out",   "--plugin",   "--resume",
+                                                        "--shard",      "--suite", "--timeout"};
+  static const std::vector<std::string> gate_options = {"--deviations", "--dt",    "--duration", "--engine",
+                                                        "--jobs",       "--out",   "--plugin",   "--quick",
+                                                        "--resume",     "--shard", "--suite",    "--timeout"};
   static const std::string grid_words = "cases by id, family, file or folder; default: the whole suite";
   static const std::vector<CommandRow> table = {
       {"list",

@@ -85,7 +85,8 @@ int run_shard(const CommandLine& line, const EngineTable& engines) {
   Results share = planned;
   try {
     run_with_progress(share, engines, options);
-    folder.write(kPartFile, part_text(title_of(run, engines, options, share.wall_seconds), planned, share, engines, options));
+    folder.write(kPartFile,
+                 part_text(title_of(run, engines, options, share.wall_seconds), planned, share, engines, options));
     std::vector<std::string> trajectories;
     for (const CaseResult& result : share.cases) {
       for (const Cell& cell : result.cells) {

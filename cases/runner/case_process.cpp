@@ -312,8 +312,8 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const Engine
   return plan;
 }
 
-std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned,
-                                          const EngineTable& engines, const GridOptions& options) {
+std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned, const EngineTable& engines,
+                                          const GridOptions& options) {
   const Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, engines, options));
   std::vector<Journal::Record> answers;
   for (const auto& [job, record] : journal.found()) {

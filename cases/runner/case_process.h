@@ -30,8 +30,8 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const Engine
                     const GridOptions& options);
 
 // What the cells and stable steps of a case that has run have left in its journal; those that failed left nothing.
-std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned,
-                                          const EngineTable& engines, const GridOptions& options);
+std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned, const EngineTable& engines,
+                                          const GridOptions& options);
 
 // Of every pair of runs at the same dt that both left a path.
 using PathsOfCells = std::map<std::size_t, Path>;  // by index of the cell

@@ -200,16 +200,17 @@ class Merge {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> plans_of(const Results& grid, const EngineTable& engines,
-                                                         const GridOptions& options) {
+                                                          const GridOptions& options) {
   std::vector<std::pair<std::string, std::string>> plans;
   for (const CaseResult& planned : grid.cases) {
-    plans.emplace_back(planned.definition.id, fmt::format("{:016x}", content_hash(plan_of(grid, planned, engines, options))));
+    plans.emplace_back(planned.definition.id,
+                       fmt::format("{:016x}", content_hash(plan_of(grid, planned, engines, options))));
   }
   return plans;
 }
 
-std::string part_text(const PartTitle& title, const Results& planned, const Results& share,
-                      const EngineTable& engines, const GridOptions& options) {
+std::string part_text(const PartTitle& title, const Results& planned, const Results& share, const EngineTable& engines,
+                      const GridOptions& options) {
   std::map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < title.plans.size(); ++i) index[title.plans[i].first] = i;
   std::string records;

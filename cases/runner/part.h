@@ -36,11 +36,11 @@ struct Part {
 
 // Each case's id and the hash of all that its results depend on.
 std::vector<std::pair<std::string, std::string>> plans_of(const Results& grid, const EngineTable& engines,
-                                                         const GridOptions& options);
+                                                          const GridOptions& options);
 
 // The file's text. `planned`: the shard's share before it ran; its journals are there still.
-std::string part_text(const PartTitle& title, const Results& planned, const Results& share,
-                      const EngineTable& engines, const GridOptions& options);
+std::string part_text(const PartTitle& title, const Results& planned, const Results& share, const EngineTable& engines,
+                      const GridOptions& options);
 
 // Throws InputError for a folder that holds no part, or one that is damaged or cut short.
 Part read_part(const std::string& folder);
