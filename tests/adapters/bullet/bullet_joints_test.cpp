@@ -244,6 +244,9 @@ BOOST_AUTO_TEST_CASE(what_a_way_cannot_do_is_refused_with_the_reason) {
   limited.motors = {{.joint = 0, .speed = 1, .most = 1}};
   BOOST_TEST(why_not("bullet:mlcp", limited).find("has no speed-motor-with-limits") != std::string::npos);
   limited.joints[0].upper = std::numeric_limits<double>::infinity();
+  limited.motors.push_back({.joint = 0, .speed = 2, .most = 1, .from = 1});
+  BOOST_TEST(why_not("bullet:mlcp", limited).find("has no two-speeds-at-once") != std::string::npos);
+  limited.motors.pop_back();
   BOOST_TEST(why_not("bullet:mlcp", limited) == "");
   BOOST_TEST(why_not("bullet:multibody", limited).find("has no motor:speed") != std::string::npos);
 }
@@ -268,17 +271,13 @@ BOOST_AUTO_TEST_CASE(settings_are_read_back_from_bullet) {
 }
 
 // As shipped a hinge's limit gives back 0.3 ("bias factor") of the bounce that it is told; and against a static body
-// its "frame offset" lets go of the arm in that step, so that of the energy about the axis only that of the body's own
-// turning is left.
+// its "frame offset" lets go of the arm in that step, so that what the arm carried is lost as well.
 BOOST_AUTO_TEST_CASE(as_shipped_a_hinges_limit_bounces_by_less_than_a_third) {
   Coordinate coordinate(true, test::Ends::from_world, 1.5);
   coordinate.scene.joints[0].upper = 0.5, coordinate.scene.joints[0].restitution = 1;
   coordinate.run("bullet:mlcp@stock", 0.5);
-  const Body& body = coordinate.scene.bodies[0];
-  const Vec3 axis_B = body.orientation.conjugate() * kAxis;
-  const double own_share = axis_B.dot(body.inertia * axis_B) / coordinate.inertia();
-  BOOST_TEST(own_share < 0.8);
-  BOOST_TEST(std::abs(coordinate.now.rate + 0.3 * own_share * 1.5) < 0.01, "rate " << coordinate.now.rate);
+  BOOST_TEST(coordinate.now.rate < -0.1 * 1.5);
+  BOOST_TEST(coordinate.now.rate > -0.25 * 1.5);
 }
 
 // btSliderConstraint's own limit looks for its bounce on the way out.
