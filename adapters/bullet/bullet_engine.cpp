@@ -31,7 +31,7 @@ MethodInfo sequential_impulse() {
   MethodInfo method = {.name = "sequential-impulse",
                        .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
                        .leapfrog_stagger = 0.5,
-                       .lacks = {"speed-motor-with-limits"},
+                       .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
                        .options = options_of_rigid_bodies()};
   method.options.insert(method.options.begin(), {"iterations", "sweeps of the solver a step", {}, 1, 10000, true});
   return method;
@@ -41,7 +41,7 @@ MethodInfo mlcp() {
   return {.name = "mlcp",
           .summary = "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver",
           .leapfrog_stagger = 0.5,
-          .lacks = {"speed-motor-with-limits"},
+          .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
           .options = options_of_rigid_bodies()};
 }
 

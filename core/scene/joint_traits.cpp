@@ -33,6 +33,10 @@ class ConnectedBodies {
   std::vector<std::size_t> parent_;
 };
 
+bool keep_two_speeds(const Motor& one, const Motor& other) {
+  return one.speed && other.speed && one.joint == other.joint && one.from < other.until && other.from < one.until;
+}
+
 }  // namespace
 
 std::vector<Need> joint_traits_of(const Scene& scene) {
@@ -49,6 +53,12 @@ std::vector<Need> joint_traits_of(const Scene& scene) {
   const auto motor = std::find_if(scene.motors.begin(), scene.motors.end(), drives_limited_joint);
   if (motor != scene.motors.end())
     traits.push_back({"speed-motor-with-limits", scene.joint_name(static_cast<std::size_t>(motor->joint))});
+  for (auto one = scene.motors.begin(); one != scene.motors.end(); ++one) {
+    if (std::none_of(scene.motors.begin(), one, [&](const Motor& other) { return keep_two_speeds(*one, other); }))
+      continue;
+    traits.push_back({"two-speeds-at-once", scene.joint_name(static_cast<std::size_t>(one->joint))});
+    break;
+  }
   return traits;
 }
 

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(a_fixed_body_stays) {
 BOOST_AUTO_TEST_CASE(without_forces_a_ball_goes_straight_and_spins_evenly) {
   const Body body = moving_body();  // with equal moments of inertia
   const double dt = 1e-2, t = 2;
-  for_each_run(scene_of(body), dt, [&](const Run& run) {
+  for_each_undamped_run(scene_of(body), dt, [&](const Run& run) {
     const auto world = run.load(scene_of(body));
     const BodyState found = state_after(*world, dt, 200).columns().body(0);
     const double roundings = 5e-13;  // of 200 steps, and of the stages within them, in numbers of a few units
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(without_forces_a_ball_goes_straight_and_spins_evenly) {
 BOOST_AUTO_TEST_CASE(gravity_alone_is_as_far_from_the_parabola_as_the_scheme_must_be) {
   const double dt = 1.0 / 30, g = 9.81;
   const Scene scene = scene_of(moving_body(), {0, 0, -g});
-  for_each_run(scene, dt, [&](const Run& run) {
+  for_each_undamped_run(scene, dt, [&](const Run& run) {
     const auto world = run.load(scene);
     const int steps = 30;
     const double t = steps * dt;
@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(a_spring_off_the_centre_converges_to_the_reference) {
   const Scene scene = hanging_cube();
   // The judge's own equations, which share nothing with any engine nor with the loads that engines are handed.
   const BodyState truth = test::truth_at(*make_truth("reference", scene, 1), 1, 1).columns().body(0);
-  for_each_run(scene, 1e-3, [&](const Run& run) {
+  for_each_undamped_run(scene, 1e-3, [&](const Run& run) {
     const auto error_at = [&](int steps) {
       const auto world = run.load(scene);
       return (state_after(*world, 1.0 / steps, steps).columns().position(0) - truth.position).norm();
@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(a_timed_force_gives_its_exact_impulse_when_its_bounds_fall_
   Scene scene = scene_of(body);
   const double from = 0.105, until = 0.345;
   scene.forces = {{.body = 0, .force = {3, -1, 2}, .torque = {0.1, 0.2, -0.3}, .from = from, .until = until}};
-  for_each_run(scene, 1.0 / 30, [&](const Run& run) {
+  for_each_undamped_run(scene, 1.0 / 30, [&](const Run& run) {
     const auto world = run.load(scene);
     const BodyState found = state_after(*world, 1.0 / 30, 30).columns().body(0);
     const Vec3 velocity = body.velocity + (until - from) / body.mass * scene.forces[0].force;
@@ -254,7 +254,7 @@ BOOST_AUTO_TEST_CASE(a_scene_that_blows_up_ends_in_numbers_that_are_not_finite_a
     Scene scene = hanging_cube();
     scene.springs[0].stiffness = stiffness;
     scene.springs[0].rest_length = 1;
-    for_each_run(scene, 1.0 / 30, [&](const Run& run) {
+    for_each_undamped_run(scene, 1.0 / 30, [&](const Run& run) {
       // Far beyond its limit, omega dt = 2, a semi-implicit step multiplies the motion; an implicit one need not.
       if (run.method().leapfrog_stagger != 0.5) return;
       const auto world = run.load(scene);

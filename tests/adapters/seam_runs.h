@@ -49,6 +49,13 @@ inline void for_each_run(const Scene& scene, double dt, const std::function<void
   BOOST_TEST(checked > 0, "no engine supports the scene");
 }
 
+// The same, but for what damps every motion as it ships: btMultiBody.
+inline void for_each_undamped_run(const Scene& scene, double dt, const std::function<void(const Run&)>& check) {
+  for_each_run(scene, dt, [&](const Run& run) {
+    if (run.name() != "bullet:multibody@stock") check(run);
+  });
+}
+
 inline BodyTable state_of(const World& world) {
   Snapshot snapshot;
   world.read(snapshot);

@@ -4,6 +4,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "core/base/error.h"
 #include "core/dynamics/model/joint_coordinate.h"
 #include "core/engine/run_name.h"
 #include "tests/adapters/ode/jointed_scenes.h"
@@ -30,6 +31,10 @@ std::string why_not(const std::string& text, const Scene& scene) {
 bool has_distance(const Scene& scene) {
   return std::any_of(scene.joints.begin(), scene.joints.end(),
                      [](const Joint& joint) { return std::holds_alternative<DistanceJoint>(joint.type); });
+}
+
+bool stands(const Scene& scene) {
+  return scene.bodies.size() == 1 && std::holds_alternative<FixedJoint>(scene.joints[0].type);
 }
 
 BodyTable end_of(const std::string& run, const Scene& scene, double dt, int steps) {
@@ -83,10 +88,11 @@ struct Coordinate {
   }
 };
 
-// Calls check(way, what, make) for hinges and sliders, both orders of the ends, and both solvers of rigid bodies.
+// Calls check(way, turns, ends) for hinges and sliders, both orders of the ends, and both solvers of rigid bodies; for
+// sequential impulses with as many sweeps as these need to converge.
 template <typename Check>
 void for_each_coordinate(const Check& check) {
-  for (const char* way : {"bullet", "bullet:mlcp"}) {
+  for (const char* way : {"bullet,iterations=200", "bullet:mlcp"}) {
     for (const bool turns : {true, false}) {
       for (const test::Ends ends : {test::Ends::from_world, test::Ends::to_world}) {
         BOOST_TEST_CONTEXT(way << ", " << (turns ? "hinge, " : "slider, ") << test::name_of(ends))
@@ -106,7 +112,8 @@ Scene pair_of_links() {
 
 BOOST_AUTO_TEST_SUITE(adapters_bullet_bullet_joints)
 
-// Semi-implicit Euler: of first order, whatever holds the bodies. 0.15 is what the next order leaves at these steps.
+// Semi-implicit Euler: of first order, whatever holds the bodies. 0.15 is what the next order leaves at these steps. A
+// body that is fixed to the world stands, but for less than a step's fall.
 BOOST_AUTO_TEST_CASE(each_joint_converges_to_the_cores_with_first_order_in_every_order_of_its_ends) {
   constexpr double kEnd = 0.5;  // s
   int checked = 0;
@@ -119,9 +126,10 @@ BOOST_AUTO_TEST_CASE(each_joint_converges_to_the_cores_with_first_order_in_every
         const double error = pose_difference(end_of(way, jointed.scene, kEnd / steps, steps), truth);
         const std::string what = jointed.name + ", " + way + ", " + std::to_string(steps) + " steps";
         BOOST_TEST_MESSAGE(what << ": " << error);
+        if (stands(jointed.scene)) BOOST_TEST(error < 9.5 * std::pow(kEnd / steps, 2), what << ": " << error);
         if (last > 0) BOOST_TEST(std::log2(last / error) > 0.85, what << ": " << last << " to " << error);
         if (last > 0) BOOST_TEST(std::log2(last / error) < 1.6, what << ": " << last << " to " << error);
-        last = error, ++checked;
+        last = stands(jointed.scene) ? 0 : error, ++checked;
       }
     }
   }
@@ -148,7 +156,8 @@ BOOST_AUTO_TEST_CASE(the_twins_do_what_the_engine_does_with_each_joint_to_roundi
 // And a twin with other numbers is another scheme, seen at once.
 BOOST_AUTO_TEST_CASE(a_twin_with_another_erp_or_cfm_is_not_the_engine) {
   for (const test::JointedScene& jointed : test::jointed_scenes()) {
-    if (has_distance(jointed.scene) || jointed.name.find("slider") == 0) continue;  // a slider may open nothing
+    // A slider to the world opens nothing, nor does what stands.
+    if (has_distance(jointed.scene) || jointed.name.find("slider") == 0 || stands(jointed.scene)) continue;
     const BodyTable engine = end_of("bullet:mlcp", jointed.scene, 1.0 / 60, 100);
     for (const char* other : {"core:bullet-twin,erp=0.2", "core:bullet-twin,cfm=0.001"}) {
       const double apart = pose_difference(engine, end_of(other, jointed.scene, 1.0 / 60, 100));
@@ -215,7 +224,7 @@ BOOST_AUTO_TEST_CASE(springs_and_dampers_of_joints_converge_to_the_cores) {
 }
 
 BOOST_AUTO_TEST_CASE(what_a_way_cannot_do_is_refused_with_the_reason) {
-  Scene distance = test::with_joint(DistanceJoint{}, test::Ends::two_bodies);
+  Scene distance = test::with_joint(DistanceJoint{{0.1, 0, 0}, {0, 0.1, 0}}, test::Ends::two_bodies);
   for (const char* way : kWays) {
     BOOST_TEST(why_not(way, distance) == "bullet has no joint:distance, which the distance of 'a' and 'b' asks for");
     BOOST_CHECK_THROW(load_named(way, distance), InputError);
@@ -235,6 +244,9 @@ BOOST_AUTO_TEST_CASE(what_a_way_cannot_do_is_refused_with_the_reason) {
   limited.motors = {{.joint = 0, .speed = 1, .most = 1}};
   BOOST_TEST(why_not("bullet:mlcp", limited).find("has no speed-motor-with-limits") != std::string::npos);
   limited.joints[0].upper = std::numeric_limits<double>::infinity();
+  limited.motors.push_back({.joint = 0, .speed = 2, .most = 1, .from = 1});
+  BOOST_TEST(why_not("bullet:mlcp", limited).find("has no two-speeds-at-once") != std::string::npos);
+  limited.motors.pop_back();
   BOOST_TEST(why_not("bullet:mlcp", limited) == "");
   BOOST_TEST(why_not("bullet:multibody", limited).find("has no motor:speed") != std::string::npos);
 }
@@ -258,12 +270,14 @@ BOOST_AUTO_TEST_CASE(settings_are_read_back_from_bullet) {
   BOOST_TEST(value("bullet:multibody@stock", "fastest coordinate") == "100 rad/s, m/s");
 }
 
-// As shipped a hinge's limit gives back 0.3 ("bias factor") of the bounce that it is told.
-BOOST_AUTO_TEST_CASE(as_shipped_a_hinges_limit_bounces_by_a_third) {
+// As shipped a hinge's limit gives back 0.3 ("bias factor") of the bounce that it is told; and against a static body
+// its "frame offset" lets go of the arm in that step, so that what the arm carried is lost as well.
+BOOST_AUTO_TEST_CASE(as_shipped_a_hinges_limit_bounces_by_less_than_a_third) {
   Coordinate coordinate(true, test::Ends::from_world, 1.5);
   coordinate.scene.joints[0].upper = 0.5, coordinate.scene.joints[0].restitution = 1;
-  coordinate.run("bullet@stock", 0.5);
-  BOOST_TEST(std::abs(coordinate.now.rate + 0.3 * 1.5) < 0.02, "rate " << coordinate.now.rate);
+  coordinate.run("bullet:mlcp@stock", 0.5);
+  BOOST_TEST(coordinate.now.rate < -0.1 * 1.5);
+  BOOST_TEST(coordinate.now.rate > -0.25 * 1.5);
 }
 
 // btSliderConstraint's own limit looks for its bounce on the way out.
@@ -298,8 +312,8 @@ BOOST_AUTO_TEST_CASE(as_shipped_reduced_coordinates_are_held_back) {
   scene.bodies[1].orientation = Quat::Identity();
   scene.bodies[1].angular_velocity = {0, 0, 150};
   const auto speed = [&](const char* run) { return end_of(run, scene, 1e-3, 1).columns().angular_velocity(1).z(); };
-  BOOST_TEST(speed("bullet:multibody") == 150);
-  BOOST_TEST(speed("bullet:multibody@stock") == 100);
+  BOOST_TEST(std::abs(speed("bullet:multibody") - 150) < 1e-9);  // rounding
+  BOOST_TEST(std::abs(speed("bullet:multibody@stock") - 100) < 1e-9);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -62,4 +62,14 @@ BOOST_AUTO_TEST_CASE(a_motor_that_keeps_a_speed_is_one_with_limits_only_on_a_joi
   BOOST_TEST(traits(scene) == "");
 }
 
+BOOST_AUTO_TEST_CASE(two_speeds_of_a_joint_are_two_only_where_their_times_overlap) {
+  Scene scene = chain(2);
+  scene.motors = {{.joint = 1, .speed = 1, .most = 1, .until = 2}, {.joint = 1, .speed = 3, .most = 1, .from = 2}};
+  BOOST_TEST(traits(scene) == "");
+  scene.motors[1].from = 1.9;
+  BOOST_TEST(traits(scene) == "two-speeds-at-once ");
+  scene.motors[1].joint = 0;
+  BOOST_TEST(traits(scene) == "");
+}
+
 BOOST_AUTO_TEST_SUITE_END()
