@@ -66,26 +66,22 @@ void BlockCholesky::find_components(const std::vector<std::pair<int, int>>& coup
   std::partial_sum(first_of_component_.begin(), first_of_component_.end(), first_of_component_.begin());
 }
 
-// Component by component eliminates the joint with the fewest neighbours, which then all become each other's; of equals
-// the one that has been so for longest. A chain is eliminated from both of its ends by turns, a tree from all of its
-// leaves, so that what follows each other does not have to wait for each other.
+// Component by component eliminates the joint with the fewest neighbours, which then all become each other's; the first
+// of equals. So a chain is eliminated from one end to the other, and each joint has a body beside it that carries
+// nothing yet: from both ends at once, the last joint would be between two halves, of which each is so heavy against
+// its own two bodies that of a thousand hinges its pivot would pass for zero.
 void BlockCholesky::order(const std::vector<std::pair<int, int>>& coupled) {
   std::vector<std::set<int>> neighbours(size());
   for (const auto& [a, b] : coupled) {
     if (a != b) neighbours[a].insert(b), neighbours[b].insert(a);
   }
-  std::set<std::tuple<int, std::size_t, std::size_t, int>> queue;
-  std::vector<std::size_t> since(size());
-  std::iota(since.begin(), since.end(), 0);
-  std::size_t now = size();
-  const auto entry = [&](int joint) {
-    return std::tuple(component_[joint], neighbours[joint].size(), since[joint], joint);
-  };
+  std::set<std::tuple<int, std::size_t, int>> queue;
+  const auto entry = [&](int joint) { return std::tuple(component_[joint], neighbours[joint].size(), joint); };
   for (std::size_t j = 0; j < size(); ++j) queue.insert(entry(static_cast<int>(j)));
   std::vector<std::vector<int>> below(size());
   position_.resize(size());
   while (!queue.empty()) {
-    const int joint = std::get<3>(*queue.begin());
+    const int joint = std::get<2>(*queue.begin());
     queue.erase(queue.begin());
     position_[joint] = joint_.size();
     const std::vector<int> around(neighbours[joint].begin(), neighbours[joint].end());
@@ -95,7 +91,6 @@ void BlockCholesky::order(const std::vector<std::pair<int, int>>& coupled) {
       for (const int m : around) {
         if (m != n) neighbours[n].insert(m);
       }
-      since[n] = now++;
       queue.insert(entry(n));
     }
     below[joint_.size()] = around;

@@ -113,6 +113,14 @@ BOOST_AUTO_TEST_CASE(a_free_mechanism_keeps_its_momenta) {
   BOOST_TEST((after - before).norm() < 1e-11 * before.norm());
 }
 
+BOOST_AUTO_TEST_CASE(no_row_of_a_long_chain_passes_for_a_repeated_one) {
+  const Scene scene = chain(1000);
+  const System system(scene);
+  const Joints joints(scene, system);
+  BOOST_TEST(joints.rank() == 5000);
+  BOOST_TEST(joints.warning() == "");
+}
+
 // Elimination along a chain takes a time in proportion to it. A dense factor of 1000 links would take ten thousand
 // times that of 10 for each link; caches and a busy machine less than 4.
 BOOST_AUTO_TEST_CASE(a_link_of_a_thousand_costs_as_much_as_one_of_ten) {
