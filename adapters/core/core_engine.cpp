@@ -8,7 +8,7 @@
 
 #include "adapters/option_values.h"
 #include "core/dynamics/contact/contact_method.h"
-#include "core/dynamics/joints/joint_events.h"
+#include "core/dynamics/integrators/joint_events.h"
 #include "core/engine/clock.h"
 #include "core/scene/contact_laws.h"
 

@@ -67,7 +67,9 @@ void BlockCholesky::find_components(const std::vector<std::pair<int, int>>& coup
 }
 
 // Component by component eliminates the joint with the fewest neighbours, which then all become each other's; the first
-// of equals.
+// of equals. So a chain is eliminated from one end to the other, and each joint has a body beside it that carries
+// nothing yet: from both ends at once, the last joint would be between two halves, of which each is so heavy against
+// its own two bodies that of a thousand hinges its pivot would pass for zero.
 void BlockCholesky::order(const std::vector<std::pair<int, int>>& coupled) {
   std::vector<std::set<int>> neighbours(size());
   for (const auto& [a, b] : coupled) {

@@ -35,6 +35,7 @@ JointRows::JointRows(const Scene& scene, const System& system)
     : system_(system),
       joints_(scene.joints.size()),
       frames_(system.size()),
+      on_body_(system.size()),
       elsewhere_(system.size()),
       wrench_(kWrenchColumns, system.size()) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_joint(scene, k);
@@ -199,22 +200,21 @@ double JointRows::largest_gap() const {
 }
 
 const double* JointRows::wrench_of(const std::vector<Vec6>& multipliers) {
-  for (const int body : moved_) {
-    for (std::size_t c = 0; c < kWrenchColumns; ++c) wrench_.column(c)[body] = 0;
-  }
+  for (const int body : moved_) on_body_[body].setZero();
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const JointRow& joint = joints_[k];
     with_rows(joint.most_rows, [&](auto R) {
       for (int end = 0; end < 2; ++end) {
-        const int body = joint.body[end];
-        if (body == kWorld) continue;
-        double wrench[6] = {};
-        subtract_transposed_product<R>(wrench, joint.J[end], multipliers[k].data(), 6);
-        for (std::size_t c = 0; c < 6; ++c) wrench_.column(c)[body] -= wrench[c];
+        if (joint.body[end] != kWorld)
+          subtract_transposed_product<R>(on_body_[joint.body[end]].data(), joint.J[end], multipliers[k].data(), 6);
       }
     });
   }
-  return wrench_.data();
+  double* const columns = wrench_.data();
+  for (const int body : moved_) {
+    for (std::size_t c = 0; c < kWrenchColumns; ++c) columns[c * stride() + body] = -on_body_[body][c];
+  }
+  return columns;
 }
 
 Vec6 JointRows::times_velocity(const JointRow& joint) const {

@@ -98,6 +98,7 @@ class JointRows {
   std::vector<JointRow> joints_;
   std::vector<int> moved_;
   std::vector<Frame> frames_;         // by body
+  std::vector<Vec6> on_body_;         // the wrench being summed
   std::vector<EndMotion> elsewhere_;  // the poses of measure_gaps()
   std::vector<Coupling> couplings_;
   Columns wrench_;

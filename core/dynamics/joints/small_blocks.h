@@ -27,32 +27,47 @@ void with_rows(int rows, const F& f) {
   }
 }
 
+// Calls f with n as a constant where it is one of those that are common beside R rows, so that its loops are unrolled.
+template <int R, typename F>
+void with_count(int n, const F& f) {
+  if (n == R) return f(std::integral_constant<int, R>{});
+  if (n == 6) return f(std::integral_constant<int, 6>{});
+  if (n == 3) return f(std::integral_constant<int, 3>{});
+  f(n);
+}
+
 // to (R x columns) += Sign a (R x inner) bᵀ, with b (columns x inner).
 template <int R, int Sign = 1>
 void add_product(double* to, const double* a, const double* b, int columns, int inner) {
-  for (int j = 0; j < columns; ++j) {
-    double sum[R] = {};
-    for (int k = 0; k < inner; ++k) {
-      const double factor = b[j + k * columns];
-      for (int i = 0; i < R; ++i) sum[i] += a[i + k * R] * factor;
-    }
-    for (int i = 0; i < R; ++i) to[i + j * R] += Sign * sum[i];
-  }
+  with_count<R>(columns, [&](auto n) {
+    with_count<R>(inner, [&](auto m) {
+      for (int j = 0; j < n; ++j) {
+        double sum[R] = {};
+        for (int k = 0; k < m; ++k) {
+          const double factor = b[j + k * n];
+          for (int i = 0; i < R; ++i) sum[i] += a[i + k * R] * factor;
+        }
+        for (int i = 0; i < R; ++i) to[i + j * R] += Sign * sum[i];
+      }
+    });
+  });
 }
 
 // Of a lower triangular L the inverses of the diagonal are kept in its place: divisions take long.
 // b (R x n) <- b L⁻ᵀ, L (n x n).
 template <int R>
-void solve_on_the_right(double* b, const double* L, int n) {
-  for (int k = 0; k < n; ++k) {
-    double* const at = b + k * R;
-    for (int l = 0; l < k; ++l) {
-      const double factor = L[k + l * n];
-      for (int i = 0; i < R; ++i) at[i] -= factor * b[i + l * R];
+void solve_on_the_right(double* b, const double* L, int count) {
+  with_count<R>(count, [&](auto n) {
+    for (int k = 0; k < n; ++k) {
+      double* const at = b + k * R;
+      for (int l = 0; l < k; ++l) {
+        const double factor = L[k + l * n];
+        for (int i = 0; i < R; ++i) at[i] -= factor * b[i + l * R];
+      }
+      const double inverse = L[k + k * n];
+      for (int i = 0; i < R; ++i) at[i] *= inverse;
     }
-    const double inverse = L[k + k * n];
-    for (int i = 0; i < R; ++i) at[i] *= inverse;
-  }
+  });
 }
 
 // x <- L⁻¹ x, and x <- L⁻ᵀ x.
@@ -73,18 +88,24 @@ void solve_lower_transposed(const double* L, double* x) {
 
 // y (R) -= a (R x n) x, and y (n) -= aᵀ x (R).
 template <int R>
-void subtract_product(double* y, const double* a, const double* x, int n) {
-  for (int k = 0; k < n; ++k) {
-    for (int i = 0; i < R; ++i) y[i] -= a[i + k * R] * x[k];
-  }
+void subtract_product(double* y, const double* a, const double* x, int count) {
+  with_count<R>(count, [&](auto n) {
+    double sum[R] = {};
+    for (int k = 0; k < n; ++k) {
+      for (int i = 0; i < R; ++i) sum[i] += a[i + k * R] * x[k];
+    }
+    for (int i = 0; i < R; ++i) y[i] -= sum[i];
+  });
 }
 template <int R>
-void subtract_transposed_product(double* y, const double* a, const double* x, int n) {
-  for (int k = 0; k < n; ++k) {
-    double sum = 0;
-    for (int i = 0; i < R; ++i) sum += a[i + k * R] * x[i];
-    y[k] -= sum;
-  }
+void subtract_transposed_product(double* y, const double* a, const double* x, int count) {
+  with_count<R>(count, [&](auto n) {
+    for (int k = 0; k < n; ++k) {
+      double sum = 0;
+      for (int i = 0; i < R; ++i) sum += a[i + k * R] * x[i];
+      y[k] -= sum;
+    }
+  });
 }
 
 }  // namespace rigor

@@ -73,6 +73,32 @@ BOOST_AUTO_TEST_CASE(joints_that_contradict_each_other_are_named) {
   BOOST_TEST((world->solver_warning().find("the distance of 'world' and 'bar'") != std::string::npos));
 }
 
+// A crank and a rod of one length, the crank upright: the slider is above the crank's hinge and can go either way. A
+// degree beside it, and where rows repeat others for good, nothing is said.
+BOOST_AUTO_TEST_CASE(a_singular_position_at_the_start_is_named_at_once) {
+  const auto crank_at = [](double angle) {
+    const Vec3 arm(std::cos(angle), std::sin(angle), 0), foot(2 * arm.x(), 0, 0);
+    Scene scene;
+    scene.bodies = {test::body("crank", 1, {0.01, 0.1, 0.1}, 0.5 * arm),
+                    test::body("rod", 1, {0.01, 0.1, 0.1}, 0.5 * (arm + foot)),
+                    test::body("slider", 1, {1, 1, 1}, foot)};
+    scene.joints = {{kWorld, 0, HingeJoint{{0, 0, 0}, Vec3::UnitZ()}},
+                    {0, 1, HingeJoint{arm, Vec3::UnitZ()}},
+                    {1, 2, HingeJoint{foot, Vec3::UnitZ()}},
+                    {kWorld, 2, SliderJoint{Vec3::UnitX()}}};
+    return scene;
+  };
+  const auto warning_at = [&](double angle) {
+    const Scene scene = crank_at(angle);
+    const System system(scene);
+    return Joints(scene, system).warning();
+  };
+  const double right_angle = std::acos(0.0);
+  BOOST_TEST((warning_at(right_angle).find("singular position at t = 0") != std::string::npos));
+  BOOST_TEST(warning_at(right_angle - 0.02) == "");
+  BOOST_TEST(warning_at(0.8) == "");
+}
+
 // The least motion in the metric of the masses: of two bodies on one ball joint, pulled apart by a gap, each moves by
 // its share of the inverse masses, for the anchor is at both centres.
 BOOST_AUTO_TEST_CASE(projection_moves_each_body_by_its_inverse_mass) {
@@ -111,6 +137,14 @@ BOOST_AUTO_TEST_CASE(a_free_mechanism_keeps_its_momenta) {
   }
   const Vec6 after = momenta(test::state_after(scene, "dormand-prince", 0.01, 2));
   BOOST_TEST((after - before).norm() < 1e-11 * before.norm());
+}
+
+BOOST_AUTO_TEST_CASE(no_row_of_a_long_chain_passes_for_a_repeated_one) {
+  const Scene scene = chain(1000);
+  const System system(scene);
+  const Joints joints(scene, system);
+  BOOST_TEST(joints.rank() == 5000);
+  BOOST_TEST(joints.warning() == "");
 }
 
 // Elimination along a chain takes a time in proportion to it. A dense factor of 1000 links would take ten thousand

@@ -1,4 +1,4 @@
-#include "core/dynamics/joints/joint_events.h"
+#include "core/dynamics/integrators/joint_events.h"
 
 #include <fmt/format.h>
 

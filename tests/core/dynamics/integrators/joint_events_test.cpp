@@ -1,5 +1,5 @@
 // Limits of joints and motors of given speed, against closed forms, with methods that take joints.
-#include "core/dynamics/joints/joint_events.h"
+#include "core/dynamics/integrators/joint_events.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -67,7 +67,7 @@ double quarter_period(double theta, double w0) { return std::comp_ellint_1(std::
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_dynamics_joints_joint_events)
+BOOST_AUTO_TEST_SUITE(core_dynamics_integrators_joint_events)
 
 // Without forces every method's motion is exact between impacts. Rounding of thirty of them in three steps.
 BOOST_AUTO_TEST_CASE(a_block_goes_to_and_fro_between_two_stops) {
