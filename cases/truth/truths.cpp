@@ -23,13 +23,14 @@ TruthRow rolling_truth();
 TruthRow sliding_truth();
 TruthRow sprung_ball_truth();
 TruthRow steady_precession_truth();
+TruthRow toppling_truth();
 
 const std::vector<TruthRow>& truths() {
   static const std::vector<TruthRow> table = {
       asymmetric_top_truth(), axisymmetric_top_truth(),  bounce_truth(),           events_truth(),
       line_impacts_truth(),   oscillator_truth(),        principal_torque_truth(), projectile_truth(),
       pushed_truth(),         reference_truth(),         rolling_truth(),          sliding_truth(),
-      sprung_ball_truth(),    steady_precession_truth(),
+      sprung_ball_truth(),    steady_precession_truth(), toppling_truth(),
   };
   return table;
 }

@@ -18,6 +18,7 @@
 
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
+#include "core/dynamics/contact/impulse/impact_energy.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
 #include "core/engine/option_values.h"
 
@@ -72,6 +73,7 @@ class ImpulseStepper : public ContactStepper {
         longest_sub_step_(has_uneven_masses(scene) ? kShorterSubStep : kLongestSubStep),
         manifolds_(scene),
         rows_(parts.system),
+        impact_energy_(parts.system),
         positions_(kVelocity, parts.system.size()),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
     // A semi-implicit method moves by the velocity after the sub-step, the others by the mean of both.
@@ -100,7 +102,7 @@ class ImpulseStepper : public ContactStepper {
         solve_with_bias();
         integrate_corrections(state);
         relax();
-        apply_restitution();
+        apply_restitution(state);
         store_velocities(state);
       }
       rows_.store_impulses(constraints);
@@ -111,6 +113,7 @@ class ImpulseStepper : public ContactStepper {
 
   SettingsInForce settings_in_force() const override {
     return {{"contact solver", "sequential impulses, two passes a sub-step, warm start"},
+            {"restitution", "no further than the energy before the impact allows"},
             {"contacts", fmt::format("found once a step and every 1/{:.0f} s", 1 / kContactUpdateInterval)},
             {"sub-steps",
              sub_steps_ > 0
@@ -159,6 +162,7 @@ class ImpulseStepper : public ContactStepper {
 
   void warm_start(BodyColumns state) {
     kernels().gather_velocities(all_bodies(), state.column(0), velocities_.data());
+    if (has_rebounds()) impact_energy_.remember_before(state, velocities_);
     kernels().warm_start(rows_.blocks(), rows_.size(), solver_bodies());
   }
 
@@ -178,9 +182,13 @@ class ImpulseStepper : public ContactStepper {
 
   void relax() { kernels().relax(rows_.blocks(), rows_.size(), solver_bodies()); }
 
-  void apply_restitution() {
-    if (!rows_.has_restitution()) return;
+  bool has_rebounds() const { return rows_.has_restitution() && impact_count_ > 0; }
+
+  void apply_restitution(BodyColumns state) {
+    if (!has_rebounds()) return;
+    impact_energy_.remember_without_restitution(velocities_);
     kernels().apply_restitution(rows_.blocks(), impacts_.data(), impact_count_, solver_bodies(), parameters_);
+    impact_energy_.limit(state, velocities_);
   }
 
   void store_velocities(MutableBodyColumns state) {
@@ -197,6 +205,7 @@ class ImpulseStepper : public ContactStepper {
   double longest_sub_step_;  // s
   Manifolds manifolds_;
   ContactRowLayout rows_;
+  ImpactEnergy impact_energy_;
   SolverParameters parameters_{};
   AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies
   std::vector<std::int32_t> last_active_;
