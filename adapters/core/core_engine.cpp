@@ -36,7 +36,7 @@ class CoreWorld : public World {
     if (anything_can_touch(scene)) {
       auto stepper = contact_method_.make(scene, {system_, integrator_, orientation_, settings, joints_.get()});
       contact_settings_ = stepper->settings_in_force();
-      contact_settings_.insert(contact_settings_.begin(), {"contact", contact_method_.name});
+      contact_settings_.insert(contact_settings_.begin(), {"contact", name_of_contact(scene, settings)});
       stepper_ = std::move(stepper);
     } else {
       contact_settings_ = {{"contact", "none in this scene"}};
@@ -72,6 +72,15 @@ class CoreWorld : public World {
   }
 
  private:
+  // With the rule by which it was taken where none was named.
+  std::string name_of_contact(const Scene& scene, const Settings& settings) const {
+    if (settings.options.contains("contact")) return contact_method_.name;
+    const bool are_few = contact_method_for(scene).name == "event" && has_few_colliding_bodies(scene);
+    if (!are_few) return fmt::format("{}, by default", contact_method_.name);
+    return fmt::format("{}, by default: at most {} bodies that move collide", contact_method_.name,
+                       kFewCollidingBodies);
+  }
+
   System system_;
   const Integrator integrator_;
   double tolerance_;  // of an adaptive method
@@ -108,7 +117,9 @@ std::vector<std::string> names_of(const Rows& rows) {
 
 OptionInfo contact_option() {
   OptionInfo option{.name = "contact",
-                    .meaning = "how touching bodies are treated; default the first that has what the scene needs",
+                    .meaning = "how touching bodies are treated; default event where at most " +
+                               std::to_string(kFewCollidingBodies) +
+                               " bodies that move collide, else the first that has what the scene needs",
                     .choices = names_of(contact_methods())};
   for (const ContactMethod& method : contact_methods()) option.features_of_choice[method.name] = method.features;
   return option;

@@ -27,6 +27,7 @@ TruthRow slider_truth();
 TruthRow sliding_truth();
 TruthRow sprung_ball_truth();
 TruthRow steady_precession_truth();
+TruthRow toppling_truth();
 TruthRow welded_truth();
 
 const std::vector<TruthRow>& truths() {
@@ -35,7 +36,7 @@ const std::vector<TruthRow>& truths() {
       heavy_top_truth(),      line_impacts_truth(),      linkage_truth(),    oscillator_truth(),
       pendulum_truth(),       principal_torque_truth(),  projectile_truth(), pushed_truth(),
       reference_truth(),      rolling_truth(),           slider_truth(),     sliding_truth(),
-      sprung_ball_truth(),    steady_precession_truth(), welded_truth(),
+      sprung_ball_truth(),    steady_precession_truth(), toppling_truth(),   welded_truth(),
   };
   return table;
 }

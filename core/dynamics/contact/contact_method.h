@@ -39,9 +39,12 @@ struct ContactMethod {
   std::unique_ptr<ContactStepper> (*make)(const Scene& scene, const ContactParts& parts);
 };
 
-const std::vector<ContactMethod>& contact_methods();           // in the order in which they are tried
+const std::vector<ContactMethod>& contact_methods();
 const ContactMethod& contact_method(const std::string& name);  // the name must be there
-// The first of the table that expresses the scene; the first of all where none does.
+// What a run that names no method gets: `event`, right whatever the step, where at most so many bodies that move
+// collide; else the first of the table that expresses the scene, or the first of all where none does.
+inline constexpr int kFewCollidingBodies = 10;
+bool has_few_colliding_bodies(const Scene& scene);
 const ContactMethod& contact_method_for(const Scene& scene);
 
 // A row's `make` for a stepper that is built from the scene and its parts.

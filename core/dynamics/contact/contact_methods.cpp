@@ -7,7 +7,7 @@ namespace rigor {
 
 extern const ContactMethod kCourseContact, kEventContact, kImpulseContact;
 
-// Not alphabetical: a run that names no method gets the first that expresses its scene.
+// Not alphabetical: see contact_method_for().
 const std::vector<ContactMethod>& contact_methods() {
   static const std::vector<ContactMethod> table = {kCourseContact, kImpulseContact, kEventContact};
   return table;
@@ -20,18 +20,26 @@ const ContactMethod& contact_method(const std::string& name) {
   return *row;
 }
 
+bool has_few_colliding_bodies(const Scene& scene) {
+  const auto count = std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                   [](const Body& body) { return body.collides && !body.fixed; });
+  return count <= kFewCollidingBodies;
+}
+
 const ContactMethod& contact_method_for(const Scene& scene) {
   Features of_all;
   for (const ContactMethod& method : contact_methods()) of_all.insert(method.features.begin(), method.features.end());
   const std::vector<Need> needs = needs_of(scene);
-  for (const ContactMethod& method : contact_methods()) {
+  const auto expresses = [&](const ContactMethod& method) {
     // What no method has is not contact's to express.
-    const bool expresses = std::all_of(needs.begin(), needs.end(), [&](const Need& need) {
+    return std::all_of(needs.begin(), needs.end(), [&](const Need& need) {
       return method.features.contains(need.feature) || !of_all.contains(need.feature);
     });
-    if (expresses) return method;
-  }
-  return contact_methods().front();
+  };
+  if (has_few_colliding_bodies(scene) && expresses(kEventContact)) return kEventContact;
+  const auto& table = contact_methods();
+  const auto found = std::find_if(table.begin(), table.end(), expresses);
+  return found == table.end() ? table.front() : *found;
 }
 
 }  // namespace rigor

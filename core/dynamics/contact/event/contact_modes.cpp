@@ -8,7 +8,8 @@ namespace {
 
 // Of the accelerations: what parts, and what begins to slide. A mode ends at twice as much, so that what is chosen at
 // its end is not the same again.
-constexpr double kPulling = 1e-9;  // of the forces
+constexpr double kResting = 1e-12;  // m/s, rad/s, and of the accelerations: roundings
+constexpr double kPulling = 1e-9;   // of the forces
 constexpr double kParting = 1e-8, kSlipping = 1e-7, kEnding = 2;
 constexpr double kSlip = 1e4;  // of the accelerations: what a slip counts as beside them; its direction errs by 1/kSlip
 
@@ -67,6 +68,7 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
     if (slides) point.slip_direction = point.frame.rightCols<2>() * slip.normalized();
     if (point.begins_to_slip) point.slip_direction = point.frame.rightCols<2>() * change.normalized();
     point.force = cones_[i].impulse;
+    point.tangential_mass = cones_[i].tangent_effective_mass;
     kept.push_back(point);
   }
   points.swap(kept);
@@ -93,6 +95,17 @@ bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) 
   return std::none_of(dropped.begin(), dropped.end(), [&](HeldPoint& point) {
     return held_.normal_acceleration(state, total, point) < -kParting * size_;
   });
+}
+
+bool ContactModes::are_at_rest(BodyColumns state) const {
+  const BodyColumns rates = accelerations_.columns();
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    if (system_.bodies[i].fixed) continue;
+    if (state.velocity(i).norm() > kResting || state.angular_velocity(i).norm() > kResting) return false;
+    if (rates.velocity(i).norm() > kResting * size_ || rates.angular_velocity(i).norm() > kResting * size_)
+      return false;
+  }
+  return true;
 }
 
 double ContactModes::violation(BodyColumns state, const double* wrench) {

@@ -15,12 +15,14 @@ class ContactModes {
 
   // Gives each of the held points its mode, and drops those that part. False if no forces were found.
   bool choose(BodyColumns state, const double* wrench);
+  // Whether, after choose(), nothing moves and nothing begins to.
+  bool are_at_rest(BodyColumns state) const;
   // By how much the modes that the points have break the laws at this instant, of the accelerations: more than 0 where
   // others have to be chosen. After held_.hold() there.
   double violation(BodyColumns state, const double* wrench);
 
-  // m/s: what slides more slowly sticks, if the cone allows it; ten times what an impact or a stop may leave.
-  static constexpr double kSliding = 1e-9;
+  // m/s: what slides more slowly sticks, if the cone allows it, 5e-15 m/(m/s²) before it would stop.
+  static constexpr double kSliding = 1e-7;
 
  private:
   bool drop_pulling_points(BodyColumns state, const double* wrench);

@@ -29,7 +29,7 @@ constexpr double kRounding = 1e-15;      // m: of the gap of bodies that touched
 constexpr double kInstant = 1e-6;        // s
 constexpr int kMostInstants = 100;       // in a step
 constexpr double kInelasticStep = 1e-3;  // s
-constexpr int kMostEvents = 1000;
+constexpr int kMostEvents = 1000, kMostPlanned = 10000;
 constexpr int kMostPieces = 10000;  // of the time to the next event, while bodies are not seen to stay apart
 
 bool is_finite(BodyColumns state) {
@@ -56,13 +56,17 @@ class EventStepper : public ContactStepper {
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
     double done = 0;
+    int planned = 0;
     instants_ = 0;
     for (int events = 0; done < dt; ++events) {
       if (!is_finite(state)) return note("the state of a body is no longer finite");
       const double end = loads_.next_switch(t + done, t + dt);
       is_smooth_ = is_smooth_ && end == t + dt;
       part_ = {t, done, end == t + dt ? dt : end - t};
+      const double before = done;
       done = events < kMostEvents ? take_part(state) : finish(state);
+      // Parts that end as planned are no events.
+      if (done == part_.to && done > before && events > 0 && ++planned < kMostPlanned) --events;
     }
     note(persistent_contact_.take_projection_warning());
   }
@@ -112,7 +116,8 @@ class EventStepper : public ContactStepper {
     start_ = BodyColumns(state);
     end_ = BodyColumns(state);
     pairs_.clear();
-    part_.to = std::min(part_.to, part_.from + longest_);
+    if (persistent_contact_.is_at_rest(state)) return part_.to;
+    part_.to = std::min(part_.to, part_.from + std::min(longest_, persistent_contact_.longest_step()));
     longest_ = kInfinity;
     attempt(part_.length());
     shorten_until_bounded();

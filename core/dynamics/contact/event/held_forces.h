@@ -26,6 +26,7 @@ struct HeldPoint {
   // Unit, in W: of the slip at the start, or of how it begins. A slip against it counts as negative.
   Vec3 slip_direction = Vec3::Zero();
   bool begins_to_slip = false;
+  double tangential_mass = 0;  // kg, the least, at the start
 
   // At the last instant asked for.
   Touch touch;

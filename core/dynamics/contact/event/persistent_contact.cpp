@@ -16,6 +16,8 @@ constexpr int kMostMoves = 20;
 constexpr double kTouching = 1e-3;    // m: a point that drifted further than this is not in contact any more
 constexpr double kBeginning = 1e-11;  // m/s: how much a slip that begins may go the wrong way, by rounding
 constexpr double kPulling = 2e-9;     // of the forces: twice what is still chosen
+constexpr double kStable = 2;         // of an explicit method: how much a step may be in units of what it damps
+constexpr double kShortest = 1e-5;    // s: what slips make of themselves within it is some 1e-4 m/s
 constexpr double kReversed = 0.1;     // of the fastest slip at any stage: what stages differ by is less
 constexpr double kSlow = 10;          // of the restitution threshold: what parts no faster, and comes back, stays
 constexpr double kStill = 1e-15;      // of the speeds: what is left of a velocity that is to be zero
@@ -89,6 +91,20 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
   end_ = end;
   wrench_at_end_ = loads_.over_step(end, t, dt);
   held_.hold(end, wrench_at_end_, ConstraintForces::Rows::as_chosen);
+}
+
+double PersistentContact::longest_step() const {
+  double fastest = 0;
+  for (const HeldPoint& point : points()) {
+    const double slip = point.velocity.tail<2>().norm();
+    if (point.mode != HeldPoint::Mode::slides || point.begins_to_slip || !(slip > 0)) continue;
+    fastest = std::max(fastest, point.friction() * point.force.x() / (point.tangential_mass * slip));
+  }
+  return fastest > 0 ? std::max(kShortest, kStable / fastest) : kInfinity;
+}
+
+bool PersistentContact::is_at_rest(BodyColumns state) const {
+  return !points().empty() && system_.loads.empty() && modes_.are_at_rest(state);
 }
 
 // Of the forces: how far they are from pulling, or from passing their cones.
@@ -184,7 +200,7 @@ void PersistentContact::stop_points(MutableBodyColumns state) {
     }
     speed = std::max({speed, state.velocity(cone.a).norm(), state.velocity(cone.b).norm()});
   }
-  if (most <= kStill * speed) return;
+  if (most <= kStill * (1 + speed)) return;
   const std::vector<PoseStep>& motion = projection_.project(state, targets_);
   for (std::size_t i = 0; i < motion.size(); ++i) {
     if (motion[i].isZero(0)) continue;

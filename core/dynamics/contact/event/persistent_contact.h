@@ -23,6 +23,11 @@ class PersistentContact {
   bool select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t, double dt);
   // From `start` at t to `end` at t + dt.
   void advance(BodyColumns start, MutableBodyColumns end, double t, double dt);
+  // s, from the start that select() was called for: friction damps slips across the direction of sliding within m u/(mu
+  // N), and an explicit method that steps over many of such times lets them grow.
+  double longest_step() const;
+  // Whether nothing moves, and nothing will.
+  bool is_at_rest(BodyColumns state) const;
   // How far the end of the last advance is from a change of what sticks, slides or touches there: negative beyond it.
   double distance_from_change();
   // By a step that leaves velocities which obey the laws of an impact without rebound, to first order, whatever forces

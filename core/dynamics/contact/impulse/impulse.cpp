@@ -13,6 +13,7 @@
 
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
+#include "core/dynamics/contact/impulse/impact_energy.h"
 #include "core/dynamics/contact/impulse/jointed_impulse.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
@@ -36,6 +37,7 @@ class ImpulseStepper : public ContactStepper {
         sub_steps_(scene, parts),
         manifolds_(scene),
         rows_(parts.system),
+        impact_energy_(parts.system),
         positions_(kVelocity, parts.system.size()),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
     const std::size_t idle = rows_.idle_body();
@@ -60,7 +62,7 @@ class ImpulseStepper : public ContactStepper {
         solve_with_bias();
         integrate_corrections(state);
         relax();
-        apply_restitution();
+        apply_restitution(state);
         store_velocities(state);
       }
       rows_.store_impulses(constraints);
@@ -71,7 +73,8 @@ class ImpulseStepper : public ContactStepper {
 
   SettingsInForce settings_in_force() const override {
     SettingsInForce settings = sub_steps_.settings_in_force();
-    settings.insert(settings.begin(), {"contact solver", "sequential impulses, two passes a sub-step, warm start"});
+    settings.insert(settings.begin(), {{"contact solver", "sequential impulses, two passes a sub-step, warm start"},
+                                       {"restitution", "no further than the energy before the impact allows"}});
     return settings;
   }
 
@@ -97,6 +100,7 @@ class ImpulseStepper : public ContactStepper {
 
   void warm_start(BodyColumns state) {
     kernels().gather_velocities(all_bodies(), state.column(0), velocities_.data());
+    if (has_rebounds()) impact_energy_.remember_before(state, velocities_);
     kernels().warm_start(rows_.blocks(), rows_.size(), solver_bodies());
   }
 
@@ -116,9 +120,13 @@ class ImpulseStepper : public ContactStepper {
 
   void relax() { kernels().relax(rows_.blocks(), rows_.size(), solver_bodies()); }
 
-  void apply_restitution() {
-    if (!rows_.has_restitution()) return;
+  bool has_rebounds() const { return rows_.has_restitution() && impact_count_ > 0; }
+
+  void apply_restitution(BodyColumns state) {
+    if (!has_rebounds()) return;
+    impact_energy_.remember_without_restitution(velocities_);
     kernels().apply_restitution(rows_.blocks(), impacts_.data(), impact_count_, solver_bodies(), parameters_);
+    impact_energy_.limit(state, velocities_);
   }
 
   void store_velocities(MutableBodyColumns state) {
@@ -134,6 +142,7 @@ class ImpulseStepper : public ContactStepper {
   SubSteps sub_steps_;
   Manifolds manifolds_;
   ContactRowLayout rows_;
+  ImpactEnergy impact_energy_;
   SolverParameters parameters_{};
   AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies
   std::vector<std::int32_t> last_active_;
