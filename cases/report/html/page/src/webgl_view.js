@@ -97,7 +97,8 @@ export class WebglView {
       new THREE.BufferAttribute(new Float32Array(3 * 2 * 80 * Math.max(1, springs.length)), 3),
     );
     // A cross and up to two axes for each joint, and its gap.
-    const marks = segments(5 * Math.max(1, this.context.joints.length), lines),
+    const seenThrough = new THREE.LineBasicMaterial({ transparent: ghost, opacity: ghost ? 0.4 : 1, depthTest: false });
+    const marks = segments(5 * Math.max(1, this.context.joints.length), seenThrough),
       gaps = segments(Math.max(1, this.context.joints.length), new THREE.LineBasicMaterial({ depthTest: false }));
     const touching = new THREE.Points(
       new THREE.BufferGeometry(),
@@ -135,10 +136,10 @@ export class WebglView {
   }
 
   recolour() {
-    for (const { layer, material, lines, gaps, touching, trails } of this.groups.values()) {
+    for (const { layer, material, lines, marks, gaps, touching, trails } of this.groups.values()) {
       const tint = new THREE.Color(layer.engine ? layer.engine.hex[isDark() ? 1 : 0] : colour("--truth-solid"));
       material.color.copy(tint), lines.color.copy(tint), touching.material.color.set(colour("--bad-solid"));
-      gaps.material.color.set(colour("--bad-solid"));
+      gaps.material.color.set(colour("--bad-solid")), marks.material.color.copy(tint);
       trails.forEach((line) => line.material.color.copy(tint));
     }
     for (const grid of this.planes)
