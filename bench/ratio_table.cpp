@@ -29,6 +29,30 @@ void add_pair(std::vector<RatioRow>& rows, const std::string& scene, int count, 
         {what + " against Bullet", step(scene, count, run), step(scene, count, kBullet), kind, times_bullet});
 }
 
+// Mechanisms, by the core's projection, against each engine's own way of holding joints. Goals are for the chain of
+// 100; an engine that has no such joints or method is told of in its row.
+void add_joints(std::vector<RatioRow>& rows) {
+  struct Against {
+    std::string run;
+    double goal;  // times, for the chain of 100
+  };
+  const std::vector<Against> engines = {
+      {kOde, 50}, {"ode:quickstep,iterations=50", 5}, {kBullet, 3}, {"bullet:multibody", 1.5}};
+  const auto add = [&](const std::string& scene, int count, const Against& other, double goal) {
+    rows.push_back({fmt::format("{}, N = {}, against {}", scene, count, other.run), step(scene, count, kCore),
+                    step(scene, count, other.run), RatioRow::Kind::times_as_fast, goal});
+  };
+  for (const Against& other : engines) add("chain", 100, other, other.goal);
+  for (const auto& [scene, count] : {std::pair("chain", 1),
+                                     {"chain", 10},
+                                     {"chain", 1000},
+                                     {"rod-net", 171},
+                                     {"four-bars", 81},
+                                     {"ragdolls", 1000}}) {
+    for (const Against& other : {engines[1], engines[2]}) add(scene, count, other, 0);
+  }
+}
+
 std::vector<RatioRow> all_rows() {
   using Kind = RatioRow::Kind;
   std::vector<RatioRow> rows;
@@ -42,6 +66,7 @@ std::vector<RatioRow> all_rows() {
   const std::string impulse = kCore + ",contact=impulse", quick = "ode:quickstep";
   add_pair(rows, "pile", 216, impulse, quick, 2, 2);
   add_pair(rows, "pyramid", 1240, impulse, quick, 1.5, 1.5);
+  add_joints(rows);
   rows.push_back({"free-bodies, N = 1000000, against copying the state", step("free-bodies", 1000000, kCore),
                   "limit/copy/1000000", Kind::at_most_times, 1.25});
   rows.push_back({"free-bodies, N = 1000, against the arithmetic in cache", step("free-bodies", 1000, kCore),
@@ -73,7 +98,8 @@ struct Growth {
   std::vector<int> counts;
 };
 const std::vector<Growth> kGrowth = {{"free-bodies", kCore, {100, 1000, 10000, 100000}},
-                                     {"pile", kCore + ",contact=impulse", {216, 1000, 8000}}};
+                                     {"pile", kCore + ",contact=impulse", {216, 1000, 8000}},
+                                     {"chain", kCore, {1, 10, 100, 1000}}};
 
 // "step/x/real_time/manual_time" and the like: the library appends how it timed.
 std::string plain_name(const benchmark::BenchmarkReporter::Run& run) { return run.run_name.function_name; }
@@ -206,7 +232,7 @@ void RatioTable::Finalize() {
   for (const std::string& name : kAlone) print_alone(name);
   std::cout << "\nreached\n";
   for (const auto& [name, values] : counters_) {
-    for (const char* what : {"error_m_rad", "energy_error", "penetration_m"}) {
+    for (const char* what : {"error_m_rad", "energy_error", "penetration_m", "joint_gap_m"}) {
       if (const auto value = values.find(what); value != values.end())
         std::cout << fmt::format("{:<{}} {} {:.3g}\n", name, kNameWidth, what, value->second);
     }

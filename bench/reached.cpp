@@ -60,6 +60,8 @@ const char* reached_name(Reached what) {
       return "energy_error";
     case Reached::penetration:
       return "penetration_m";
+    case Reached::joint_gap:
+      return "joint_gap_m";
   }
   return "";
 }
@@ -68,6 +70,7 @@ double reached(const SceneRow& row, int count, const Engine& engine, const Setti
   if (count > kMostBodies) return kNone;
   if (row.reached == Reached::energy) return measured("energy_drift", row, count, engine, settings);
   if (row.reached == Reached::penetration) return measured("penetration", row, count, engine, settings);
+  if (row.reached == Reached::joint_gap) return measured("joint_gap", row, count, engine, settings);
   const auto world = engine.load(scene_of(row, count), settings);
   for (long n = steps_in(1, row.dt); n > 0; --n) world->step(row.dt);
   Snapshot snapshot;

@@ -6,7 +6,7 @@
 
 namespace rigor::bench {
 
-// "error_m_rad", "energy_error", "penetration_m".
+// "error_m_rad", "energy_error", "penetration_m", "joint_gap_m".
 const char* reached_name(Reached what);
 
 // Over one second (two for a pile), of at most 1000 bodies; not a number where that cannot be said.

@@ -151,9 +151,106 @@ Scene pyramid(const SceneRow&, int count) {
   return scene;
 }
 
+Scene suite_scene(const std::string& id) {
+  return select_cases({id}, default_suite_dir(), vocabulary_of(infos_of(engines()))).front().scene;
+}
+
 // A scene of the course, by its row's name.
-Scene of_the_suite(const SceneRow& row, int) {
-  return select_cases({row.name}, default_suite_dir(), vocabulary_of(infos_of(engines()))).front().scene;
+Scene of_the_suite(const SceneRow& row, int) { return suite_scene(row.name); }
+
+constexpr double kLink = 0.5;  // m
+
+// From one end to the other, of even density.
+Body rod(int index, const Vec3& from, const Vec3& to) {
+  Body b = body(index, 0.5 * (from + to));
+  b.mass = kLink;
+  b.shape = Capsule{0.02, (to - from).norm() - 0.04};
+  b.inertia = inertia_of(*b.shape, b.mass);
+  b.orientation = Quat::FromTwoVectors(Vec3::UnitZ(), to - from);
+  b.angular_velocity.setZero();
+  return b;
+}
+
+// Rods on ball joints, hung from the world at 30° and let go.
+Scene joint_chain(const SceneRow&, int count) {
+  Scene scene;
+  scene.gravity = {0, 0, -9.81};
+  const Vec3 along = kLink * Vec3(std::sin(0.5236), 0, -std::cos(0.5236));
+  for (int i = 0; i < count; ++i) {
+    scene.bodies.push_back(rod(i, i * along, (i + 1) * along));
+    scene.joints.push_back({.a = i == 0 ? kWorld : i - 1, .b = i, .type = BallJoint{i * along}});
+  }
+  return scene;
+}
+
+// A square net of rods with a ball joint wherever they meet, hung aslant by its first row of knots and let go.
+Scene rod_net(const SceneRow&, int count) {
+  Scene scene;
+  scene.gravity = {0, 0, -9.81};
+  const int side =
+      static_cast<int>(std::lround((3 + std::sqrt(1.0 + 8 * count)) / 4));  // knots; (side - 1) (2 side - 1) rods
+  const Vec3 down = kLink * Vec3(0, std::sin(0.3), -std::cos(0.3)), aside = kLink * Vec3::UnitX();
+  std::vector<int> first(static_cast<std::size_t>(side * side), kWorld);  // the first rod at each knot
+  const auto tie_to = [&](int knot, const Vec3& place, int index) {
+    int& other = first[static_cast<std::size_t>(knot)];
+    if (other != kWorld || knot < side) scene.joints.push_back({.a = other, .b = index, .type = BallJoint{place}});
+    if (other == kWorld && knot >= side) other = index;
+  };
+  const auto add = [&](int from, int to) {
+    const auto place = [&](int knot) { return Vec3((knot % side) * aside + (knot / side) * down); };
+    const int index = static_cast<int>(scene.bodies.size());
+    scene.bodies.push_back(rod(index, place(from), place(to)));
+    tie_to(from, place(from), index), tie_to(to, place(to), index);
+  };
+  for (int knot = 0; knot < side * side; ++knot) {
+    if (knot + side < side * side) add(knot, knot + side);
+    if (knot >= side && (knot + 1) % side) add(knot, knot + 1);
+  }
+  return scene;
+}
+
+// Four-bar linkages side by side, each sharing a crank with the next (IFToMM benchmark A02), swinging about hanging
+// cranks, so that they never come to lie in one line.
+Scene four_bars(const SceneRow&, int count) {
+  Scene scene;
+  scene.gravity = {0, -9.81, 0};
+  const int windows = (count - 1) / 2;
+  const Vec3 crank(std::sin(0.5236), -std::cos(0.5236), 0), aside = Vec3::UnitX();
+  const auto hinge = [&](int a, int b, const Vec3& at) {
+    scene.joints.push_back({.a = a, .b = b, .type = HingeJoint{at, Vec3::UnitZ()}});
+  };
+  for (int i = 0; i <= windows; ++i) {
+    scene.bodies.push_back(rod(i, i * aside, i * aside + crank));
+    hinge(kWorld, i, i * aside);
+  }
+  for (int i = 0; i < windows; ++i) {
+    const int bar = static_cast<int>(scene.bodies.size());
+    scene.bodies.push_back(rod(bar, i * aside + crank, (i + 1) * aside + crank));
+    hinge(i, bar, i * aside + crank), hinge(bar, i + 1, (i + 1) * aside + crank);
+  }
+  return scene;
+}
+
+// The suite's ragdoll, ten bodies, many times over; each hangs by a hand.
+Scene ragdolls(const SceneRow&, int count) {
+  const Scene one = suite_scene("mechanisms/ragdoll");
+  Scene scene;
+  scene.gravity = one.gravity;
+  const int bodies = static_cast<int>(one.bodies.size());
+  for (int k = 0; k * bodies < count; ++k) {
+    const Vec3 aside(0, 4.0 * k, 0);  // m, wider than one is tall
+    for (Body b : one.bodies) {
+      b.name += " " + std::to_string(k), b.position += aside;
+      scene.bodies.push_back(b);
+    }
+    for (Joint joint : one.joints) {
+      for (int* end : {&joint.a, &joint.b}) *end = *end == kWorld ? kWorld : *end + k * bodies;
+      if (auto* ball = std::get_if<BallJoint>(&joint.type)) ball->anchor += aside;
+      if (auto* hinge = std::get_if<HingeJoint>(&joint.type)) hinge->anchor += aside;
+      scene.joints.push_back(joint);
+    }
+  }
+  return scene;
 }
 
 }  // namespace
@@ -163,10 +260,14 @@ const std::vector<SceneRow>& scenes() {
   static const std::vector<SceneRow> table = {
       {"ballistic/projectile", {1}, kCourse, Reached::trajectory, false, of_the_suite},
       {"bouncing-spheres", {1, 100, 1000, 10000}, kFine, Reached::energy, false, bouncing_spheres},
+      {"chain", {1, 10, 100, 1000}, kFine, Reached::joint_gap, false, joint_chain},
       {"contact/collision", {1}, kCourse, Reached::energy, false, of_the_suite},
+      {"four-bars", {21, 81}, kFine, Reached::joint_gap, false, four_bars},
       {"free-bodies", {1, 10, 100, 1000, 10000, 100000, 1000000}, kFine, Reached::trajectory, true, free_bodies},
       {"pile", {216, 1000, 8000}, kPile, Reached::penetration, false, pile},
       {"pyramid", {1240}, kPile, Reached::penetration, false, pyramid},
+      {"ragdolls", {10, 1000}, kFine, Reached::joint_gap, false, ragdolls},
+      {"rod-net", {55, 171}, kFine, Reached::joint_gap, false, rod_net},
       {"spring-chain", {1, 10, 100, 1000, 10000, 100000}, kFine, Reached::trajectory, false, spring_chain},
       {"spring-net", {100, 1024, 10000}, kFine, Reached::trajectory, false, spring_net},
       {"springs/body-springs", {2}, kCourse, Reached::trajectory, false, of_the_suite},

@@ -14,6 +14,7 @@ enum class Reached {
   trajectory,   // largest distance [m] or angle [rad] from the adaptive method at its tolerance, after 1 s
   energy,       // largest deviation, relative to the largest kinetic energy
   penetration,  // deepest overlap [m]
+  joint_gap,    // widest gap of a joint [m]
 };
 
 struct SceneRow {

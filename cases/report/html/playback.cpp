@@ -29,8 +29,9 @@ constexpr double kCoarser = 0.7;                     // of the keys and points, 
 
 // What the page always plots.
 bool is_main(const NamedSeries& series) {
-  constexpr const char* kMain[] = {kEnergyChange,           "angular_momentum_drift", "energy_drift_synchronised",
-                                   "linear_momentum_drift", "orientation_error",      "position_error"};
+  constexpr const char* kMain[] = {kEnergyChange,   "angular_momentum_drift", "energy_drift_synchronised",
+                                   "joint_gap",     "linear_momentum_drift",  "orientation_error",
+                                   "position_error"};
   return std::find(std::begin(kMain), std::end(kMain), series.name) != std::end(kMain);
 }
 

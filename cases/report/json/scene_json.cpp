@@ -43,6 +43,10 @@ Json json_of_joint(const Joint& joint, const Scene& scene) {
   if (const auto* slider = std::get_if<SliderJoint>(&joint.type))
     json["type"] = "slider", json["axis"] = list(slider->axis);
   if (std::holds_alternative<FixedJoint>(joint.type)) json["type"] = "fixed";
+  if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
+    json["type"] = "universal", json["anchor"] = list(universal->anchor);
+    json["axis"] = list(universal->axis), json["axis2"] = list(universal->axis2);
+  }
   if (const auto* distance = std::get_if<DistanceJoint>(&joint.type)) {
     json["type"] = "distance";
     json["point_a"] = list(distance->point_a), json["point_b"] = list(distance->point_b);

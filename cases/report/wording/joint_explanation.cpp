@@ -19,9 +19,15 @@ double leading_number(const std::string& words) {
   return error == std::errc() ? number : std::nan("");
 }
 
-// Where each step opens a joint by the same and closes a share of its gap, what stands is the one over the other.
+// Where each step opens a joint by the same, of second order in dt, and closes a share of its gap, what stands is the
+// one over the other.
 std::string standing_gap(const Diagnosis& found, double share) {
-  if (!(share > 0 && share < 1)) return "";
+  constexpr double kLeast = 1.6, kMost = 2.4;  // order
+  if (!(share > 0 && share < 1) || found.over.size() < 2) return "";
+  const auto& [coarse, at_coarse] = found.over[0];
+  const auto& [finer, at_finer] = found.over[1];
+  const double order = std::log(at_coarse / at_finer) / std::log(coarse.seconds / finer.seconds);
+  if (!(order > kLeast && order < kMost)) return "";
   return fmt::format(" A step takes back {:g} of a gap, so that what stands is what {:.3g} steps open, {:.2g} m each.",
                      share, 1 / share, share * found.value);
 }

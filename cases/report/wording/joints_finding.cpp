@@ -64,13 +64,14 @@ std::optional<Finding> joints_finding(const Results& results, const std::vector<
   }
   std::vector<std::string> all = hold;
   all.insert(all.end(), ours.begin(), ours.end());
-  return Finding{"joints",
-                 fmt::format("At dt = {} s joints hold in {}, to a millionth of their reach; they stretch in {}.",
-                             dt.text, named.empty() ? "none" : fmt::format("{}", fmt::join(named, ", ")),
-                             stretch.empty() ? "none" : listed_names(stretch, kMost)),
-                 fmt::format("Hold: {}. Stretch: {}. Runs that blew up are not counted.",
-                             all.empty() ? "none" : fmt::format("{}", fmt::join(all, ", ")),
-                             stretch.empty() ? "none" : fmt::format("{}", fmt::join(stretch, "; ")))};
+  return Finding{
+      "joints",
+      fmt::format(
+          "At dt = {} s, where nothing blows up, joints hold in {}, to a millionth of their reach; they stretch in {}.",
+          dt.text, named.empty() ? "none" : fmt::format("{}", fmt::join(named, ", ")),
+          stretch.empty() ? "none" : listed_names(stretch, kMost)),
+      fmt::format("Hold: {}. Stretch: {}.", all.empty() ? "none" : fmt::format("{}", fmt::join(all, ", ")),
+                  stretch.empty() ? "none" : fmt::format("{}", fmt::join(stretch, "; ")))};
 }
 
 }  // namespace rigor

@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(the_programs_own_report_works_in_a_browser, *boost::unit_te
       "core:semi-implicit-euler";
   BOOST_TEST_REQUIRE(succeeds(std::string(RIGOR_PROGRAM) +
                                   " run springs/fixed-spring springs/stiff-3 tops/asymmetric-top contact/collision "
-                                  "contact/friction-fan "
+                                  "contact/friction-fan joints/pendulum-90 "
                                   "--jobs 2 --out " +
                                   out + engines,
                               folder));

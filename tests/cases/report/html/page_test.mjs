@@ -3,6 +3,7 @@
 import { Browser } from "./browser.mjs";
 import { everyCase, oneCase } from "./case_checks.mjs";
 import { firstScreen } from "./first_screen_checks.mjs";
+import { jointedCase } from "./joint_checks.mjs";
 import { looks, withoutWebgl } from "./look_checks.mjs";
 import { summed } from "./report_page.mjs";
 
@@ -10,6 +11,7 @@ const browser = await Browser.open();
 try {
   await firstScreen(browser);
   await oneCase(browser);
+  await jointedCase(browser);
   await everyCase(browser);
 } finally {
   await browser.close();

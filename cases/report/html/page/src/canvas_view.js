@@ -100,6 +100,10 @@ export class CanvasView {
         b = pointOf(poses, spring.b, spring.pointB);
       this.line(spring.coil ? coil(a, b, 0.025 * size.radius) : [a, b]);
     }
+    for (const [a, b] of layer.jointed.marks) this.line([a, b]);
+    (pen.strokeStyle = colour("--bad-solid")), (pen.lineWidth = 2.5);
+    for (const [a, b] of layer.jointed.gaps) this.line([a, b]);
+    (pen.strokeStyle = engine ? engine.hex[isDark() ? 1 : 0] : colour("--truth-solid")), (pen.lineWidth = 1);
     if (trails && engine && areFew) {
       pen.globalAlpha = 0.5;
       for (const { index, fixed, type } of shapes) if (!fixed && type !== "plane") this.trail(layer, index);

@@ -10,6 +10,7 @@ const usual = [
   "energy_drift_synchronised",
   "angular_momentum_drift",
   "linear_momentum_drift",
+  "joint_gap",
 ];
 
 const stepForTitle =

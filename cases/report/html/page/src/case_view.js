@@ -299,6 +299,7 @@ export class CaseView {
       g: () => this.stage?.flip("truth"),
       t: () => this.stage?.flip("trails"),
       c: () => this.stage?.flip("contacts"),
+      i: () => this.stage?.flip("joints"),
       "+": () => player.faster(2),
       "-": () => player.faster(0.5),
       f: () => this.stage?.frameAll(),

@@ -3,7 +3,9 @@ import { Camera, moveByHand } from "./camera.js";
 import { CanvasView } from "./canvas_view.js";
 import { cellOf, judgement } from "./data.js";
 import { el, replace } from "./dom.js";
-import { digits } from "./format.js";
+import { digits, quantity } from "./format.js";
+import { jointSegments, jointsOf } from "./joint_model.js";
+import { valueAt } from "./playback_data.js";
 import { contacts, drawables, extentOf, springsOf, up } from "./scene_model.js";
 import { onTheme } from "./theme.js";
 import { WebglView } from "./webgl_view.js";
@@ -15,7 +17,8 @@ const longHold = 50; // ms: more, and a reader's keys and mouse seem to lag
 export class Stage {
   constructor(results, one, data, player, root) {
     Object.assign(this, { results, one, data, player, root, engines: [], dirty: true });
-    this.flags = { truth: true, trails: true, contacts: true };
+    this.flags = { truth: true, trails: true, contacts: true, joints: true };
+    this.joints = jointsOf(one.scene);
     this.shapes = drawables(one.scene).map((s) => ({ ...s, collides: one.scene.bodies[s.index].collides }));
     this.camera = new Camera(up(one.scene));
     this.layers = new Map();
@@ -46,6 +49,7 @@ export class Stage {
     const context = {
       shapes: this.shapes,
       springs: springsOf(this.one.scene),
+      joints: this.joints,
       layers: [...this.layers.values()],
       camera: this.camera,
       size: this.bounds(),
@@ -89,6 +93,7 @@ export class Stage {
         label,
       );
     this.flagButtons = [flag("truth", "truth"), flag("trails", "trails"), flag("contacts", "contacts")];
+    if (this.joints.length) this.flagButtons.push(flag("joints", "joints"));
     this.sideButton = el("button.quiet", {
       type: "button",
       title: "o, s",
@@ -234,6 +239,7 @@ export class Stage {
         time > layer.motion.end + 1.5 * this.player.dt && layer.motion.end < this.one.duration - 1.5 * this.player.dt;
       layer.contacts =
         this.flags.contacts && !layer.isGone && layer.name !== "truth" ? contacts(this.shapes, layer.poses, near) : [];
+      layer.jointed = this.jointed(layer);
       layer.key = layer.motion.keyAt(time);
       if (layer.isGone) gone.push(`${layer.name} at ${layer.motion.end.toFixed(2)} s`);
     }
@@ -250,11 +256,29 @@ export class Stage {
       gone.length ? `Out of the picture: ${gone.join(", ")}.` : "",
       kept.length ? `No motion kept of ${kept.map((e) => e.name).join(", ")}.` : "",
       past ? `The truth is past its horizon of ${horizon.toFixed(1)} s.` : "",
+      this.gapsNow(time),
     ]
       .filter(Boolean)
       .join(" ");
     if (this.notes.textContent !== text) this.notes.textContent = text;
     this.surface.dataset.frames = Number(this.surface.dataset.frames ?? 0) + 1;
+  }
+
+  // Gaps of less than a few thousandths of the picture are not to be seen in it.
+  jointed(layer) {
+    if (!this.flags.joints || layer.isGone || !this.joints.length) return { marks: [], gaps: [] };
+    const { radius } = this.bounds();
+    return jointSegments(this.joints, layer.poses, 0.025 * radius, layer.engine ? 0.004 * radius : Infinity);
+  }
+
+  // The widest gap of any joint of each engine shown, as it was measured.
+  gapsNow(time) {
+    if (!this.flags.joints || !this.joints.length) return "";
+    const told = this.engines
+      .map((e) => [e.name, valueAt(this.data.runs.get(e.name)?.series.joint_gap ?? { times: [], values: [] }, time)])
+      .filter(([, gap]) => gap !== null)
+      .map(([name, gap]) => `${name} ${quantity(gap, "m")}`);
+    return told.length ? `Widest joint gap: ${told.join(", ")}.` : "";
   }
 
   label(panes, width, height) {

@@ -14,6 +14,7 @@ const first = [
   "energy_drift_synchronised",
   "angular_momentum_drift",
   "linear_momentum_drift",
+  "joint_gap",
 ];
 const height = 150;
 

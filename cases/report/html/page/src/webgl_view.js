@@ -96,6 +96,10 @@ export class WebglView {
       "position",
       new THREE.BufferAttribute(new Float32Array(3 * 2 * 80 * Math.max(1, springs.length)), 3),
     );
+    // A cross and up to two axes for each joint, and its gap.
+    const seenThrough = new THREE.LineBasicMaterial({ transparent: ghost, opacity: ghost ? 0.4 : 1, depthTest: false });
+    const marks = segments(5 * Math.max(1, this.context.joints.length), seenThrough),
+      gaps = segments(Math.max(1, this.context.joints.length), new THREE.LineBasicMaterial({ depthTest: false }));
     const touching = new THREE.Points(
       new THREE.BufferGeometry(),
       new THREE.PointsMaterial({ size: 4, sizeAttenuation: false, depthTest: false }),
@@ -103,9 +107,9 @@ export class WebglView {
     touching.frustumCulled = false;
     touching.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * 400), 3));
     const trails = ghost ? [] : this.trails(layer);
-    group.add(coils, touching, ...trails);
+    group.add(coils, marks, gaps, touching, ...trails);
     this.scene.add(group);
-    return { layer, group, material, lines, meshes, coils, touching, trails };
+    return { layer, group, material, lines, meshes, coils, marks, gaps, touching, trails };
   }
 
   // Each body's whole way, shown as far as it has come; of many bodies none, for they would only hide one another.
@@ -132,9 +136,10 @@ export class WebglView {
   }
 
   recolour() {
-    for (const { layer, material, lines, touching, trails } of this.groups.values()) {
+    for (const { layer, material, lines, marks, gaps, touching, trails } of this.groups.values()) {
       const tint = new THREE.Color(layer.engine ? layer.engine.hex[isDark() ? 1 : 0] : colour("--truth-solid"));
       material.color.copy(tint), lines.color.copy(tint), touching.material.color.set(colour("--bad-solid"));
+      gaps.material.color.set(colour("--bad-solid")), marks.material.color.copy(tint);
       trails.forEach((line) => line.material.color.copy(tint));
     }
     for (const grid of this.planes)
@@ -185,13 +190,14 @@ export class WebglView {
     if (this.pace > 40 && this.ratio > 0.5) (this.ratio = Math.max(0.5, this.ratio * 0.8)), (this.pace = 20);
   }
 
-  place({ layer, meshes, coils, touching, trails }, showTrails) {
+  place({ layer, meshes, coils, marks, gaps, touching, trails }, showTrails) {
     const { poses } = layer;
     for (const { mesh, members } of meshes) {
       members.forEach((shape, i) => mesh.setMatrixAt(i, matrixOf(poses, shape)));
       mesh.instanceMatrix.needsUpdate = true;
     }
     this.placeCoils(coils, poses);
+    putSegments(marks, layer.jointed.marks), putSegments(gaps, layer.jointed.gaps);
     const spots = touching.geometry.attributes.position;
     layer.contacts.slice(0, 400).forEach((p, i) => spots.setXYZ(i, ...p));
     spots.needsUpdate = true;
@@ -227,6 +233,21 @@ export class WebglView {
     spots.needsUpdate = true;
     coils.geometry.setDrawRange(0, at);
   }
+}
+
+// Room for so many of two points each.
+function segments(count, material) {
+  const lines = new THREE.LineSegments(new THREE.BufferGeometry(), material);
+  lines.frustumCulled = false;
+  lines.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * 2 * count), 3));
+  return lines;
+}
+
+function putSegments(lines, ends) {
+  const spots = lines.geometry.attributes.position;
+  ends.flat().forEach((p, i) => spots.setXYZ(i, ...p));
+  spots.needsUpdate = true;
+  lines.geometry.setDrawRange(0, 2 * ends.length);
 }
 
 function isSoftware(gl) {
