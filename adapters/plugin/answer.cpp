@@ -104,11 +104,15 @@ void check_time(const Json& answer, const Asked& asked, double due, double dt) {
   check_time(time->get<double>(), asked, due, dt);
 }
 
-void check_time(double time, const Asked& asked, double due, double dt) {
+bool is_time(double time, double due, double dt) {
   // A clock that adds up steps in single precision is a few parts in a million off, an answer to another request a
   // step.
   constexpr double kOfSinglePrecision = 1e-5, kOfAStep = 1e-3;
-  if (std::abs(time - due) <= kOfAStep * dt + kOfSinglePrecision * due) return;
+  return std::abs(time - due) <= kOfAStep * dt + kOfSinglePrecision * due;
+}
+
+void check_time(double time, const Asked& asked, double due, double dt) {
+  if (is_time(time, due, dt)) return;
   refuse_answer(asked,
                 fmt::format("its time is {:.17g} s; after the steps that it was asked for it is {:.17g} s", time, due));
 }

@@ -37,6 +37,7 @@ void read_bodies(const nlohmann::json& answer, const Asked& asked, MutableBodyCo
 // Of "time" [s]: what it should be after so many steps, but for roundings of a clock in single precision.
 void check_time(const nlohmann::json& answer, const Asked& asked, double due, double dt);
 
+bool is_time(double time, double due, double dt);
 void check_time(double time, const Asked& asked, double due, double dt);
 
 [[noreturn]] void refuse_answer(const Asked& asked, const std::string& complaint);
