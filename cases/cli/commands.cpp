@@ -81,6 +81,12 @@ const std::vector<CommandRow>& commands() {
        "a case file",
        {},
        settle_command},
+      {"completion",
+       "print what a shell completes, or the manual's page",
+       "KIND",
+       "bash, zsh or man",
+       {},
+       completion_command},
   };
   return table;
 }
