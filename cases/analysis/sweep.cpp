@@ -131,19 +131,22 @@ void Sweep::check_options() {
 // Each value in one of the sweep's own scenes, before anything runs; in the others it may turn out yet that it cannot
 // be combined with the rest, and then those cells are `invalid`.
 void Sweep::check_values() const {
-  constexpr std::size_t kMostSamples = 1000;
+  constexpr std::size_t kMost = 1000;  // of samples, and about as many of an axis: evenly, with its first and its last
   for (std::size_t c = 0; c < input_.cases.size(); ++c) {
-    for (std::size_t i = 0; i < std::min(samples_.size(), kMostSamples); ++i) definition_at(c, samples_[i]);
+    for (std::size_t i = 0; i < std::min(samples_.size(), kMost); ++i) definition_at(c, samples_[i]);
     if (is_sampled()) continue;
     Point first;
     for (const SweepAxis& axis : input_.axes) first.push_back(axis.values.front());
     for (std::size_t i = 0; i < input_.axes.size(); ++i) {
       if (input_.axes[i].kind == Kind::option) continue;
-      for (const std::string& value : input_.axes[i].values) {
-        Point point = first;
-        point[i] = value;
+      const auto& values = input_.axes[i].values;
+      Point point = first;
+      for (std::size_t v = 0; v < values.size(); v += 1 + values.size() / kMost) {
+        point[i] = values[v];
         definition_at(c, point);
       }
+      point[i] = values.back();
+      definition_at(c, point);
     }
     if (input_.axes.empty()) definition_at(c, first);
   }

@@ -3,111 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
+#include <tuple>
 
 #include "cases/analysis/sweep_axis.h"
+#include "cases/analysis/tuning_probe.h"
 #include "cases/analysis/tuning_space.h"
-#include "cases/runner/grid.h"
 
 namespace rigor {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
-struct Probe {
-  std::string run;
-  std::size_t step;  // index in tuned_steps()
-};
-
-struct Answer {
-  double error = kNone, cost = 0;
-  std::string why;             // of the first case without a result
-  std::vector<double> values;  // of all bounds and cases, to tell whether two settings do the same
-};
-
-// Runs probes on all cases, for a share of their duration.
-class Prober {
- public:
-  Prober(const std::vector<Case>& cases, const std::vector<Bound>& bounds, const EngineTable& engines,
-         const TuneOptions& options)
-      : cases_(cases), bounds_(bounds), engines_(engines), options_(options) {}
-
-  std::vector<Answer> run(const std::vector<Probe>& probes, double share, bool is_timed, int jobs) {
-    if (probes.empty()) return {};
-    Results grid = planned(probes, share);
-    GridOptions options{jobs, options_.limit, {}, false, false};
-    for (const Bound& bound : bounds_) options.only_metrics.push_back(bound.metric);
-    if (is_timed) options.only_metrics.push_back("cost");
-    run_grid(grid, engines_, options, [](std::size_t, std::size_t) {});
-    runs_ += probes.size() * cases_.size();
-    std::vector<Answer> answers(probes.size());
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-      answers[i].error = 0;
-      for (const CaseResult& result : grid.cases) add(answers[i], result, result.cells[i]);
-    }
-    return answers;
-  }
-  std::size_t runs() const { return runs_; }
-
- private:
-  Results planned(const std::vector<Probe>& probes, double share) const {
-    Results grid;
-    grid.engines = infos_of(engines_);
-    std::map<std::string, std::size_t> runs;
-    for (const Probe& probe : probes) {
-      if (runs.emplace(probe.run, grid.runs.size()).second)
-        grid.runs.push_back(parse_run_name(probe.run, engines_.infos()));
-    }
-    for (const Case& definition : cases_) {
-      CaseResult result;
-      result.definition = definition;
-      result.definition.gates.clear();
-      result.definition.duration *= share;
-      for (const Probe& probe : probes) result.cells.push_back(cell_of(probe, runs.at(probe.run), grid, result));
-      result.stable_steps.assign(grid.runs.size(), {Status::unsupported, "not asked for", {}});
-      grid.cases.push_back(std::move(result));
-    }
-    return grid;
-  }
-
-  Cell cell_of(const Probe& probe, std::size_t run, const Results& grid, const CaseResult& result) const {
-    const RunName& name = grid.runs[run];
-    Cell cell;
-    cell.run = run, cell.dt = tuned_steps()[probe.step];
-    std::string why =
-        why_unsupported(engines_.info_of(name.engine), name.settings, result.definition.scene, cell.dt.seconds);
-    if (cell.dt.seconds > result.definition.duration) why = "the step is longer than the run";
-    if (!why.empty()) cell.status = Status::unsupported, cell.reason = why;
-    return cell;
-  }
-
-  void add(Answer& answer, const CaseResult& result, const Cell& cell) const {
-    const auto fail = [&](const std::string& why) {
-      answer.error = kNone;
-      if (answer.why.empty()) answer.why = fmt::format("{}: {}", result.definition.id, why);
-    };
-    if (cell.status != Status::pass) {
-      answer.values.push_back(kNone);
-      return fail(cell.reason);
-    }
-    for (const Bound& bound : bounds_) {
-      const MetricValue& found = cell.metrics.at(bound.metric);
-      answer.values.push_back(found.value);
-      if (!found.not_applicable.empty()) return fail(fmt::format("{}: {}", bound.metric, found.not_applicable));
-      answer.error = std::max(answer.error, std::abs(found.value) / bound.most);
-    }
-    const auto cost = cell.metrics.find("cost");
-    if (cost != cell.metrics.end()) answer.cost += cost->second.value;
-  }
-
-  const std::vector<Case>& cases_;
-  const std::vector<Bound>& bounds_;
-  const EngineTable& engines_;
-  const TuneOptions& options_;
-  std::size_t runs_ = 0;
-};
 
 // A run of the space and the coarsest step at which it has kept the bounds so far.
 struct Setting {
@@ -130,6 +33,7 @@ class Tuner {
     confirm(settings);
     measure_again();
     found_.runs = prober_.runs();
+    found_.remarks = {prober_.remarks().begin(), prober_.remarks().end()};
     return std::move(found_);
   }
 
@@ -277,7 +181,7 @@ class Tuner {
     return settings;
   }
 
-  bool keep_point(const Probe& probe, const Answer& answer) {
+  bool keep_point(const Probe& probe, const ProbeAnswer& answer) {
     TunedPoint point{RunName{"", {}, probe.run},
                      tuned_steps()[probe.step],
                      answer.error,
@@ -352,7 +256,7 @@ class Tuner {
       if (point.why.empty()) by_cost.push_back(point);
     }
     std::stable_sort(by_cost.begin(), by_cost.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
-    double least = kNone;
+    double least = ProbeAnswer::kNone;
     for (const TunedPoint& point : by_cost) {
       if (point.error < least) least = point.error, found_.front.push_back(point);
     }

@@ -38,6 +38,7 @@ struct Tuning {
   std::vector<TunedPoint> ties;             // what costs the same as the winner, as far as repeats can tell
   std::vector<TunedPoint> front;            // no other is both cheaper and more right; by cost
   std::vector<std::string> without_effect;  // "worldstep: erp"
+  std::vector<std::string> remarks;         // what the bounds were not held to
   std::string nearest;                      // where nothing keeps the bounds: what came nearest, or why nothing ran
   std::size_t settings = 0, runs = 0;       // tried
 };

@@ -11,6 +11,7 @@
 #include "cases/case/family.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
+#include "core/base/program_home.h"
 
 namespace rigor {
 namespace {
@@ -210,6 +211,6 @@ std::vector<Case> select_cases(const std::vector<std::string>& words, const std:
   return cases;
 }
 
-std::string default_suite_dir() { return RIGOR_SUITE_DIR; }
+std::string default_suite_dir() { return home_folder("suite", RIGOR_SUITE_DIR); }
 
 }  // namespace rigor

@@ -87,6 +87,12 @@ const std::vector<CommandRow>& commands() {
        "",
        {"--engine", "--json", "--plugin", "--timeout"},
        conform_command},
+      {"completion",
+       "print what a shell completes, or the manual's page",
+       "KIND",
+       "bash, zsh or man",
+       {},
+       completion_command},
   };
   return table;
 }

@@ -34,6 +34,7 @@ int baseline_command(const CommandLine& line, const EngineTable& engines);
 int trace_command(const CommandLine& line, const EngineTable& engines);
 int truth_command(const CommandLine& line, const EngineTable& engines);
 int new_command(const CommandLine& line, const EngineTable& engines);
+int completion_command(const CommandLine& line, const EngineTable& engines);
 int settle_command(const CommandLine& line, const EngineTable& engines);
 int conform_command(const CommandLine& line, const EngineTable& engines);
 

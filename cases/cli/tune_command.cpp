@@ -103,6 +103,7 @@ int tune_command(const CommandLine& line, const EngineTable& engines) {
   text += tuning.winner ? winner_text(line, tuning, engines)
                         : fmt::format("no setting of {} keeps {}{}{}\n\n", tuning.engine, held,
                                       tuning.nearest.empty() ? "" : "; ", tuning.nearest);
+  for (const std::string& remark : tuning.remarks) text += remark + "\n";
   print_table(text);
   options.settings = kSettingsBeside;
   std::vector<Tuning> others;

@@ -8,6 +8,7 @@
 #include "cases/gates/deviations.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
+#include "core/base/program_home.h"
 #include "core/scene/toml/table_reader.h"
 
 namespace rigor {
@@ -73,6 +74,6 @@ std::vector<KnownDeviation> read_known_deviations(const std::string& adapters_di
   return rows;
 }
 
-std::string default_adapters_dir() { return RIGOR_ADAPTERS_DIR; }
+std::string default_adapters_dir() { return home_folder("adapters", RIGOR_ADAPTERS_DIR); }
 
 }  // namespace rigor

@@ -3,37 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <set>
 
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/executor.h"
 #include "cases/runner/shard.h"
-#include "cases/runner/simulate.h"
 #include "cases/runner/stable_step.h"
-#include "cases/runner/twin_run.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 
 namespace rigor {
 namespace {
-
-TruthSamples sample_truth(const Truth& truth, const Trajectory& trajectory, std::size_t bodies,
-                          double largest_kinetic_energy) {
-  TruthSamples samples;
-  samples.largest_kinetic_energy = largest_kinetic_energy;
-  samples.source = &truth;
-  for (const Sample& sample : trajectory.samples) {
-    truth.at(sample.time, samples.bodies.emplace_back(bodies).columns());
-    samples.error.push_back(truth.error(sample.time));
-  }
-  return samples;
-}
 
 Status status_of(FailureKind kind) {
   switch (kind) {
@@ -51,37 +35,6 @@ Status status_of(FailureKind kind) {
   return Status::invalid;
 }
 
-void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
-  if (cell.stability.verdict == Verdict::blown_up) {
-    cell.status = Status::diverged;
-    cell.reason = fmt::format("blown up at {:.2f} s: {}; {}", cell.stability.time, scene.body_name(cell.stability.body),
-                              cell.stability.why);
-    if (run.not_finite && !run.solver_warning.empty()) cell.reason += "; " + run.solver_warning;
-  } else if (!run.solver_warning.empty()) {
-    cell.status = Status::invalid;
-    cell.reason =
-        fmt::format("from {:.4g} s on not what its method promises: {}", run.solver_warning_time, run.solver_warning);
-  } else {
-    cell.status = Status::pass;
-    cell.reason.clear();
-  }
-}
-
-}  // namespace
-
-TruthFacts facts_of(const Case& definition, const Truth* truth) {
-  TruthFacts facts;
-  facts.largest_kinetic_energy = largest_kinetic_energy(definition.scene, truth, definition.duration);
-  facts.largest_energy_change = largest_energy_change(definition.scene, truth, definition.duration);
-  if (truth) {
-    facts.error_at_end = truth->error(definition.duration);
-    facts.horizon = horizon(*truth, kHorizonTolerance, definition.duration);
-  }
-  return facts;
-}
-
-namespace {
-
 Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
   cell.reason = sentence_of(end, limit);
   cell.status = end.how == Ending::refused     ? Status::invalid
@@ -90,34 +43,6 @@ Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
   cell.trajectory.clear();
   cell.wall_seconds = end.seconds;
   return cell;
-}
-
-const std::set<std::string> kOfTwins = {"unexplained_error", "unexplained_rotation", "unexplained_spin",
-                                        "unexplained_velocity"};
-
-bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
-  return std::any_of(definition.gates.begin(), definition.gates.end(),
-                     [&](const Gate& gate) { return metrics.contains(gate.metric); });
-}
-
-bool is_asked_for(const std::set<std::string>& metrics, const Case& definition, const GridOptions& options) {
-  const auto& only = options.only_metrics;
-  if (only.empty()) return options.is_thorough || has_gate_on(definition, metrics);
-  return std::any_of(only.begin(), only.end(), [&](const std::string& name) { return metrics.contains(name); });
-}
-
-// Their series over time come out apart: no result keeps them.
-std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options,
-                                            std::vector<NamedSeries>& series) {
-  std::map<std::string, MetricValue> values;
-  for (const MetricRow& row : metrics()) {
-    const bool is_wanted =
-        is_asked_for({row.name}, definition, options) || (!row.is_costly && options.only_metrics.empty());
-    MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
-    values[row.name] = condensed(found, run.trajectory);
-    if (found.measurement) series.push_back({row.name, std::move(found.measurement->series)});
-  }
-  return values;
 }
 
 // How long a step has to hold to be called stable [s]: even where the run is short.
@@ -355,41 +280,6 @@ void forget_what_is_wrong(Journal& journal, const CaseResult& planned, const Gri
 }
 
 }  // namespace
-
-JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  Cell cell = planned;
-  const Scene& scene = definition.scene;
-  const Engine& engine = find_engine(engines, run_name.engine);
-  const double leapfrog_stagger = method_of(engines.info_of(run_name.engine), run_name.settings).leapfrog_stagger;
-  const bool is_timed = is_asked_for({"cost"}, definition, options);
-  const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed);
-  cell.settings = run.settings;
-  cell.cpu_seconds = is_timed ? timed_again(engine, run_name.settings, scene, run) : run.cpu_seconds;
-  std::optional<TruthSamples> samples;
-  if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), facts.largest_kinetic_energy);
-  std::optional<RunName> twin_name;
-  if (is_asked_for(kOfTwins, definition, options)) twin_name = twin_of(engines, run_name, scene);
-  std::optional<TwinRun> twin;
-  if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
-  JudgedRun judged{
-      scene,           run.trajectory, samples ? &*samples : nullptr, leapfrog_stagger, twin ? &*twin : nullptr,
-      cell.cpu_seconds};
-  judged.duration = definition.duration;
-  cell.stability = judge_stability(judged, run.not_finite, facts.largest_kinetic_energy, facts.largest_energy_change);
-  judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
-  std::vector<NamedSeries> series;
-  cell.metrics = measured(judged, definition, options, series);
-  if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
-  conclude(cell, run, scene);
-  for (const auto& recorder : options.recorders) {
-    Recording kept = recorder->of_run(definition, cell, judged, series, facts);
-    if (!kept.empty()) cell.recordings[recorder->name()] = std::move(kept);
-  }
-  cell.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
-}
 
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel) {

@@ -1,0 +1,119 @@
+// One cell, from its simulation to its metrics: what case_process.h declares of it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "cases/runner/case_process.h"
+#include "cases/runner/simulate.h"
+#include "cases/runner/twin_run.h"
+
+namespace rigor {
+namespace {
+
+TruthSamples sample_truth(const Truth& truth, const Trajectory& trajectory, std::size_t bodies,
+                          double largest_kinetic_energy) {
+  TruthSamples samples;
+  samples.largest_kinetic_energy = largest_kinetic_energy;
+  samples.source = &truth;
+  for (const Sample& sample : trajectory.samples) {
+    truth.at(sample.time, samples.bodies.emplace_back(bodies).columns());
+    samples.error.push_back(truth.error(sample.time));
+  }
+  return samples;
+}
+
+void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
+  if (cell.stability.verdict == Verdict::blown_up) {
+    cell.status = Status::diverged;
+    cell.reason = fmt::format("blown up at {:.2f} s: {}; {}", cell.stability.time, scene.body_name(cell.stability.body),
+                              cell.stability.why);
+    if (run.not_finite && !run.solver_warning.empty()) cell.reason += "; " + run.solver_warning;
+  } else if (!run.solver_warning.empty()) {
+    cell.status = Status::invalid;
+    cell.reason =
+        fmt::format("from {:.4g} s on not what its method promises: {}", run.solver_warning_time, run.solver_warning);
+  } else {
+    cell.status = Status::pass;
+    cell.reason.clear();
+  }
+}
+
+const std::set<std::string> kOfTwins = {"unexplained_error", "unexplained_rotation", "unexplained_spin",
+                                        "unexplained_velocity"};
+
+bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
+  return std::any_of(definition.gates.begin(), definition.gates.end(),
+                     [&](const Gate& gate) { return metrics.contains(gate.metric); });
+}
+
+bool is_asked_for(const std::set<std::string>& metrics, const Case& definition, const GridOptions& options) {
+  const auto& only = options.only_metrics;
+  if (only.empty()) return options.is_thorough || has_gate_on(definition, metrics);
+  return std::any_of(only.begin(), only.end(), [&](const std::string& name) { return metrics.contains(name); });
+}
+
+// Their series over time come out apart: no result keeps them.
+std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options,
+                                            std::vector<NamedSeries>& series) {
+  std::map<std::string, MetricValue> values;
+  for (const MetricRow& row : metrics()) {
+    const bool is_wanted =
+        is_asked_for({row.name}, definition, options) || (!row.is_costly && options.only_metrics.empty());
+    MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
+    values[row.name] = condensed(found, run.trajectory);
+    if (found.measurement) series.push_back({row.name, std::move(found.measurement->series)});
+  }
+  return values;
+}
+
+}  // namespace
+
+TruthFacts facts_of(const Case& definition, const Truth* truth) {
+  TruthFacts facts;
+  facts.largest_kinetic_energy = largest_kinetic_energy(definition.scene, truth, definition.duration);
+  facts.largest_energy_change = largest_energy_change(definition.scene, truth, definition.duration);
+  if (truth) {
+    facts.error_at_end = truth->error(definition.duration);
+    facts.horizon = horizon(*truth, kHorizonTolerance, definition.duration);
+  }
+  return facts;
+}
+
+JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  Cell cell = planned;
+  const Scene& scene = definition.scene;
+  const Engine& engine = find_engine(engines, run_name.engine);
+  const double leapfrog_stagger = method_of(engines.info_of(run_name.engine), run_name.settings).leapfrog_stagger;
+  const bool is_timed = is_asked_for({"cost"}, definition, options);
+  const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed);
+  cell.settings = run.settings;
+  cell.cpu_seconds = is_timed ? timed_again(engine, run_name.settings, scene, run) : run.cpu_seconds;
+  std::optional<TruthSamples> samples;
+  if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), facts.largest_kinetic_energy);
+  std::optional<RunName> twin_name;
+  if (is_asked_for(kOfTwins, definition, options)) twin_name = twin_of(engines, run_name, scene);
+  std::optional<TwinRun> twin;
+  if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
+  JudgedRun judged{
+      scene,           run.trajectory, samples ? &*samples : nullptr, leapfrog_stagger, twin ? &*twin : nullptr,
+      cell.cpu_seconds};
+  judged.duration = definition.duration;
+  cell.stability = judge_stability(judged, run.not_finite, facts.largest_kinetic_energy, facts.largest_energy_change);
+  judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
+  std::vector<NamedSeries> series;
+  cell.metrics = measured(judged, definition, options, series);
+  if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
+  conclude(cell, run, scene);
+  for (const auto& recorder : options.recorders) {
+    Recording kept = recorder->of_run(definition, cell, judged, series, facts);
+    if (!kept.empty()) cell.recordings[recorder->name()] = std::move(kept);
+  }
+  cell.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
+}
+
+}  // namespace rigor

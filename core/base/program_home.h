@@ -1,0 +1,13 @@
+// Where the program keeps its files: the suite, what is known of engines.
+#pragma once
+
+#include <string>
+
+namespace rigor {
+
+// The folder `inside` of, in this order: the one that the variable RIGOR_HOME names; ../share/rigor beside the
+// program's own folder, where an install has put it; else `as_built`, in the sources. Throws InputError where
+// RIGOR_HOME is set and has no such folder.
+std::string home_folder(const std::string& inside, const std::string& as_built);
+
+}  // namespace rigor

@@ -1,0 +1,41 @@
+// The calls to paste: no option of an engine that has calls at all is lost in them.
+#include "adapters/calls.h"
+
+#include <boost/test/unit_test.hpp>
+#include <set>
+
+#include "adapters/engines.h"
+
+using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(adapters_calls)
+
+BOOST_AUTO_TEST_CASE(every_option_and_choice_is_a_call_of_its_own) {
+  int asked = 0;
+  for (const EngineInfo& engine : engines().infos()) {
+    if (engine.is_in_house) continue;
+    for (const MethodInfo& method : engine.methods) {
+      RunName run{engine.name, {method.name, {}, Track::matched}, engine.name};
+      BOOST_TEST(!engine_calls(run, "1.0 / 60").empty(), engine.name);
+      BOOST_TEST(engine_calls(run, "1.0 / 60").back().find("1.0 / 60") != std::string::npos);
+      for (const OptionInfo& option : method.options) {
+        std::set<std::vector<std::string>> different;
+        const std::vector<std::string> values =
+            option.choices.empty() ? std::vector<std::string>{"1", "0.5"} : option.choices;
+        for (const std::string& value : values) {
+          run.settings.options = {{option.name, value}};
+          different.insert(engine_calls(run, "1.0 / 60"));
+          ++asked;
+        }
+        BOOST_TEST(different.size() == values.size(), engine.name + ":" + method.name + " " + option.name);
+      }
+    }
+  }
+  BOOST_TEST(asked > 20);
+}
+
+BOOST_AUTO_TEST_CASE(an_engine_without_calls_has_none) {
+  BOOST_TEST(engine_calls(RunName{"core", {"rk4", {}, Track::matched}, "core:rk4"}, "1.0 / 60").empty());
+}
+
+BOOST_AUTO_TEST_SUITE_END()

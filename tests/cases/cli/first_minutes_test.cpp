@@ -1,0 +1,96 @@
+// What somebody meets who has just got the program: what to do next, a case of one's own, completions, its files.
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cases/cli/commands.h"
+#include "tests/cases/cli/program.h"
+
+using namespace rigor;
+using Json = nlohmann::json;
+
+namespace {
+
+struct Variable {
+  explicit Variable(const std::string& value) { setenv("RIGOR_HOME", value.c_str(), 1); }
+  ~Variable() { unsetenv("RIGOR_HOME"); }
+};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(cases_cli_first_minutes, Program)
+
+BOOST_AUTO_TEST_CASE(without_a_command_it_says_what_to_do_next) {
+  const Answer answer = run({});
+  BOOST_TEST(answer.code == 2);
+  for (const char* next : {"rigor run springs/fixed-spring", "rigor list", "rigor new my-case", "rigor gate --quick"})
+    BOOST_TEST(answer.err.find(next) != std::string::npos, answer.err);
+}
+
+BOOST_AUTO_TEST_CASE(a_new_case_runs_and_its_gate_holds_and_it_is_never_written_over) {
+  BOOST_TEST(run({"new", "my-case"}).code == 0);
+  const std::string text = content("my-case.toml");
+  const Answer gate = run({"gate", "my-case.toml", "--out", "out"});
+  BOOST_TEST(gate.code == 0, gate.out + gate.err);
+  const Json results = Json::parse(content("out/results.json"));
+  BOOST_TEST(!results.at("cases")[0].at("gates")[0].at("answers").empty());
+  const Answer again = run({"new", "my-case.toml"});
+  BOOST_TEST(again.code == 2);
+  BOOST_TEST(again.err.find("exists") != std::string::npos, again.err);
+  BOOST_TEST(content("my-case.toml") == text);
+  BOOST_TEST(run({"new"}).code == 2);
+  BOOST_TEST(run({"new", "no/such/folder/case"}).code == 2);
+  BOOST_TEST(run({"new", "a\"b"}).code == 2);
+}
+
+BOOST_AUTO_TEST_CASE(the_version_names_the_compiler_and_each_engine) {
+  const Answer answer = run({"--version"});
+  BOOST_TEST(answer.code == 0);
+  for (const char* part : {"rigor ", "ode ", "bullet ", "core ", "double precision"})
+    BOOST_TEST(answer.out.find(part) != std::string::npos, part);
+  const bool has_compiler =
+      answer.out.find("g++ ") != std::string::npos || answer.out.find("clang ") != std::string::npos;
+  BOOST_TEST(has_compiler);
+}
+
+// A shell reads what it is given, and completes each command and option of the table.
+BOOST_AUTO_TEST_CASE(completions_and_the_manual_know_every_command_and_option) {
+  const Answer bash = run({"completion", "bash"}), zsh = run({"completion", "zsh"}), man = run({"completion", "man"});
+  BOOST_TEST(bash.code + zsh.code + man.code == 0);
+  for (const CommandRow& row : commands()) {
+    BOOST_TEST(bash.out.find("      " + row.name + ") words=") != std::string::npos, row.name);
+    BOOST_TEST(zsh.out.find("'" + row.name + ":") != std::string::npos, row.name);
+    BOOST_TEST(man.out.find(".SS " + row.name + "\n") != std::string::npos, row.name);
+    for (const std::string& option : row.options) BOOST_TEST(bash.out.find(option) != std::string::npos, option);
+  }
+  folder.write("rigor.bash", bash.out);
+  const std::string asked =
+      "bash -c 'cd " + folder.path.string() +
+      " && . ./rigor.bash && COMP_WORDS=(rigor swe) COMP_CWORD=1 && _rigor && "
+      "[ \"${COMPREPLY[*]}\" = sweep ] && COMP_WORDS=(rigor merge --su) COMP_CWORD=2 && _rigor && "
+      "[ \"${COMPREPLY[*]}\" = --suite ]'";
+  BOOST_TEST(std::system(asked.c_str()) == 0);
+  BOOST_TEST(run({"completion"}).code == 2);
+  BOOST_TEST(run({"completion", "bsh"}).err.find("did you mean 'bash'") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(its_files_are_where_the_variable_says_or_it_says_that_they_are_not) {
+  const std::string home = (folder.path / "home").string();
+  {
+    const Variable set(home);
+    const Answer answer = run({"list", "cases"});
+    BOOST_TEST(answer.code == 2);
+    BOOST_TEST(
+        answer.err.find("RIGOR_HOME is '" + home + "', in which there is no folder 'suite'") != std::string::npos,
+        answer.err);
+  }
+  std::filesystem::create_directories(home + "/adapters");
+  run({"new", "mine"});
+  folder.write("home/suite/own/mine.toml", content("mine.toml"));
+  const Variable set(home);
+  const Answer answer = run({"list", "cases"});
+  BOOST_TEST(answer.code == 0, answer.err);
+  BOOST_TEST(answer.out.find("own/mine") != std::string::npos, answer.out);
+  BOOST_TEST(answer.out.find("springs/") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
