@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
@@ -21,18 +20,6 @@
 
 namespace rigor {
 namespace {
-
-TruthSamples sample_truth(const Truth& truth, const Trajectory& trajectory, std::size_t bodies,
-                          double largest_kinetic_energy) {
-  TruthSamples samples;
-  samples.largest_kinetic_energy = largest_kinetic_energy;
-  samples.source = &truth;
-  for (const Sample& sample : trajectory.samples) {
-    truth.at(sample.time, samples.bodies.emplace_back(bodies).columns());
-    samples.error.push_back(truth.error(sample.time));
-  }
-  return samples;
-}
 
 void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
   if (cell.stability.verdict == Verdict::blown_up) {
@@ -51,8 +38,8 @@ void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
 
 TruthFacts facts_of(const Case& definition, const Truth* truth) {
   TruthFacts facts;
-  facts.largest_kinetic_energy = largest_kinetic_energy(definition.scene, truth, definition.duration);
-  facts.largest_energy_change = largest_energy_change(definition.scene, truth, definition.duration);
+  const EnergyExtremes extremes = energy_extremes(definition.scene, truth, definition.duration);
+  facts.largest_kinetic_energy = extremes.kinetic, facts.largest_energy_change = extremes.change;
   if (truth) {
     facts.error_at_end = truth->error(definition.duration);
     facts.horizon = horizon(*truth, kHorizonTolerance, definition.duration);
@@ -114,13 +101,7 @@ class CaseJobs {
         facts_(facts),
         heard_(planned) {
     const Case& definition = planned.definition;
-    if (searches_steps(planned, options) && truth) {
-      const double horizon = stability_horizon(definition);
-      stable_energy_ = std::max(largest_kinetic_energy(definition.scene, truth, horizon),
-                                largest_energy_change(definition.scene, truth, horizon));
-    } else if (searches_steps(planned, options)) {
-      stable_energy_ = largest_kinetic_energy(definition.scene, nullptr, stability_horizon(definition));
-    }
+    if (searches_steps(planned, options)) stable_energy_ = energy_of_stable_runs(definition);
     const std::size_t of_case = static_cast<std::size_t>(&planned - grid.cases.data());
     for (std::size_t run = 0; run < planned.stable_steps.size(); ++run) {
       if (planned.stable_steps[run].status != Status::unsupported)
@@ -145,6 +126,7 @@ class CaseJobs {
         hear(job, kept->second), channel.send(kept->second.message);
       }
     }
+    keep_truth_for(jobs);
     std::map<std::size_t, std::string> flaws;  // by job; empty for one whose answer is good
     const auto on_message = [&](std::size_t index, const std::string& message) {
       const std::size_t job = left[index];
@@ -180,19 +162,40 @@ class CaseJobs {
     return {is_cell(job) ? MessageSubject::Part::cell : MessageSubject::Part::stable_step, job.part};
   }
 
+  // At the steps that two cells or more are left to do at.
+  void keep_truth_for(const std::vector<JobSpec>& jobs) {
+    if (!truth_) return;
+    std::map<double, int> cells;
+    for (const JobSpec& job : jobs) {
+      if (!is_cell(job) || ++cells[job.dt.seconds] != 2) continue;
+      const Case& definition = planned_.definition;
+      truth_on_steps_.keep(*truth_, job.dt.seconds, definition.duration, definition.scene.bodies.size());
+    }
+  }
+
+  // J, what the truth has in play over the stability horizon.
+  double energy_of_stable_runs(const Case& definition) const {
+    const double horizon = stability_horizon(definition);
+    if (truth_ && horizon == definition.duration)
+      return std::max(facts_.largest_kinetic_energy, facts_.largest_energy_change);
+    const EnergyExtremes extremes = energy_extremes(definition.scene, truth_, horizon);
+    return std::max(extremes.kinetic, extremes.change);
+  }
+
   void do_stable_step(const JobSpec& job, const Channel& channel) const {
     const Case& definition = planned_.definition;
     const RunName& run = run_of(job.part);
     StableStepResult found;
     found.step = largest_stable_dt(find_engine(engines_, run.engine), run.settings, definition.scene,
                                    stability_horizon(definition), stable_energy_);
-    found.status = Status::pass, found.reason.clear();
+    found.status = Status::pass, found.reason = found.step.cut;
     channel.send(message_of_stable_step(job.part, found));
   }
 
   void do_cell(const JobSpec& job, const Channel& channel) const {
     const Cell& cell = planned_.cells[job.part];
-    const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_);
+    const JudgedCell judged =
+        run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_, truth_on_steps_);
     channel.send(joined({message_of_cell(job.part, judged.cell, planned_.definition.scene), packed(judged.path)}));
   }
 
@@ -247,6 +250,7 @@ class CaseJobs {
   const EngineTable& engines_;
   const GridOptions& options_;
   const Truth* truth_;
+  TruthOnSteps truth_on_steps_;
   TruthFacts facts_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<JobSpec> jobs_;
@@ -298,7 +302,8 @@ void forget_what_is_wrong(Journal& journal, const CaseResult& planned, const Gri
 }  // namespace
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options) {
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
+                    const TruthOnSteps& truth_on_steps) {
   const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
@@ -309,7 +314,9 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   cell.settings = run.settings;
   cell.cpu_seconds = is_timed ? timed_again(engine, run_name.settings, scene, run) : run.cpu_seconds;
   std::optional<TruthSamples> samples;
-  if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), facts.largest_kinetic_energy);
+  if (truth) {
+    samples = truth_on_steps.at_samples_of(run.trajectory, *truth, scene.bodies.size(), facts.largest_kinetic_energy);
+  }
   std::optional<RunName> twin_name;
   if (options.is_thorough || has_gate_on(definition, kOfTwins)) twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;

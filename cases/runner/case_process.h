@@ -4,6 +4,7 @@
 
 #include "cases/runner/grid.h"
 #include "cases/runner/process_pool.h"
+#include "cases/runner/truth_samples.h"
 
 namespace rigor {
 
@@ -17,6 +18,7 @@ struct JudgedCell {
   Path path;
 };
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options);
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
+                    const TruthOnSteps& truth_on_steps = {});
 
 }  // namespace rigor

@@ -5,8 +5,8 @@
 namespace rigor {
 namespace {
 
-constexpr int kMostRounds = 2000;     // before every touching point is taken together, without rebound
-constexpr double kNewEnergy = 1e-12;  // of the energy before: rounding
+constexpr int kMostImpactRounds = 2000;  // before every touching point is taken together, without rebound
+constexpr double kNewEnergy = 1e-12;     // of the energy before: rounding
 
 void copy_velocities(BodyColumns from, MutableBodyColumns to) {
   for (std::size_t i = 0; i < to.size(); ++i) {
@@ -25,9 +25,9 @@ bool Impacts::resolve(MutableBodyColumns state, std::vector<ContactPoint>& conta
   for (ConeConstraint& point : points_) point.impulse.setZero();
   solver_.prepare(state, points_);
   int round = 0;
-  while (choose(state, contact_points, inelastic, round >= kMostRounds)) {
+  while (choose(state, contact_points, inelastic, round >= kMostImpactRounds)) {
     solve_round(state);
-    if (round++ > kMostRounds) {
+    if (round++ > kMostImpactRounds) {
       solver_warning_ = "an impact of several bodies did not come to an end; what was left of it was dropped";
       break;
     }

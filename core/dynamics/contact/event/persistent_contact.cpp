@@ -8,7 +8,7 @@ namespace rigor {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kForever = std::numeric_limits<double>::infinity();
 // The forces turn with the points that they act at, and so feed back on themselves: by some dt² F / (m r) in a pass.
 constexpr int kMostPasses = 50, kFewestPasses = 4;
 constexpr double kSettling = 0.1;   // what so many passes leave of a change at most: else a shorter step is quicker
@@ -16,13 +16,13 @@ constexpr double kSettled = 1e-12;  // of 1 m/s, the speeds and what the forces 
 constexpr double kNearlySettled = 1e-10;  // likewise, where roundings leave no more: forces on the verge of sliding
 constexpr double kClosed = 1e-13;         // m: a few roundings of a position of one metre
 constexpr int kMostMoves = 20;
-constexpr double kSliding = 1e-9;   // m/s: ten times what an impact or a stop may leave
-constexpr double kTouching = 1e-3;  // m: a point that drifted further than this is not in contact any more
+constexpr double kSliding = 1e-9;        // m/s: ten times what an impact or a stop may leave
+constexpr double kStillTouching = 1e-3;  // m: a point that drifted further than this is not in contact any more
 
 Scene with_contact_forces(Scene scene) {
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     if (scene.bodies[i].collides && !scene.bodies[i].fixed)
-      scene.forces.push_back({.body = i, .from = -kInfinity, .until = kInfinity});
+      scene.forces.push_back({.body = i, .from = -kForever, .until = kForever});
   }
   return scene;
 }
@@ -137,7 +137,7 @@ bool PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
   for (PersistentPoint& point : points_) point.at_end = point.at_start;
   apply_forces(dt);
   const double speed = speed_of(start);
-  double last = kInfinity;
+  double last = kForever;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     copy_columns(start, end);
     stepper_->step(end, t, dt);
@@ -158,7 +158,7 @@ bool PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
 }
 
 double PersistentContact::distance_from_sticking() const {
-  double least = kInfinity;
+  double least = kForever;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ConeConstraint& cone = cones_[i];
     if (points_[i].slip_at_start <= kSliding || cone.impulse.x() <= 0) continue;
@@ -177,10 +177,10 @@ bool PersistentContact::carries(const ContactPoint& contact) const {
 
 bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,
                                    Closing which) {
-  double before = kInfinity;
+  double before = kForever;
   for (int k = 0; k < kMostMoves; ++k) {
     open_.clear(), targets_.clear();
-    contact_points_.find(state, pairs, kTouching, open_);
+    contact_points_.find(state, pairs, kStillTouching, open_);
     double widest = 0;
     for (const ContactPoint& contact : open_) {
       const bool is_carrying = which == Closing::all && carries(contact);
@@ -203,7 +203,7 @@ void PersistentContact::stop_carrying_points(MutableBodyColumns state) {
   targets_.clear();
   for (const PersistentPoint& point : points_) {
     ContactPoint now = point.at_end;
-    if (!(point.force.x() > 0) || !contact_points_.follow(state, now) || now.gap > kTouching) continue;
+    if (!(point.force.x() > 0) || !contact_points_.follow(state, now) || now.gap > kStillTouching) continue;
     const Vec3 u = ConeSolver::velocity_at(now.cone, state);
     add_target(now.cone, 0, -u.x(), true);
     if (point.slip_at_end > kSliding || now.cone.friction == 0) continue;
