@@ -11,12 +11,12 @@ namespace {
 constexpr int kMaxContacts = 16;   // of one pair; two boxes have at most eight
 constexpr double kSlowest = 1e-9;  // m/s: below it a sliding velocity is rounding and has no direction
 
-Vec3 vector_of(const dReal* v) { return {v[0], v[1], v[2]}; }
+Vec3 contact_vector(const dReal* v) { return {v[0], v[1], v[2]}; }
 
 Vec3 velocity_at(dBodyID body, const Vec3& point) {
   if (!body) return Vec3::Zero();
-  const Vec3 arm = point - vector_of(dBodyGetPosition(body));
-  return vector_of(dBodyGetLinearVel(body)) + vector_of(dBodyGetAngularVel(body)).cross(arm);
+  const Vec3 arm = point - contact_vector(dBodyGetPosition(body));
+  return contact_vector(dBodyGetLinearVel(body)) + contact_vector(dBodyGetAngularVel(body)).cross(arm);
 }
 
 dSurfaceParameters surface_of(const ContactLaw& law) {
@@ -35,7 +35,7 @@ dSurfaceParameters surface_of(const ContactLaw& law) {
 
 // ODE's friction is a pyramid. Its first axis along the sliding velocity makes it act as the cone does while sliding.
 void align_friction(dContact& contact, dBodyID a, dBodyID b) {
-  const Vec3 point = vector_of(contact.geom.pos), normal = vector_of(contact.geom.normal);
+  const Vec3 point = contact_vector(contact.geom.pos), normal = contact_vector(contact.geom.normal);
   const Vec3 relative = velocity_at(a, point) - velocity_at(b, point);
   const Vec3 sliding = relative - normal.dot(relative) * normal;
   const double speed = sliding.norm();

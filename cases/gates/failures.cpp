@@ -4,22 +4,13 @@
 
 #include <algorithm>
 
+#include "cases/gates/gates.h"
+
 namespace rigor {
 namespace {
 
-std::string unit_of(const std::string& metric) {
-  const auto text = [](const auto& row) { return row.unit == "1" ? std::string() : " " + row.unit; };
-  for (const MetricRow& row : metrics()) {
-    if (row.name == metric) return text(row);
-  }
-  for (const CrossMetricRow& row : cross_metrics()) {
-    if (row.name == metric) return text(row);
-  }
-  return "";
-}
-
 std::string limit_of(const Gate& gate) {
-  const std::string unit = unit_of(gate.metric);
+  const std::string unit = unit_after(gate.metric);
   if (gate.declares_order) return "the order that its method declares, less a tenth";
   if (gate.at_least_order) return fmt::format("order at least {:g}", *gate.at_least_order);
   if (gate.equals) return fmt::format("equal to {:.17g}{}", *gate.equals, unit);
@@ -41,7 +32,7 @@ std::string worst_text(const GateResult& answer, const Scene& scene) {
 Shortfall of_gate(const CaseResult& result, const GateResult& answer) {
   const Gate& gate = result.definition.gates[answer.gate];
   Shortfall row{result.definition.id, answer.engine, answer.dt, gate.metric, "", limit_of(gate), "", "", gate.where};
-  const std::string unit = gate.at_least_order ? "" : unit_of(gate.metric);
+  const std::string unit = gate.at_least_order ? "" : unit_after(gate.metric);
   row.found = answer.value ? fmt::format("{:.6g}{}", *answer.value, unit) : word_of(answer.answer);
   row.worst = worst_text(answer, result.definition.scene);
   row.because = answer.answer == GateAnswer::failed && answer.value ? gate.because : answer.text;

@@ -13,17 +13,6 @@
 namespace rigor {
 namespace {
 
-std::string unit_of(const std::string& metric) {
-  const auto of_row = [](const auto& row) { return row.unit == "1" ? "" : " " + row.unit; };
-  for (const MetricRow& row : metrics()) {
-    if (row.name == metric) return of_row(row);
-  }
-  for (const CrossMetricRow& row : cross_metrics()) {
-    if (row.name == metric) return of_row(row);
-  }
-  return "";
-}
-
 bool is_higher_better(const std::string& metric) {
   return std::any_of(metrics().begin(), metrics().end(),
                      [&](const MetricRow& row) { return row.name == metric && row.higher_is_better; });
@@ -39,7 +28,7 @@ class GateCheck {
         index_(index),
         gate_(result.definition.gates[index]),
         selection_(gate_, grid.engines),
-        unit_(unit_of(gate_.metric)) {}
+        unit_(unit_after(gate_.metric)) {}
 
   void check() {
     const std::size_t before = result_.gates.size();
@@ -322,6 +311,17 @@ std::vector<Gate> unmet_family_gates(const Results& grid) {
   std::vector<Gate> gates;
   for (const auto& [name, gate] : unmet) gates.push_back(*gate);
   return gates;
+}
+
+std::string unit_after(const std::string& metric) {
+  const auto of_row = [](const auto& row) { return row.unit == "1" ? "" : " " + row.unit; };
+  for (const MetricRow& row : metrics()) {
+    if (row.name == metric) return of_row(row);
+  }
+  for (const CrossMetricRow& row : cross_metrics()) {
+    if (row.name == metric) return of_row(row);
+  }
+  return "";
 }
 
 }  // namespace rigor

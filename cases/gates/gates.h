@@ -18,6 +18,9 @@ void check_gates(CaseResult& result, const Results& grid, const RecordedValues& 
 // Whether every gate was checked and held, and every case could be judged.
 bool all_gates_hold(const Results& grid);
 
+// " m": the unit that stands after a value of this metric; "" where it has none.
+std::string unit_after(const std::string& metric);
+
 // Those of families that no cell of any case met: of a whole suite there should be none.
 std::vector<Gate> unmet_family_gates(const Results& grid);
 

@@ -34,7 +34,7 @@ std::string why_arms_are_unknown(const Scene& scene) {
   return "";
 }
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_angular_momentum_drift(const JudgedRun& run) {
   const Scene& scene = run.scene;
   const MomentumOf momentum = [&](BodyColumns bodies) {
     return angular_momentum(scene, bodies, centre_of_mass(scene, bodies));
@@ -55,7 +55,8 @@ MetricResult measure(const JudgedRun& run) {
 
 MetricRow angular_momentum_drift() {
   return {"angular_momentum_drift", "kg m²/s",
-          "largest deviation of the angular momentum about the centre of mass from what it must be", measure};
+          "largest deviation of the angular momentum about the centre of mass from what it must be",
+          measure_angular_momentum_drift};
 }
 
 }  // namespace rigor

@@ -6,7 +6,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_collapse_time(const JudgedRun& run) {
   const std::string why_not = why_not_built_at_rest(run);
   if (!why_not.empty()) return {{}, why_not};
   const double end = run.trajectory.samples.back().time;
@@ -19,7 +19,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow collapse_time() {
-  return {"collapse_time", "s", "how long a structure built to stand stands; higher is better", measure, true};
+  return {"collapse_time", "s", "how long a structure built to stand stands; higher is better", measure_collapse_time,
+          true};
 }
 
 }  // namespace rigor

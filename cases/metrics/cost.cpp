@@ -7,7 +7,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_cost(const JudgedRun& run) {
   if (run.trajectory.samples.size() < 2) return {{}, "the run has no finite step"};
   if (std::isnan(run.cpu_seconds)) return {{}, "the run's steps were not timed"};
   const double simulated = run.trajectory.samples.back().time;
@@ -20,6 +20,6 @@ MetricResult measure(const JudgedRun& run) {
 
 }  // namespace
 
-MetricRow cost() { return {"cost", "s/s", "CPU seconds that the steps of one simulated second take", measure}; }
+MetricRow cost() { return {"cost", "s/s", "CPU seconds that the steps of one simulated second take", measure_cost}; }
 
 }  // namespace rigor

@@ -6,7 +6,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_creep(const JudgedRun& run) {
   const std::string why_not = why_not_built_at_rest(run);
   if (!why_not.empty()) return {{}, why_not};
   const BodyColumns start = run.trajectory.samples.front().bodies.columns();
@@ -27,6 +27,8 @@ MetricResult measure(const JudgedRun& run) {
 
 }  // namespace
 
-MetricRow creep() { return {"creep", "m", "how far a body built to stand still has moved from its start", measure}; }
+MetricRow creep() {
+  return {"creep", "m", "how far a body built to stand still has moved from its start", measure_creep};
+}
 
 }  // namespace rigor

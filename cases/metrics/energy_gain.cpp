@@ -8,12 +8,12 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_energy_gain(const JudgedRun& run) {
   if (is_driven(run.scene)) return {{}, "forces or motors drive the scene and may add energy"};
   if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
   const double scale = energy_scale(run);
-  const std::vector<double> energies = energies_of(run, run.leapfrog_stagger),
-                            rises = rises_of(energies_of(run, 0), energies);
+  const std::vector<double>& energies = energies_of(run, run.leapfrog_stagger);
+  const std::vector<double> rises = rises_of(energies_of(run, 0), energies);
   TimeSeries series;
   for (std::size_t n = 0; n < energies.size(); ++n) {
     series.add(rises[n] / scale,
@@ -26,7 +26,8 @@ MetricResult measure(const JudgedRun& run) {
 
 MetricRow energy_gain() {
   return {"energy_gain", "1",
-          "largest rise of the energy above the lowest before, relative to the largest kinetic energy", measure};
+          "largest rise of the energy above the lowest before, relative to the largest kinetic energy",
+          measure_energy_gain};
 }
 
 }  // namespace rigor

@@ -10,7 +10,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_friction_anisotropy(const JudgedRun& run) {
   std::string why_none;
   const std::vector<Stop> stops = stops_of(run, why_none);
   if (stops.size() < 2)
@@ -35,7 +35,7 @@ MetricResult measure(const JudgedRun& run) {
 
 MetricRow friction_anisotropy() {
   return {"friction_anisotropy", "1", "spread, over directions, of distances to a stop that should be the same",
-          measure};
+          measure_friction_anisotropy};
 }
 
 }  // namespace rigor

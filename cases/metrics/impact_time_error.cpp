@@ -16,7 +16,7 @@ Trajectory truth_of(const JudgedRun& run, std::size_t count) {
   return truth;
 }
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_impact_time_error(const JudgedRun& run) {
   if (!run.truth) return {{}, kNoTruth};
   const std::size_t count = samples_within(run, kTruthNeededPosition);
   if (count == 0) return {{}, kNoSamples};
@@ -43,7 +43,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow impact_time_error() {
-  return {"impact_time_error", "s", "largest distance in time of an impact from the true one", measure};
+  return {"impact_time_error", "s", "largest distance in time of an impact from the true one",
+          measure_impact_time_error};
 }
 
 }  // namespace rigor

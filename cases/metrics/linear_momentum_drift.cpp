@@ -6,7 +6,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_linear_momentum_drift(const JudgedRun& run) {
   const Scene& scene = run.scene;
   const MomentumOf momentum = [&](BodyColumns bodies) { return linear_momentum(scene, bodies); };
   if (const std::string why = why_held_from_outside(scene); !why.empty()) return against_truth(run, "P", momentum, why);
@@ -26,7 +26,7 @@ MetricResult measure(const JudgedRun& run) {
 
 MetricRow linear_momentum_drift() {
   return {"linear_momentum_drift", "kg m/s", "largest deviation of the system's linear momentum from what it must be",
-          measure};
+          measure_linear_momentum_drift};
 }
 
 }  // namespace rigor

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ struct TwinRun {
   std::vector<double> orientation_rounding;  // rad
 };
 
+// J, at each sample: several metrics ask for the same, and it is worked out once.
+struct EnergiesKnown {
+  std::map<double, std::vector<double>> by_lag;      // of the run, see energies_of
+  std::optional<std::vector<double>> of_truth = {};  // as far as the truth was sampled
+};
+
 // A run, ready to be judged. The trajectory ends before the first sample that is not finite.
 struct JudgedRun {
   const Scene& scene;
@@ -40,6 +47,7 @@ struct JudgedRun {
   double cpu_seconds = std::numeric_limits<double>::quiet_NaN();  // s, of the run's steps
   double survived = std::numeric_limits<double>::quiet_NaN();     // s, until it blew up, or `duration`
   double duration = 0;                                            // s, of the case
+  mutable EnergiesKnown energies = {};                            // filled in by energies_of and energy_series
 };
 
 // Where a metric is worst. Body kWorld: the system as a whole.

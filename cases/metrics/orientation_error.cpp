@@ -5,7 +5,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_orientation_error(const JudgedRun& run) {
   if (!run.truth) return {{}, kNoTruth};
   const std::size_t count = samples_within(run, kTruthNeededOrientation);
   if (count == 0) return {{}, kNoSamples};
@@ -26,7 +26,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow orientation_error() {
-  return {"orientation_error", "rad", "largest angle of a body's orientation from the truth's", measure};
+  return {"orientation_error", "rad", "largest angle of a body's orientation from the truth's",
+          measure_orientation_error};
 }
 
 }  // namespace rigor

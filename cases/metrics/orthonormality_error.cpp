@@ -5,7 +5,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_orthonormality_error(const JudgedRun& run) {
   if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
   TimeSeries series;
   for (const Sample& sample : run.trajectory.samples) {
@@ -24,7 +24,8 @@ MetricResult measure(const JudgedRun& run) {
 
 MetricRow orthonormality_error() {
   return {"orthonormality_error", "1",
-          "largest Frobenius norm of RᵀR - I of a body's orientation as the engine holds it", measure};
+          "largest Frobenius norm of RᵀR - I of a body's orientation as the engine holds it",
+          measure_orthonormality_error};
 }
 
 }  // namespace rigor

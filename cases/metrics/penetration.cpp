@@ -9,7 +9,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_penetration(const JudgedRun& run) {
   if (!anything_can_touch(run.scene)) return {{}, "no two bodies of the scene can touch"};
   if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
   const Overlaps overlaps(run.scene);
@@ -32,7 +32,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow penetration() {
-  return {"penetration", "m", "deepest overlap of two bodies' shapes, beyond what the scene starts with", measure};
+  return {"penetration", "m", "deepest overlap of two bodies' shapes, beyond what the scene starts with",
+          measure_penetration};
 }
 
 }  // namespace rigor

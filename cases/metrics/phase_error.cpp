@@ -14,6 +14,8 @@
 namespace rigor {
 namespace {
 
+constexpr int kEitherWay = 16;  // shifts tried
+
 struct Misfit {
   double value = 0;  // kg m², J
   double slope = 0;  // kg m²/s, dJ/ds
@@ -103,13 +105,14 @@ class Fit {
   std::vector<std::size_t> chosen_;
 };
 
-// The root of the slope between `low` and `high`, or the vertex of the parabola through three misfits where the slope
-// has none there.
-double refined(Fit& fit, double middle, double step, double dt) {
-  const double low = middle - step, high = middle + step;
-  const Misfit before = fit.at(low), here = fit.at(middle), after = fit.at(high);
+// Round the best of the shifts tried: the root of the slope between its neighbours, or the vertex of the parabola
+// through the three misfits where the slope has none there.
+double refined(Fit& fit, const std::vector<Misfit>& tried, int best, double step, double dt) {
+  const auto* here = &tried[static_cast<std::size_t>(best + kEitherWay)];
+  const Misfit &before = here[-1], &after = here[1];
+  const double low = (best - 1) * step, middle = best * step, high = (best + 1) * step;
   if (!(before.slope < 0 && after.slope > 0)) {
-    const double bend = before.value - 2 * here.value + after.value;
+    const double bend = before.value - 2 * here->value + after.value;
     return bend > 0 ? middle + 0.5 * step * (before.value - after.value) / bend : middle;
   }
   const double close_enough = 1e-12 * dt;  // s
@@ -120,7 +123,7 @@ double refined(Fit& fit, double middle, double step, double dt) {
   return 0.5 * (root.first + root.second);
 }
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_phase_error(const JudgedRun& run) {
   if (!run.truth || !run.truth->source) return {{}, kNoTruth};
   const std::size_t count = samples_within(run, std::min(kTruthNeededPosition, kTruthNeededOrientation));
   if (count == 0) return {{}, kNoSamples};
@@ -128,12 +131,13 @@ MetricResult measure(const JudgedRun& run) {
   if (fit.is_static()) return {{}, "the truth does not move"};
   if (fit.samples() < 3) return {{}, "there are too few samples to fit a shift to"};
 
-  constexpr int kEitherWay = 16;
   const double step = fit.widest() / kEitherWay;
+  std::vector<Misfit> tried;
+  for (int k = -kEitherWay; k <= kEitherWay; ++k) tried.push_back(fit.at(k * step));
   int best = 0;
-  double least = fit.at(0).value;
+  double least = tried[kEitherWay].value;
   for (int k = -kEitherWay; k <= kEitherWay; ++k) {
-    const double value = fit.at(k * step).value;
+    const double value = tried[static_cast<std::size_t>(k + kEitherWay)].value;
     if (value < least) best = k, least = value;
   }
   if (!std::isfinite(least)) return {{}, "the run is too far from the truth"};
@@ -141,7 +145,7 @@ MetricResult measure(const JudgedRun& run) {
     return {{}, fmt::format("the best shift is {:.3g} s or more, where the search ends", fit.widest())};
   }
   Measurement out;
-  out.value = refined(fit, best * step, step, run.trajectory.dt);
+  out.value = refined(fit, tried, best, step, run.trajectory.dt);
   out.worst = {fit.end(), kWorld, "shift", out.value, 0};
   out.compared_until = fit.end();
   return {out, ""};
@@ -150,8 +154,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow phase_error() {
-  return {"phase_error", "s",   "the shift in time that fits the run best: it lags (+) or leads (-) the truth",
-          measure,       false, true};
+  return {"phase_error",       "s",   "the shift in time that fits the run best: it lags (+) or leads (-) the truth",
+          measure_phase_error, false, true};
 }
 
 }  // namespace rigor

@@ -24,7 +24,7 @@ Instant worst_at(const Sample& sample, BodyColumns truth, double& value) {
   return worst;
 }
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_position_error(const JudgedRun& run) {
   if (!run.truth) return {{}, kNoTruth};
   const std::size_t count = samples_within(run, kTruthNeededPosition);
   if (count == 0) return {{}, kNoSamples};
@@ -40,7 +40,7 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow position_error() {
-  return {"position_error", "m", "largest distance of a body from where the truth has it", measure};
+  return {"position_error", "m", "largest distance of a body from where the truth has it", measure_position_error};
 }
 
 }  // namespace rigor

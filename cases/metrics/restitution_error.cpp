@@ -8,7 +8,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_restitution_error(const JudgedRun& run) {
   Measurement out;
   bool has_any = false;
   for (const auto& [pair, impacts] : impacts_of(run.scene, run.trajectory, run.leapfrog_stagger)) {
@@ -29,7 +29,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow restitution_error() {
-  return {"restitution_error", "1", "largest error of an impact's separation speed over its approach speed", measure};
+  return {"restitution_error", "1", "largest error of an impact's separation speed over its approach speed",
+          measure_restitution_error};
 }
 
 }  // namespace rigor

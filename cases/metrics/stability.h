@@ -17,12 +17,13 @@ namespace rigor {
 Stability judge_stability(const JudgedRun& run, const std::optional<NotFinite>& not_finite,
                           double largest_kinetic_energy, double largest_energy_change = 0);
 
-// J, of the truth over [0, duration]; without a truth, or where it never moves, the scene's energy in play
-// (energy_in_play.h).
-double largest_kinetic_energy(const Scene& scene, const Truth* truth, double duration);
-
-// J, the largest |E - E0| of the truth over [0, duration]; 0 without a truth.
-double largest_energy_change(const Scene& scene, const Truth* truth, double duration);
+// J, of the truth over [0, duration].
+struct EnergyExtremes {
+  double kinetic = 0;  // the largest; without a truth, or where it never moves, the scene's energy in play
+                       // (energy_in_play.h)
+  double change = 0;   // the largest |E - E0|; 0 without a truth
+};
+EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double duration);
 
 // Whether the energy's change from its start [J] is what a run that has not blown up may show. Friction and impacts may
 // take any amount, as on a long slope: there only a rise is bounded. False, too, where the energy is not a number.

@@ -8,7 +8,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_stop_distance_error(const JudgedRun& run) {
   std::string why_none;
   Measurement out;
   for (const Stop& stop : stops_of(run, why_none)) {
@@ -24,7 +24,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow stop_distance_error() {
-  return {"stop_distance_error", "1", "error of the distance to a stop, relative to the true one", measure};
+  return {"stop_distance_error", "1", "error of the distance to a stop, relative to the true one",
+          measure_stop_distance_error};
 }
 
 }  // namespace rigor

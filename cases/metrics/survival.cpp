@@ -7,7 +7,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_survival(const JudgedRun& run) {
   if (std::isnan(run.survived)) return {{}, "nobody judged the run's stability"};
   Measurement out;
   out.value = run.survived;
@@ -19,8 +19,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow survival() {
-  return {"survival", "s", "how long the run lasts before it blows up; its whole duration if it does not", measure,
-          true};
+  return {"survival", "s", "how long the run lasts before it blows up; its whole duration if it does not",
+          measure_survival, true};
 }
 
 }  // namespace rigor

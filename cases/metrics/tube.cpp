@@ -81,7 +81,7 @@ class Tube {
   std::vector<double> radii_;  // m, one a body
 };
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_tube(const JudgedRun& run) {
   if (!run.truth || !run.truth->source) return {{}, kNoTruth};
   const std::size_t count = samples_within(run, std::min(kTruthNeededPosition, kTruthNeededOrientation));
   if (count == 0) return {{}, kNoSamples};
@@ -104,8 +104,8 @@ MetricResult measure(const JudgedRun& run) {
 }  // namespace
 
 MetricRow tube() {
-  return {"tube",  "1",  "share of the time within 1 % of the truth's extent, within one dt; higher is better",
-          measure, true, true};
+  return {"tube",       "1",  "share of the time within 1 % of the truth's extent, within one dt; higher is better",
+          measure_tube, true, true};
 }
 
 }  // namespace rigor

@@ -6,7 +6,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_unexplained_error(const JudgedRun& run) {
   if (!run.twin) return {{}, kNoTwin};
   const Trajectory& twin = run.twin->trajectory;
   const std::size_t count =
@@ -35,7 +35,7 @@ MetricResult measure(const JudgedRun& run) {
 
 MetricRow unexplained_error() {
   return {"unexplained_error", "m", "largest distance of a body from where the engine's own scheme, repeated, has it",
-          measure};
+          measure_unexplained_error};
 }
 
 }  // namespace rigor

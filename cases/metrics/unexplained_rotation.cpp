@@ -5,7 +5,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run) {
+MetricResult measure_unexplained_rotation(const JudgedRun& run) {
   if (!run.twin) return {{}, kNoTwin};
   const Trajectory& twin = run.twin->trajectory;
   const std::vector<double> one_radian(twin.samples.size(), 1.0);
@@ -28,7 +28,7 @@ MetricResult measure(const JudgedRun& run) {
 
 MetricRow unexplained_rotation() {
   return {"unexplained_rotation", "rad", "largest angle of a body's orientation from its scheme's own, repeated",
-          measure};
+          measure_unexplained_rotation};
 }
 
 }  // namespace rigor

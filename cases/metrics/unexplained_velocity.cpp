@@ -8,7 +8,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run, RateOf rate, const char* letter) {
+MetricResult measure_unexplained_velocity(const JudgedRun& run, RateOf rate, const char* letter) {
   if (!run.twin) return {{}, kNoTwin};
   const Trajectory& twin = run.twin->trajectory;
   const std::vector<double> one_radian(twin.samples.size(), 1.0);
@@ -23,12 +23,12 @@ MetricResult measure(const JudgedRun& run, RateOf rate, const char* letter) {
 MetricRow unexplained_spin() {
   return {"unexplained_spin", "rad/s",
           "largest difference of a body's angular velocity from its scheme's own, repeated",
-          [](const JudgedRun& run) { return measure(run, &BodyColumns::angular_velocity, "w"); }};
+          [](const JudgedRun& run) { return measure_unexplained_velocity(run, &BodyColumns::angular_velocity, "w"); }};
 }
 
 MetricRow unexplained_velocity() {
   return {"unexplained_velocity", "m/s", "largest difference of a body's velocity from its scheme's own, repeated",
-          [](const JudgedRun& run) { return measure(run, &BodyColumns::velocity, "v"); }};
+          [](const JudgedRun& run) { return measure_unexplained_velocity(run, &BodyColumns::velocity, "v"); }};
 }
 
 }  // namespace rigor

@@ -5,7 +5,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run, RateOf rate, const char* letter) {
+MetricResult measure_velocity_error(const JudgedRun& run, RateOf rate, const char* letter) {
   if (!run.truth) return {{}, kNoTruth};
   return rate_gap(run, samples_within(run, kTruthNeededPosition), rate, letter,
                   [&](std::size_t n) { return run.truth->bodies[n].columns(); });
@@ -15,12 +15,12 @@ MetricResult measure(const JudgedRun& run, RateOf rate, const char* letter) {
 
 MetricRow angular_velocity_error() {
   return {"angular_velocity_error", "rad/s", "largest difference of a body's angular velocity from the truth's",
-          [](const JudgedRun& run) { return measure(run, &BodyColumns::angular_velocity, "w"); }};
+          [](const JudgedRun& run) { return measure_velocity_error(run, &BodyColumns::angular_velocity, "w"); }};
 }
 
 MetricRow velocity_error() {
   return {"velocity_error", "m/s", "largest difference of a body's velocity from the truth's",
-          [](const JudgedRun& run) { return measure(run, &BodyColumns::velocity, "v"); }};
+          [](const JudgedRun& run) { return measure_velocity_error(run, &BodyColumns::velocity, "v"); }};
 }
 
 }  // namespace rigor

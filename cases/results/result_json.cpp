@@ -144,7 +144,8 @@ void fill_in(StableStepResult& result, const Json& json) {
   result.status = status_of(json.at("status").get<std::string>());
   result.reason = json.at("reason").get<std::string>();
   if (result.status != Status::pass) return;
-  result.step = {number_of(json.at("dt")), json.at("is_cap").get<bool>(), json.at("is_floor").get<bool>()};
+  result.step = {number_of(json.at("dt")), json.at("is_cap").get<bool>(), json.at("is_floor").get<bool>(),
+                 result.reason};
 }
 
 }  // namespace

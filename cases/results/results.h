@@ -79,12 +79,13 @@ struct StableStep {
   double dt = 0;          // s
   bool is_cap = false;    // still stable at the largest step tried: dt is that one
   bool is_floor = false;  // blows up at the smallest step tried: dt is that one
+  std::string cut = "";   // what of the search was left out, and why; see largest_stable_dt
 };
 
 // The largest stable dt of a case and engine.
 struct StableStepResult {
-  Status status = Status::crashed;  // pass: `step` holds
-  std::string reason = "it did not run";
+  Status status = Status::crashed;        // pass: `step` holds
+  std::string reason = "it did not run";  // with `pass`: StableStep::cut
   StableStep step;
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <map>
 
@@ -70,13 +69,7 @@ class CaseJobs {
         facts_(facts),
         heard_(planned) {
     const Case& definition = planned.definition;
-    if (searches_steps(planned, options) && truth) {
-      const double horizon = stability_horizon(definition);
-      stable_energy_ = std::max(largest_kinetic_energy(definition.scene, truth, horizon),
-                                largest_energy_change(definition.scene, truth, horizon));
-    } else if (searches_steps(planned, options)) {
-      stable_energy_ = largest_kinetic_energy(definition.scene, nullptr, stability_horizon(definition));
-    }
+    if (searches_steps(planned, options)) stable_energy_ = energy_of_stable_runs(definition);
     const std::size_t of_case = static_cast<std::size_t>(&planned - grid.cases.data());
     for (std::size_t run = 0; run < planned.stable_steps.size(); ++run) {
       if (planned.stable_steps[run].status != Status::unsupported)
@@ -101,6 +94,7 @@ class CaseJobs {
         hear(job, kept->second), channel.send(kept->second.message);
       }
     }
+    keep_truth_for(jobs);
     std::map<std::size_t, std::string> flaws;  // by job; empty for one whose answer is good
     const auto on_message = [&](std::size_t index, const std::string& message) {
       const std::size_t job = left[index];
@@ -141,19 +135,41 @@ class CaseJobs {
     return {is_cell(job) ? MessageSubject::Part::cell : MessageSubject::Part::stable_step, job.part};
   }
 
+  // At the steps that two cells or more are left to do at.
+  void keep_truth_for(const std::vector<JobSpec>& jobs) {
+    if (!truth_) return;
+    std::map<double, int> cells;
+    for (const JobSpec& job : jobs) {
+      if (!is_cell(job) || ++cells[job.dt.seconds] != 2) continue;
+      const Case& definition = planned_.definition;
+      truth_on_steps_.keep(*truth_, job.dt.seconds, definition.duration, definition.scene.bodies.size());
+    }
+  }
+
+  // J, what the truth has in play over the stability horizon.
+  double energy_of_stable_runs(const Case& definition) const {
+    const double horizon = stability_horizon(definition);
+    const bool is_jointed = !definition.scene.joints.empty();
+    const double known = std::max(facts_.largest_kinetic_energy, facts_.largest_energy_change);
+    if (truth_ && horizon == definition.duration) return known;
+    const EnergyExtremes extremes = energy_extremes(definition.scene, is_jointed ? nullptr : truth_, horizon);
+    return std::max({extremes.kinetic, extremes.change, is_jointed ? known : 0});
+  }
+
   void do_stable_step(const JobSpec& job, const Channel& channel) const {
     const Case& definition = planned_.definition;
     const RunName& run = run_of(job.part);
     StableStepResult found;
     found.step = largest_stable_dt(find_engine(engines_, run.engine), run.settings, definition.scene,
                                    stability_horizon(definition), stable_energy_);
-    found.status = Status::pass, found.reason.clear();
+    found.status = Status::pass, found.reason = found.step.cut;
     channel.send(message_of_stable_step(job.part, found));
   }
 
   void do_cell(const JobSpec& job, const Channel& channel) const {
     const Cell& cell = planned_.cells[job.part];
-    const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_);
+    const JudgedCell judged =
+        run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_, truth_on_steps_);
     channel.send(joined({message_of_cell(job.part, judged.cell, planned_.definition.scene), packed(judged.path)}));
   }
 
@@ -203,6 +219,7 @@ class CaseJobs {
   const EngineTable& engines_;
   const GridOptions& options_;
   const Truth* truth_;
+  TruthOnSteps truth_on_steps_;
   TruthFacts facts_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<JobSpec> jobs_;
@@ -292,7 +309,9 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
     channel.send(known_truth->second.message);
     return CaseJobs(grid, planned, engines, options, nullptr, {}).run(channel, journal);
   }
-  const double seconds = searches_steps(planned, options) ? stability_horizon(definition) : definition.duration;
+  // A jointed scene's truth is dear, and chaotic past what its case asks for.
+  const bool is_long = searches_steps(planned, options) && definition.scene.joints.empty();
+  const double seconds = is_long ? stability_horizon(definition) : definition.duration;
   const auto truth = make_truth(definition.truth, definition.scene, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
   for (const auto& recorder : options.recorders) {

@@ -7,6 +7,7 @@
 #include "cases/runner/grid.h"
 #include "cases/runner/journal.h"
 #include "cases/runner/process_pool.h"
+#include "cases/runner/truth_samples.h"
 
 namespace rigor {
 
@@ -20,7 +21,8 @@ struct JudgedCell {
   Path path;
 };
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options);
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
+                    const TruthOnSteps& truth_on_steps = {});
 
 // `truth` may be null.
 TruthFacts facts_of(const Case& definition, const Truth* truth);

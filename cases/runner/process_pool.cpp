@@ -291,7 +291,7 @@ std::string sentence_of(const JobEnd& end, double limit) {
       return fmt::format("ended by an exception: {}{}", end.text, words);
     case Ending::killed:
       return fmt::format("killed by SIG{} ({}){}", sigabbrev_np(end.code) ? sigabbrev_np(end.code) : "?",
-                         strsignal(end.code), words);
+                         sigdescr_np(end.code) ? sigdescr_np(end.code) : "no known signal", words);
     case Ending::exited:
       return fmt::format("called exit({}) before it had answered{}", end.code, words);
     case Ending::timed_out:

@@ -12,18 +12,6 @@
 namespace rigor {
 namespace {
 
-TruthSamples sample_truth(const Truth& truth, const Trajectory& trajectory, std::size_t bodies,
-                          double largest_kinetic_energy) {
-  TruthSamples samples;
-  samples.largest_kinetic_energy = largest_kinetic_energy;
-  samples.source = &truth;
-  for (const Sample& sample : trajectory.samples) {
-    truth.at(sample.time, samples.bodies.emplace_back(bodies).columns());
-    samples.error.push_back(truth.error(sample.time));
-  }
-  return samples;
-}
-
 void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
   if (cell.stability.verdict == Verdict::blown_up) {
     cell.status = Status::diverged;
@@ -72,8 +60,8 @@ std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& de
 
 TruthFacts facts_of(const Case& definition, const Truth* truth) {
   TruthFacts facts;
-  facts.largest_kinetic_energy = largest_kinetic_energy(definition.scene, truth, definition.duration);
-  facts.largest_energy_change = largest_energy_change(definition.scene, truth, definition.duration);
+  const EnergyExtremes extremes = energy_extremes(definition.scene, truth, definition.duration);
+  facts.largest_kinetic_energy = extremes.kinetic, facts.largest_energy_change = extremes.change;
   if (truth) {
     facts.error_at_end = truth->error(definition.duration);
     facts.horizon = horizon(*truth, kHorizonTolerance, definition.duration);
@@ -82,7 +70,8 @@ TruthFacts facts_of(const Case& definition, const Truth* truth) {
 }
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
-                    const Truth* truth, const TruthFacts& facts, const GridOptions& options) {
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
+                    const TruthOnSteps& truth_on_steps) {
   const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
@@ -93,7 +82,9 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   cell.settings = run.settings;
   cell.cpu_seconds = is_timed ? timed_again(engine, run_name.settings, scene, run) : run.cpu_seconds;
   std::optional<TruthSamples> samples;
-  if (truth) samples = sample_truth(*truth, run.trajectory, scene.bodies.size(), facts.largest_kinetic_energy);
+  if (truth) {
+    samples = truth_on_steps.at_samples_of(run.trajectory, *truth, scene.bodies.size(), facts.largest_kinetic_energy);
+  }
   std::optional<RunName> twin_name;
   if (is_asked_for(kOfTwins, definition, options)) twin_name = twin_of(engines, run_name, scene);
   std::optional<TwinRun> twin;

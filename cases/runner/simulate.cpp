@@ -90,7 +90,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
 }
 
 double timed_again(const Engine& engine, const Settings& settings, const Scene& scene, const Simulation& run) {
-  constexpr double kLongStep = 20e-6, kEnough = 30e-3;  // s; a hundred times what the clock costs; of timing in all
+  constexpr double kLongStep = 20e-6, kEnough = 10e-3;  // s; a hundred times what the clock costs; of timing in all
   constexpr int kMost = 100;                            // repeats
   const double dt = run.trajectory.dt;
   const auto& samples = run.trajectory.samples;

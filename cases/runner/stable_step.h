@@ -7,7 +7,12 @@ namespace rigor {
 
 // Over `horizon` seconds, to 1 % by bisection in log dt. The limit is ragged: steps above the first bad one may hold
 // again by luck. So it is the largest below which none tried is bad, steps being tried 3 % apart, or 20 % among bodies
-// that touch and have no springs, over at least a factor of two below it. `energy_in_play`: J, see judge_stability.
+// that touch or are jointed and have no springs, over at least a factor of two below it. `energy_in_play`: J, see
+// judge_stability.
+//
+// A search takes no more than some 15 million steps of one body (a joint counts as thirty). Where trying so many
+// steps would take half of what is left, the limit is found by bisection alone; where all is used up, the search ends
+// with the last step known to hold (is_cap), or known not to (is_floor). StableStep::cut says so.
 StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
                              double energy_in_play);
 

@@ -28,9 +28,13 @@ Exchange exchange_of(const Scene& scene) {
 }
 
 std::vector<double> truths_energies(const JudgedRun& run, std::size_t count) {
-  std::vector<double> energies;
-  for (std::size_t n = 0; n < count; ++n) energies.push_back(energy(run.scene, run.truth->bodies[n].columns()));
-  return energies;
+  if (count == 0) return {};
+  auto& known = run.energies.of_truth;
+  if (!known) {
+    known.emplace();
+    for (const BodyTable& bodies : run.truth->bodies) known->push_back(energy(run.scene, bodies.columns()));
+  }
+  return {known->begin(), known->begin() + static_cast<long>(count)};
 }
 
 bool stays(const std::vector<double>& energies, double scale) {
@@ -42,9 +46,11 @@ bool stays(const std::vector<double>& energies, double scale) {
 
 }  // namespace
 
-std::vector<double> energies_of(const JudgedRun& run, double lag) {
+const std::vector<double>& energies_of(const JudgedRun& run, double lag) {
+  const auto [known, is_new] = run.energies.by_lag.try_emplace(lag);
+  std::vector<double>& found = known->second;
+  if (!is_new) return found;
   Synchroniser synchroniser(run.scene, run.trajectory.dt, lag);
-  std::vector<double> found;
   BodyTable bodies;
   for (const Sample& sample : run.trajectory.samples) {
     bodies = sample.bodies.columns();

@@ -28,7 +28,7 @@ struct EnergySeries {
 EnergySeries energy_series(const JudgedRun& run, double lag);
 
 // J, at each sample, with the velocities brought forward by `lag` steps.
-std::vector<double> energies_of(const JudgedRun& run, double lag);
+const std::vector<double>& energies_of(const JudgedRun& run, double lag);
 std::vector<double> lowest_so_far(const std::vector<double>& energies);  // J, the sample itself included
 
 // J, at each sample: by how much the energy has risen above the lowest before, in both of its readings, whichever says

@@ -13,7 +13,7 @@
 namespace rigor {
 namespace {
 
-constexpr std::size_t kCaseColumn = 23, kColumn = 11, kMostColumns = 7;  // 100 characters in all
+constexpr std::size_t kCaseColumn = 23, kMatrixColumn = 11, kMostColumns = 7;  // 100 characters in all
 
 // In characters, of which one is several bytes of UTF-8.
 std::size_t width_of(const std::string& text) {
@@ -52,7 +52,7 @@ std::string cell_text(const CaseResult& result, const Cell& cell, const std::str
 
 // A run's name in lines of a column's width, broken behind ':' and before '@', at '-', ',' and '=', else anywhere.
 std::vector<std::string> head_lines(const std::string& name) {
-  constexpr std::size_t kWidth = kColumn - 1;
+  constexpr std::size_t kWidth = kMatrixColumn - 1;
   std::vector<std::string> parts = {""};
   for (const char c : name) {
     if (c == '@') parts.emplace_back();
@@ -81,7 +81,7 @@ std::string head(const Results& results, const std::vector<std::size_t>& runs) {
     std::string row = line + 1 == height ? fmt::format("{:<{}}", "case", kCaseColumn) : std::string(kCaseColumn, ' ');
     for (const auto& column : columns) {
       const std::size_t blank = height - column.size();  // names stand on the same lowest line
-      row += right_aligned(line < blank ? "" : column[line - blank], kColumn);
+      row += right_aligned(line < blank ? "" : column[line - blank], kMatrixColumn);
     }
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + "\n";
@@ -105,7 +105,7 @@ std::string panel(const Results& results, const std::vector<std::size_t>& runs) 
     for (const std::size_t run : runs) {
       const auto cell = std::find_if(result.cells.begin(), result.cells.end(),
                                      [&](const Cell& c) { return c.run == run && c.dt == dt; });
-      row += right_aligned(cell == result.cells.end() ? "" : cell_text(result, *cell, metric), kColumn);
+      row += right_aligned(cell == result.cells.end() ? "" : cell_text(result, *cell, metric), kMatrixColumn);
     }
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + "\n";

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/metrics/measures/energy_series.h"
 #include "cases/report/html/motion.h"
 #include "cases/report/html/packing.h"
 #include "cases/report/html/thinning.h"
@@ -136,9 +137,8 @@ class SeriesSet {
   std::size_t count_ = 0;
 };
 
-NamedSeries energy_change(const Scene& scene, const Trajectory& trajectory, double scale) {
-  NamedSeries series{kEnergyChange, {}};
-  for (const Sample& sample : trajectory.samples) series.values.push_back(energy(scene, sample.bodies.columns()));
+NamedSeries energy_change(std::vector<double> energies, double scale) {
+  NamedSeries series{kEnergyChange, std::move(energies)};
   for (std::size_t n = series.values.size(); n-- > 0;) series.values[n] -= series.values.front();
   for (double& value : series.values) value /= scale > 0 ? scale : 1;
   return series;
@@ -263,7 +263,7 @@ const std::vector<std::string>& series_names() {
 
 Packings packed_run(const JudgedRun& run, const std::vector<NamedSeries>& series, double largest_kinetic_energy,
                     std::size_t limit) {
-  std::vector<NamedSeries> all = {energy_change(run.scene, run.trajectory, largest_kinetic_energy)};
+  std::vector<NamedSeries> all = {energy_change(energies_of(run, 0), largest_kinetic_energy)};
   for (const NamedSeries& one : series) {
     if (!one.values.empty()) all.push_back(one);
   }
@@ -274,11 +274,13 @@ Packings packed_truth(const Scene& scene, const Truth& truth, double duration, d
                       std::size_t limit) {
   constexpr int kSamples = 1500;
   Trajectory trajectory{.dt = duration / kSamples, .samples = {}};
+  std::vector<double> energies;
   for (int n = 0; n <= kSamples; ++n) {
     trajectory.samples.push_back({duration * n / kSamples, BodyTable(scene.bodies.size())});
     truth.at(trajectory.samples.back().time, trajectory.samples.back().bodies.columns());
+    energies.push_back(energy(scene, trajectory.samples.back().bodies.columns()));
   }
-  return packed(scene, trajectory, nullptr, {energy_change(scene, trajectory, largest_kinetic_energy)}, limit);
+  return packed(scene, trajectory, nullptr, {energy_change(std::move(energies), largest_kinetic_energy)}, limit);
 }
 
 PlaybackLimit::PlaybackLimit(const Results& grid) {

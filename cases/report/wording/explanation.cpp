@@ -57,6 +57,7 @@ class Explainer {
     if (omega_ == 0) explain_falling_too_far();
     explain_raw_energy();
     explain_gyroscopic_loss();
+    explain_cut_searches();
     explain_verdicts();
     return sentences_;
   }
@@ -188,6 +189,18 @@ class Explainer {
   }
 
   // What the words "overlapping", "gaining" and "collapsed" stand on.
+  void explain_cut_searches() {
+    std::map<std::string, std::string> engines;  // by what was left out
+    for (std::size_t run = 0; run < result_.stable_steps.size(); ++run) {
+      const StableStepResult& stable = result_.stable_steps[run];
+      if (stable.status != Status::pass || stable.step.cut.empty()) continue;
+      std::string& names = engines[stable.step.cut];
+      names += (names.empty() ? "" : ", ") + results_.runs[run].text;
+    }
+    for (const auto& [what, names] : engines)
+      sentences_.push_back(fmt::format("The largest stable step of {}: {}.", names, what));
+  }
+
   void explain_verdicts() {
     for_headline_cells([&](const Cell& cell, const MethodInfo&) {
       const Verdict verdict = cell.stability.verdict;

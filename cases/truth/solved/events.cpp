@@ -22,7 +22,7 @@ namespace {
 // still.
 constexpr double kAtRest = 2e-7;
 
-ReferenceSolution solution_of(const Scene& scene, double duration) {
+ReferenceSolution events_solution(const Scene& scene, double duration) {
   const std::string content = events_content(scene, duration);
   if (auto kept = kept_solution(content)) return std::move(*kept);
   ReferenceSolution solution = solve_events(scene, duration);
@@ -32,7 +32,7 @@ ReferenceSolution solution_of(const Scene& scene, double duration) {
 
 class Events final : public Truth {
  public:
-  Events(const Scene& scene, double duration) : scene_(scene), solution_(solution_of(scene, duration)) {}
+  Events(const Scene& scene, double duration) : scene_(scene), solution_(events_solution(scene, duration)) {}
 
   void at(double t, MutableBodyColumns out) const override {
     state_at(solution_, scene_, t, out);

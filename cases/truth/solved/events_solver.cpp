@@ -23,9 +23,9 @@ constexpr Way kWays[] = {{"rkmk4", "2e-7"}, {"rk4", "1e-7"}};
 
 constexpr double kFirstStep = 1.0 / 60;  // s
 constexpr int kMostHalvings = 7;
-constexpr double kWantedError = 1e-8;  // m and rad; metrics ask for a hundred times that
-constexpr double kUseful = 1e-6;       // m and rad, what metrics ask for
-constexpr double kMostWork = 2e5;      // steps of a body, of some 20 µs each where it touches others
+constexpr double kWantedEventsError = 1e-8;  // m and rad; metrics ask for a hundred times that
+constexpr double kUseful = 1e-6;             // m and rad, what metrics ask for
+constexpr double kMostWork = 2e5;            // steps of a body, of some 20 µs each where it touches others
 constexpr double kSafety = 3;
 // What both ways have in common: gaps that count as closed [m], and speeds of parting or sliding that count as none
 // [m/s]; see event.cpp and held_motion.cpp.
@@ -171,7 +171,7 @@ ReferenceSolution solve_events(const Scene& scene, double duration) {
     // What gave up earlier says less of the next than what is there.
     if (goes_on) coarse = fine;
     if (is_better) best = std::move(fine);
-    if (reach(best, kWantedError + kClosed + kStill * duration) >= duration * (1 - 1e-9)) break;
+    if (reach(best, kWantedEventsError + kClosed + kStill * duration) >= duration * (1 - 1e-9)) break;
   }
   return best;
 }

@@ -22,12 +22,17 @@ Nodes nodes_of(const Motion& motion, int columns, double tolerance, const std::v
 
 }  // namespace
 
+std::unique_ptr<DoubleMotion> jointed_motion_in_double(const Scene& scene) {
+  return std::make_unique<InDouble<JointedMotion<double>>>(JointedMotion<double>(scene));
+}
+
 ReferenceSolution solve_jointed_reference(const Scene& scene, double duration) {
   const std::vector<double> switches = switch_times(scene, duration);
   const auto nodes = nodes_of<Extended>(JointedMotion<Extended>(scene), 6, 1e-15, switches);
-  Judged judged(JointedMotion<double>(scene), scene.bodies.size(), nodes);
+  Judged judged(jointed_motion_in_double(scene), scene.bodies.size(), nodes);
   const NaturalCoordinates<double> beside(scene);
-  judged.compare(beside, nodes_of<double>(beside, 5, 1e-12, switches));
+  judged.compare([&](const double* state, MutableBodyColumns out) { beside.write(state, out); },
+                 nodes_of<double>(beside, 5, 1e-12, switches));
   return judged.solution();
 }
 

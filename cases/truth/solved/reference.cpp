@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "cases/truth/provenance.h"
-#include "cases/truth/solved/jointed_motion.h"
 #include "cases/truth/solved/solution_cache.h"
 #include "cases/truth/solved/solving.h"
 #include "cases/truth/truth.h"
@@ -17,7 +16,7 @@
 namespace rigor {
 namespace {
 
-ReferenceSolution solution_of(const Scene& scene, double duration) {
+ReferenceSolution reference_solution(const Scene& scene, double duration) {
   const std::string content = reference_content(scene, duration);
   if (auto kept = kept_solution(content)) return std::move(*kept);
   ReferenceSolution solution = solve_reference(scene, duration);
@@ -25,13 +24,13 @@ ReferenceSolution solution_of(const Scene& scene, double duration) {
   return solution;
 }
 
-template <typename Motion>
 class Reference final : public Truth {
  public:
-  Reference(Motion motion, ReferenceSolution solution) : motion_(std::move(motion)), solution_(std::move(solution)) {}
+  Reference(const Scene& scene, ReferenceSolution solution)
+      : motion_(reference_motion(scene)), solution_(std::move(solution)) {}
 
   void at(double t, MutableBodyColumns out) const override {
-    motion_.write(solving::state_at(solution_, motion_, t).data(), out);
+    motion_->write(solving::state_at(solution_, *motion_, t).data(), out);
   }
 
   double error(double t) const override {
@@ -41,7 +40,7 @@ class Reference final : public Truth {
   }
 
  private:
-  Motion motion_;  // for the step from a node
+  std::unique_ptr<solving::DoubleMotion> motion_;  // for the step from a node
   ReferenceSolution solution_;
 };
 
@@ -55,12 +54,7 @@ std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
         "has {}: {}",
         need.feature, need.because));
   }
-  ReferenceSolution solution = solution_of(scene, duration);
-  if (scene.joints.empty()) {
-    return std::make_unique<Reference<EquationsOfMotion<double>>>(EquationsOfMotion<double>(scene, kReferenceForm),
-                                                                  std::move(solution));
-  }
-  return std::make_unique<Reference<JointedMotion<double>>>(JointedMotion<double>(scene), std::move(solution));
+  return std::make_unique<Reference>(scene, reference_solution(scene, duration));
 }
 
 }  // namespace

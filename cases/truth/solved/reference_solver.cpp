@@ -36,6 +36,10 @@ const std::vector<Method> kQuadMethods = {{kReferenceForm, 12, 1e-27}, {Formulat
 constexpr double kWantedError = 1e-12;  // m and rad, at the end
 constexpr double kMostQuadWork = 1e6;   // changes of a body or spring, of some 5 µs each
 
+std::unique_ptr<DoubleMotion> free_motion_in_double(const Scene& scene, Formulation form) {
+  return std::make_unique<InDouble<EquationsOfMotion<double>>>(EquationsOfMotion<double>(scene, form));
+}
+
 // The first of the methods' solutions, judged by the others.
 template <typename Real>
 ReferenceSolution solve_by(const std::vector<Method>& methods, const Scene& scene, double duration,
@@ -45,9 +49,11 @@ ReferenceSolution solve_by(const std::vector<Method>& methods, const Scene& scen
     const Extrapolation<Real> stepper(method.columns, method.tolerance);
     return solve(EquationsOfMotion<Real>(scene, method.form), stepper, switches, most_tries);
   };
-  Judged judged(EquationsOfMotion<double>(scene, kReferenceForm), scene.bodies.size(), nodes_of(methods.front()));
+  Judged judged(free_motion_in_double(scene, kReferenceForm), scene.bodies.size(), nodes_of(methods.front()));
   for (std::size_t i = 1; i < methods.size(); ++i) {
-    judged.compare(EquationsOfMotion<double>(scene, methods[i].form), nodes_of(methods[i]));
+    const auto motion = free_motion_in_double(scene, methods[i].form);
+    judged.compare([&](const double* state, MutableBodyColumns out) { motion->write(state, out); },
+                   nodes_of(methods[i]));
   }
   return judged.solution();
 }
@@ -61,6 +67,10 @@ double quad_work(std::size_t steps, const Scene& scene) {
 }
 
 }  // namespace
+
+std::unique_ptr<DoubleMotion> reference_motion(const Scene& scene) {
+  return scene.joints.empty() ? free_motion_in_double(scene, kReferenceForm) : jointed_motion_in_double(scene);
+}
 
 ReferenceSolution solve_reference(const Scene& scene, double duration) {
   if (!scene.joints.empty()) return solve_jointed_reference(scene, duration);

@@ -1,6 +1,7 @@
 // The numbers behind the truth 'reference': the motion of a smooth scene, solved twice, and how far the two are apart.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cases/truth/solved/equations_of_motion.h"
@@ -24,7 +25,14 @@ struct ReferenceSolution {
 // their free axes, but neither contacts nor limits.
 ReferenceSolution solve_reference(const Scene& scene, double duration);
 
+// The equations that the solution's states are of, to go on from a node (solving.h).
+namespace solving {
+class DoubleMotion;
+}
+std::unique_ptr<solving::DoubleMotion> reference_motion(const Scene& scene);
+
 // The same for a scene with joints (jointed_reference.cpp).
 ReferenceSolution solve_jointed_reference(const Scene& scene, double duration);
+std::unique_ptr<solving::DoubleMotion> jointed_motion_in_double(const Scene& scene);
 
 }  // namespace rigor

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <bit>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <random>
 #include <sstream>
 
+#include "core/base/content_hash.h"
 #include "solver_fingerprints.h"
 
 namespace rigor {
@@ -84,12 +86,7 @@ class Reader {
   bool good_ = true;
 };
 
-// Fowler, Noll and Vo's hash FNV-1a: it names files and notices damage, it does not guard against an attacker.
-std::uint64_t hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-  return hash;
-}
+constexpr const char* kPrefix = "reference-";  // of every file
 
 // Empty if there is none.
 fs::path cache_folder() {
@@ -100,7 +97,23 @@ fs::path cache_folder() {
 }
 
 fs::path file_for(const fs::path& folder, const std::string& content) {
-  return folder / fmt::format("reference-{:016x}", hash_of(content));
+  return folder / fmt::format("{}{:016x}", kPrefix, content_hash(content));
+}
+
+// Files that no run has asked for in a month: another program made them, or of a scene that is no more. Another process
+// may drop them as well, or ask for one now and find none: it is solved again.
+void drop_unused(const fs::path& folder) {
+  constexpr auto kMonth = std::chrono::hours(30 * 24);
+  const auto now = fs::file_time_type::clock::now();
+  std::error_code error;
+  std::vector<fs::path> unused;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code ignored;
+    const bool is_ours = entry->path().filename().string().starts_with(kPrefix) && entry->is_regular_file(ignored);
+    const auto used = entry->last_write_time(ignored);
+    if (is_ours && !ignored && now - used > kMonth) unused.push_back(entry->path());
+  }
+  for (const fs::path& path : unused) fs::remove(path, error);
 }
 
 // Empty if it cannot be read.
@@ -217,15 +230,18 @@ std::string events_content(const Scene& scene, double duration, const std::strin
 std::optional<ReferenceSolution> kept_solution(const std::string& content) {
   const fs::path folder = cache_folder();
   if (folder.empty()) return std::nullopt;
-  const std::string bytes = bytes_of(file_for(folder, content)), head = head_of(content);
+  const fs::path file = file_for(folder, content);
+  const std::string bytes = bytes_of(file), head = head_of(content);
   if (bytes.size() < head.size() + 8 || !bytes.starts_with(head)) return std::nullopt;
   const std::string_view all = bytes, sealed = all.substr(0, all.size() - 8);
-  if (Reader(all.substr(sealed.size())).number() != hash_of(sealed)) return std::nullopt;
+  if (Reader(all.substr(sealed.size())).number() != content_hash(sealed)) return std::nullopt;
   Reader body(sealed.substr(head.size()));
   ReferenceSolution solution;
   solution.dimension = body.number(), solution.complete = body.number() != 0;
   body.read(solution.times), body.read(solution.states), body.read(solution.error_times), body.read(solution.errors);
   if (!body.at_end() || !is_sound(solution)) return std::nullopt;
+  std::error_code ignored;
+  fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // in use: see drop_unused
   return solution;
 }
 
@@ -236,7 +252,7 @@ void keep_solution(const std::string& content, const ReferenceSolution& solution
   body.add(solution.dimension), body.add(solution.complete);
   body.add(solution.times), body.add(solution.states), body.add(solution.error_times), body.add(solution.errors);
   const std::string bytes = head_of(content) + body.bytes();
-  seal.add(hash_of(bytes));
+  seal.add(content_hash(bytes));
 
   // Under a name of its own first: another run never sees half a file.
   std::error_code ignored;
@@ -248,6 +264,7 @@ void keep_solution(const std::string& content, const ReferenceSolution& solution
   out.close();
   if (out) fs::rename(draft, file, ignored);
   if (!out || ignored) fs::remove(draft, ignored);
+  drop_unused(folder);
 }
 
 }  // namespace rigor

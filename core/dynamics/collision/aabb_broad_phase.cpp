@@ -20,7 +20,7 @@ std::uint64_t cell_number(std::int64_t x, std::int64_t y, std::int64_t z) {
          static_cast<std::uint64_t>(z + kOffset);
 }
 
-std::int64_t cell_index(double coordinate, double width) {
+std::int64_t aabb_cell_index(double coordinate, double width) {
   return static_cast<std::int64_t>(std::floor(coordinate / width));
 }
 
@@ -60,7 +60,7 @@ void AabbBroadPhase::enter(const Aabb& box, int place) {
     large_.push_back(place);
     return;
   }
-  const auto cell = [&](const Vec3& p, int axis) { return cell_index(p[axis], width_); };
+  const auto cell = [&](const Vec3& p, int axis) { return aabb_cell_index(p[axis], width_); };
   for (std::int64_t x = cell(box.low, 0); x <= cell(box.high, 0); ++x)
     for (std::int64_t y = cell(box.low, 1); y <= cell(box.high, 1); ++y)
       for (std::int64_t z = cell(box.low, 2); z <= cell(box.high, 2); ++z)
@@ -72,8 +72,8 @@ void AabbBroadPhase::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t f
   const auto try_pair = [&](int a, int b) {
     if (!overlap(boxes[a], boxes[b])) return;
     const Vec3 corner = boxes[a].low.cwiseMax(boxes[b].low);
-    const std::uint64_t cell =
-        cell_number(cell_index(corner.x(), width_), cell_index(corner.y(), width_), cell_index(corner.z(), width_));
+    const std::uint64_t cell = cell_number(aabb_cell_index(corner.x(), width_), aabb_cell_index(corner.y(), width_),
+                                           aabb_cell_index(corner.z(), width_));
     if (cell == entries_[first].cell) pairs_.push_back(std::minmax(a, b));
   };
   for (std::size_t i = first; i < last; ++i) {

@@ -52,20 +52,20 @@ double nearest_on_segment(const Segment& segment, const Vec3& half) {
   return low;
 }
 
-struct Axis {
+struct OverlapAxis {
   double separation = -std::numeric_limits<double>::infinity();
   Vec3 n = Vec3::Zero();  // from the box to the axis, in the box's frame
 };
 
-void try_axis(const Vec3& direction, const Segment& segment, const Vec3& half, Axis& best) {
+void try_axis(const Vec3& direction, const Segment& segment, const Vec3& half, OverlapAxis& best) {
   const Vec3 n = direction.dot(segment.c) < 0 ? Vec3(-direction) : direction;
   const double separation = n.dot(segment.c) - segment.half * std::abs(n.dot(segment.u)) - n.cwiseAbs().dot(half);
   if (separation > best.separation) best = {separation, n};
 }
 
 // For an axis that passes through the box.
-Axis axis_of_least_overlap(const Segment& segment, const Vec3& half) {
-  Axis best;
+OverlapAxis axis_of_least_overlap(const Segment& segment, const Vec3& half) {
+  OverlapAxis best;
   for (int k = 0; k < 3; ++k) try_axis(Vec3::Unit(k), segment, half, best);
   for (int k = 0; k < 3; ++k) {
     const Vec3 n = Vec3::Unit(k).cross(segment.u);
@@ -106,8 +106,8 @@ void collide_box_capsule(const Box& box, const Pose& pose_a, const Capsule& caps
   const double s = nearest_on_segment(segment, half);
   const Vec3 p = segment.at(s), line = p - nearest_in_box(p, half);
   const double distance = line.norm();
-  const Axis best =
-      distance > 1e-12 * half.maxCoeff() ? Axis{distance, line / distance} : axis_of_least_overlap(segment, half);
+  const OverlapAxis best = distance > 1e-12 * half.maxCoeff() ? OverlapAxis{distance, line / distance}
+                                                              : axis_of_least_overlap(segment, half);
 
   const auto add = [&](const Vec3& axis_point, double height, std::uint32_t feature) {
     const double gap = height - capsule.radius;

@@ -6,7 +6,6 @@
 namespace rigor {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMissed = 1e-11;  // m: an overlap that is not looked for, a tenth of a gap that counts as closed
 
 // The support of a shape along n after t, at most.
@@ -32,7 +31,7 @@ struct SupportBound {
   }
   double operator()(const Box& box) const {
     const Mat3 R = state.rotation(body);
-    double most = -kInfinity;
+    double most = -std::numeric_limits<double>::infinity();
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
       most = std::max(most, point(R * sign.cwiseProduct(box.size)));

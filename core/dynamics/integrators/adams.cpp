@@ -21,12 +21,12 @@ namespace {
 constexpr int kParts = 4;  // steps of the formula in a step of the method
 
 // From the newest rates back in time; the corrector's come after kAtEnd, the weight of those at the end of the step.
-using Weights = std::array<double, kAdamsRates>;
+using AdamsCoefficients = std::array<double, kAdamsRates>;
 constexpr double kOf = 60480;
-constexpr Weights kPredictor = {198721 / kOf, -447288 / kOf, 705549 / kOf, -688256 / kOf,
-                                407139 / kOf, -134472 / kOf, 19087 / kOf};
+constexpr AdamsCoefficients kPredictor = {198721 / kOf, -447288 / kOf, 705549 / kOf, -688256 / kOf,
+                                     407139 / kOf, -134472 / kOf, 19087 / kOf};
 constexpr double kAtEnd = 19087 / kOf;
-constexpr Weights kCorrector = {65112 / kOf, -46461 / kOf, 37504 / kOf, -20211 / kOf, 6312 / kOf, -863 / kOf, 0};
+constexpr AdamsCoefficients kCorrector = {65112 / kOf, -46461 / kOf, 37504 / kOf, -20211 / kOf, 6312 / kOf, -863 / kOf, 0};
 
 class Adams : public Stepper {
  public:

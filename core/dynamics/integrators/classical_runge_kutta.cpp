@@ -8,9 +8,9 @@ namespace rigor {
 
 namespace {
 
-constexpr std::size_t kStages = 4;
-constexpr std::array<double, kStages> kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-constexpr std::array<double, kStages> kNextStage = {0.5, 0.5, 1, 0};
+constexpr std::size_t kClassicalStages = 4;
+constexpr std::array<double, kClassicalStages> kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+constexpr std::array<double, kClassicalStages> kNextStage = {0.5, 0.5, 1, 0};
 
 }  // namespace
 
@@ -37,11 +37,11 @@ void ClassicalRungeKutta::smooth_part(MutableBodyColumns state, double t, double
   ConstraintForces* const constraints = parts_.constraints();
   if (parts_.system.loads.empty() && !constraints) {
     bodies.for_each_block([&](const Bodies& block) {
-      for (std::size_t s = 0; s < kStages; ++s) take_stage(s, block, state, nullptr, dt);
+      for (std::size_t s = 0; s < kClassicalStages; ++s) take_stage(s, block, state, nullptr, dt);
     });
     return;
   }
-  for (std::size_t s = 0; s < kStages; ++s) {
+  for (std::size_t s = 0; s < kClassicalStages; ++s) {
     const BodyColumns at = s == 0 ? state : stage_.columns();
     const double* wrench = loads_.over_step(at, t, dt);
     using Rows = ConstraintForces::Rows;
@@ -55,7 +55,7 @@ void ClassicalRungeKutta::take_stage(std::size_t s, const Bodies& block, Mutable
   const auto stage =
       chart_ == OrientationChart::quaternion ? kernels().quaternion_stage : kernels().rotation_vector_stage;
   const StageTables tables = {state.column(0), stage_.columns().column(0), sum_.columns().column(0), carried_.data()};
-  const Stage where = s == 0 ? Stage::first : s + 1 == kStages ? Stage::last : Stage::middle;
+  const Stage where = s == 0 ? Stage::first : s + 1 == kClassicalStages ? Stage::last : Stage::middle;
   stage(block, tables, wrench, where, dt * kWeight[s], dt * kNextStage[s]);
 }
 

@@ -10,7 +10,7 @@ namespace rigor {
 namespace {
 
 constexpr double kOuter = 0.41449077179437573714;
-constexpr std::array<double, 5> kWeights = {kOuter, kOuter, 1 - 4 * kOuter, kOuter, kOuter};
+constexpr std::array<double, 5> kWeights4 = {kOuter, kOuter, 1 - 4 * kOuter, kOuter, kOuter};
 
 }  // namespace
 
@@ -26,7 +26,7 @@ const Integrator kSymplectic4 = {
     .takes_joints = true,
     .takes_dampers_with_joints = false,  // its damped kick is not yet solved together with the joints' impulse
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
-      return std::make_unique<LeapfrogComposition>(parts, kWeights);
+      return std::make_unique<LeapfrogComposition>(parts, kWeights4);
     },
 };
 

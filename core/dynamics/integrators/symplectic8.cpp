@@ -13,7 +13,7 @@ constexpr double g1 = 0.13020248308889008087881763, g2 = 0.561162981775108384561
                  g5 = -0.39590389413323757733623154, g6 = 0.18453964097831570709183254,
                  g7 = 0.25837438768632204729397911, g8 = 0.29501172360931029887096624,
                  g9 = -0.60550853383003451169892108;
-constexpr std::array<double, 17> kWeights = {g1, g2, g3, g4, g5, g6, g7, g8, g9, g8, g7, g6, g5, g4, g3, g2, g1};
+constexpr std::array<double, 17> kWeights8 = {g1, g2, g3, g4, g5, g6, g7, g8, g9, g8, g7, g6, g5, g4, g3, g2, g1};
 
 }  // namespace
 
@@ -29,7 +29,7 @@ const Integrator kSymplectic8 = {
     .takes_joints = true,
     .takes_dampers_with_joints = false,  // its damped kick is not yet solved together with the joints' impulse
     .make = [](const StepperParts& parts) -> std::unique_ptr<Stepper> {
-      return std::make_unique<LeapfrogComposition>(parts, kWeights);
+      return std::make_unique<LeapfrogComposition>(parts, kWeights8);
     },
 };
 

@@ -16,7 +16,7 @@ void add_unless_infinite(Json& row, const char* key, double value) {
   if (std::isfinite(value)) row[key] = value;
 }
 
-struct ShapeRow {
+struct ShapeJson {
   Json operator()(const Sphere& sphere) const { return {{"radius", sphere.radius}}; }
   Json operator()(const Box& box) const { return {{"size", list(box.size)}}; }
   Json operator()(const Capsule& capsule) const { return {{"radius", capsule.radius}, {"length", capsule.length}}; }
@@ -25,7 +25,7 @@ struct ShapeRow {
 
 Json row_of(const Shape& shape) {
   Json row = {{"type", shape_name(shape)}};
-  row.update(std::visit(ShapeRow(), shape));
+  row.update(std::visit(ShapeJson(), shape));
   return row;
 }
 
@@ -50,7 +50,7 @@ Json row_of(const Spring& spring, const Scene& scene) {
           {"rest_length", spring.rest_length}};
 }
 
-struct JointRow {
+struct JointJson {
   Json operator()(const BallJoint& joint) const { return {{"anchor", list(joint.anchor)}}; }
   Json operator()(const HingeJoint& joint) const {
     return {{"anchor", list(joint.anchor)}, {"axis", list(joint.axis)}};
@@ -69,7 +69,7 @@ Json row_of(const Joint& joint, const Scene& scene) {
   Json row = {{"type", joint_type_name(joint)}};
   if (!joint.name.empty()) row["name"] = joint.name;
   row["a"] = scene.body_name(joint.a), row["b"] = scene.body_name(joint.b);
-  row.update(std::visit(JointRow(), joint.type));
+  row.update(std::visit(JointJson(), joint.type));
   if (!free_axis(joint)) return row;
   row["stiffness"] = joint.stiffness, row["damping"] = joint.damping;
   if (joint.stiffness > 0) row["rest"] = joint.rest;

@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(synchronising_takes_most_of_the_sampling_out_of_a_springs_e
   const Scene scene = test::fixed_spring();
   const auto truth = make_truth("reference", scene, 5);
   const Trajectory trajectory = run_of(scene, "semi-implicit-euler", 1.0 / 240, 5);
-  const TruthSamples samples = test::sampled(*truth, trajectory, scene, largest_kinetic_energy(scene, truth.get(), 5));
+  const TruthSamples samples = test::sampled(*truth, trajectory, scene, energy_extremes(scene, truth.get(), 5).kinetic);
   const JudgedRun run{scene, trajectory, &samples, 0.5};
   const double raw = test::measured("energy_drift", run).measurement->value;
   const double synchronised = test::measured("energy_drift_synchronised", run).measurement->value;

@@ -12,7 +12,7 @@ const Engine& core() { return find_engine(engines(), "core"); }
 
 Stability verdict_on(const Scene& scene, const std::string& method, double dt, double duration) {
   const auto truth = make_truth("reference", scene, duration);
-  const double largest = largest_kinetic_energy(scene, truth.get(), duration);
+  const double largest = energy_extremes(scene, truth.get(), duration).kinetic;
   const Simulation run = simulate(core(), test::core_method(method), scene, dt, duration);
   const TruthSamples samples = test::sampled(*truth, run.trajectory, scene, largest);
   const double lag = method_of(core().info(), test::core_method(method)).leapfrog_stagger;
@@ -69,13 +69,13 @@ BOOST_AUTO_TEST_CASE(the_largest_kinetic_energy_is_the_truths_or_what_the_start_
   const Scene fall = test::dropped_sphere(1);
   const auto truth = make_truth("bounce", fall, 3);
   // m g h, met between two of the samples a millisecond apart: 5 m/s · 10 m/s² · 1 ms is 0.4 % of v²/2.
-  BOOST_TEST(largest_kinetic_energy(fall, truth.get(), 3) == 100 * 9.8 * 1.37, boost::test_tools::tolerance(4e-3));
+  BOOST_TEST(energy_extremes(fall, truth.get(), 3).kinetic == 100 * 9.8 * 1.37, boost::test_tools::tolerance(4e-3));
   Scene scene;
   scene.gravity = {0, -10, 0};
   scene.bodies = {test::body("a", 2, {1, 1, 1})};
   scene.bodies[0].velocity = {3, 0, 0};
   // Thrown along gravity at 3 m/s it has 23 m/s after 2 s, and no way to have more.
-  BOOST_TEST(largest_kinetic_energy(scene, nullptr, 2) == 529, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(energy_extremes(scene, nullptr, 2).kinetic == 529, boost::test_tools::tolerance(1e-12));
 }
 
 // k = 400 N/m, c = 200 N s/m, 1 kg let go at rest 2 m away: it creeps back at x' = -k x / c, never faster than 4 m/s, 8
@@ -85,11 +85,11 @@ BOOST_AUTO_TEST_CASE(a_weight_that_dampers_let_creep_back_has_not_blown_up) {
   scene.bodies = {test::body("weight", 1, {1, 1, 1}, {2, 0, 0})};
   scene.springs = {test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, 400, 0, 200)};
   const auto truth = make_truth("oscillator", scene, 5);
-  const double kinetic = largest_kinetic_energy(scene, truth.get(), 5),
-               change = largest_energy_change(scene, truth.get(), 5);
+  const double kinetic = energy_extremes(scene, truth.get(), 5).kinetic,
+               change = energy_extremes(scene, truth.get(), 5).change;
   BOOST_TEST(kinetic < 8);
   BOOST_TEST(change == 800, boost::test_tools::tolerance(1e-3));
-  BOOST_TEST(largest_energy_change(scene, nullptr, 5) == 0);
+  BOOST_TEST(energy_extremes(scene, nullptr, 5).change == 0);
   const Simulation run = simulate(core(), test::core_method("rk4"), scene, 1e-3, 5);
   const auto verdict = [&](const Simulation& judged, double largest_change) {
     return word_of(judge_stability({scene, judged.trajectory, nullptr, 0}, {}, kinetic, largest_change).verdict);

@@ -41,6 +41,27 @@ BOOST_AUTO_TEST_CASE(the_search_says_when_it_ends_at_its_bounds) {
   BOOST_TEST(none.dt == 1e-5);
 }
 
+BOOST_AUTO_TEST_CASE(a_search_that_takes_too_much_says_where_it_was_cut) {
+  Scene scene = test::tumbling_body({1, 1, 1});
+  const StableStep whole = largest_stable_dt(test::ScriptedEngine({}), {}, scene, 30, 1);
+  BOOST_TEST(whole.cut == "");
+  scene.bodies.resize(5000, scene.bodies[0]);  // 3000 steps are allowed
+  const StableStep swept = largest_stable_dt(test::ScriptedEngine({}), {}, scene, 30, 1);
+  BOOST_TEST(swept.is_cap);
+  BOOST_TEST(swept.dt == 0.5);
+  BOOST_TEST(swept.cut.find("by bisection from 0.5 s up") == 0);
+  // Blows up in the last of 60 steps and later: no step is found, and the search ends before the smallest.
+  test::Script late;
+  late.play = [](int step, MutableBodyColumns bodies) {
+    if (step >= 60) bodies.set_velocity(0, Vec3(1e9, 0, 0));
+  };
+  scene.bodies.resize(125000, scene.bodies[0]);  // 120 steps
+  const StableStep none = largest_stable_dt(test::ScriptedEngine(late), {}, scene, 30, 1);
+  BOOST_TEST(none.is_floor);
+  BOOST_TEST(none.dt == 0.125);
+  BOOST_TEST(none.cut == "the search's 15 million steps of a body are used up: not searched below 0.125 s");
+}
+
 BOOST_AUTO_TEST_CASE(the_course_scenes_have_the_known_stability_limits) {
   struct Row {
     const char* method;
@@ -55,7 +76,7 @@ BOOST_AUTO_TEST_CASE(the_course_scenes_have_the_known_stability_limits) {
   for (const auto& [scene, known] :
        {std::pair{test::fixed_spring(), &Row::fixed_spring}, {test::body_springs(), &Row::body_springs}}) {
     const auto truth = make_truth("reference", scene, 30);
-    const double largest = largest_kinetic_energy(scene, truth.get(), 30);
+    const double largest = energy_extremes(scene, truth.get(), 30).kinetic;
     for (const Row& row : rows) {
       const double dt = largest_stable_dt(core(), test::core_method(row.method), scene, 30, largest).dt;
       BOOST_TEST_MESSAGE(row.method << ": " << dt << " s, known " << row.*known);

@@ -18,11 +18,12 @@
 namespace rigor {
 namespace {
 
-constexpr const char* kName = "line-impacts";
-constexpr const char* kIsFor = "bodies without gravity whose centres move along the one line that they all lie on";
+constexpr const char* kLineImpacts = "line-impacts";
+constexpr const char* kLineImpactsIsFor =
+    "bodies without gravity whose centres move along the one line that they all lie on";
 
-[[noreturn]] void refuse(const std::string& why) {
-  throw InputError(fmt::format("the truth '{}' is for {}: {}", kName, kIsFor, why));
+[[noreturn]] void refuse_line(const std::string& why) {
+  throw InputError(fmt::format("the truth '{}' is for {}: {}", kLineImpacts, kLineImpactsIsFor, why));
 }
 
 // A body as the line sees it.
@@ -34,7 +35,7 @@ struct Bead {
 class Line {
  public:
   explicit Line(const Scene& scene) : scene_(scene) {
-    if (!scene.gravity.isZero(0)) refuse("there is gravity");
+    if (!scene.gravity.isZero(0)) refuse_line("there is gravity");
     direction_ = find_direction();
     for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
       if (scene.bodies[i].collides || !scene.bodies[i].fixed) beads_.push_back(bead_of(i));
@@ -43,7 +44,7 @@ class Line {
     std::sort(beads_.begin(), beads_.end(), [](const Bead& a, const Bead& b) { return a.at < b.at; });
     for (std::size_t i = 1; i < beads_.size(); ++i) {
       if (gap(i) < -kTouching)
-        refuse(fmt::format("bodies '{}' and '{}' overlap", name(beads_[i - 1]), name(beads_[i])));
+        refuse_line(fmt::format("bodies '{}' and '{}' overlap", name(beads_[i - 1]), name(beads_[i])));
       widest_touch_ = std::max(widest_touch_, std::abs(gap(i)) < kTouching ? std::abs(gap(i)) : 0);
     }
     for (const Bead& bead : beads_) note(bead);
@@ -63,7 +64,7 @@ class Line {
       for (Bead& bead : beads_) bead.at += least * bead.speed;
       collide(beads_[next - 1], beads_[next]);
     }
-    refuse(fmt::format("there are more than {} impacts", kMost));
+    refuse_line(fmt::format("there are more than {} impacts", kMost));
   }
 
   std::unique_ptr<BodyMotion> motion_of(const Body& body) const {
@@ -77,20 +78,20 @@ class Line {
   ExtendedVec3 find_direction() const {
     for (const Body& body : scene_.bodies) {
       if (body.shape && std::holds_alternative<Plane>(*body.shape))
-        refuse(fmt::format("body '{}' is a plane", body.name));
+        refuse_line(fmt::format("body '{}' is a plane", body.name));
       const ExtendedVec3 way = extended(body.position) - origin();
       if (way.norm() > 0) return way.normalized();
     }
-    refuse("there is but one body");
+    refuse_line("there is but one body");
   }
 
   Bead bead_of(int index) const {
     const Body& body = scene_.bodies[index];
-    if (!body.collides) refuse(fmt::format("body '{}' does not collide", body.name));
+    if (!body.collides) refuse_line(fmt::format("body '{}' does not collide", body.name));
     const ExtendedVec3 from = extended(body.position) - origin(), v = extended(body.velocity);
     if (!are_along(from, direction_) || !are_along(v, direction_))
-      refuse(fmt::format("body '{}' is, or moves, beside the line", body.name));
-    if (!body.angular_velocity.isZero(0)) refuse(fmt::format("body '{}' turns", body.name));
+      refuse_line(fmt::format("body '{}' is, or moves, beside the line", body.name));
+    if (!body.angular_velocity.isZero(0)) refuse_line(fmt::format("body '{}' turns", body.name));
     return {index, from.dot(direction_), v.dot(direction_), half_length(body),
             body.fixed ? 0 : 1 / Extended(body.mass)};
   }
@@ -104,7 +105,7 @@ class Line {
     if (const auto* box = std::get_if<Box>(&*body.shape); box && is_axis) return Extended(box->size[axis]) / 2;
     const auto* capsule = std::get_if<Capsule>(&*body.shape);
     if (capsule && is_axis) return capsule->radius + (axis == 2 ? Extended(capsule->length) / 2 : 0);
-    refuse(fmt::format("the line does not meet the {} '{}' at right angles", shape_name(*body.shape), body.name));
+    refuse_line(fmt::format("the line does not meet the {} '{}' at right angles", shape_name(*body.shape), body.name));
   }
 
   Extended gap(std::size_t i) const { return beads_[i].at - beads_[i].half - (beads_[i - 1].at + beads_[i - 1].half); }
@@ -142,9 +143,9 @@ class Line {
   Extended time_ = 0, widest_touch_ = 0;
 };
 
-std::unique_ptr<Truth> make(const Scene& scene, double duration) {
+std::unique_ptr<Truth> make_line_impacts(const Scene& scene, double duration) {
   if (!scene.springs.empty() || !scene.joints.empty() || !scene.forces.empty())
-    refuse("this scene has springs, joints or forces");
+    refuse_line("this scene has springs, joints or forces");
   Line line(scene);
   line.run(duration);
   return closed_form(scene, [&](const Body& body) { return line.motion_of(body); });
@@ -153,7 +154,8 @@ std::unique_ptr<Truth> make(const Scene& scene, double duration) {
 }  // namespace
 
 TruthRow line_impacts_truth() {
-  return {kName, "bodies that run into each other along one line, impact by impact, in closed form", make};
+  return {kLineImpacts, "bodies that run into each other along one line, impact by impact, in closed form",
+          make_line_impacts};
 }
 
 }  // namespace rigor

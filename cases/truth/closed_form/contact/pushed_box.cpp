@@ -14,13 +14,14 @@
 namespace rigor {
 namespace {
 
-constexpr const char* kName = "pushed";
-constexpr const char* kIsFor = "one box on a level plane, pushed level through its centre, with balls at rest on it";
+constexpr const char* kPushed = "pushed";
+constexpr const char* kPushedIsFor =
+    "one box on a level plane, pushed level through its centre, with balls at rest on it";
 
 class PushedBox {
  public:
   PushedBox(const Scene& scene, double duration)
-      : scene_(scene), ground_(scene, kName, kIsFor), duration_(duration), box_(find_box()) {
+      : scene_(scene), ground_(scene, kPushed, kPushedIsFor), duration_(duration), box_(find_box()) {
     const Body& box = scene.bodies[box_];
     if (ground_.along().norm() > 0) ground_.refuse(box, "is on a slope");
     check_at_rest(box);
@@ -163,8 +164,8 @@ class PushedBox {
   Extended normal_force_ = 0, friction_force_ = 0;  // N, under the box
 };
 
-std::unique_ptr<Truth> make(const Scene& scene, double duration) {
-  check_needs(scene, kName, kIsFor,
+std::unique_ptr<Truth> make_pushed(const Scene& scene, double duration) {
+  check_needs(scene, kPushed, kPushedIsFor,
               {"contact:box-plane", "contact:box-sphere", "contact:plane-sphere", "contact:sphere-sphere",
                "friction:none", "friction:coulomb", "friction:infinite", "restitution", "timed-force"});
   const PushedBox pushed(scene, duration);
@@ -174,7 +175,7 @@ std::unique_ptr<Truth> make(const Scene& scene, double duration) {
 }  // namespace
 
 TruthRow pushed_truth() {
-  return {kName, "a box pushed over a level plane with balls rolling on it, in closed form", make};
+  return {kPushed, "a box pushed over a level plane with balls rolling on it, in closed form", make_pushed};
 }
 
 }  // namespace rigor

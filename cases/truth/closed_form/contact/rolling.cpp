@@ -14,8 +14,8 @@
 namespace rigor {
 namespace {
 
-constexpr const char* kName = "rolling";
-constexpr const char* kIsFor = "spheres that touch one plane and move along one line on it";
+constexpr const char* kRolling = "rolling";
+constexpr const char* kRollingIsFor = "spheres that touch one plane and move along one line on it";
 
 // One sphere on the plane, phase by phase.
 class Roller {
@@ -117,11 +117,11 @@ class Roller {
   Extended k_;  // 1, I/(m r²)
 };
 
-std::unique_ptr<Truth> make(const Scene& scene, double duration) {
-  check_needs(scene, kName, kIsFor,
+std::unique_ptr<Truth> make_rolling(const Scene& scene, double duration) {
+  check_needs(scene, kRolling, kRollingIsFor,
               {"contact:plane-sphere", "contact:sphere-sphere", "friction:none", "friction:coulomb",
                "friction:infinite", "restitution"});
-  const Ground ground(scene, kName, kIsFor);
+  const Ground ground(scene, kRolling, kRollingIsFor);
   std::vector<Sweep> sweeps;
   const auto motion_of = [&](const Body& body) {
     const int index = static_cast<int>(&body - scene.bodies.data());
@@ -138,7 +138,7 @@ std::unique_ptr<Truth> make(const Scene& scene, double duration) {
 }  // namespace
 
 TruthRow rolling_truth() {
-  return {kName, "spheres slipping and rolling on a plane, level or sloping, in closed form", make};
+  return {kRolling, "spheres slipping and rolling on a plane, level or sloping, in closed form", make_rolling};
 }
 
 }  // namespace rigor

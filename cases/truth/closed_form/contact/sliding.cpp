@@ -14,8 +14,8 @@
 namespace rigor {
 namespace {
 
-constexpr const char* kName = "sliding";
-constexpr const char* kIsFor = "boxes that lie flat on one plane and do not turn";
+constexpr const char* kSliding = "sliding";
+constexpr const char* kSlidingIsFor = "boxes that lie flat on one plane and do not turn";
 
 class Slider {
  public:
@@ -98,11 +98,11 @@ class Slider {
   Extended friction_;
 };
 
-std::unique_ptr<Truth> make(const Scene& scene, double duration) {
-  check_needs(scene, kName, kIsFor,
+std::unique_ptr<Truth> make_sliding(const Scene& scene, double duration) {
+  check_needs(scene, kSliding, kSlidingIsFor,
               {"contact:box-plane", "contact:box-box", "friction:none", "friction:coulomb", "friction:infinite",
                "restitution"});
-  const Ground ground(scene, kName, kIsFor);
+  const Ground ground(scene, kSliding, kSlidingIsFor);
   std::vector<Sweep> sweeps;
   const auto motion_of = [&](const Body& body) {
     const int index = static_cast<int>(&body - scene.bodies.data());
@@ -119,7 +119,7 @@ std::unique_ptr<Truth> make(const Scene& scene, double duration) {
 }  // namespace
 
 TruthRow sliding_truth() {
-  return {kName, "boxes sliding, stopping and holding on a plane, level or sloping, in closed form", make};
+  return {kSliding, "boxes sliding, stopping and holding on a plane, level or sloping, in closed form", make_sliding};
 }
 
 }  // namespace rigor

@@ -16,11 +16,11 @@
 namespace rigor {
 namespace {
 
-constexpr const char* kName = "sprung-ball";
-constexpr const char* kIsFor = "one ball on one spring without damping that swings straight at a plane";
+constexpr const char* kSprungBall = "sprung-ball";
+constexpr const char* kSprungBallIsFor = "one ball on one spring without damping that swings straight at a plane";
 
-[[noreturn]] void refuse(const std::string& why) {
-  throw InputError(fmt::format("the truth '{}' is for {}: {}", kName, kIsFor, why));
+[[noreturn]] void refuse_swing(const std::string& why) {
+  throw InputError(fmt::format("the truth '{}' is for {}: {}", kSprungBall, kSprungBallIsFor, why));
 }
 
 // The scene as the line sees it: x counts from where the spring is at rest, towards the wall.
@@ -36,40 +36,41 @@ int only_one(const Scene& scene, bool fixed, const char* what) {
   int found = kWorld;
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     if (scene.bodies[i].fixed != fixed || (fixed && !scene.bodies[i].collides)) continue;
-    if (found != kWorld) refuse(fmt::format("body '{}' is another {}", scene.bodies[i].name, what));
+    if (found != kWorld) refuse_swing(fmt::format("body '{}' is another {}", scene.bodies[i].name, what));
     found = i;
   }
-  if (found == kWorld) refuse(fmt::format("there is no {}", what));
+  if (found == kWorld) refuse_swing(fmt::format("there is no {}", what));
   return found;
 }
 
 // From the spring's fixed end to the ball's centre, at t = 0.
 ExtendedVec3 along_spring(const Scene& scene, int ball) {
-  if (scene.springs.size() != 1) refuse(fmt::format("there are {} springs", scene.springs.size()));
+  if (scene.springs.size() != 1) refuse_swing(fmt::format("there are {} springs", scene.springs.size()));
   const Spring& spring = scene.springs.front();
-  if (spring.damping != 0) refuse("the spring has a damper");
-  if (spring.stiffness == 0) refuse("the spring has no stiffness");
+  if (spring.damping != 0) refuse_swing("the spring has a damper");
+  if (spring.stiffness == 0) refuse_swing("the spring has no stiffness");
   const bool holds_a = spring.a == ball;
   if ((holds_a ? spring.b : spring.a) != kWorld || (!holds_a && spring.b != ball))
-    refuse("the spring is not between the ball and the world");
-  if (!(holds_a ? spring.point_a : spring.point_b).isZero(0)) refuse("the spring does not hold the ball at its centre");
+    refuse_swing("the spring is not between the ball and the world");
+  if (!(holds_a ? spring.point_a : spring.point_b).isZero(0))
+    refuse_swing("the spring does not hold the ball at its centre");
   return extended(scene.bodies[ball].position) - extended(holds_a ? spring.point_b : spring.point_a);
 }
 
 Swing find_swing(const Scene& scene) {
-  if (!scene.gravity.isZero(0)) refuse("there is gravity");
+  if (!scene.gravity.isZero(0)) refuse_swing("there is gravity");
   const int ball = only_one(scene, false, "body that moves"), wall = only_one(scene, true, "wall");
   const Body& body = scene.bodies[ball];
   const auto* sphere = body.collides ? std::get_if<Sphere>(&*body.shape) : nullptr;
   const auto* plane = std::get_if<Plane>(&*scene.bodies[wall].shape);
-  if (!sphere) refuse(fmt::format("body '{}' is no sphere that collides", body.name));
-  if (!plane) refuse(fmt::format("body '{}' is no plane", scene.bodies[wall].name));
-  if (!body.angular_velocity.isZero(0)) refuse(fmt::format("body '{}' turns", body.name));
+  if (!sphere) refuse_swing(fmt::format("body '{}' is no sphere that collides", body.name));
+  if (!plane) refuse_swing(fmt::format("body '{}' is no plane", scene.bodies[wall].name));
+  if (!body.angular_velocity.isZero(0)) refuse_swing(fmt::format("body '{}' turns", body.name));
 
   const ExtendedVec3 reach = along_spring(scene, ball), line = -extended(plane->normal).normalized();
   const Spring& spring = scene.springs.front();
   if (!are_along(reach, line) || !are_along(extended(body.velocity), line))
-    refuse("the spring, or the ball's velocity, is not square to the wall");
+    refuse_swing("the spring, or the ball's velocity, is not square to the wall");
   const Extended length = reach.norm(), outward = reach.dot(line) > 0 ? 1 : -1, rest = spring.rest_length;
   Swing swing{.middle = extended(body.position) - (length - rest) / length * reach,
               .line = line,
@@ -79,9 +80,10 @@ Swing find_swing(const Scene& scene) {
               .start = outward * (length - rest),
               .speed = extended(body.velocity).dot(line)};
   swing.wall = -Extended(plane->offset) - swing.middle.dot(line) - Extended(sphere->radius);
-  if (!(swing.wall > 0)) refuse("the wall stands where the spring would rest, or presses it");
-  if (swing.start > swing.wall + kTouching) refuse("the ball is in the wall");
-  if (std::hypot(swing.start, swing.speed / swing.frequency) >= rest) refuse("the ball reaches the spring's other end");
+  if (!(swing.wall > 0)) refuse_swing("the wall stands where the spring would rest, or presses it");
+  if (swing.start > swing.wall + kTouching) refuse_swing("the ball is in the wall");
+  if (std::hypot(swing.start, swing.speed / swing.frequency) >= rest)
+    refuse_swing("the ball reaches the spring's other end");
   return swing;
 }
 
@@ -144,9 +146,9 @@ class SprungBall final : public BodyMotion {
 }  // namespace
 
 TruthRow sprung_ball_truth() {
-  return {kName, "a ball on a spring that strikes a wall, blow by blow, in closed form",
+  return {kSprungBall, "a ball on a spring that strikes a wall, blow by blow, in closed form",
           [](const Scene& scene, double duration) {
-            check_needs(scene, kName, kIsFor,
+            check_needs(scene, kSprungBall, kSprungBallIsFor,
                         {"spring", "contact:plane-sphere", "restitution", "friction:none", "friction:coulomb",
                          "friction:infinite"});
             const Swing swing = find_swing(scene);

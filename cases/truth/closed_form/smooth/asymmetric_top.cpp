@@ -45,7 +45,7 @@ struct PrincipalFrame {
   }
 };
 
-[[noreturn]] void refuse(const Body& body, const std::string& why) {
+[[noreturn]] void refuse_top(const Body& body, const std::string& why) {
   throw InputError(fmt::format(
       "the truth 'asymmetric-top' needs a spin and three different principal moments; body '{}' {}", body.name, why));
 }
@@ -55,9 +55,9 @@ PrincipalFrame principal_frame(const Body& body) {
   const QuadVec3 ascending = solver.eigenvalues();
   if (ascending[1] - ascending[0] <= kEqualMoments * ascending[2] ||
       ascending[2] - ascending[1] <= kEqualMoments * ascending[2]) {
-    refuse(body, "has two that are equal (take 'axisymmetric-top')");
+    refuse_top(body, "has two that are equal (take 'axisymmetric-top')");
   }
-  if (body.angular_velocity.isZero(0)) refuse(body, "does not turn (take 'projectile')");
+  if (body.angular_velocity.isZero(0)) refuse_top(body, "does not turn (take 'projectile')");
 
   const Eigen::Quaternion<Quad> q = body.orientation.cast<Quad>().normalized();
   const QuadVec3 w = q.conjugate() * body.angular_velocity.cast<Quad>().eval();

@@ -14,7 +14,7 @@
 namespace rigor {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_oscillator(const std::string& why) {
   throw InputError(
       "the truth 'oscillator' is for one body on one spring through its centre of mass, moving along the spring: " +
       why);
@@ -37,10 +37,10 @@ int the_moving_body(const Scene& scene) {
   int moving = kWorld;
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     if (scene.bodies[i].fixed) continue;
-    if (moving != kWorld) refuse(fmt::format("body '{}' moves as well", scene.bodies[i].name));
+    if (moving != kWorld) refuse_oscillator(fmt::format("body '{}' moves as well", scene.bodies[i].name));
     moving = i;
   }
-  if (moving == kWorld) refuse("no body moves");
+  if (moving == kWorld) refuse_oscillator("no body moves");
   return moving;
 }
 
@@ -51,13 +51,15 @@ ExtendedVec3 place(const Scene& scene, int body, const Vec3& point) {
 
 Hanging find_hanging(const Scene& scene) {
   const int moving = the_moving_body(scene);
-  if (scene.springs.size() != 1) refuse(fmt::format("there are {} springs", scene.springs.size()));
+  if (scene.springs.size() != 1) refuse_oscillator(fmt::format("there are {} springs", scene.springs.size()));
   const Spring& spring = scene.springs[0];
-  if ((spring.a == moving) == (spring.b == moving)) refuse("the spring is not between it and what stands still");
+  if ((spring.a == moving) == (spring.b == moving))
+    refuse_oscillator("the spring is not between it and what stands still");
   const bool holds_a = spring.a == moving;
   const Vec3& hook = holds_a ? spring.point_a : spring.point_b;
-  if (!hook.isZero(0)) refuse(fmt::format("the spring holds it at ({}, {}, {})", hook.x(), hook.y(), hook.z()));
-  if (spring.stiffness == 0) refuse("the spring has no stiffness");
+  if (!hook.isZero(0))
+    refuse_oscillator(fmt::format("the spring holds it at ({}, {}, {})", hook.x(), hook.y(), hook.z()));
+  if (spring.stiffness == 0) refuse_oscillator("the spring has no stiffness");
 
   const Body& body = scene.bodies[moving];
   Hanging hanging{moving, {}, ExtendedVec3::UnitX()};
@@ -68,8 +70,8 @@ Hanging find_hanging(const Scene& scene) {
     if (!along.isZero(0)) hanging.line = along.normalized();
   }
   constexpr Extended kRoundings = 8 * static_cast<Extended>(kEpsilon);  // of the scene's numbers
-  if (miss(velocity, hanging.line) > kRoundings) refuse("its velocity is not along the spring");
-  if (miss(gravity, hanging.line) > kRoundings) refuse("gravity is not along the spring");
+  if (miss(velocity, hanging.line) > kRoundings) refuse_oscillator("its velocity is not along the spring");
+  if (miss(gravity, hanging.line) > kRoundings) refuse_oscillator("gravity is not along the spring");
   hanging.misses = std::max(miss(velocity, hanging.line), miss(gravity, hanging.line));
   return hanging;
 }
@@ -81,7 +83,7 @@ class Oscillator final : public BodyMotion {
     const Spring& spring = scene.springs[0];
     const Extended least = nearest(duration);
     if (spring.rest_length == 0) return;
-    if (least <= 0) refuse("it passes through the spring's other end, where the force jumps");
+    if (least <= 0) refuse_oscillator("it passes through the spring's other end, where the force jumps");
     const Extended pressed = std::max<Extended>(0, spring.rest_length - least);
     buckling_ = std::sqrt(moving_.square * pressed / least);
   }
@@ -105,12 +107,24 @@ class Oscillator final : public BodyMotion {
 
  private:
   Oscillator(const Scene& scene, const Body& body, const Spring& spring, const Hanging& hanging)
+<<<<<<< HEAD
       : hanging_(hanging), spin_(body, body.angular_velocity), w_(extended(body.angular_velocity)) {
     moving_.decay = spring.damping / (2 * extended_mass(body)), moving_.square = spring.stiffness / extended_mass(body);
-    if (!spin_.holds()) refuse(fmt::format("body '{}' would tumble", body.name));
+    if (!spin_.holds()) refuse_oscillator(fmt::format("body '{}' would tumble", body.name));
     middle_ = spring.rest_length + extended(scene.gravity).dot(hanging.line) / moving_.square;
     moving_.start = (extended(body.position) - hanging.anchor).dot(hanging.line) - middle_;
     moving_.velocity = extended(body.velocity).dot(hanging.line);
+=======
+      : hanging_(hanging),
+        spin_(body, body.angular_velocity),
+        w_(extended(body.angular_velocity)),
+        decay_(spring.damping / (2 * extended_mass(body))),
+        square_(spring.stiffness / extended_mass(body)) {
+    if (!spin_.holds()) refuse_oscillator(fmt::format("body '{}' would tumble", body.name));
+    middle_ = spring.rest_length + extended(scene.gravity).dot(hanging.line) / square_;
+    start_ = (extended(body.position) - hanging.anchor).dot(hanging.line) - middle_;
+    velocity_ = extended(body.velocity).dot(hanging.line);
+>>>>>>> ad85bb51c86ac4f460c1415e9acfafcf889a61dc
   }
   static Extended extended_mass(const Body& body) { return body.mass; }
 

@@ -12,7 +12,7 @@
 namespace rigor {
 namespace {
 
-[[noreturn]] void refuse(const Body& body, const std::string& why) {
+[[noreturn]] void refuse_torque(const Body& body, const std::string& why) {
   throw InputError(fmt::format(
       "the truth 'principal-torque' is for torques about the axis a body turns about, a principal axis of its inertia; "
       "body '{}' {}",
@@ -28,10 +28,10 @@ class TorquedSpin final : public BodyMotion {
  public:
   TorquedSpin(const Body& body, const Scene& scene, const std::vector<TimedForce>& torques)
       : path_(body, scene.gravity), spin_(body, axis_of(body, torques)) {
-    if (!spin_.holds()) refuse(body, "turns about another axis");
+    if (!spin_.holds()) refuse_torque(body, "turns about another axis");
     speed_ = along_axis(body, body.angular_velocity);
     for (const TimedForce& torque : torques) {
-      if (!torque.force.isZero(0)) refuse(body, "has a force as well");
+      if (!torque.force.isZero(0)) refuse_torque(body, "has a force as well");
       pushes_.push_back({along_axis(body, torque.torque) / spin_.moment(), torque.from, torque.until});
     }
   }
@@ -68,7 +68,8 @@ class TorquedSpin final : public BodyMotion {
     const ExtendedVec3 v = extended(vector);
     constexpr Extended kRoundings = 4;  // of the vector's own numbers
     if (v.cross(spin_.axis()).norm() > kRoundings * static_cast<Extended>(kEpsilon) * v.norm()) {
-      refuse(body, fmt::format("has a torque of ({}, {}, {}) N m across it", vector.x(), vector.y(), vector.z()));
+      refuse_torque(body,
+                    fmt::format("has a torque of ({}, {}, {}) N m across it", vector.x(), vector.y(), vector.z()));
     }
     return v.dot(spin_.axis());
   }

@@ -15,7 +15,7 @@
 namespace rigor {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_precession(const std::string& why) {
   throw InputError(
       "the truth 'steady-precession' is for one symmetric top on a ball joint at its axis, precessing steadily: " +
       why);
@@ -29,10 +29,10 @@ class SteadyPrecession final : public BodyMotion {
       : pivot_(pivot), start_(extended(body.orientation)) {
     const ExtendedVec3 reach = extended(body.position) - pivot, w = extended(body.angular_velocity);
     length_ = reach.norm();
-    if (length_ == 0) refuse("the joint is at the centre of mass (take 'axisymmetric-top')");
+    if (length_ == 0) refuse_precession("the joint is at the centre of mass (take 'axisymmetric-top')");
     e_B_ = start_.conjugate() * ExtendedVec3(reach / length_);
     if ((extended(body.velocity) - w.cross(reach)).norm() > kRoundings * w.norm() * length_) {
-      refuse(fmt::format("the velocity of body '{}' is not what its spin about the joint gives", body.name));
+      refuse_precession(fmt::format("the velocity of body '{}' is not what its spin about the joint gives", body.name));
     }
     const ExtendedMat3 about_joint = inertia_about_joint(body);
     split_spin(w, reach / length_, extended(gravity));
@@ -63,7 +63,8 @@ class SteadyPrecession final : public BodyMotion {
     const ExtendedMat3 along = e_B_ * e_B_.transpose();
     const ExtendedMat3 symmetric = across * (ExtendedMat3::Identity() - along) + axial * along;
     if ((inertia - symmetric).norm() > kRoundings * inertia.norm()) {
-      refuse(fmt::format("the inertia of body '{}' is not symmetric about the line to the joint", body.name));
+      refuse_precession(
+          fmt::format("the inertia of body '{}' is not symmetric about the line to the joint", body.name));
     }
     return symmetric + body.mass * length_ * length_ * (ExtendedMat3::Identity() - along);
   }
@@ -76,15 +77,16 @@ class SteadyPrecession final : public BodyMotion {
       precession_ = -w.cross(e).dot(across) / across.squaredNorm() * gravity;
     }
     spin_ = (w - precession_).dot(e);
-    if ((precession_ + spin_ * e - w).norm() > kRoundings * w.norm()) refuse("its axis nods");
+    if ((precession_ + spin_ * e - w).norm() > kRoundings * w.norm()) refuse_precession("its axis nods");
   }
 
   void check_steadiness(const Body& body, const ExtendedVec3& L, const ExtendedVec3& torque) {
     if (L.isZero(0) && torque.isZero(0)) return;
     const Extended missing = (precession_.cross(L) - torque).norm();
     if (missing > kRoundings * (precession_.norm() * L.norm() + torque.norm())) {
-      refuse(fmt::format("that of body '{}' is {:.17g} rad/s, at which the torque it takes is off by {:.3g} N m",
-                         body.name, static_cast<double>(precession_.norm()), static_cast<double>(missing)));
+      refuse_precession(
+          fmt::format("that of body '{}' is {:.17g} rad/s, at which the torque it takes is off by {:.3g} N m",
+                      body.name, static_cast<double>(precession_.norm()), static_cast<double>(missing)));
     }
     misses_ = missing / L.norm() + std::numeric_limits<Extended>::epsilon() * precession_.norm();
   }
@@ -100,12 +102,12 @@ class SteadyPrecession final : public BodyMotion {
 
 // The one ball joint, between the top and the world.
 ExtendedVec3 find_pivot(const Scene& scene) {
-  if (scene.joints.size() != 1) refuse(fmt::format("there are {} joints", scene.joints.size()));
+  if (scene.joints.size() != 1) refuse_precession(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
   for (const int end : {joint.a, joint.b}) {
     if (end == kWorld || scene.bodies[end].fixed) return extended(std::get<BallJoint>(joint.type).anchor);
   }
-  refuse("the joint is between two bodies that move");
+  refuse_precession("the joint is between two bodies that move");
 }
 
 }  // namespace
@@ -117,7 +119,7 @@ TruthRow steady_precession_truth() {
             const ExtendedVec3 pivot = find_pivot(scene);
             const auto moving =
                 std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return !body.fixed; });
-            if (moving != 1) refuse(fmt::format("{} bodies move", moving));
+            if (moving != 1) refuse_precession(fmt::format("{} bodies move", moving));
             return closed_form(scene, [&](const Body& body) {
               return std::make_unique<SteadyPrecession>(body, pivot, scene.gravity);
             });

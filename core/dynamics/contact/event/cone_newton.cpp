@@ -10,7 +10,7 @@
 namespace rigor {
 namespace {
 
-constexpr int kMostRounds = 60, kMostSteps = 40, kMostHalvings = 20;
+constexpr int kMostRounds = 60, kMostSteps = 40, kMostBacktracks = 20;
 // r, in units of a point's own mass, of the first round and of the last ones. A round leaves some 1/r of an error, by
 // the stiffest to the softest way the points can move; the linear equations lose as many digits, which the steps of the
 // next round win back.
@@ -125,7 +125,7 @@ ConeNewton::Fit ConeNewton::take_step(const std::vector<ConeConstraint>& points)
     const bool is_better = is_coupled_ || std::abs(now.energy - before.energy) < rounding
                                ? now.residual < before.residual
                                : now.energy < before.energy;
-    if (is_better || k == kMostHalvings) {
+    if (is_better || k == kMostBacktracks) {
       if (is_better) change_ += share * step;
       return is_better ? now : before;
     }

@@ -10,7 +10,7 @@
 namespace rigor {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kClosed = 1e-13;  // m: a few roundings of a position of one metre
 constexpr int kMostMoves = 20;
 constexpr double kTouching = 1e-3;    // m: a point that drifted further than this is not in contact any more
@@ -100,7 +100,7 @@ double PersistentContact::longest_step() const {
     if (point.mode != HeldPoint::Mode::slides || point.begins_to_slip || !(slip > 0)) continue;
     fastest = std::max(fastest, point.friction() * point.force.x() / (point.tangential_mass * slip));
   }
-  return fastest > 0 ? std::max(kShortest, kStable / fastest) : kInfinity;
+  return fastest > 0 ? std::max(kShortest, kStable / fastest) : kForever;
 }
 
 bool PersistentContact::is_at_rest(BodyColumns state) const {
@@ -109,7 +109,7 @@ bool PersistentContact::is_at_rest(BodyColumns state) const {
 
 // Of the forces: how far they are from pulling, or from passing their cones.
 double PersistentContact::margin() const {
-  double least = kInfinity;
+  double least = kForever;
   for (const HeldPoint& point : points()) {
     least = std::min(least, point.force.x());
     if (point.mode == HeldPoint::Mode::sticks && std::isfinite(point.friction()))
@@ -120,7 +120,7 @@ double PersistentContact::margin() const {
 
 // Of the slips, and of the forces where their shares matter.
 double PersistentContact::slipping_margin() const {
-  double least = kInfinity;
+  double least = kForever;
   const bool shares_matter = held_.has_friction_of_slip();
   const double size = held_.largest_force();
   for (const HeldPoint& point : points()) {
@@ -134,7 +134,7 @@ double PersistentContact::slipping_margin() const {
 }
 
 double PersistentContact::distance_from_change() {
-  if (points().empty()) return kInfinity;
+  if (points().empty()) return kForever;
   const double least = slipping_margin();
   if (least < 0 || margin() >= 0) return least;
   const double violation = modes_.violation(end_, wrench_at_end_);
@@ -163,7 +163,7 @@ bool PersistentContact::carries(const ContactPoint& contact) const {
 
 bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,
                                    Closing which) {
-  double before = kInfinity;
+  double before = kForever;
   for (int k = 0; k < kMostMoves; ++k) {
     open_.clear(), targets_.clear();
     contact_points_.find(state, pairs, kTouching, open_);

@@ -184,4 +184,20 @@ BOOST_AUTO_TEST_CASE(a_folder_that_cannot_be_written_is_silently_left) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_was_not_used_for_a_month_is_dropped_and_nothing_else) {
+  const ReferenceSolution solution = solve_reference(kScene, 1);
+  keep_solution(kContent, solution);
+  BOOST_REQUIRE_EQUAL(files().size(), 1);
+  const fs::path used = files().front(), folder = used.parent_path(), unused = folder / "reference-of-another-program",
+                 strange = folder / "notes";
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(31 * 24);
+  for (const fs::path& file : {unused, strange}) std::ofstream(file) << "x";
+  for (const fs::path& file : {used, unused, strange}) fs::last_write_time(file, long_ago);
+  BOOST_TEST(kept_solution(kContent).has_value());  // and so it is in use
+  keep_solution(reference_content(kScene, 2), solution);
+  BOOST_TEST(fs::exists(used));
+  BOOST_TEST(!fs::exists(unused));
+  BOOST_TEST(fs::exists(strange));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,28 @@
+// The truth at the instants of a run's samples. All runs of a case at one step have the same instants: these are asked
+// of the truth once, before the cells' processes are forked, which inherit them.
+#pragma once
+
+#include <map>
+
+#include "cases/metrics/metric.h"
+
+namespace rigor {
+
+class TruthOnSteps {
+ public:
+  // Keeps the truth at n dt, 0 <= n dt <= duration; nothing where that would take more than a share of the memory.
+  void keep(const Truth& truth, double dt, double duration, std::size_t bodies);
+  // At every sample of the trajectory, from what is kept as far as its instants are these to the last bit.
+  TruthSamples at_samples_of(const Trajectory& trajectory, const Truth& truth, std::size_t bodies,
+                             double largest_kinetic_energy) const;
+
+ private:
+  struct Kept {
+    std::vector<double> times;  // s
+    std::vector<BodyTable> bodies;
+    std::vector<double> error;
+  };
+  std::map<double, Kept> by_dt_;
+};
+
+}  // namespace rigor
