@@ -22,6 +22,13 @@ struct Frame {
   btVector3 seen(const Vec3& direction_W) const { return bullet::to_bullet(Vec3(q.conjugate() * direction_W)); }
 };
 
+// Of the world, and of a fixed body, W itself.
+Frame frame_at_start(const Scene& scene, int body, const Quat& q_WP) {
+  if (body == kWorld || scene.bodies[static_cast<std::size_t>(body)].fixed) return {};
+  const Body& of = scene.bodies[static_cast<std::size_t>(body)];
+  return {of.position, q_WP, of.velocity, of.angular_velocity};
+}
+
 // Where the joint's point is for both: its anchor, or the child's centre.
 struct PointOf {
   const Frame& child;
@@ -132,16 +139,6 @@ BulletMultibodyWorld::BulletMultibodyWorld(const Scene& scene, const Settings& s
 BulletMultibodyWorld::~BulletMultibodyWorld() {
   for (const auto& tree : trees_) world_.removeMultiBody(tree.get());
 }
-
-namespace {
-
-Frame frame_at_start(const Scene& scene, int body, const Quat& q_WP) {
-  if (body == kWorld || scene.bodies[static_cast<std::size_t>(body)].fixed) return {};
-  const Body& of = scene.bodies[static_cast<std::size_t>(body)];
-  return {of.position, q_WP, of.velocity, of.angular_velocity};
-}
-
-}  // namespace
 
 void BulletMultibodyWorld::add_tree(const Scene& scene, const bullet::Tree& tree, bool matched) {
   int links = 0;

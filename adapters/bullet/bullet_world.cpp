@@ -67,7 +67,7 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
   bullet::install_pair_laws();
   world_.setGravity(to_bullet(scene.gravity));
   apply(settings);
-  if (!scene.joints.empty()) apply_to_joints(scene, settings);
+  if (matched_) match(scene, settings);
   rows_.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies) add_body(body, settings);
   joints_ = std::make_unique<bullet::Joints>(
@@ -96,10 +96,9 @@ void BulletWorld::apply(const Settings& settings) {
   solver.m_splitImpulse = word_option(settings, "split-impulse", on_off(solver.m_splitImpulse)) == "on";
 }
 
-void BulletWorld::apply_to_joints(const Scene& scene, const Settings& settings) {
-  if (!matched_) return;
-  btContactSolverInfo& solver = world_.getSolverInfo();
-  if (!settings.options.contains("erp")) solver.m_erp = bullet::kErp;
+// What follows from the scene, where the run does not say.
+void BulletWorld::match(const Scene& scene, const Settings& settings) {
+  if (!scene.joints.empty() && !settings.options.contains("erp")) world_.getSolverInfo().m_erp = bullet::kErp;
   if (settings.method == "mlcp" && !settings.options.contains("cfm")) softness_ = bullet::softness(scene);
 }
 

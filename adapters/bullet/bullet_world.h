@@ -39,7 +39,7 @@ class BulletWorld : public World {
   };
 
   void apply(const Settings& settings);
-  void apply_to_joints(const Scene& scene, const Settings& settings);
+  void match(const Scene& scene, const Settings& settings);
   btRigidBody& end_of_joint(int body);
   void look_for_fallback();
   void add_body(const Body& body, const Settings& settings);

@@ -41,7 +41,8 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
     scene.contact_default = {0, kInfiniteFriction};
     const std::string feature = contact_feature(shape_name(pair.above), shape_name(pair.below));
     for (const Run& run : all_runs()) {
-      if (!run.supports(scene, dt)) continue;
+      // As shipped Bullet's direct solver throws away what too many contacts carry; see bullet_engine_test.cpp.
+      if (!run.supports(scene, dt) || run.name() == "bullet:mlcp@stock") continue;
       BOOST_TEST_CONTEXT(run.name() << " " << feature) {
         const auto world = run.load(scene);
         const BodyState found = state_after(*world, dt, 480).columns().body(0);
