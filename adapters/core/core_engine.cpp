@@ -49,6 +49,7 @@ class CoreWorld : public World {
   void step(double dt) override {
     if (joints_) joints_->begin_step();
     stepper_->step(state_.columns(), clock_.time(), dt);
+    if (joints_) joints_->end_step(state_.columns());
     clock_.advance(dt);
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/dynamics/kernels/kernels.h"
 
@@ -27,12 +28,27 @@ Joints::Joints(const Scene& scene, const System& system)
       multipliers_(scene.joints.size()),
       correction_(scene.joints.size()),
       free_(system.size()) {
-  for (std::size_t k = 0; k < scene.joints.size(); ++k) names_.push_back(scene.joint_name(k));
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    names_.push_back(scene.joint_name(k));
+    const Joint& joint = scene.joints[k];
+    if (joint.stiffness > 0 && std::holds_alternative<HingeJoint>(joint.type))
+      sprung_.push_back({JointCoordinate(scene, joint), k, 0});
+  }
   total_.resize(kWrenchColumns, system.size());
   list_components();
   BodyTable start(system.size());
   set_initial_state(scene, start.columns());
   find_ranks(start.columns());
+}
+
+void Joints::end_step(BodyColumns state) {
+  for (SprungHinge& hinge : sprung_) {
+    const double x = hinge.coordinate.at(state).x;
+    if (std::abs(x - hinge.x) > std::numbers::pi && warning_.empty())
+      warning_ =
+          fmt::format("{} has turned by half a turn, at which the angle of its spring jumps", names_[hinge.joint]);
+    hinge.x = x;
+  }
 }
 
 int Joints::rows() const {

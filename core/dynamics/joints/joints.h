@@ -69,6 +69,8 @@ class Joints : public ConstraintForces {
 
   // Why what was done since begin_step() is not what was asked; empty if it is.
   void begin_step() { warning_.clear(); }
+  // Notes where a hinge with a spring has turned by half a turn, at which the angle that the spring goes by jumps.
+  void end_step(BodyColumns state);
   std::string warning() const { return at_start_.empty() ? warning_ : at_start_; }
   // What was noted so far, for who tries a step and then takes another: what the refused one noted is not kept.
   const std::string& noted() const { return warning_; }
@@ -106,6 +108,12 @@ class Joints : public ConstraintForces {
   std::vector<std::vector<int>> bodies_of_component_, joints_of_component_;  // bodies that can move
   Columns total_;
   double extent_ = 1;  // m: the longest arm, what gaps are small against
+  struct SprungHinge {
+    JointCoordinate coordinate;
+    std::size_t joint;
+    double x;  // rad, when the last step ended
+  };
+  std::vector<SprungHinge> sprung_;
   std::string at_start_, warning_;
 };
 

@@ -51,6 +51,18 @@ double coordinate(const Scene& scene, const BodyTable& state) {
 
 BOOST_AUTO_TEST_SUITE(core_dynamics_model_joint_coordinate)
 
+// Beyond half a turn the angle of its spring would begin anew from the other side: said, in the step in which it does.
+BOOST_AUTO_TEST_CASE(a_sprung_hinge_that_turns_by_half_a_turn_is_named) {
+  Scene scene = wheel();
+  scene.joints[0].stiffness = 1e-3;
+  scene.bodies[0].angular_velocity = Vec3(1, 2, 2) / 3;
+  const auto world = CoreEngine().load(scene, {.method = "rk4", .options = {}});
+  for (int n = 1; n <= 40; ++n) {
+    world->step(0.1);  // at 1 rad/s: pi is passed in step 32
+    BOOST_TEST((world->solver_warning().find("half a turn") != std::string::npos) == (n == 32));
+  }
+}
+
 // I x'' + c x' + k (x - r) = 0 from x = 0 at rest: with a = c/2I and f² = k/I - a²,
 // x = r - r exp(-a t) (cos f t + a/f sin f t).
 BOOST_AUTO_TEST_CASE(a_hinges_spring_and_damper_make_a_damped_oscillation) {
