@@ -1,6 +1,7 @@
-// Solutions with steps of 1/60 s, 1/120 s, ... until two in a row agree. Held contacts make the method second order, so
-// that the finer of two errs by a third of their distance; kSafety times the whole of it is said. Ways of even and odd
-// number differ in more than the step: the integrator, and the speed below which nothing rebounds.
+// Solutions with steps of 1/60 s, 1/120 s, ... until two in a row agree. Both integrators are of fourth order, with held
+// contacts too, so that the finer of two errs by a fifteenth of their distance between events; kSafety times the whole of
+// it is said. Ways of even and odd number differ in more than the step: the integrator, and the speed below which nothing
+// rebounds.
 #include "cases/truth/solved/events_solver.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ constexpr double kUseful = 1e-6;             // m and rad, what metrics ask for
 constexpr double kMostWork = 2e5;            // steps of a body, of some 20 µs each where it touches others
 constexpr double kSafety = 3;
 // What both ways have in common: gaps that count as closed [m], and speeds of parting or sliding that count as none
-// [m/s]; see event.cpp and held_motion.cpp.
+// [m/s]; see event.cpp and contact_modes.h.
 constexpr double kClosed = 1e-10, kStill = 1e-9;
 
 // Makes steps of one scene in one way; each begins afresh, for the state is all there is.

@@ -5,7 +5,7 @@
 //   phi'' = g r/k² sin phi,
 // by its Taylor series of order 24 from one node to the next: with s = sin phi, c = cos phi, s' = c phi', c' = -s phi'.
 // The edge is held by H = m r (phi'' cos phi - phi'² sin phi) and V = m g - m r (phi'' sin phi + phi'² cos phi), which
-// have to stay inside the friction cone.
+// have to stay inside the friction cone; from where they do not, or another side lands, nothing is known.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +64,11 @@ class Toppling final : public BodyMotion {
       nodes_.push_back(advanced(nodes_.back(), stiffness_, kNode));
     }
     const double friction = scene.contact_law(static_cast<int>(&box - scene.bodies.data()), ground_.body()).friction;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) check(nodes_[i], i > 0, friction);
+    if (const char* why = reason_against(nodes_[0], friction)) ground_.refuse(box, why);
+    std::size_t last = 0;
+    while (last + 1 < nodes_.size() && !reason_against(nodes_[last + 1], friction) && !has_landed(nodes_[last + 1]))
+      ++last;
+    until_ = last + 1 == nodes_.size() ? duration : static_cast<double>(static_cast<Extended>(last) * kNode);
   }
 
   ExtendedState at(Extended t) const override {
@@ -75,8 +79,10 @@ class Toppling final : public BodyMotion {
     return {edge_.at + arm, turn((now.phi - nodes_[0].phi) * edge_.axis) * q_, w.cross(arm), w};
   }
 
-  // The rounding of the place, and what an unstable pendulum makes of those of its angle.
+  // The rounding of the place, and what an unstable pendulum makes of those of its angle. Infinite from where it slips,
+  // lands or leaves the plane.
   double error(double t) const override {
+    if (t > until_ * (1 + 1e-12)) return std::numeric_limits<double>::infinity();
     const double growth = std::exp(static_cast<double>(std::sqrt(stiffness_)) * t);
     return kEpsilon * static_cast<double>(edge_.at.norm() + radius_) + gap_ +
            64 * kExtendedEpsilon * growth * static_cast<double>(radius_);
@@ -116,21 +122,25 @@ class Toppling final : public BodyMotion {
     return lowest;
   }
 
-  void check(const Angle& now, bool is_under_way, double friction) const {
+  // Why it is no pendulum at an instant, or null.
+  const char* reason_against(const Angle& now, double friction) const {
     const Extended acceleration = stiffness_ * std::sin(now.phi), square = now.rate * now.rate;
     const Extended along = radius_ * (acceleration * std::cos(now.phi) - square * std::sin(now.phi));
     const Extended up = ground_.pressing() - radius_ * (acceleration * std::sin(now.phi) + square * std::cos(now.phi));
-    if (!(up > 0)) ground_.refuse(box_, "would leave the plane");
-    if (std::abs(along) > friction * up) ground_.refuse(box_, "would slip");
-    if (!is_under_way) return;
-    // No corner but those of the edge may come down.
+    if (!(up > 0)) return "would leave the plane";
+    return std::abs(along) > friction * up ? "would slip" : nullptr;
+  }
+
+  // Whether another corner than those of the edge has come down.
+  bool has_landed(const Angle& now) const {
     const ExtendedQuat turned = turn((now.phi - nodes_[0].phi) * edge_.axis);
     const ExtendedVec3 to_edge = edge_.at - extended(box_.position);
     for (int corner = 0; corner < 8; ++corner) {
       const ExtendedVec3 arm = arm_of(corner) - to_edge;
       const bool is_on_edge = (arm - edge_.axis * edge_.axis.dot(arm)).norm() < 1e-9L * radius_;
-      if (!is_on_edge && !(ground_.normal().dot(turned * arm) > 0)) ground_.refuse(box_, "would land on a face");
+      if (!is_on_edge && !(ground_.normal().dot(turned * arm) > 0)) return true;
     }
+    return false;
   }
 
   Ground ground_;
@@ -139,6 +149,7 @@ class Toppling final : public BodyMotion {
   Edge edge_;
   Extended radius_ = 0, stiffness_ = 0;  // m; 1/s²
   std::vector<Angle> nodes_;             // every kNode
+  double until_ = 0;                     // s, as long as it is a pendulum
   double gap_ = 0;                       // m, of the case file's digits
 };
 

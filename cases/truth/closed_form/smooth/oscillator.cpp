@@ -107,24 +107,12 @@ class Oscillator final : public BodyMotion {
 
  private:
   Oscillator(const Scene& scene, const Body& body, const Spring& spring, const Hanging& hanging)
-<<<<<<< HEAD
       : hanging_(hanging), spin_(body, body.angular_velocity), w_(extended(body.angular_velocity)) {
     moving_.decay = spring.damping / (2 * extended_mass(body)), moving_.square = spring.stiffness / extended_mass(body);
     if (!spin_.holds()) refuse_oscillator(fmt::format("body '{}' would tumble", body.name));
     middle_ = spring.rest_length + extended(scene.gravity).dot(hanging.line) / moving_.square;
     moving_.start = (extended(body.position) - hanging.anchor).dot(hanging.line) - middle_;
     moving_.velocity = extended(body.velocity).dot(hanging.line);
-=======
-      : hanging_(hanging),
-        spin_(body, body.angular_velocity),
-        w_(extended(body.angular_velocity)),
-        decay_(spring.damping / (2 * extended_mass(body))),
-        square_(spring.stiffness / extended_mass(body)) {
-    if (!spin_.holds()) refuse_oscillator(fmt::format("body '{}' would tumble", body.name));
-    middle_ = spring.rest_length + extended(scene.gravity).dot(hanging.line) / square_;
-    start_ = (extended(body.position) - hanging.anchor).dot(hanging.line) - middle_;
-    velocity_ = extended(body.velocity).dot(hanging.line);
->>>>>>> ad85bb51c86ac4f460c1415e9acfafcf889a61dc
   }
   static Extended extended_mass(const Body& body) { return body.mass; }
 

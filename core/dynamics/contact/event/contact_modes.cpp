@@ -8,8 +8,9 @@ namespace {
 
 // Of the accelerations: what parts, and what begins to slide. A mode ends at twice as much, so that what is chosen at
 // its end is not the same again.
-constexpr double kResting = 1e-12;  // m/s, rad/s, and of the accelerations: roundings
-constexpr double kPulling = 1e-9;   // of the forces
+constexpr double kResting = 1e-12;    // m/s, rad/s, and of the accelerations: roundings
+constexpr double kSeparating = 1e-9;  // m/s: ten times what an impact may leave; slower than it nothing parts
+constexpr double kPulling = 1e-9;     // of the forces
 constexpr double kParting = 1e-8, kSlipping = 1e-7, kEnding = 2;
 constexpr double kSlip = 1e4;  // of the accelerations: what a slip counts as beside them; its direction errs by 1/kSlip
 
@@ -59,6 +60,7 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
     HeldPoint& point = points[i];
     const Vec3 acceleration = acceleration_of(i);
     if (acceleration.x() > kParting * size_) continue;
+    if (point.velocity.x() > kSeparating && !(cones_[i].impulse.x() > 0)) continue;
     const Eigen::Vector2d slip = point.velocity.tail<2>(), change = acceleration.tail<2>();
     const bool slides = slip.norm() > kSliding && std::isfinite(point.friction());
     point.begins_to_slip = !slides && std::isfinite(point.friction()) && change.norm() > kSlipping * size_;

@@ -7,17 +7,12 @@
 namespace rigor {
 namespace {
 
-<<<<<<< HEAD
-constexpr int kMostRounds = 2000;     // before every touching point is taken together, without rebound
+constexpr int kMostImpactRounds = 2000;     // before every touching point is taken together, without rebound
 constexpr double kNewEnergy = 1e-12;  // of the energy before: rounding
 // Infinite friction stops a slip at once, by an impulse that needs a normal one, however small: one that leaves so
 // little of a speed [m/s]. Slower slips are none.
 constexpr int kRoundsOfInfinity = 2;
 constexpr double kJamming = 1e-9, kJammed = 1e-11;
-=======
-constexpr int kMostImpactRounds = 2000;  // before every touching point is taken together, without rebound
-constexpr double kNewEnergy = 1e-12;     // of the energy before: rounding
->>>>>>> ad85bb51c86ac4f460c1415e9acfafcf889a61dc
 
 void copy_velocities(BodyColumns from, MutableBodyColumns to) {
   for (std::size_t i = 0; i < to.size(); ++i) {
@@ -35,23 +30,13 @@ bool Impacts::resolve(MutableBodyColumns state, std::vector<ContactPoint>& conta
   for (const ContactPoint& contact : contact_points) points_.push_back(contact.cone);
   for (ConeConstraint& point : points_) point.impulse.setZero();
   solver_.prepare(state, points_);
-<<<<<<< HEAD
   for (int round = 0;; ++round) {
     if (round == kRoundsOfInfinity) let_infinite_friction_grip();
-    if (!choose(state, contact_points, inelastic, round >= kMostRounds)) break;
+    if (!choose(state, contact_points, inelastic, round >= kMostImpactRounds)) break;
     solve_round(state);
-    if (round <= kMostRounds) continue;
+    if (round <= kMostImpactRounds) continue;
     solver_warning_ = "an impact of several bodies did not come to an end; what was left of it was dropped";
     break;
-=======
-  int round = 0;
-  while (choose(state, contact_points, inelastic, round >= kMostImpactRounds)) {
-    solve_round(state);
-    if (round++ > kMostImpactRounds) {
-      solver_warning_ = "an impact of several bodies did not come to an end; what was left of it was dropped";
-      break;
-    }
->>>>>>> ad85bb51c86ac4f460c1415e9acfafcf889a61dc
   }
   return rebound_;
 }

@@ -127,8 +127,10 @@ double PersistentContact::slipping_margin() const {
     if (shares_matter && size > 0) least = std::min(least, point.force.x() / size + kPulling);
     if (point.mode != HeldPoint::Mode::slides || point.friction() == 0) continue;
     least = std::min(least, point.slip + (point.begins_to_slip ? kBeginning : 0));
-    // A slip that ended within a long step, and began again.
-    if (point.least_slip < -kReversed * point.largest_slip) least = std::min(least, point.least_slip);
+    // A slip that ended within a long step, and began again; what an adaptive method tries and refuses is no sign of
+    // it.
+    if (!in_contact_.adaptive && point.least_slip < -kReversed * point.largest_slip)
+      least = std::min(least, point.least_slip);
   }
   return least;
 }

@@ -66,12 +66,23 @@ BOOST_AUTO_TEST_CASE(it_is_the_inverted_pendulum) {
   BOOST_TEST(std::abs(at(*truth, 0.8).angular_velocity.y() - w) < 1e-12);
 }
 
+BOOST_AUTO_TEST_CASE(it_says_how_long_it_is_a_pendulum) {
+  const auto falls_back = make_truth("toppling", toppling(1.0, 1), 5);
+  double t = 0;
+  for (; t < 5 && std::isfinite(falls_back->error(t)); t += 1.0 / 1024) {
+    if (t > 0) BOOST_TEST(at(*falls_back, t).angular_velocity.y() > -1.0);  // it lands as fast as it rose
+  }
+  BOOST_TEST(std::abs(at(*falls_back, t).angular_velocity.y() + 1) < 0.05);
+  const auto slips = make_truth("toppling", toppling(1.6, 0.5), 5);
+  BOOST_TEST(std::isfinite(slips->error(0.5)));
+  BOOST_TEST(!std::isfinite(slips->error(1.5)));
+}
+
 BOOST_AUTO_TEST_CASE(what_is_no_pendulum_is_refused_with_the_reason) {
   const auto refuses = [](const Scene& scene, double duration, const char* why) {
     BOOST_CHECK_EXCEPTION(make_truth("toppling", scene, duration), InputError, test::says(why));
   };
   refuses(toppling(1.6, 0.1), 0.8, "would slip");
-  refuses(toppling(1.0, 1), 0.8, "would land on a face");  // falls back
   refuses(toppling(0, 1), 0.8, "does not turn about one edge");
   refuses(toppling(6, 1), 0.8, "would leave the plane");
   Scene slope = toppling(1.6, 1);
