@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(a_turned_frame_is_the_same_frame) {
 
 BOOST_AUTO_TEST_CASE(the_ends_of_a_joint_may_be_exchanged) {
   // Some rows are fixed in a: from the other end they hold the same, but are others beside what they hold, where the
-  // stages of a Runge-Kutta method are. That is a part of its error, 1e-7 at this step.
+  // stages of a Runge-Kutta method are. That is a part of its own error.
   const Scene scene = tree(), other = ends_exchanged(scene);
   for_each_core_run(scene, [&](const Run& run) {
     const bool has_stages_beside = run.settings.method.starts_with("rk");
