@@ -7,9 +7,10 @@
 
 namespace rigor::bench {
 
-void register_steps();    // step_bench.cpp: every engine and method on every scene
-void register_limits();   // limits_bench.cpp: what no method can undercut
-void register_plugins();  // plugin_bench.cpp: engines from outside, those of RIGOR_PLUGINS
+void register_steps();   // step_bench.cpp: every engine and method on every scene
+void register_limits();  // limits_bench.cpp: what no method can undercut
+// plugin_bench.cpp: engines from outside, as --plugin and RIGOR_PLUGINS name them. Throws InputError.
+void register_plugins(const std::vector<std::string>& plugins);
 void register_harness();  // harness_bench.cpp: what the seam, a cell, a case file and a truth cost
 
 double thread_seconds();  // for which this thread has run

@@ -1,4 +1,4 @@
-// What an engine from outside costs beside its own work: those that RIGOR_PLUGINS names, on free bodies. "step" is one
+// What an engine from outside costs beside its own work, on free bodies. "step" is one
 // step and one read, a request each; "run" is a thousand steps in one request, of which each 33rd is sampled. By the
 // wall; `ours` is the CPU time of this process alone, for each step. A library is also called without Rigor ("direct").
 #include <benchmark/benchmark.h>
@@ -87,20 +87,13 @@ void direct(benchmark::State& state, const std::string& path, int count) {
   engine.unload(world, room);
 }
 
-const EngineTable& plugins() {
-  static const EngineTable table = [] {
-    EngineTable all;
-    for (const std::string& plugin : plugins_of_environment()) add_plugin(all, plugin, 600);
-    return all;
-  }();
-  return table;
-}
-
 }  // namespace
 
-void register_plugins() {
-  for (const EngineInfo& info : plugins().infos()) {
-    const Engine& engine = plugins().find(info.name);
+void register_plugins(const std::vector<std::string>& plugins) {
+  static EngineTable table;  // benchmarks run later
+  for (const std::string& plugin : plugins) add_plugin(table, plugin, 600);
+  for (const EngineInfo& info : table.infos()) {
+    const Engine& engine = table.find(info.name);
     for (const int count : {1, 100, 1000}) {
       const auto name = [&](const char* what) { return fmt::format("plugin/{}/{}/{}", what, count, info.name); };
       benchmark::RegisterBenchmark(name("step").c_str(), step_and_read, std::cref(engine), count)->UseRealTime();
@@ -111,7 +104,7 @@ void register_plugins() {
       }
     }
   }
-  for (const std::string& plugin : plugins_of_environment()) {
+  for (const std::string& plugin : plugins) {
     for (const int count : {1, 100, 1000}) {
       if (plugin.ends_with(".so"))
         benchmark::RegisterBenchmark(fmt::format("plugin/direct/{}/{}", count, plugin).c_str(), direct, plugin, count)

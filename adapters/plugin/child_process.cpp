@@ -28,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kTick = 50;                        // ms between two looks at the time
 constexpr std::size_t kMostPassedOn = 16 << 10;  // bytes of one child's stderr
 constexpr std::size_t kWordsKept = 4 << 10;      // bytes, for its last words
+constexpr int kRoomInPipe = 1 << 20;             // bytes: a large answer in one go
 constexpr int kGraceful = 500;                   // ms from the closing of its stdin to its killing
 
 void make_pipe(int ends[2]) {
@@ -75,6 +76,7 @@ ChildProcess::ChildProcess(std::string command, double limit, int log, std::stri
   close(in[0]), close(out[1]), close(err[1]);
   to_ = in[1], from_ = out[0], words_from_ = err[0];
   for (const int descriptor : {to_, from_, words_from_}) fcntl(descriptor, F_SETFL, O_NONBLOCK);
+  fcntl(from_, F_SETPIPE_SZ, kRoomInPipe);  // of no harm where it is refused
 }
 
 // Between fork and exec: system calls alone.

@@ -30,8 +30,8 @@ std::uint64_t hash_of_file(const std::string& path, std::uint64_t so_far) {
   return content_hash(text.str(), so_far);
 }
 
-// What the plug-in is made of, as far as its words name files: what one version has computed, another does not go on
-// from.
+// The plug-in as it was named, and what it is made of, as far as its words name files: what one version has computed,
+// another does not go on from.
 std::string identity_of(const std::string& plugin) {
   std::uint64_t hash = content_hash(plugin);
   std::istringstream words(plugin);

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -30,7 +31,14 @@ std::string called(const std::string& path) { return fmt::format("plug-in '{}'",
 
 // An engine's own copy of a library that Rigor links, Bullet in single precision say, must find its own symbols first.
 // The address sanitizer cannot be bypassed like that.
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature)
+#define RIGOR_HAS_ASAN __has_feature(address_sanitizer)
+#elif defined(__SANITIZE_ADDRESS__)
+#define RIGOR_HAS_ASAN 1
+#else
+#define RIGOR_HAS_ASAN 0
+#endif
+#if RIGOR_HAS_ASAN
 constexpr int kHow = RTLD_NOW | RTLD_LOCAL;
 #else
 constexpr int kHow = RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND;
@@ -112,6 +120,7 @@ const rigor_engine_v1& load_library(const std::string& path) {
 std::string info_of_library(const std::string& path, double limit) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "a pipe to a plug-in");
+  std::fflush(nullptr);  // or a library that calls exit() would print our buffers again
   const pid_t parent = getpid(), pid = fork();
   if (pid < 0) throw std::system_error(errno, std::generic_category(), "starting a plug-in");
   if (pid == 0) probe(path, ends[1], parent);

@@ -90,13 +90,15 @@ std::string table_of(const RunName& run, const Json& outcomes, bool holds) {
   return text + fmt::format("{} {}\n", run.text, holds ? "conforms" : "does not conform");
 }
 
-// The run to try: the one that is named, else the one engine from outside.
+// The run to try: the one that is named, else the one --plugin, else the one engine from outside.
 RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
   if (line.engines.size() > 1) throw InputError("rigor conform: takes one --engine");
   if (!line.engines.empty()) return parse_run_name(line.engines.front(), engines.infos());
   std::vector<std::string> outside;
   for (const EngineInfo& info : engines.infos()) {
-    if (!engines.identity_of(info.name).empty()) outside.push_back(info.name);
+    const std::string& identity = engines.identity_of(info.name);  // begins with what it was started by
+    const bool is_meant = line.plugins.size() != 1 || identity.starts_with(line.plugins.front() + " ");
+    if (!identity.empty() && is_meant) outside.push_back(info.name);
   }
   if (outside.size() != 1)
     throw InputError("rigor conform: which engine? Give one --plugin P, or --engine E; see rigor list engines");

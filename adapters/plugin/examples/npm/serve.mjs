@@ -104,11 +104,14 @@ export function pose(scene, name) {
 export const pointIn = ({ x, q }, p) => rotate(back(q), add(p, x, -1));
 export const directionIn = ({ q }, v) => rotate(back(q), v);
 
-// The one law of all contacts, for an engine whose materials are a body's and not a pair's.
+// The one law of all pairs that can touch, for an engine whose materials are a body's and not a pair's.
 export function oneLaw(scene) {
-  const { restitution, friction } = scene.contact_default;
-  for (const pair of scene.contact ?? []) {
-    if (pair.restitution !== restitution || pair.friction !== friction) throw new Unsupported("pairs of bodies have laws of their own");
-  }
+  const touching = scene.body.filter(({ collides }) => collides), moving = touching.filter(({ fixed }) => !fixed);
+  const is = (bodies, name) => bodies.some((body) => body.name === name);
+  const rows = (scene.contact ?? []).filter(({ a, b }) => is(touching, a) && is(touching, b) && (is(moving, a) || is(moving, b)));
+  const pairs = (moving.length * (moving.length - 1)) / 2 + moving.length * (touching.length - moving.length);
+  const laws = rows.length > 0 && rows.length === pairs ? rows : [...rows, scene.contact_default];
+  const { restitution, friction } = laws[0];
+  if (laws.some((law) => law.restitution !== restitution || law.friction !== friction)) throw new Unsupported("pairs of bodies have laws of their own");
   return { restitution, friction: friction === "infinite" ? 1e6 : friction };
 }
