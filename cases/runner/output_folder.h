@@ -32,7 +32,7 @@ class OutputFolder {
   // trajectory of Rigor's stays. Those of `file_names` that were not written are no longer there: they would be of
   // another run. Works on if this process is killed meanwhile.
   void publish(const std::vector<std::string>& trajectories);
-  void publish_files();  // those alone; trajectories stay as they are
+  void publish_files();             // those alone; trajectories stay as they are
   void keep() { is_kept_ = true; }  // for another run to go on from
 
  private:

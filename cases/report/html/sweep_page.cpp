@@ -326,9 +326,9 @@ std::string SweepPage::text() const {
   std::string keys;
   for (const SweepAxis& axis : sweep_.axes()) {
     const bool is_drawn = sweep_.is_sampled() && axis.is_range;
-    keys += fmt::format("{}{} ({})", keys.empty() ? "" : ", ", with_unit(axis.key, unit_of_axis(axis)),
-                        is_drawn ? fmt::format("{:g} to {:g}", axis.from, axis.to)
-                                 : fmt::format("{} values", axis.values.size()));
+    keys += fmt::format(
+        "{}{} ({})", keys.empty() ? "" : ", ", with_unit(axis.key, unit_of_axis(axis)),
+        is_drawn ? fmt::format("{:g} to {:g}", axis.from, axis.to) : fmt::format("{} values", axis.values.size()));
   }
   if (sweep_.is_sampled()) keys += ", sampled";
   std::string page = kHead;
