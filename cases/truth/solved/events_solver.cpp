@@ -1,7 +1,7 @@
-// Solutions with steps of 1/60 s, 1/120 s, ... until two in a row agree. Both integrators are of fourth order, with held
-// contacts too, so that the finer of two errs by a fifteenth of their distance between events; kSafety times the whole of
-// it is said. Ways of even and odd number differ in more than the step: the integrator, and the speed below which nothing
-// rebounds.
+// Solutions with steps of 1/60 s, 1/120 s, ... until two in a row agree. Both integrators are of fourth order, with
+// held contacts too, so that the finer of two errs by a fifteenth of their distance between events; kSafety times the
+// whole of it is said. Ways of even and odd number differ in more than the step: the integrator, and the speed below
+// which nothing rebounds.
 #include "cases/truth/solved/events_solver.h"
 
 #include <algorithm>

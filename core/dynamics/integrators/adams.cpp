@@ -24,9 +24,10 @@ constexpr int kParts = 4;  // steps of the formula in a step of the method
 using AdamsCoefficients = std::array<double, kAdamsRates>;
 constexpr double kOf = 60480;
 constexpr AdamsCoefficients kPredictor = {198721 / kOf, -447288 / kOf, 705549 / kOf, -688256 / kOf,
-                                     407139 / kOf, -134472 / kOf, 19087 / kOf};
+                                          407139 / kOf, -134472 / kOf, 19087 / kOf};
 constexpr double kAtEnd = 19087 / kOf;
-constexpr AdamsCoefficients kCorrector = {65112 / kOf, -46461 / kOf, 37504 / kOf, -20211 / kOf, 6312 / kOf, -863 / kOf, 0};
+constexpr AdamsCoefficients kCorrector = {
+    65112 / kOf, -46461 / kOf, 37504 / kOf, -20211 / kOf, 6312 / kOf, -863 / kOf, 0};
 
 class Adams : public Stepper {
  public:

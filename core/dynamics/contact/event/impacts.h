@@ -2,8 +2,8 @@
 // Newton's restitution and Coulomb's cone, and with them the touching points whose restitution is 0; what they push
 // into a neighbour is resolved in the next round, and so on until nothing approaches. Thus a cradle passes its impulse
 // through, and a box lands on its four corners at once. Where Newton's law would create energy (Kane's paradox: an
-// oblique blow on a corner with friction), the restitution of that round is lowered until it does not. Infinite friction
-// stops slips of what touches at once, as an impact.
+// oblique blow on a corner with friction), the restitution of that round is lowered until it does not. Infinite
+// friction stops slips of what touches at once, as an impact.
 #pragma once
 
 #include "core/dynamics/contact/event/contact_points.h"
