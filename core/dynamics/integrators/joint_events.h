@@ -36,6 +36,7 @@ class JointEvents : public Stepper {
   JointStops stops_;
   std::unique_ptr<Stepper> inner_;
   BodyTable start_, trial_;
+  double whole_step_ = 0;  // s
   std::string noted_, solver_warning_;
 };
 
