@@ -193,6 +193,19 @@ std::vector<Fault> of_bodies() {
   };
 }
 
+// In a joint that is rotated, off the middle of its body, and to the world.
+std::vector<Fault> of_joints() {
+  const auto hinge = [](Scene& s) -> HingeJoint& { return std::get<HingeJoint>(s.joints[0].type); };
+  const std::string shown_by = "joints/chrono-revolute", metrics = kPlace + "|" + kTurn;
+  return {
+      {"a hinge's anchor off by 1 mm", shown_by, metrics, [=](Scene& s) { hinge(s).anchor += Vec3(1e-3, 0, 0); }},
+      {"a hinge's axis off by 1 mrad", shown_by, metrics,
+       [=](Scene& s) { hinge(s).axis = (hinge(s).axis + Vec3(1e-3, 0, 0)).normalized(); }},
+      {"a hinge taken for a ball", shown_by, metrics, [=](Scene& s) { s.joints[0].type = BallJoint{hinge(s).anchor}; }},
+      {"a joint left out", shown_by, metrics, [](Scene& s) { s.joints.clear(); }},
+  };
+}
+
 std::vector<Fault> of_loads() {
   return {
       {"spring stiffness off by 0.1 %", "springs/oscillator", kPlace,
@@ -334,7 +347,7 @@ std::vector<Fault> of_reading() {
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> table = [] {
     std::vector<Fault> all;
-    for (const auto& part : {of_bodies(), of_loads(), of_steps(), contact_faults(), of_reading()})
+    for (const auto& part : {of_bodies(), of_loads(), of_joints(), of_steps(), contact_faults(), of_reading()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
