@@ -23,7 +23,7 @@
 namespace rigor {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Stopwatch = std::chrono::steady_clock;
 
 constexpr int kTick = 50;                        // ms between two looks at the time
 constexpr std::size_t kMostPassedOn = 16 << 10;  // bytes of one child's stderr
@@ -39,7 +39,7 @@ void close_one(int& descriptor) {
   if (descriptor >= 0) close(std::exchange(descriptor, -1));
 }
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double seconds_since(Stopwatch::time_point begin) { return std::chrono::duration<double>(Stopwatch::now() - begin).count(); }
 
 void sleep_briefly() {
   const timespec millisecond{0, 1000000};
@@ -67,7 +67,7 @@ ChildProcess::ChildProcess(std::string command, double limit, int log, std::stri
   std::signal(SIGPIPE, SIG_IGN);  // a child that is gone is a failed write
   int in[2], out[2], err[2];
   make_pipe(in), make_pipe(out), make_pipe(err);
-  begin_ = asked_ = Clock::now();
+  begin_ = asked_ = Stopwatch::now();
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "starting a plug-in");
@@ -113,7 +113,7 @@ ChildProcess::~ChildProcess() {
 
 std::string ChildProcess::ask(const std::string& line, const std::string& request, std::size_t longest_answer) {
   refuse_unasked(request);
-  asked_ = Clock::now();
+  asked_ = Stopwatch::now();
   out_ = line + "\n";
   std::size_t looked_at = 0, end = std::string::npos;
   exchange(request, [&] {

@@ -24,7 +24,7 @@
 namespace rigor {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Stopwatch = std::chrono::steady_clock;
 using Entry = const rigor_engine_v1* (*)(std::uint32_t);
 
 std::string called(const std::string& path) { return fmt::format("plug-in '{}'", path); }
@@ -79,9 +79,9 @@ std::string asked_info(const rigor_engine_v1& engine, const std::string& path) {
 
 // All that comes until the end; false if that does not come in time.
 bool read_all(int from, double limit, std::string& text) {
-  const auto begin = Clock::now();
+  const auto begin = Stopwatch::now();
   char buffer[1 << 12];
-  while (std::chrono::duration<double>(Clock::now() - begin).count() < limit) {
+  while (std::chrono::duration<double>(Stopwatch::now() - begin).count() < limit) {
     pollfd watched{from, POLLIN, 0};
     if (poll(&watched, 1, 50) <= 0) continue;
     const ssize_t count = read(from, buffer, sizeof buffer);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kContradiction = 1e-6;
 // Of the extent: so far from a singular position pivots are 1e-4, and what Newton's method does not close is as large.
 constexpr double kBeside = 1e-2;
-constexpr double kOpen = 1e-9;  // of the extent: a gap that no rounding explains
+constexpr double kOpenAtStart = 1e-9;  // of the extent: a gap that no rounding explains
 
 }  // namespace
 
@@ -71,7 +71,7 @@ void Joints::look_for_singularity(BodyColumns start) {
   const int rank_at_start = rank();
   close_pose(state);
   warning_.clear();
-  const bool is_open = !(rows_.largest_gap() <= kOpen * extent_);
+  const bool is_open = !(rows_.largest_gap() <= kOpenAtStart * extent_);
   if (!is_open) count_rows(state);
   if (is_open || rank() != rank_at_start) {
     at_start_ = fmt::format(

@@ -12,7 +12,7 @@
 namespace rigor {
 namespace {
 
-struct Edit {
+struct VelocityEdit {
   TextRange where;
   std::string text;
 };
@@ -26,7 +26,7 @@ Vec3 as_read(const TableReader& row, std::string_view key) {
 
 // In the place of what is there; else behind the name, which every body has.
 void add_edit(const TableReader& row, const std::string& key, const Vec3& wanted, const std::string& text,
-              std::vector<Edit>& edits) {
+              std::vector<VelocityEdit>& edits) {
   if (as_read(row, key) == wanted) return;
   if (const auto value = row.find(key)) return edits.push_back({value->range(), written(wanted)});
   const std::size_t end = row.at("name").range().end;
@@ -39,7 +39,7 @@ void add_edit(const TableReader& row, const std::string& key, const Vec3& wanted
 
 std::string with_velocities(const TomlFile& file, const TomlValue& scene, const Scene& settled) {
   std::string text = file.text();
-  std::vector<Edit> edits;
+  std::vector<VelocityEdit> edits;
   for (const TableReader& row : scene.table(scene_keys()).at("body").tables(body_keys())) {
     const std::string name = row.at("name").text();
     const auto body =
@@ -49,7 +49,7 @@ std::string with_velocities(const TomlFile& file, const TomlValue& scene, const 
     add_edit(row, "angular_velocity", body->angular_velocity, text, edits);
   }
   std::stable_sort(edits.begin(), edits.end(),
-                   [](const Edit& a, const Edit& b) { return a.where.begin < b.where.begin; });
+                   [](const VelocityEdit& a, const VelocityEdit& b) { return a.where.begin < b.where.begin; });
   for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
     text.replace(edit->where.begin, edit->where.end - edit->where.begin, edit->text);
   return text;

@@ -11,8 +11,8 @@ namespace {
 
 // rho of a row, in units of its own effective mass. Each round leaves some 1/rho of an error and loses as many digits,
 // which the next one wins back.
-constexpr double kSteepness = 1e6;
-constexpr int kMostRounds = 6;
+constexpr double kHeldSteepness = 1e6;
+constexpr int kMostHeldRounds = 6;
 constexpr double kSettled = 1e-15;  // of the accelerations without forces
 constexpr double kStill = 1e-9;     // m/s: a slip that has no direction of its own
 
@@ -86,7 +86,7 @@ void HeldForces::add_row(std::size_t point, int axis, const Vec3& direction, con
   }
   if (square == 0) return;
   row.bias = at.bias[axis];
-  row.weight = kSteepness / square;
+  row.weight = kHeldSteepness / square;
   rows_.push_back(row);
 }
 
@@ -167,7 +167,7 @@ double HeldForces::find_residuals(const Eigen::VectorXd& free) {
 template <typename Change>
 void HeldForces::refine(const Eigen::VectorXd& free, const Change& change) {
   double size = 0;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostHeldRounds; ++round) {
     const double largest = find_residuals(free);
     if (round == 0) size = largest;
     if (!(largest > kSettled * size)) break;
