@@ -258,6 +258,30 @@ BOOST_AUTO_TEST_CASE(motors_on_more_joints_than_there_are_freedoms_do_not_break_
   BOOST_TEST(joints.gap(end.columns()) < 1e-12);
 }
 
+// Three links with stops at each hinge: hundreds of impacts, many with another limit held, until they swing as one. The
+// energy of a staggered method is off by m g v h/2; the others err by less than a ten-millionth of the 0.3 J in play.
+BOOST_AUTO_TEST_CASE(stops_of_a_chain_never_give_energy) {
+  Scene scene;
+  scene.gravity = {0, -9.81, 0};
+  for (int i = 0; i < 3; ++i) {
+    scene.bodies.push_back(test::body("link" + std::to_string(i), 0.1, {1e-5, 1e-4, 1e-4}, {0.1 * i + 0.05, 0, 0}));
+    scene.joints.push_back({i - 1, i, HingeJoint{{0.1 * i, 0, 0}, Vec3::UnitZ()}});
+    scene.joints[i].lower = i > 0 ? -0.5 : -2.5, scene.joints[i].upper = 0.5, scene.joints[i].restitution = 0.3;
+  }
+  for (const char* method : {"semi-implicit-euler", "velocity-verlet", "rk4"}) {
+    const auto world = CoreEngine().load(scene, {.method = method, .options = {}});
+    Snapshot now;
+    double largest = -1;
+    for (int n = 0; n < 1000; ++n) {
+      world->step(0.005);
+      BOOST_TEST_REQUIRE(world->solver_warning() == "");
+      world->read(now);
+      largest = std::max(largest, energy(scene, now.bodies()));
+    }
+    BOOST_TEST_CONTEXT(method) { BOOST_TEST(largest < (method == std::string("semi-implicit-euler") ? 5e-3 : 3e-8)); }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(steps_back_in_time_are_refused) {
   const Scene scene = rail(-1, 1, 0.5);
   const auto world = CoreEngine().load(scene, {.method = "rk4", .options = {}});
