@@ -8,6 +8,7 @@ namespace {
 
 // Of the accelerations: what parts, and what begins to slide. A mode ends at twice as much, so that what is chosen at
 // its end is not the same again.
+constexpr double kLeastSize = 1e-6;   // m/s²: beside smaller accelerations roundings are no sign of anything
 constexpr double kResting = 1e-12;    // m/s, rad/s, and of the accelerations: roundings
 constexpr double kSeparating = 1e-9;  // m/s: ten times what an impact may leave; slower than it nothing parts
 constexpr double kPulling = 1e-9;     // of the forces
@@ -24,7 +25,7 @@ bool ContactModes::solve(BodyColumns state, const double* wrench) {
     table.set_velocity(i, linear), table.set_angular_velocity(i, angular);
   }
   cones_.clear();
-  size_ = 0;
+  size_ = kLeastSize;
   for (const HeldPoint& point : held_.points()) {
     ConeConstraint cone = point.contact.cone;
     cone.arm_a = point.arm_a, cone.arm_b = point.arm_b, cone.frame = point.frame;

@@ -30,7 +30,8 @@ constexpr double kInstant = 1e-6;        // s
 constexpr int kMostInstants = 100;       // in a step
 constexpr double kInelasticStep = 1e-3;  // s
 constexpr int kMostEvents = 1000, kMostPlanned = 10000;
-constexpr int kMostPieces = 10000;  // of the time to the next event, while bodies are not seen to stay apart
+constexpr long kMostSubSteps = 20000;  // of the integrator in a step, to find its events
+constexpr int kMostPieces = 10000;     // of the time to the next event, while bodies are not seen to stay apart
 
 bool is_finite(BodyColumns state) {
   for (std::size_t i = 0; i < state.size(); ++i) {
@@ -57,6 +58,7 @@ class EventStepper : public ContactStepper {
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
     double done = 0;
     int planned = 0;
+    const long passes_before = persistent_contact_.passes();
     instants_ = 0;
     for (int events = 0; done < dt; ++events) {
       if (!is_finite(state)) return note("the state of a body is no longer finite");
@@ -64,7 +66,8 @@ class EventStepper : public ContactStepper {
       is_smooth_ = is_smooth_ && end == t + dt;
       part_ = {t, done, end == t + dt ? dt : end - t};
       const double before = done;
-      done = events < kMostEvents ? take_part(state) : finish(state);
+      const bool is_too_long = persistent_contact_.passes() - passes_before > kMostSubSteps;
+      done = events < kMostEvents && !is_too_long ? take_part(state) : finish(state);
       // Parts that end as planned are no events.
       if (done == part_.to && done > before && events > 0 && ++planned < kMostPlanned) --events;
     }
@@ -213,7 +216,10 @@ class EventStepper : public ContactStepper {
 
   // Without looking for events.
   double finish(MutableBodyColumns state) {
-    note(fmt::format("more than {} events in a step: its rest was taken in steps without rebounds", kMostEvents));
+    note(
+        fmt::format("more than {} events or {} sub-steps in a step: its rest was taken in steps without "
+                    "rebounds",
+                    kMostEvents, kMostSubSteps));
     pairs_ = contact_points_.candidates(state);
     touching_.clear();
     contact_points_.find(state, pairs_, kTouching, touching_);

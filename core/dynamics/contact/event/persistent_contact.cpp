@@ -16,6 +16,7 @@ constexpr int kMostMoves = 20;
 constexpr double kTouching = 1e-3;    // m: a point that drifted further than this is not in contact any more
 constexpr double kBeginning = 1e-11;  // m/s: how much a slip that begins may go the wrong way, by rounding
 constexpr double kPulling = 2e-9;     // of the forces: twice what is still chosen
+constexpr double kLeastSize = 1e-6;   // m/s²: of accelerations; weaker forces are roundings
 constexpr double kStable = 2;         // of an explicit method: how much a step may be in units of what it damps
 constexpr double kShortest = 1e-5;    // s: what slips make of themselves within it is some 1e-4 m/s
 constexpr double kReversed = 0.1;     // of the fastest slip at any stage: what stages differ by is less
@@ -124,7 +125,8 @@ double PersistentContact::slipping_margin() const {
   const bool shares_matter = held_.has_friction_of_slip();
   const double size = held_.largest_force();
   for (const HeldPoint& point : points()) {
-    if (shares_matter && size > 0) least = std::min(least, point.force.x() / size + kPulling);
+    if (shares_matter && size > kLeastSize * point.tangential_mass)
+      least = std::min(least, point.force.x() / size + kPulling);
     if (point.mode != HeldPoint::Mode::slides || point.friction() == 0) continue;
     least = std::min(least, point.slip + (point.begins_to_slip ? kBeginning : 0));
     // A slip that ended within a long step, and began again; what an adaptive method tries and refuses is no sign of
