@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -25,6 +26,7 @@ namespace {
 
 using Stopwatch = std::chrono::steady_clock;
 
+constexpr double kWaits = 10;                    // times the limit, by the clock: the most for an answer
 constexpr int kTick = 50;                        // ms between two looks at the time
 constexpr std::size_t kMostPassedOn = 16 << 10;  // bytes of one child's stderr
 constexpr std::size_t kWordsKept = 4 << 10;      // bytes, for its last words
@@ -44,6 +46,15 @@ double seconds_since(Stopwatch::time_point begin) { return std::chrono::duration
 void sleep_briefly() {
   const timespec millisecond{0, 1000000};
   nanosleep(&millisecond, nullptr);
+}
+
+// Whether it waits for something, and not for its turn on a busy machine: then it may take no longer than its limit.
+bool is_asleep(pid_t pid) {
+  std::ifstream file(fmt::format("/proc/{}/stat", pid));
+  std::string text;
+  std::getline(file, text);
+  const std::size_t state = text.rfind(") ");  // behind the name, which may hold anything
+  return state != std::string::npos && text.size() > state + 2 && text[state + 2] != 'R' && text[state + 2] != 'D';
 }
 
 // Whether the child has ended, without taking its process number from the group that it leads.
@@ -113,7 +124,7 @@ ChildProcess::~ChildProcess() {
 
 std::string ChildProcess::ask(const std::string& line, const std::string& request, std::size_t longest_answer) {
   refuse_unasked(request);
-  asked_ = Stopwatch::now();
+  asked_ = Stopwatch::now(), asleep_ = 0;
   out_ = line + "\n";
   std::size_t looked_at = 0, end = std::string::npos;
   exchange(request, [&] {
@@ -149,7 +160,8 @@ void ChildProcess::exchange(const std::string& request, const Done& done) {
   while (!done()) {
     check_time(request);
     pollfd watched[] = {{from_, POLLIN, 0}, {words_from_, POLLIN, 0}, {out_.empty() ? -1 : to_, POLLOUT, 0}};
-    poll(watched, 3, kTick);
+    const auto begin = Stopwatch::now();
+    if (poll(watched, 3, kTick) == 0 && is_asleep(pid_)) asleep_ += seconds_since(begin);
     if (watched[1].revents) read_words();
     if (watched[2].revents) {
       const ssize_t count = write(to_, out_.data(), out_.size());
@@ -201,7 +213,7 @@ double ChildProcess::cpu_seconds() const {
 }
 
 void ChildProcess::check_time(const std::string& request) const {
-  if (seconds_since(asked_) > limit_)
+  if (asleep_ > limit_ || seconds_since(asked_) > kWaits * limit_)
     throw EngineFailure(FailureKind::timed_out, fmt::format("{} did not answer '{}' within the limit of {:g} s{}",
                                                             name_, request, limit_, last_words()));
   // Looked at only once there can be so much of it.

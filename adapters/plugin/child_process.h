@@ -17,7 +17,8 @@ class ChildProcess {
   static constexpr std::size_t kMostMemory = std::size_t{4} << 30;
 
   // `command` is a simple command, its words split and quoted as a shell does: /bin/sh -c "exec COMMAND". `limit`:
-  // seconds of the clock for each request, and of CPU time for all of them together. `log`: a descriptor to which what
+  // seconds that it may sleep over each request, and of CPU time for all of them together, so that no verdict depends
+  // on what else the machine does; by the clock ten times that, for each request. `log`: a descriptor to which what
   // the child says on stderr is passed on, behind the name; -1 for none.
   ChildProcess(std::string command, double limit, int log, std::string name);
   ~ChildProcess();
@@ -53,6 +54,7 @@ class ChildProcess {
   int to_ = -1, from_ = -1, words_from_ = -1;
   std::string out_, in_, words_;
   std::size_t passed_on_ = 0;  // bytes
+  double asleep_ = 0;          // s, since it was asked
   std::chrono::steady_clock::time_point begin_, asked_;
 };
 

@@ -15,7 +15,7 @@ namespace rigor {
 // How a plug-in is started.
 struct PluginStart {
   std::string command;
-  double limit;  // s: of the clock for a request, of CPU time for all of them
+  double limit;  // s, see ChildProcess
   int log;       // see ChildProcess
 };
 

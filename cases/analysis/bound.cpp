@@ -28,7 +28,7 @@ constexpr UnitRow kUnits[] = {{"m", "position_error", 1},
                               {"deg", "orientation_error", std::numbers::pi / 180},
                               {"%energy", "energy_drift_synchronised", 1e-2}};
 
-[[noreturn]] void refuse(const std::string& text, const std::string& what) {
+[[noreturn]] void refuse_bound(const std::string& text, const std::string& what) {
   throw InputError(
       fmt::format("--within: found '{}'{}; allowed: as 1mm, 1cm, 0.5um (position), 1mrad, 2deg "
                   "(orientation), '2% energy', or METRIC=VALUE",
@@ -39,7 +39,7 @@ double read_positive(const std::string& word, const std::string& text) {
   double number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
   if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number) || number <= 0)
-    refuse(text, fmt::format(", in which '{}' is no number greater than 0", word));
+    refuse_bound(text, fmt::format(", in which '{}' is no number greater than 0", word));
   return number;
 }
 
@@ -49,7 +49,7 @@ Bound bound_on(const std::string& metric, const std::string& value, const std::s
     if (!row.higher_is_better && row.name != "cost") known.push_back(row.name);
   }
   if (std::find(known.begin(), known.end(), metric) == known.end())
-    refuse(text, fmt::format(", and there is no metric '{}' to bound{}", metric, did_you_mean(metric, known)));
+    refuse_bound(text, fmt::format(", and there is no metric '{}' to bound{}", metric, did_you_mean(metric, known)));
   return {metric, read_positive(value, text), text};
 }
 
@@ -65,7 +65,7 @@ Bound parse_bound(const std::string& text) {
   const std::string unit = plain.substr(unit_at);
   const auto row = std::find_if(std::begin(kUnits), std::end(kUnits), [&](const UnitRow& r) { return unit == r.unit; });
   if (row == std::end(kUnits))
-    refuse(text, unit.empty() ? ", which has no unit" : fmt::format(", whose unit is '{}'", unit));
+    refuse_bound(text, unit.empty() ? ", which has no unit" : fmt::format(", whose unit is '{}'", unit));
   return {row->metric, read_positive(plain.substr(0, unit_at), text) * row->size, text};
 }
 

@@ -19,7 +19,7 @@ constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* kForm = "a list as 10,20,50, a range as 0.1..0.9:9, or one in logarithms as 1/1000..1/10:log:20";
 
-[[noreturn]] void refuse(const std::string& text, const std::string& what) {
+[[noreturn]] void refuse_axis(const std::string& text, const std::string& what) {
   throw InputError(fmt::format("--vary {}: {}; allowed: KEY=VALUES, where VALUES is {}", text, what, kForm));
 }
 
@@ -51,7 +51,7 @@ std::string written(double value) { return fmt::format("{:.12g}", value); }
 long read_count(const std::string& text, const std::string& word) {
   const double count = plain_number(word);
   if (!(count >= 2 && count <= kMostValues && count == std::floor(count)))
-    refuse(text, fmt::format("found a count of '{}', and a range has from 2 to {} values", word, kMostValues));
+    refuse_axis(text, fmt::format("found a count of '{}', and a range has from 2 to {} values", word, kMostValues));
   return static_cast<long>(count);
 }
 
@@ -60,25 +60,25 @@ void read_range(SweepAxis& axis, const std::string& text, const std::string& val
   const std::size_t dots = parts[0].find("..");
   const std::string from = parts[0].substr(0, dots), to = parts[0].substr(dots + 2);
   axis.is_range = true, axis.from = number_in(from), axis.to = number_in(to);
-  if (std::isnan(axis.from) || std::isnan(axis.to)) refuse(text, fmt::format("'{}' is no range of numbers", parts[0]));
-  if (axis.from == axis.to) refuse(text, "the range begins where it ends");
-  if (axis.from > axis.to) refuse(text, fmt::format("the range is the wrong way round; give {}..{}", to, from));
+  if (std::isnan(axis.from) || std::isnan(axis.to)) refuse_axis(text, fmt::format("'{}' is no range of numbers", parts[0]));
+  if (axis.from == axis.to) refuse_axis(text, "the range begins where it ends");
+  if (axis.from > axis.to) refuse_axis(text, fmt::format("the range is the wrong way round; give {}..{}", to, from));
   axis.is_log = parts.size() > 1 && parts[1] == "log";
-  if (axis.is_log && axis.from <= 0) refuse(text, "a range in logarithms begins above 0");
+  if (axis.is_log && axis.from <= 0) refuse_axis(text, "a range in logarithms begins above 0");
   const std::size_t numbers = 1 + axis.is_log;
-  if (parts.size() > 2 && !axis.is_log) refuse(text, fmt::format("there is no scale '{}'; there is: log", parts[1]));
-  if (parts.size() > numbers + 1) refuse(text, fmt::format("found '{}' behind the count", parts[numbers + 1]));
-  if (parts.size() == numbers && !is_sampled) refuse(text, "the range has no count of values");
+  if (parts.size() > 2 && !axis.is_log) refuse_axis(text, fmt::format("there is no scale '{}'; there is: log", parts[1]));
+  if (parts.size() > numbers + 1) refuse_axis(text, fmt::format("found '{}' behind the count", parts[numbers + 1]));
+  if (parts.size() == numbers && !is_sampled) refuse_axis(text, "the range has no count of values");
   const long count = parts.size() > numbers ? read_count(text, parts[numbers]) : 2;
   for (long i = 0; i < count; ++i)
     axis.values.push_back(written(at_share(axis, static_cast<double>(i) / static_cast<double>(count - 1))));
 }
 
 SweepAxis::Kind kind_of(const std::string& key) {
-  using Kind = SweepAxis::Kind;
-  if (key == "dt") return Kind::step;
-  if (key == "duration") return Kind::length;
-  return key == "scene" || key.starts_with("scene.") || key.starts_with("scene[") ? Kind::scene : Kind::option;
+  using AxisKind = SweepAxis::Kind;
+  if (key == "dt") return AxisKind::step;
+  if (key == "duration") return AxisKind::length;
+  return key == "scene" || key.starts_with("scene.") || key.starts_with("scene[") ? AxisKind::scene : AxisKind::option;
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ SweepAxis parse_axis(const std::string& text, bool is_sampled) {
   SweepAxis axis;
   const std::size_t equals = std::min(text.find('='), text.size());
   axis.key = text.substr(0, equals), axis.kind = kind_of(axis.key);
-  if (axis.key.empty() || equals >= text.size() - 1) refuse(text, "found no key, or no values");
+  if (axis.key.empty() || equals >= text.size() - 1) refuse_axis(text, "found no key, or no values");
   const std::string values = text.substr(equals + 1);
   if (values.find("..") != std::string::npos && values.find(',') == std::string::npos) {
     read_range(axis, text, values, is_sampled);
@@ -103,13 +103,13 @@ SweepAxis parse_axis(const std::string& text, bool is_sampled) {
   }
   std::set<std::string> seen;
   for (std::string& value : axis.values) {
-    if (value.empty()) refuse(text, "found an empty value");
+    if (value.empty()) refuse_axis(text, "found an empty value");
     const double number = number_in(value);
     if (axis.kind != SweepAxis::Kind::option && std::isnan(number))
-      refuse(text, fmt::format("'{}' is no number", value));
+      refuse_axis(text, fmt::format("'{}' is no number", value));
     // A scene has no fractions; a step keeps the one it was given by.
     if (axis.kind == SweepAxis::Kind::scene) value = written(number);
-    if (!seen.insert(value).second) refuse(text, fmt::format("the value {} is given twice", value));
+    if (!seen.insert(value).second) refuse_axis(text, fmt::format("the value {} is given twice", value));
   }
   return axis;
 }

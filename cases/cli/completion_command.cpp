@@ -81,19 +81,19 @@ std::string manual(const EngineTable&) {
          "with.\n";
 }
 
-struct Kind {
+struct Completion {
   std::string name;
   std::string (*text)(const EngineTable& engines);
 };
-const std::vector<Kind> kKinds = {{"bash", bash}, {"man", manual}, {"zsh", zsh}};
+const std::vector<Completion> kCompletions = {{"bash", bash}, {"man", manual}, {"zsh", zsh}};
 
 }  // namespace
 
 int completion_command(const CommandLine& line, const EngineTable& engines) {
   std::vector<std::string> names;
-  for (const Kind& kind : kKinds) names.push_back(kind.name);
+  for (const Completion& kind : kCompletions) names.push_back(kind.name);
   const std::string word = line.words.size() == 1 ? line.words.front() : "";
-  for (const Kind& kind : kKinds) {
+  for (const Completion& kind : kCompletions) {
     if (kind.name == word) return print(kind.text(engines)), kGood;
   }
   throw InputError(fmt::format("rigor completion: takes one of {}{}", listed(names), did_you_mean(word, names)));

@@ -6,7 +6,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run, const std::string& what, OfJoint quantity) {
+MetricResult measure_gap(const JudgedRun& run, const std::string& what, OfJoint quantity) {
   if (run.scene.joints.empty()) return {{}, kNoJoints};
   return worst_joint(run, what, quantity);
 }
@@ -15,12 +15,12 @@ MetricResult measure(const JudgedRun& run, const std::string& what, OfJoint quan
 
 MetricRow joint_gap() {
   return {"joint_gap", "m", "largest distance between what a joint holds together",
-          [](const JudgedRun& run) { return measure(run, "gap", &JointGeometry::gap); }};
+          [](const JudgedRun& run) { return measure_gap(run, "gap", &JointGeometry::gap); }};
 }
 
 MetricRow joint_gap_rate() {
   return {"joint_gap_rate", "m/s", "largest speed, as read, at which a joint's ends move where it holds them",
-          [](const JudgedRun& run) { return measure(run, "gap's rate", &JointGeometry::gap_rate); }};
+          [](const JudgedRun& run) { return measure_gap(run, "gap's rate", &JointGeometry::gap_rate); }};
 }
 
 }  // namespace rigor

@@ -5,7 +5,7 @@
 namespace rigor {
 namespace {
 
-MetricResult measure(const JudgedRun& run, const std::string& what, OfJoint quantity) {
+MetricResult measure_twist(const JudgedRun& run, const std::string& what, OfJoint quantity) {
   if (run.scene.joints.empty()) return {{}, kNoJoints};
   if (!any_holds_angle(run.scene)) return {{}, kNoAngle};
   return worst_joint(run, what, quantity);
@@ -15,12 +15,12 @@ MetricResult measure(const JudgedRun& run, const std::string& what, OfJoint quan
 
 MetricRow joint_twist() {
   return {"joint_twist", "rad", "largest angle by which a joint's ends have turned where it does not let them",
-          [](const JudgedRun& run) { return measure(run, "twist", &JointGeometry::twist); }};
+          [](const JudgedRun& run) { return measure_twist(run, "twist", &JointGeometry::twist); }};
 }
 
 MetricRow joint_twist_rate() {
   return {"joint_twist_rate", "rad/s", "largest rate, as read, at which a joint's ends turn where it does not let them",
-          [](const JudgedRun& run) { return measure(run, "twist's rate", &JointGeometry::twist_rate); }};
+          [](const JudgedRun& run) { return measure_twist(run, "twist's rate", &JointGeometry::twist_rate); }};
 }
 
 }  // namespace rigor

@@ -26,7 +26,7 @@ std::string why_not_known(const Scene& scene) {
 using Part = Vec3 JointReaction::*;
 using UniquePart = Mat3 UniqueReaction::*;
 
-MetricResult measure(const JudgedRun& run, const std::string& what, Part part, UniquePart unique_part) {
+MetricResult measure_reaction(const JudgedRun& run, const std::string& what, Part part, UniquePart unique_part) {
   const Scene& scene = run.scene;
   if (const std::string why = why_not_known(scene); !why.empty()) return {{}, why};
   if (!run.truth) return {{}, kNoTruth};
@@ -62,7 +62,7 @@ MetricResult measure(const JudgedRun& run, const std::string& what, Part part, U
 
 MetricRow reaction_error() {
   return {"reaction_error", "N", "largest difference of the force that a joint carries from that at the truth's state",
-          [](const JudgedRun& run) { return measure(run, "force", &JointReaction::force, &UniqueReaction::force); }};
+          [](const JudgedRun& run) { return measure_reaction(run, "force", &JointReaction::force, &UniqueReaction::force); }};
 }
 
 MetricRow reaction_torque_error() {
@@ -70,7 +70,7 @@ MetricRow reaction_torque_error() {
           "largest difference of the couple that a joint carries, about its point, from that at the truth's state",
           [](const JudgedRun& run) {
             if (!run.scene.joints.empty() && !any_holds_angle(run.scene)) return MetricResult{{}, kNoAngle};
-            return measure(run, "couple", &JointReaction::couple, &UniqueReaction::couple);
+            return measure_reaction(run, "couple", &JointReaction::couple, &UniqueReaction::couple);
           }};
 }
 

@@ -23,9 +23,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormKey = "rigor_history";
-constexpr int kForm = 1;
+constexpr int kHistoryForm = 1;
 
-double rounded_to_four(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.4g}", value)) : value; }
+double finite_to_four(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.4g}", value)) : value; }
 
 std::string key_of(const Json& cell) {
   return cell.at("case").get<std::string>() + "\t" + cell.at("engine").get<std::string>() + "\t" +
@@ -45,11 +45,11 @@ Json json_of(const HistoryEntry& entry) {
     cells.push_back(std::move(row));
   }
   return {
-      {kFormKey, kForm}, {"commit", entry.commit}, {"date", entry.date}, {"machine", entry.machine}, {"cells", cells}};
+      {kFormKey, kHistoryForm}, {"commit", entry.commit}, {"date", entry.date}, {"machine", entry.machine}, {"cells", cells}};
 }
 
 HistoryEntry entry_from(const Json& json) {
-  if (json.at(kFormKey) != kForm) throw InputError(fmt::format("{} is not {}", kFormKey, kForm));
+  if (json.at(kFormKey) != kHistoryForm) throw InputError(fmt::format("{} is not {}", kFormKey, kHistoryForm));
   HistoryEntry entry;
   entry.commit = json.at("commit").get<std::string>(), entry.date = json.at("date").get<std::string>();
   entry.machine = json.at("machine").get<std::string>();
@@ -78,7 +78,7 @@ HistoryEntry history_entry(const std::string& results_file, const std::string& c
   for (const auto& [key, cell] : outcomes.cells) {
     HistoryEntry::Cell& kept = entry.cells[key];
     kept.status = cell.status;
-    for (const auto& [name, value] : cell.metrics) kept.metrics[name] = rounded_to_four(value);
+    for (const auto& [name, value] : cell.metrics) kept.metrics[name] = finite_to_four(value);
   }
   const Json json = Json::parse(read_input_file(results_file, "a results.json"), nullptr, false);
   if (!json.is_object() || !json.contains("machine"))
@@ -92,7 +92,7 @@ HistoryEntry history_entry(const std::string& results_file, const std::string& c
       const Json& metrics = cell.at("metrics");
       if (!metrics.contains("cost") || !metrics.at("cost").contains("value")) continue;
       const double cost = number_of(metrics.at("cost").at("value"));
-      if (std::isfinite(cost)) entry.cells.at(key_of(cell)).cost = rounded_to_four(cost);
+      if (std::isfinite(cost)) entry.cells.at(key_of(cell)).cost = finite_to_four(cost);
     }
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: is no whole results.json: {}", results_file, error.what()));

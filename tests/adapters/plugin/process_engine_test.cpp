@@ -21,8 +21,7 @@ using namespace rigor;
 
 namespace {
 
-// s. Starting Python on a busy machine takes a second or two; two of the tests below wait for it to be over.
-constexpr double kLimit = 6;
+constexpr double kLimit = 2;  // s, of sleep or CPU time; Python takes a tenth of that to start
 
 const std::string kExamples = RIGOR_SOURCE_DIR "/adapters/plugin/examples/";
 const std::string kToy = "python3 " + kExamples + "toy.py";
@@ -144,9 +143,9 @@ BOOST_AUTO_TEST_CASE(one_that_hangs_is_given_up_in_time) {
       const auto begin = std::chrono::steady_clock::now();
       const Ending end = end_of(mode);
       BOOST_TEST(end.kind == "timed-out", end.sentence);
-      check_sentence(end.sentence, "within the limit of 6 s|CPU time");
-      // The limit, the start of two processes, and half a second to kill one.
-      BOOST_TEST(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 3 * kLimit);
+      check_sentence(end.sentence, "within the limit of 2 s|CPU time");
+      // Two processes are started, and none may take more than ten limits by the clock, however busy the machine.
+      BOOST_TEST(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 2 * 10 * kLimit);
     }
   }
   const Ending closed = end_of("closes");

@@ -30,14 +30,14 @@ using QuadVec3 = Eigen::Matrix<Quad, 3, 1>;
 
 Extended rounded(const Quad& number) { return number.convert_to<Extended>(); }
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_heavy_top(const std::string& why) {
   throw InputError(
       "the truth 'heavy-top' is for one symmetric body on a ball joint at its axis, or on a distance joint to its "
       "centre: " +
       why);
 }
 
-constexpr Extended kRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers, relative
+constexpr Extended kHeavyTopRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers, relative
 
 // About the point that stands still.
 struct HeavyBody {
@@ -74,7 +74,7 @@ class HeavyTop final : public BodyMotion {
         own_spin_(body, body.angular_velocity) {
     nodes_ = up_.cross(e_);
     const Extended sine = nodes_.norm();
-    if (sine < 1e-9L) refuse("it begins upright, or hangs (take 'steady-precession')");
+    if (sine < 1e-9L) refuse_heavy_top("it begins upright, or hangs (take 'steady-precession')");
     nodes_ /= sine;
     spin_ = heavy.along > 0 ? heavy.w.dot(e_) : 0;
     const Quad weight = Quad(body.mass) * sqrt(Quad(gravity.cast<Quad>().squaredNorm()));
@@ -150,7 +150,7 @@ class HeavyTop final : public BodyMotion {
   }
 
   void begin() {
-    if (complement_ == 0 || y_low_ <= 0 || y_high_ >= 2) refuse("it passes through the vertical");
+    if (complement_ == 0 || y_low_ <= 0 || y_high_ >= 2) refuse_heavy_top("it passes through the vertical");
     const Extended K = quarter_period(complement_);
     phi_ = EvenQuadrature([this](Extended u) { return azimuth_rate(nod_at(u).y); }, K);
     psi_ = EvenQuadrature(
@@ -159,7 +159,7 @@ class HeavyTop final : public BodyMotion {
           return (b_less_a_ + a_ * y) / (2 - y);
         },
         K);
-    if (!phi_.converges() || !psi_.converges()) refuse("it passes too near the vertical (take 'reference')");
+    if (!phi_.converges() || !psi_.converges()) refuse_heavy_top("it passes too near the vertical (take 'reference')");
   }
 
   HeavyBody heavy_;
@@ -180,19 +180,19 @@ HeavyBody top_on(const Scene& scene, int index, const Vec3& anchor) {
   const Body& body = scene.bodies[index];
   HeavyBody heavy{extended(anchor), extended(body.position) - extended(anchor), 0, 0, extended(body.angular_velocity)};
   const Extended length = heavy.reach.norm();
-  if (length == 0) refuse("the joint is at the centre of mass (take 'axisymmetric-top')");
+  if (length == 0) refuse_heavy_top("the joint is at the centre of mass (take 'axisymmetric-top')");
   const ExtendedVec3 e_B = extended(body.orientation).conjugate() * ExtendedVec3(heavy.reach / length);
   const ExtendedMat3 inertia = extended(body.inertia), line = e_B * e_B.transpose();
   heavy.along = e_B.dot(inertia * e_B);
   const Extended across = (inertia.trace() - heavy.along) / 2;
-  if ((inertia - across * (ExtendedMat3::Identity() - line) - heavy.along * line).norm() > kRoundings * inertia.norm())
-    refuse(fmt::format("the inertia of body '{}' is not symmetric about the line to the joint", body.name));
+  if ((inertia - across * (ExtendedMat3::Identity() - line) - heavy.along * line).norm() > kHeavyTopRoundings * inertia.norm())
+    refuse_heavy_top(fmt::format("the inertia of body '{}' is not symmetric about the line to the joint", body.name));
   heavy.misses += (inertia - across * (ExtendedMat3::Identity() - line) - heavy.along * line).norm() / inertia.norm() *
                   heavy.w.norm();
   heavy.across = across + body.mass * length * length;
   const ExtendedVec3 v = heavy.w.cross(heavy.reach);
-  if ((extended(body.velocity) - v).norm() > kRoundings * (1 + heavy.w.norm()) * (1 + length))
-    refuse(fmt::format("the velocity of body '{}' is not what its spin about the joint gives", body.name));
+  if ((extended(body.velocity) - v).norm() > kHeavyTopRoundings * (1 + heavy.w.norm()) * (1 + length))
+    refuse_heavy_top(fmt::format("the velocity of body '{}' is not what its spin about the joint gives", body.name));
   return heavy;
 }
 
@@ -200,7 +200,7 @@ HeavyBody bob_on(const Scene& scene, int index, const Joint& joint) {
   const auto& distance = std::get<DistanceJoint>(joint.type);
   const bool is_a = joint.a == index;
   if (!(is_a ? distance.point_a : distance.point_b).isZero(0))
-    refuse("the distance joint is not at its centre of mass");
+    refuse_heavy_top("the distance joint is not at its centre of mass");
   const Body& body = scene.bodies[index];
   HeavyBody heavy;
   heavy.pivot =
@@ -210,18 +210,18 @@ HeavyBody bob_on(const Scene& scene, int index, const Joint& joint) {
   const Extended square = heavy.reach.squaredNorm();
   heavy.across = body.mass * square;
   heavy.w = heavy.reach.cross(extended(body.velocity)) / square;
-  if (!PrincipalSpin(body, body.angular_velocity).holds()) refuse(fmt::format("body '{}' would tumble", body.name));
+  if (!PrincipalSpin(body, body.angular_velocity).holds()) refuse_heavy_top(fmt::format("body '{}' would tumble", body.name));
   return heavy;
 }
 
-std::unique_ptr<Truth> make(const Scene& scene, double) {
+std::unique_ptr<Truth> make_heavy_top(const Scene& scene, double) {
   check_needs(scene, "heavy-top", "one body on one joint", {"joint:ball", "joint:distance"});
-  if (scene.joints.size() != 1) refuse(fmt::format("there are {} joints", scene.joints.size()));
+  if (scene.joints.size() != 1) refuse_heavy_top(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
-  if (stands(scene, joint.a) == stands(scene, joint.b)) refuse("the joint is not between it and what stands still");
+  if (stands(scene, joint.a) == stands(scene, joint.b)) refuse_heavy_top("the joint is not between it and what stands still");
   const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.fixed; });
-  if (moving != 1) refuse(fmt::format("{} bodies move", moving));
-  if (scene.gravity.isZero(0)) refuse("there is no gravity (take 'axisymmetric-top')");
+  if (moving != 1) refuse_heavy_top(fmt::format("{} bodies move", moving));
+  if (scene.gravity.isZero(0)) refuse_heavy_top("there is no gravity (take 'axisymmetric-top')");
   const int index = stands(scene, joint.a) ? joint.b : joint.a;
   const auto* ball = std::get_if<BallJoint>(&joint.type);
   const HeavyBody heavy = ball ? top_on(scene, index, ball->anchor) : bob_on(scene, index, joint);
@@ -232,7 +232,7 @@ std::unique_ptr<Truth> make(const Scene& scene, double) {
 }  // namespace
 
 TruthRow heavy_top_truth() {
-  return {"heavy-top", "a heavy symmetric top on a ball joint, or a spherical pendulum, in elliptic functions", make};
+  return {"heavy-top", "a heavy symmetric top on a ball joint, or a spherical pendulum, in elliptic functions", make_heavy_top};
 }
 
 }  // namespace rigor

@@ -14,11 +14,11 @@
 namespace rigor {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_linkage(const std::string& why) {
   throw InputError("the truth 'linkage' is for parallel cranks with what they carry, and for trammels: " + why);
 }
 
-constexpr Extended kRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers, relative
+constexpr Extended kLinkageRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers, relative
 
 class Linkage {
  public:
@@ -33,7 +33,7 @@ class Linkage {
     std::vector<Swing> all;
     for (std::size_t i = 0; i < swings_.size(); ++i) {
       if (scene_.bodies[i].fixed) continue;
-      if (!swings_[i]) refuse(fmt::format("nothing says how body '{}' moves", scene_.bodies[i].name));
+      if (!swings_[i]) refuse_linkage(fmt::format("nothing says how body '{}' moves", scene_.bodies[i].name));
       all.push_back(*swings_[i]);
     }
     return all;
@@ -50,12 +50,12 @@ class Linkage {
       if (const auto* hinge = hinge_of(joint)) {
         const ExtendedVec3 axis = extended(hinge->axis).normalized();
         if (axis_.isZero(0)) axis_ = axis;
-        if (axis.cross(axis_).norm() > kRoundings) refuse("its hinges are not parallel");
+        if (axis.cross(axis_).norm() > kLinkageRoundings) refuse_linkage("its hinges are not parallel");
       } else if (!slider_of(joint)) {
-        refuse("it has joints other than hinges and sliders");
+        refuse_linkage("it has joints other than hinges and sliders");
       }
     }
-    if (axis_.isZero(0)) refuse("it has no hinge");
+    if (axis_.isZero(0)) refuse_linkage("it has no hinge");
   }
 
   // Those hinged to what stands still turn; each that hangs on one of them goes as its tip does.
@@ -86,13 +86,13 @@ class Linkage {
     std::vector<std::pair<int, ExtendedVec3>> runners;
     for (const Joint& joint : scene_.joints) {
       if (!slider_of(joint)) continue;
-      if (is_still(joint.a) == is_still(joint.b)) refuse("a slider is not between a runner and what stands still");
+      if (is_still(joint.a) == is_still(joint.b)) refuse_linkage("a slider is not between a runner and what stands still");
       runners.emplace_back(is_still(joint.a) ? joint.b : joint.a, extended(slider_of(joint)->axis).normalized());
     }
-    if (runners.size() != 2) refuse(fmt::format("there are no cranks, and {} runners", runners.size()));
+    if (runners.size() != 2) refuse_linkage(fmt::format("there are no cranks, and {} runners", runners.size()));
     const auto& [first, rail] = runners[0];
     const auto& [second, other_rail] = runners[1];
-    if (std::abs(rail.dot(other_rail)) > kRoundings) refuse("the rails are not at right angles");
+    if (std::abs(rail.dot(other_rail)) > kLinkageRoundings) refuse_linkage("the rails are not at right angles");
     const int rod = rod_between(first, second);
     const ExtendedVec3 e = pin(rod, first) - pin(rod, second), turned = axis_.cross(e);
     swings_[first] = {first, rail.dot(e) * rail, rail.dot(turned) * rail, false};
@@ -105,7 +105,7 @@ class Linkage {
     for (int rod = 0; rod < static_cast<int>(scene_.bodies.size()); ++rod) {
       if (hinge_between(rod, first) && hinge_between(rod, second)) return rod;
     }
-    refuse("no body is hinged to both runners");
+    refuse_linkage("no body is hinged to both runners");
   }
   const HingeJoint* hinge_between(int one, int other) const {
     for (const Joint& joint : scene_.joints) {
@@ -132,13 +132,13 @@ class Linkage {
     const Swing a = of_point(joint.a, point), b = of_point(joint.b, point);
     ExtendedVec3 along = b.along - a.along, across = b.across - a.across;
     if (slider) {
-      if (a.turns || b.turns) refuse("a runner turns");
+      if (a.turns || b.turns) refuse_linkage("a runner turns");
       const ExtendedVec3 rail = extended(slider->axis).normalized();
       along -= rail.dot(along) * rail, across -= rail.dot(across) * rail;
     }
     const Extended size = 1 + a.along.norm() + b.along.norm();
-    if (along.norm() + across.norm() > kRoundings * size)
-      refuse(fmt::format("the joint of '{}' and '{}' would part as it turns", scene_.body_name(joint.a),
+    if (along.norm() + across.norm() > kLinkageRoundings * size)
+      refuse_linkage(fmt::format("the joint of '{}' and '{}' would part as it turns", scene_.body_name(joint.a),
                          scene_.body_name(joint.b)));
   }
 
@@ -147,7 +147,7 @@ class Linkage {
   std::vector<std::optional<Swing>> swings_;  // of each body
 };
 
-std::unique_ptr<Truth> make(const Scene& scene, double) {
+std::unique_ptr<Truth> make_linkage(const Scene& scene, double) {
   check_needs(scene, "linkage", "hinges and sliders in a plane", {"joint:hinge", "joint:slider"});
   const Linkage linkage(scene);
   return swinging(scene, linkage.axis(), linkage.swings(), false, refuse);
@@ -156,7 +156,7 @@ std::unique_ptr<Truth> make(const Scene& scene, double) {
 }  // namespace
 
 TruthRow linkage_truth() {
-  return {"linkage", "parallel cranks with what they carry, and trammels, in elliptic functions", make};
+  return {"linkage", "parallel cranks with what they carry, and trammels, in elliptic functions", make_linkage};
 }
 
 }  // namespace rigor

@@ -14,11 +14,11 @@
 namespace rigor {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_pendulum(const std::string& why) {
   throw InputError("the truth 'pendulum' is for one body that turns about an axis that stands still: " + why);
 }
 
-constexpr Extended kRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers, relative
+constexpr Extended kPendulumRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers, relative
 
 struct Hung {
   int body;
@@ -27,12 +27,12 @@ struct Hung {
 };
 
 Hung find_hung(const Scene& scene) {
-  if (scene.joints.size() != 1) refuse(fmt::format("there are {} joints", scene.joints.size()));
+  if (scene.joints.size() != 1) refuse_pendulum(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
-  if (stands(scene, joint.a) == stands(scene, joint.b)) refuse("the joint is not between it and what stands still");
+  if (stands(scene, joint.a) == stands(scene, joint.b)) refuse_pendulum("the joint is not between it and what stands still");
   const bool is_a = !stands(scene, joint.a);
   const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.fixed; });
-  if (moving != 1) refuse(fmt::format("{} bodies move", moving));
+  if (moving != 1) refuse_pendulum(fmt::format("{} bodies move", moving));
   return {is_a ? joint.a : joint.b, &joint, is_a};
 }
 
@@ -40,14 +40,14 @@ Hung find_hung(const Scene& scene) {
 ExtendedVec3 normal_of(const ExtendedVec3& arm, const ExtendedVec3& gravity, const ExtendedVec3& moving) {
   if (moving.norm() > 0) return moving.normalized();
   const ExtendedVec3 across = arm.cross(gravity);
-  if (across.norm() <= kRoundings * arm.norm() * gravity.norm()) refuse("it hangs still, or stands");
+  if (across.norm() <= kPendulumRoundings * arm.norm() * gravity.norm()) refuse_pendulum("it hangs still, or stands");
   return across.normalized();
 }
 
 void check_plane(const ExtendedVec3& normal, const ExtendedVec3& arm, const ExtendedVec3& gravity) {
-  if (std::abs(normal.dot(arm)) > kRoundings * arm.norm()) refuse("it swings round a cone");
-  if (arm.norm() * std::abs(normal.dot(gravity)) > kRoundings * arm.norm() * gravity.norm())
-    refuse("gravity pulls it out of the plane in which it moves");
+  if (std::abs(normal.dot(arm)) > kPendulumRoundings * arm.norm()) refuse_pendulum("it swings round a cone");
+  if (arm.norm() * std::abs(normal.dot(gravity)) > kPendulumRoundings * arm.norm() * gravity.norm())
+    refuse_pendulum("gravity pulls it out of the plane in which it moves");
 }
 
 std::unique_ptr<Truth> on_ball(const Scene& scene, const Hung& hung, const Vec3& anchor) {
@@ -57,14 +57,14 @@ std::unique_ptr<Truth> on_ball(const Scene& scene, const Hung& hung, const Vec3&
   check_plane(normal, arm, g);
   const ExtendedVec3 n = extended(body.orientation).conjugate() * normal;
   const ExtendedMat3 inertia = extended(body.inertia);
-  if (n.cross(inertia * n).norm() > kRoundings * inertia.norm())
-    refuse("on a ball joint it would leave the plane: the normal is no principal axis");
+  if (n.cross(inertia * n).norm() > kPendulumRoundings * inertia.norm())
+    refuse_pendulum("on a ball joint it would leave the plane: the normal is no principal axis");
   return swinging(scene, normal, {round_axis(hung.body, normal, arm, true)}, false, refuse);
 }
 
 std::unique_ptr<Truth> on_distance(const Scene& scene, const Hung& hung, const DistanceJoint& joint) {
   const Vec3& hook = hung.is_a ? joint.point_a : joint.point_b;
-  if (!hook.isZero(0)) refuse(fmt::format("the distance joint holds it at ({}, {}, {})", hook.x(), hook.y(), hook.z()));
+  if (!hook.isZero(0)) refuse_pendulum(fmt::format("the distance joint holds it at ({}, {}, {})", hook.x(), hook.y(), hook.z()));
   const ExtendedVec3 pivot = hung.is_a ? standing_point(scene, hung.joint->b, joint.point_b)
                                        : standing_point(scene, hung.joint->a, joint.point_a);
   const Body& body = scene.bodies[hung.body];
@@ -74,7 +74,7 @@ std::unique_ptr<Truth> on_distance(const Scene& scene, const Hung& hung, const D
   return swinging(scene, normal, {round_axis(hung.body, normal, arm, false)}, true, refuse);
 }
 
-std::unique_ptr<Truth> make(const Scene& scene, double) {
+std::unique_ptr<Truth> make_pendulum(const Scene& scene, double) {
   check_needs(scene, "pendulum", "one body on one joint", {"joint:ball", "joint:distance", "joint:hinge"});
   const Hung hung = find_hung(scene);
   if (const auto* ball = std::get_if<BallJoint>(&hung.joint->type)) return on_ball(scene, hung, ball->anchor);
@@ -88,7 +88,7 @@ std::unique_ptr<Truth> make(const Scene& scene, double) {
 }  // namespace
 
 TruthRow pendulum_truth() {
-  return {"pendulum", "a body on a hinge, or in a plane on a ball or distance joint, in elliptic functions", make};
+  return {"pendulum", "a body on a hinge, or in a plane on a ball or distance joint, in elliptic functions", make_pendulum};
 }
 
 }  // namespace rigor

@@ -17,7 +17,7 @@
 namespace rigor {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_slider(const std::string& why) {
   throw InputError("the truth 'slider' is for one body on a slider that stands still: " + why);
 }
 
@@ -30,16 +30,16 @@ struct Sprung {
 Sprung sprung_by(const Scene& scene, const Joint& joint, int index, const ExtendedVec3& rail) {
   if (scene.springs.empty()) return {joint.stiffness, joint.damping, joint.rest};
   const Spring& spring = scene.springs[0];
-  if (scene.springs.size() > 1 || joint.stiffness != 0 || joint.damping != 0) refuse("it has more than one spring");
+  if (scene.springs.size() > 1 || joint.stiffness != 0 || joint.damping != 0) refuse_slider("it has more than one spring");
   const bool is_a = spring.a == index;
-  if (stands(scene, spring.a) == stands(scene, spring.b)) refuse("the spring is not between it and what stands still");
-  if (!(is_a ? spring.point_a : spring.point_b).isZero(0)) refuse("the spring does not hold it at its centre");
+  if (stands(scene, spring.a) == stands(scene, spring.b)) refuse_slider("the spring is not between it and what stands still");
+  if (!(is_a ? spring.point_a : spring.point_b).isZero(0)) refuse_slider("the spring does not hold it at its centre");
   const ExtendedVec3 other =
       is_a ? standing_point(scene, spring.b, spring.point_b) : standing_point(scene, spring.a, spring.point_a);
   const ExtendedVec3 from = extended(scene.bodies[index].position) - other;
   const Extended along = from.dot(rail);
-  constexpr Extended kRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers
-  if (along == 0 || from.cross(rail).norm() > kRoundings * from.norm()) refuse("the spring is not along the rail");
+  constexpr Extended kSliderRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers
+  if (along == 0 || from.cross(rail).norm() > kSliderRoundings * from.norm()) refuse_slider("the spring is not along the rail");
   return {spring.stiffness, spring.damping, (along < 0 ? -1 : 1) * Extended(spring.rest_length) - along, -along};
 }
 
@@ -56,7 +56,7 @@ class Sliding final : public BodyMotion {
     for (Extended t : moving_.turns()) {
       t = std::clamp<Extended>(t, 0, duration);
       if ((middle_ + moving_.at(t).offset) * -sprung.end <= -sprung.end * sprung.end)
-        refuse("it passes the spring's other end, where the force jumps");
+        refuse_slider("it passes the spring's other end, where the force jumps");
     }
   }
 
@@ -88,22 +88,22 @@ class Sliding final : public BodyMotion {
   DampedOscillation moving_;                      // about there; with a spring
 };
 
-std::unique_ptr<Truth> make(const Scene& scene, double duration) {
+std::unique_ptr<Truth> make_slider(const Scene& scene, double duration) {
   check_needs(scene, "slider", "one body on a slider",
               {"joint:slider", "joint-spring", "joint-damper", "joints-with-dampers", "spring"});
-  if (scene.joints.size() != 1) refuse(fmt::format("there are {} joints", scene.joints.size()));
+  if (scene.joints.size() != 1) refuse_slider(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
-  if (stands(scene, joint.a) == stands(scene, joint.b)) refuse("the joint is not between it and what stands still");
+  if (stands(scene, joint.a) == stands(scene, joint.b)) refuse_slider("the joint is not between it and what stands still");
   const int index = stands(scene, joint.a) ? joint.b : joint.a;
   const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.fixed; });
-  if (moving != 1) refuse(fmt::format("{} bodies move", moving));
+  if (moving != 1) refuse_slider(fmt::format("{} bodies move", moving));
   // A spring of the joint pushes b along the rail, and so a the other way.
   const ExtendedVec3 rail = (index == joint.b ? 1 : -1) * extended(std::get<SliderJoint>(joint.type).axis).normalized();
   const Body& body = scene.bodies[index];
-  constexpr double kRoundings = 64 * kEpsilon;  // of the scene's numbers
-  if (body.velocity.cross(rail.cast<double>()).norm() > kRoundings * (1 + body.velocity.norm()))
-    refuse("its velocity is not along the rail");
-  if (body.angular_velocity.norm() > kRoundings) refuse("it turns");
+  constexpr double kSliderRoundings = 64 * kEpsilon;  // of the scene's numbers
+  if (body.velocity.cross(rail.cast<double>()).norm() > kSliderRoundings * (1 + body.velocity.norm()))
+    refuse_slider("its velocity is not along the rail");
+  if (body.angular_velocity.norm() > kSliderRoundings) refuse_slider("it turns");
   return closed_form(scene, [&](const Body& one) {
     return std::make_unique<Sliding>(one, sprung_by(scene, joint, index, rail), rail, extended(scene.gravity),
                                      duration);
@@ -113,7 +113,7 @@ std::unique_ptr<Truth> make(const Scene& scene, double duration) {
 }  // namespace
 
 TruthRow slider_truth() {
-  return {"slider", "a body on a slider with its spring, damper and gravity, in closed form", make};
+  return {"slider", "a body on a slider with its spring, damper and gravity, in closed form", make_slider};
 }
 
 }  // namespace rigor

@@ -10,7 +10,7 @@
 namespace rigor {
 namespace {
 
-constexpr Extended kRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers, relative
+constexpr Extended kSwingingBodyRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers, relative
 
 class SwingingBody final : public BodyMotion {
  public:
@@ -89,13 +89,13 @@ Extended missed(const Scene& scene, const ExtendedVec3& axis, const std::vector<
     const Body& body = scene.bodies[swing.body];
     const ExtendedVec3 v = extended(body.velocity), w = extended(body.angular_velocity);
     const Extended off = (v - rate * swing.across).norm(), turned = (w - (swing.turns ? rate : 0) * axis).norm();
-    if (off > kRoundings * (1 + v.norm())) refuse(fmt::format("body '{}' does not move with the rest", body.name));
+    if (off > kSwingingBodyRoundings * (1 + v.norm())) refuse_swing(fmt::format("body '{}' does not move with the rest", body.name));
     misses = std::max(misses, off);
     if (!swing.turns && spins) {
-      if (!PrincipalSpin(body, body.angular_velocity).holds()) refuse(fmt::format("body '{}' would tumble", body.name));
+      if (!PrincipalSpin(body, body.angular_velocity).holds()) refuse_swing(fmt::format("body '{}' would tumble", body.name));
       continue;
     }
-    if (turned > kRoundings * (1 + w.norm())) refuse(fmt::format("body '{}' does not turn with the rest", body.name));
+    if (turned > kSwingingBodyRoundings * (1 + w.norm())) refuse_swing(fmt::format("body '{}' does not turn with the rest", body.name));
     misses = std::max(misses, turned);
   }
   return misses;
@@ -117,8 +117,8 @@ Swing round_axis(int body, const ExtendedVec3& axis, const ExtendedVec3& arm, bo
 std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, const std::vector<Swing>& swings,
                                 bool spins, const Refuse& refuse) {
   const Sums sums = sums_of(scene, axis, swings);
-  if (std::abs(sums.along) + std::abs(sums.mixed) > kRoundings * sums.inertia)
-    refuse("its inertia about the angle changes as it turns");
+  if (std::abs(sums.along) + std::abs(sums.mixed) > kSwingingBodyRoundings * sums.inertia)
+    refuse_swing("its inertia about the angle changes as it turns");
   const Extended rate = sums.momentum / sums.inertia;
   const Extended misses = missed(scene, axis, swings, rate, spins, refuse);
   // It would rest at the angle atan2(Q, P) from where it begins.
@@ -127,7 +127,7 @@ std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, co
   return closed_form(scene, [&](const Body& body) -> std::unique_ptr<BodyMotion> {
     const int index = static_cast<int>(&body - scene.bodies.data());
     const auto swing = std::find_if(swings.begin(), swings.end(), [&](const Swing& s) { return s.body == index; });
-    if (swing == swings.end()) refuse(fmt::format("body '{}' is no part of it", body.name));
+    if (swing == swings.end()) refuse_swing(fmt::format("body '{}' is no part of it", body.name));
     return std::make_unique<SwingingBody>(body, *swing, axis, phase, misses);
   });
 }

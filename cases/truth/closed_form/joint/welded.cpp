@@ -12,7 +12,7 @@
 namespace rigor {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why) {
+[[noreturn]] void refuse_welded(const std::string& why) {
   throw InputError("the truth 'welded' is for bodies in free flight, all fixed to each other: " + why);
 }
 
@@ -45,25 +45,25 @@ Body united(const Scene& scene) {
 }
 
 void check(const Scene& scene, const Body& whole) {
-  if (scene.joints.size() == 0) refuse("there is no joint");
+  if (scene.joints.size() == 0) refuse_welded("there is no joint");
   std::vector<int> group(scene.bodies.size());
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = static_cast<int>(i);
   for (const Joint& joint : scene.joints) {
     if (joint.a == kWorld || joint.b == kWorld || scene.bodies[joint.a].fixed || scene.bodies[joint.b].fixed)
-      refuse("a joint holds them to what stands still");
+      refuse_welded("a joint holds them to what stands still");
     std::replace(group.begin(), group.end(), int(group[joint.a]), int(group[joint.b]));
   }
-  constexpr double kRoundings = 64 * kEpsilon;  // of the scene's numbers
+  constexpr double kWeldedRoundings = 64 * kEpsilon;  // of the scene's numbers
   int first = -1;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.fixed) continue;
     if (first < 0) first = group[i];
-    if (group[i] != first) refuse(fmt::format("body '{}' is not fixed to the rest", body.name));
+    if (group[i] != first) refuse_welded(fmt::format("body '{}' is not fixed to the rest", body.name));
     const Vec3 w = whole.angular_velocity, v = whole.velocity + w.cross(body.position - whole.position);
-    if ((body.angular_velocity - w).norm() > kRoundings * (1 + w.norm()) ||
-        (body.velocity - v).norm() > kRoundings * (1 + v.norm()) * (1 + whole.position.norm()))
-      refuse(fmt::format("body '{}' does not move with the rest", body.name));
+    if ((body.angular_velocity - w).norm() > kWeldedRoundings * (1 + w.norm()) ||
+        (body.velocity - v).norm() > kWeldedRoundings * (1 + v.norm()) * (1 + whole.position.norm()))
+      refuse_welded(fmt::format("body '{}' does not move with the rest", body.name));
   }
 }
 
@@ -95,7 +95,7 @@ class Part final : public BodyMotion {
   double spin_;  // rad/s
 };
 
-std::unique_ptr<Truth> make(const Scene& scene, double) {
+std::unique_ptr<Truth> make_welded(const Scene& scene, double) {
   check_needs(scene, "welded", "bodies fixed to each other", {"joint:fixed"});
   const Body whole = united(scene);
   check(scene, whole);
@@ -105,7 +105,7 @@ std::unique_ptr<Truth> make(const Scene& scene, double) {
 }  // namespace
 
 TruthRow welded_truth() {
-  return {"welded", "bodies fixed to each other in free flight, as one top in Jacobi's elliptic functions", make};
+  return {"welded", "bodies fixed to each other in free flight, as one top in Jacobi's elliptic functions", make_welded};
 }
 
 }  // namespace rigor
