@@ -60,13 +60,15 @@ void read_range(SweepAxis& axis, const std::string& text, const std::string& val
   const std::size_t dots = parts[0].find("..");
   const std::string from = parts[0].substr(0, dots), to = parts[0].substr(dots + 2);
   axis.is_range = true, axis.from = number_in(from), axis.to = number_in(to);
-  if (std::isnan(axis.from) || std::isnan(axis.to)) refuse_axis(text, fmt::format("'{}' is no range of numbers", parts[0]));
+  if (std::isnan(axis.from) || std::isnan(axis.to))
+    refuse_axis(text, fmt::format("'{}' is no range of numbers", parts[0]));
   if (axis.from == axis.to) refuse_axis(text, "the range begins where it ends");
   if (axis.from > axis.to) refuse_axis(text, fmt::format("the range is the wrong way round; give {}..{}", to, from));
   axis.is_log = parts.size() > 1 && parts[1] == "log";
   if (axis.is_log && axis.from <= 0) refuse_axis(text, "a range in logarithms begins above 0");
   const std::size_t numbers = 1 + axis.is_log;
-  if (parts.size() > 2 && !axis.is_log) refuse_axis(text, fmt::format("there is no scale '{}'; there is: log", parts[1]));
+  if (parts.size() > 2 && !axis.is_log)
+    refuse_axis(text, fmt::format("there is no scale '{}'; there is: log", parts[1]));
   if (parts.size() > numbers + 1) refuse_axis(text, fmt::format("found '{}' behind the count", parts[numbers + 1]));
   if (parts.size() == numbers && !is_sampled) refuse_axis(text, "the range has no count of values");
   const long count = parts.size() > numbers ? read_count(text, parts[numbers]) : 2;

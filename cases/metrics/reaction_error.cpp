@@ -62,7 +62,9 @@ MetricResult measure_reaction(const JudgedRun& run, const std::string& what, Par
 
 MetricRow reaction_error() {
   return {"reaction_error", "N", "largest difference of the force that a joint carries from that at the truth's state",
-          [](const JudgedRun& run) { return measure_reaction(run, "force", &JointReaction::force, &UniqueReaction::force); }};
+          [](const JudgedRun& run) {
+            return measure_reaction(run, "force", &JointReaction::force, &UniqueReaction::force);
+          }};
 }
 
 MetricRow reaction_torque_error() {

@@ -44,8 +44,11 @@ Json json_of(const HistoryEntry& entry) {
     if (cell.cost) row["cost"] = *cell.cost;
     cells.push_back(std::move(row));
   }
-  return {
-      {kFormKey, kHistoryForm}, {"commit", entry.commit}, {"date", entry.date}, {"machine", entry.machine}, {"cells", cells}};
+  return {{kFormKey, kHistoryForm},
+          {"commit", entry.commit},
+          {"date", entry.date},
+          {"machine", entry.machine},
+          {"cells", cells}};
 }
 
 HistoryEntry entry_from(const Json& json) {

@@ -185,7 +185,8 @@ HeavyBody top_on(const Scene& scene, int index, const Vec3& anchor) {
   const ExtendedMat3 inertia = extended(body.inertia), line = e_B * e_B.transpose();
   heavy.along = e_B.dot(inertia * e_B);
   const Extended across = (inertia.trace() - heavy.along) / 2;
-  if ((inertia - across * (ExtendedMat3::Identity() - line) - heavy.along * line).norm() > kHeavyTopRoundings * inertia.norm())
+  if ((inertia - across * (ExtendedMat3::Identity() - line) - heavy.along * line).norm() >
+      kHeavyTopRoundings * inertia.norm())
     refuse_heavy_top(fmt::format("the inertia of body '{}' is not symmetric about the line to the joint", body.name));
   heavy.misses += (inertia - across * (ExtendedMat3::Identity() - line) - heavy.along * line).norm() / inertia.norm() *
                   heavy.w.norm();
@@ -210,7 +211,8 @@ HeavyBody bob_on(const Scene& scene, int index, const Joint& joint) {
   const Extended square = heavy.reach.squaredNorm();
   heavy.across = body.mass * square;
   heavy.w = heavy.reach.cross(extended(body.velocity)) / square;
-  if (!PrincipalSpin(body, body.angular_velocity).holds()) refuse_heavy_top(fmt::format("body '{}' would tumble", body.name));
+  if (!PrincipalSpin(body, body.angular_velocity).holds())
+    refuse_heavy_top(fmt::format("body '{}' would tumble", body.name));
   return heavy;
 }
 
@@ -218,7 +220,8 @@ std::unique_ptr<Truth> make_heavy_top(const Scene& scene, double) {
   check_needs(scene, "heavy-top", "one body on one joint", {"joint:ball", "joint:distance"});
   if (scene.joints.size() != 1) refuse_heavy_top(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
-  if (stands(scene, joint.a) == stands(scene, joint.b)) refuse_heavy_top("the joint is not between it and what stands still");
+  if (stands(scene, joint.a) == stands(scene, joint.b))
+    refuse_heavy_top("the joint is not between it and what stands still");
   const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.fixed; });
   if (moving != 1) refuse_heavy_top(fmt::format("{} bodies move", moving));
   if (scene.gravity.isZero(0)) refuse_heavy_top("there is no gravity (take 'axisymmetric-top')");
@@ -232,7 +235,8 @@ std::unique_ptr<Truth> make_heavy_top(const Scene& scene, double) {
 }  // namespace
 
 TruthRow heavy_top_truth() {
-  return {"heavy-top", "a heavy symmetric top on a ball joint, or a spherical pendulum, in elliptic functions", make_heavy_top};
+  return {"heavy-top", "a heavy symmetric top on a ball joint, or a spherical pendulum, in elliptic functions",
+          make_heavy_top};
 }
 
 }  // namespace rigor

@@ -86,7 +86,8 @@ class Linkage {
     std::vector<std::pair<int, ExtendedVec3>> runners;
     for (const Joint& joint : scene_.joints) {
       if (!slider_of(joint)) continue;
-      if (is_still(joint.a) == is_still(joint.b)) refuse_linkage("a slider is not between a runner and what stands still");
+      if (is_still(joint.a) == is_still(joint.b))
+        refuse_linkage("a slider is not between a runner and what stands still");
       runners.emplace_back(is_still(joint.a) ? joint.b : joint.a, extended(slider_of(joint)->axis).normalized());
     }
     if (runners.size() != 2) refuse_linkage(fmt::format("there are no cranks, and {} runners", runners.size()));
@@ -139,7 +140,7 @@ class Linkage {
     const Extended size = 1 + a.along.norm() + b.along.norm();
     if (along.norm() + across.norm() > kLinkageRoundings * size)
       refuse_linkage(fmt::format("the joint of '{}' and '{}' would part as it turns", scene_.body_name(joint.a),
-                         scene_.body_name(joint.b)));
+                                 scene_.body_name(joint.b)));
   }
 
   const Scene& scene_;

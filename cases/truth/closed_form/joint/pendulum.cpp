@@ -29,7 +29,8 @@ struct Hung {
 Hung find_hung(const Scene& scene) {
   if (scene.joints.size() != 1) refuse_pendulum(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
-  if (stands(scene, joint.a) == stands(scene, joint.b)) refuse_pendulum("the joint is not between it and what stands still");
+  if (stands(scene, joint.a) == stands(scene, joint.b))
+    refuse_pendulum("the joint is not between it and what stands still");
   const bool is_a = !stands(scene, joint.a);
   const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.fixed; });
   if (moving != 1) refuse_pendulum(fmt::format("{} bodies move", moving));
@@ -64,7 +65,8 @@ std::unique_ptr<Truth> on_ball(const Scene& scene, const Hung& hung, const Vec3&
 
 std::unique_ptr<Truth> on_distance(const Scene& scene, const Hung& hung, const DistanceJoint& joint) {
   const Vec3& hook = hung.is_a ? joint.point_a : joint.point_b;
-  if (!hook.isZero(0)) refuse_pendulum(fmt::format("the distance joint holds it at ({}, {}, {})", hook.x(), hook.y(), hook.z()));
+  if (!hook.isZero(0))
+    refuse_pendulum(fmt::format("the distance joint holds it at ({}, {}, {})", hook.x(), hook.y(), hook.z()));
   const ExtendedVec3 pivot = hung.is_a ? standing_point(scene, hung.joint->b, joint.point_b)
                                        : standing_point(scene, hung.joint->a, joint.point_a);
   const Body& body = scene.bodies[hung.body];
@@ -88,7 +90,8 @@ std::unique_ptr<Truth> make_pendulum(const Scene& scene, double) {
 }  // namespace
 
 TruthRow pendulum_truth() {
-  return {"pendulum", "a body on a hinge, or in a plane on a ball or distance joint, in elliptic functions", make_pendulum};
+  return {"pendulum", "a body on a hinge, or in a plane on a ball or distance joint, in elliptic functions",
+          make_pendulum};
 }
 
 }  // namespace rigor

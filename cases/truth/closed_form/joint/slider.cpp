@@ -30,16 +30,19 @@ struct Sprung {
 Sprung sprung_by(const Scene& scene, const Joint& joint, int index, const ExtendedVec3& rail) {
   if (scene.springs.empty()) return {joint.stiffness, joint.damping, joint.rest};
   const Spring& spring = scene.springs[0];
-  if (scene.springs.size() > 1 || joint.stiffness != 0 || joint.damping != 0) refuse_slider("it has more than one spring");
+  if (scene.springs.size() > 1 || joint.stiffness != 0 || joint.damping != 0)
+    refuse_slider("it has more than one spring");
   const bool is_a = spring.a == index;
-  if (stands(scene, spring.a) == stands(scene, spring.b)) refuse_slider("the spring is not between it and what stands still");
+  if (stands(scene, spring.a) == stands(scene, spring.b))
+    refuse_slider("the spring is not between it and what stands still");
   if (!(is_a ? spring.point_a : spring.point_b).isZero(0)) refuse_slider("the spring does not hold it at its centre");
   const ExtendedVec3 other =
       is_a ? standing_point(scene, spring.b, spring.point_b) : standing_point(scene, spring.a, spring.point_a);
   const ExtendedVec3 from = extended(scene.bodies[index].position) - other;
   const Extended along = from.dot(rail);
   constexpr Extended kSliderRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers
-  if (along == 0 || from.cross(rail).norm() > kSliderRoundings * from.norm()) refuse_slider("the spring is not along the rail");
+  if (along == 0 || from.cross(rail).norm() > kSliderRoundings * from.norm())
+    refuse_slider("the spring is not along the rail");
   return {spring.stiffness, spring.damping, (along < 0 ? -1 : 1) * Extended(spring.rest_length) - along, -along};
 }
 
@@ -93,7 +96,8 @@ std::unique_ptr<Truth> make_slider(const Scene& scene, double duration) {
               {"joint:slider", "joint-spring", "joint-damper", "joints-with-dampers", "spring"});
   if (scene.joints.size() != 1) refuse_slider(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
-  if (stands(scene, joint.a) == stands(scene, joint.b)) refuse_slider("the joint is not between it and what stands still");
+  if (stands(scene, joint.a) == stands(scene, joint.b))
+    refuse_slider("the joint is not between it and what stands still");
   const int index = stands(scene, joint.a) ? joint.b : joint.a;
   const auto moving = std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.fixed; });
   if (moving != 1) refuse_slider(fmt::format("{} bodies move", moving));

@@ -89,13 +89,16 @@ Extended missed(const Scene& scene, const ExtendedVec3& axis, const std::vector<
     const Body& body = scene.bodies[swing.body];
     const ExtendedVec3 v = extended(body.velocity), w = extended(body.angular_velocity);
     const Extended off = (v - rate * swing.across).norm(), turned = (w - (swing.turns ? rate : 0) * axis).norm();
-    if (off > kSwingingBodyRoundings * (1 + v.norm())) refuse_swing(fmt::format("body '{}' does not move with the rest", body.name));
+    if (off > kSwingingBodyRoundings * (1 + v.norm()))
+      refuse_swing(fmt::format("body '{}' does not move with the rest", body.name));
     misses = std::max(misses, off);
     if (!swing.turns && spins) {
-      if (!PrincipalSpin(body, body.angular_velocity).holds()) refuse_swing(fmt::format("body '{}' would tumble", body.name));
+      if (!PrincipalSpin(body, body.angular_velocity).holds())
+        refuse_swing(fmt::format("body '{}' would tumble", body.name));
       continue;
     }
-    if (turned > kSwingingBodyRoundings * (1 + w.norm())) refuse_swing(fmt::format("body '{}' does not turn with the rest", body.name));
+    if (turned > kSwingingBodyRoundings * (1 + w.norm()))
+      refuse_swing(fmt::format("body '{}' does not turn with the rest", body.name));
     misses = std::max(misses, turned);
   }
   return misses;

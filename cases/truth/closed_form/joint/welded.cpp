@@ -105,7 +105,8 @@ std::unique_ptr<Truth> make_welded(const Scene& scene, double) {
 }  // namespace
 
 TruthRow welded_truth() {
-  return {"welded", "bodies fixed to each other in free flight, as one top in Jacobi's elliptic functions", make_welded};
+  return {"welded", "bodies fixed to each other in free flight, as one top in Jacobi's elliptic functions",
+          make_welded};
 }
 
 }  // namespace rigor
