@@ -151,7 +151,7 @@ class Linkage {
 std::unique_ptr<Truth> make_linkage(const Scene& scene, double) {
   check_needs(scene, "linkage", "hinges and sliders in a plane", {"joint:hinge", "joint:slider"});
   const Linkage linkage(scene);
-  return swinging(scene, linkage.axis(), linkage.swings(), false, refuse);
+  return swinging(scene, linkage.axis(), linkage.swings(), false, refuse_linkage);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ std::unique_ptr<Truth> on_ball(const Scene& scene, const Hung& hung, const Vec3&
   const ExtendedMat3 inertia = extended(body.inertia);
   if (n.cross(inertia * n).norm() > kPendulumRoundings * inertia.norm())
     refuse_pendulum("on a ball joint it would leave the plane: the normal is no principal axis");
-  return swinging(scene, normal, {round_axis(hung.body, normal, arm, true)}, false, refuse);
+  return swinging(scene, normal, {round_axis(hung.body, normal, arm, true)}, false, refuse_pendulum);
 }
 
 std::unique_ptr<Truth> on_distance(const Scene& scene, const Hung& hung, const DistanceJoint& joint) {
@@ -73,7 +73,7 @@ std::unique_ptr<Truth> on_distance(const Scene& scene, const Hung& hung, const D
   const ExtendedVec3 arm = extended(body.position) - pivot, g = extended(scene.gravity);
   const ExtendedVec3 normal = normal_of(arm, g, arm.cross(extended(body.velocity)));
   check_plane(normal, arm, g);
-  return swinging(scene, normal, {round_axis(hung.body, normal, arm, false)}, true, refuse);
+  return swinging(scene, normal, {round_axis(hung.body, normal, arm, false)}, true, refuse_pendulum);
 }
 
 std::unique_ptr<Truth> make_pendulum(const Scene& scene, double) {
@@ -84,7 +84,7 @@ std::unique_ptr<Truth> make_pendulum(const Scene& scene, double) {
   const auto& hinge = std::get<HingeJoint>(hung.joint->type);
   const ExtendedVec3 axis = extended(hinge.axis).normalized(),
                      arm = extended(scene.bodies[hung.body].position) - extended(hinge.anchor);
-  return swinging(scene, axis, {round_axis(hung.body, axis, arm, true)}, false, refuse);
+  return swinging(scene, axis, {round_axis(hung.body, axis, arm, true)}, false, refuse_pendulum);
 }
 
 }  // namespace

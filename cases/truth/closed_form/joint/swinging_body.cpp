@@ -90,15 +90,15 @@ Extended missed(const Scene& scene, const ExtendedVec3& axis, const std::vector<
     const ExtendedVec3 v = extended(body.velocity), w = extended(body.angular_velocity);
     const Extended off = (v - rate * swing.across).norm(), turned = (w - (swing.turns ? rate : 0) * axis).norm();
     if (off > kSwingingBodyRoundings * (1 + v.norm()))
-      refuse_swing(fmt::format("body '{}' does not move with the rest", body.name));
+      refuse(fmt::format("body '{}' does not move with the rest", body.name));
     misses = std::max(misses, off);
     if (!swing.turns && spins) {
       if (!PrincipalSpin(body, body.angular_velocity).holds())
-        refuse_swing(fmt::format("body '{}' would tumble", body.name));
+        refuse(fmt::format("body '{}' would tumble", body.name));
       continue;
     }
     if (turned > kSwingingBodyRoundings * (1 + w.norm()))
-      refuse_swing(fmt::format("body '{}' does not turn with the rest", body.name));
+      refuse(fmt::format("body '{}' does not turn with the rest", body.name));
     misses = std::max(misses, turned);
   }
   return misses;
@@ -121,7 +121,7 @@ std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, co
                                 bool spins, const Refuse& refuse) {
   const Sums sums = sums_of(scene, axis, swings);
   if (std::abs(sums.along) + std::abs(sums.mixed) > kSwingingBodyRoundings * sums.inertia)
-    refuse_swing("its inertia about the angle changes as it turns");
+    refuse("its inertia about the angle changes as it turns");
   const Extended rate = sums.momentum / sums.inertia;
   const Extended misses = missed(scene, axis, swings, rate, spins, refuse);
   // It would rest at the angle atan2(Q, P) from where it begins.
@@ -130,7 +130,7 @@ std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, co
   return closed_form(scene, [&](const Body& body) -> std::unique_ptr<BodyMotion> {
     const int index = static_cast<int>(&body - scene.bodies.data());
     const auto swing = std::find_if(swings.begin(), swings.end(), [&](const Swing& s) { return s.body == index; });
-    if (swing == swings.end()) refuse_swing(fmt::format("body '{}' is no part of it", body.name));
+    if (swing == swings.end()) refuse(fmt::format("body '{}' is no part of it", body.name));
     return std::make_unique<SwingingBody>(body, *swing, axis, phase, misses);
   });
 }
