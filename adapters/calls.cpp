@@ -1,6 +1,9 @@
 #include "adapters/calls.h"
 
 #include "adapters/bullet/bullet_calls.h"
+#ifdef RIGOR_WITH_MUJOCO
+#include "adapters/mujoco/mujoco_calls.h"
+#endif
 #include "adapters/ode/ode_calls.h"
 
 namespace rigor {
@@ -14,7 +17,11 @@ struct CallsRow {
 }  // namespace
 
 std::vector<std::string> engine_calls(const RunName& run, const std::string& dt) {
-  static const std::vector<CallsRow> rows = {{"bullet", bullet_calls}, {"ode", ode_calls}};
+  static const std::vector<CallsRow> rows = {{"bullet", bullet_calls},
+#ifdef RIGOR_WITH_MUJOCO
+                                             {"mujoco", mujoco_calls},
+#endif
+                                             {"ode", ode_calls}};
   for (const CallsRow& row : rows) {
     if (row.engine == run.engine) return row.calls(run.settings, dt);
   }

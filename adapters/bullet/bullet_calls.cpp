@@ -21,6 +21,8 @@ std::vector<std::string> bullet_calls(const Settings& settings, const std::strin
   }
   for (const auto& [option, value] : settings.options) {
     if (option == "iterations") calls.push_back(fmt::format("world->getSolverInfo().m_numIterations = {};", value));
+    if (option == "erp") calls.push_back(fmt::format("world->getSolverInfo().m_erp = {};", value));
+    if (option == "cfm") calls.push_back(fmt::format("world->getSolverInfo().m_globalCfm = {};", value));
     if (option == "split-impulse")
       calls.push_back(fmt::format("world->getSolverInfo().m_splitImpulse = {};", value == "on" ? "true" : "false"));
     if (option == "gyroscopic") calls.push_back(fmt::format("body->setFlags({});", flags.at(value)));

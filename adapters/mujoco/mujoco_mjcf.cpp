@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/base/error.h"
+#include "core/engine/engine_failure.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
@@ -13,6 +13,8 @@ namespace {
 
 std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 std::string text_of(const Quat& q) { return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z()); }
+
+constexpr int kDeepest = 95;  // bodies: TinyXML-2, which reads for it, nests a hundred elements
 
 std::string name_of(int body) { return fmt::format("b{}", body); }
 
@@ -102,7 +104,12 @@ class Writer {
     add("</body>\n");
   }
 
-  void write_body(int index) {
+  void write_body(int index, int depth = 1) {
+    if (depth > kDeepest) {
+      throw EngineFailure(FailureKind::unsupported,
+                          fmt::format("body '{}' hangs on {} others, and MuJoCo's reader of scenes goes no deeper",
+                                      scene_.bodies[index].name, kDeepest));
+    }
     const Body& body = scene_.bodies[index];
     const MujocoTree::Link& link = tree_.links[index];
     const BodyPose parent = scene_.pose(link.parent);
@@ -119,7 +126,7 @@ class Writer {
     }
     write_geom(index);
     write_sites(index);
-    for (const int below : tree_.below[index]) write_body(below);
+    for (const int below : tree_.below[index]) write_body(below, depth + 1);
     add("</body>\n");
   }
 
@@ -216,7 +223,8 @@ class Writer {
     } else if (std::holds_alternative<FixedJoint>(joint.type)) {
       add("<weld body1=\"{}\"{}/>\n", name_of(first), other);
     } else {
-      throw InputError(
+      throw EngineFailure(
+          FailureKind::unsupported,
           fmt::format("{} closes a loop of joints, which MuJoCo closes by balls, hinges, fixed and distance "
                       "joints alone",
                       scene_.joint_name(static_cast<std::size_t>(index))));

@@ -2,7 +2,8 @@
 // orientation q, velocity in W and angular velocity w in B; with tau the torque in B and I the inertia there:
 //   euler     w1 = w0 + dt I⁻¹ (tau - w0 x I w0),   v1 = v0 + dt F/m,   x1 = x0 + dt v1,   q1 = q0 exp(dt w1)
 //   implicit  the same with (I + dt ([w0]x I - [I w0]x))⁻¹ for I⁻¹ and, where springs damp, one Newton step for their
-//             forces: (M + dt sum c jᵀj) (V1 - V0) = dt f, j the slope of a spring's length in all velocities
+//             forces: (M + dt sum c j jᵀ) (V1 - V0) = dt f, j the slope of a spring's length in the velocities of one
+//             body; what one body's velocity does to another's force is left out
 //   rk4       the classical stages of (x, q, v, w), but q_s = q0 exp(c_s dt w) of the stage before and
 //             q1 = q0 exp(dt sum b_s w_s), which leaves out that turns do not commute: order 2
 // Springs are evaluated at each stage; timed forces are wrenches that are held over the step.
@@ -60,56 +61,55 @@ class ImplicitTwin : public Stepper {
 
   void step(MutableBodyColumns state, double t, double dt) override {
     system_.wrenches(state, t, dt, wrenches_);
-    const auto size = static_cast<Eigen::Index>(6 * state.size());
-    slope_.setZero(size, size), impulse_.setZero(size);
-    for (std::size_t i = 0; i < state.size(); ++i) add_body(state, i, dt);
+    slopes_.assign(state.size(), Slope::Identity());
+    for (std::size_t i = 0; i < state.size(); ++i) set_body(state, i, dt);
     for (const Spring& spring : system_.loads.springs()) {
       if (spring.damping > 0) add_damper(state, spring, dt);
     }
-    const Eigen::VectorXd change = slope_.partialPivLu().solve(impulse_);
     for (std::size_t i = 0; i < state.size(); ++i) {
-      if (system_.bodies[i].fixed) continue;
-      const auto at = static_cast<Eigen::Index>(6 * i);
-      const Vec3 v = state.velocity(i) + change.segment<3>(at), w = in_body(state, i) + change.segment<3>(at + 3);
-      state.set_velocity(i, v);
-      state.set_position(i, state.position(i) + dt * v);
-      turn(state, i, state.orientation(i), dt * w, w);
+      if (!system_.bodies[i].fixed) advance(state, i, dt);
     }
   }
 
  private:
-  void add_body(BodyColumns state, std::size_t i, double dt) {
+  using Slope = Eigen::Matrix<double, 6, 6>;  // of the forces, in a body's velocity in W and angular velocity in B
+
+  void set_body(BodyColumns state, std::size_t i, double dt) {
     const Inertia& body = system_.bodies[i];
-    const auto at = static_cast<Eigen::Index>(6 * i);
-    slope_.block<6, 6>(at, at).setIdentity();
-    if (body.fixed) return;
-    const Vec3 w = in_body(state, i), L = body.inertia_B * w;
-    slope_.block<3, 3>(at, at) *= body.mass;
-    slope_.block<3, 3>(at + 3, at + 3) = body.inertia_B + dt * (cross_matrix(w) * body.inertia_B - cross_matrix(L));
-    impulse_.segment<3>(at) = dt * wrenches_[i].force;
-    impulse_.segment<3>(at + 3) = dt * (state.rotation(i).transpose() * wrenches_[i].torque - w.cross(L));
+    const Vec3 w = in_body(state, i);
+    slopes_[i].topLeftCorner<3, 3>() *= body.mass;
+    slopes_[i].bottomRightCorner<3, 3>() =
+        body.inertia_B + dt * (cross_matrix(w) * body.inertia_B - cross_matrix(body.inertia_B * w));
   }
 
-  // j: how fast the spring grows with each velocity; of a body's turning, in B.
   void add_damper(BodyColumns state, const Spring& spring, double dt) {
     const PointMotion a = point_motion(state, spring.a, spring.point_a),
                       b = point_motion(state, spring.b, spring.point_b);
     const Vec3 line = (b.position - a.position).normalized();
-    Eigen::VectorXd j = Eigen::VectorXd::Zero(slope_.rows());
-    const auto add_end = [&](int body, const Vec3& arm, double sign) {
-      if (body == kWorld || system_.bodies[static_cast<std::size_t>(body)].fixed) return;
-      j.segment<3>(6 * body) += sign * line;
-      j.segment<3>(6 * body + 3) +=
-          sign * (state.rotation(static_cast<std::size_t>(body)).transpose() * arm.cross(line));
-    };
-    add_end(spring.a, a.arm, -1), add_end(spring.b, b.arm, 1);
-    slope_ += dt * spring.damping * j * j.transpose();
+    for (const auto& [body, arm] : {std::pair(spring.a, a.arm), std::pair(spring.b, b.arm)}) {
+      if (body == kWorld) continue;
+      const auto i = static_cast<std::size_t>(body);
+      Eigen::Matrix<double, 6, 1> j;
+      j << line, state.rotation(i).transpose() * arm.cross(line);
+      slopes_[i] += dt * spring.damping * j * j.transpose();
+    }
+  }
+
+  void advance(MutableBodyColumns state, std::size_t i, double dt) const {
+    const Inertia& body = system_.bodies[i];
+    const Vec3 w = in_body(state, i), torque = state.rotation(i).transpose() * wrenches_[i].torque;
+    Eigen::Matrix<double, 6, 1> impulse;
+    impulse << dt * wrenches_[i].force, dt * (torque - w.cross(body.inertia_B * w));
+    const Eigen::Matrix<double, 6, 1> change = slopes_[i].partialPivLu().solve(impulse);
+    const Vec3 v = state.velocity(i) + change.head<3>(), w_end = w + change.tail<3>();
+    state.set_velocity(i, v);
+    state.set_position(i, state.position(i) + dt * v);
+    turn(state, i, state.orientation(i), dt * w_end, w_end);
   }
 
   const System& system_;
   Wrenches wrenches_;
-  Eigen::MatrixXd slope_;
-  Eigen::VectorXd impulse_;
+  std::vector<Slope> slopes_;  // by body
 };
 
 class Rk4Twin : public Stepper {

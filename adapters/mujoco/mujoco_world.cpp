@@ -171,15 +171,15 @@ SettingsInForce MujocoWorld::settings_in_force() const {
       {"gravity", fmt::format("{:g}, {:g}, {:g} m/s^2", option.gravity[0], option.gravity[1], option.gravity[2])},
       {"solver",
        fmt::format("{}, at most {} iterations to {:g}", kSolvers[option.solver], option.iterations, option.tolerance)},
-      {"friction cone", option.cone == mjCONE_ELLIPTIC
-                            ? "elliptic"
-                            : "pyramidal: along its diagonal it brakes with 0.71 of the force of the cone"},
+      {"friction cone", option.cone == mjCONE_ELLIPTIC ? "elliptic"
+                                                       : "pyramidal: along its diagonal it brakes with 0.71 of the "
+                                                         "force of the cone, and a slide goes 1.41 times as far"},
       {"impratio", fmt::format("{:g}: friction is that much stiffer than contact", option.impratio)},
       {"springs", "tendons, evaluated at each stage"},
       {"timed forces and motors", "user forces, set before each step"},
   };
+  if (model.ngeom > 0) in_force.emplace_back("contacts", solref_in_words(model.geom_solref, model.geom_solimp));
   const char* when = matched_ && loops_dt_ == 0 ? " until the first step" : "";
-  if (model.ngeom > 0) in_force.emplace_back("contacts", solref_in_words(model.geom_solref, model.geom_solimp) + when);
   if (model.neq > 0) in_force.emplace_back("loops", solref_in_words(model.eq_solref, model.eq_solimp) + when);
   return in_force;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cases/case/case.h"
-#include "cases/runner/shard.h"
+#include "cases/runner/shards/shard.h"
 
 namespace rigor {
 

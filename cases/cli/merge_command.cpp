@@ -8,7 +8,7 @@
 #include "cases/cli/output.h"
 #include "cases/report/json/machine.h"
 #include "cases/runner/build_identity.h"
-#include "cases/runner/part.h"
+#include "cases/runner/shards/part.h"
 #include "core/base/error.h"
 
 namespace rigor {

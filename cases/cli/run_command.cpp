@@ -9,7 +9,7 @@
 #include "cases/cli/progress.h"
 #include "cases/report/json/machine.h"
 #include "cases/runner/build_identity.h"
-#include "cases/runner/part.h"
+#include "cases/runner/shards/part.h"
 #include "core/base/error.h"
 
 namespace rigor {

@@ -10,7 +10,7 @@
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/executor.h"
-#include "cases/runner/shard.h"
+#include "cases/runner/shards/shard.h"
 #include "cases/runner/stable_step.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"

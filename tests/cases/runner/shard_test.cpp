@@ -1,5 +1,5 @@
 // Parts of a grid: a partition that leaves nothing out and does nothing twice, and their merge at scale.
-#include "cases/runner/shard.h"
+#include "cases/runner/shards/shard.h"
 
 #include <fmt/format.h>
 #include <boost/test/unit_test.hpp>
@@ -7,7 +7,7 @@
 
 #include "cases/report/json/json_report.h"
 #include "cases/report/reports.h"
-#include "cases/runner/part.h"
+#include "cases/runner/shards/part.h"
 #include "tests/cases/runner/faulty_engine.h"
 #include "tests/folder.h"
 
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(a_thousand_parts_are_merged_in_seconds_to_the_very_same_rep
       error.value = cell.dt.seconds / 7, error.compared_until = 1;
     }
   }
-  const auto plans = plans_of(grid, engines(), options);
+  const auto plans = plans_of(grid, table, options);
   for (int k = 1; k <= kShards; ++k) {
     const Results share = share_of(grid, {k, kShards});
     Results done = share;
@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(a_thousand_parts_are_merged_in_seconds_to_the_very_same_rep
       }
     }
     folder.write(fmt::format("{}/{}", k, kPartFile),
-                 part_text({{k, kShards}, "1", "b", {"run"}, "", "", plans, 0}, share, done, engines(), options));
+                 part_text({{k, kShards}, "1", "b", {"run"}, "", "", plans, 0}, share, done, table, options));
   }
   const auto begin = std::chrono::steady_clock::now();
   std::vector<Part> parts;

@@ -1,4 +1,4 @@
-#include "cases/runner/part.h"
+#include "cases/runner/shards/part.h"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 
 #include "cases/runner/grid.h"
 #include "cases/runner/journal.h"
-#include "cases/runner/shard.h"
+#include "cases/runner/shards/shard.h"
 
 namespace rigor {
 

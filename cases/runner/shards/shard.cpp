@@ -1,4 +1,4 @@
-#include "cases/runner/shard.h"
+#include "cases/runner/shards/shard.h"
 
 #include <fmt/format.h>
 
