@@ -112,7 +112,10 @@ double joint_reach(const Scene& scene) {
   for (const Joint& joint : scene.joints) {
     const JointGeometry geometry(scene, joint);
     for (const JointEnd& end : {geometry.a(), geometry.b()}) {
-      if (end.body != kWorld && !scene.bodies[end.body].fixed) reach = std::max(reach, end.point.norm());
+      if (end.body == kWorld || scene.bodies[end.body].fixed) continue;
+      const Body& body = scene.bodies[end.body];
+      const double gyration = std::sqrt(body.inertia.trace() / (2 * body.mass));
+      reach = std::max({reach, end.point.norm(), gyration});
     }
     if (const auto* distance = std::get_if<DistanceJoint>(&joint.type)) {
       const BodyPose a = scene.pose(joint.a), b = scene.pose(joint.b);

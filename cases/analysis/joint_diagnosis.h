@@ -18,7 +18,8 @@ inline constexpr const char* kJointsTakeEnergy = "joint energy";
 // One run and one topic each, by run.
 std::vector<Diagnosis> joint_diagnoses(const Results& results, const CaseResult& result);
 
-// The largest reach [m] from a body's centre to a joint of its: what a gap is large or small beside.
+// The largest reach [m] from a body's centre to a joint of its, or the largest radius of gyration where that is more (a
+// slider holds the centre itself): what a gap is large or small beside.
 double joint_reach(const Scene& scene);
 
 // How many joints follow each other at most, from what stands still or else from an end of the mechanism.

@@ -2,6 +2,7 @@
 #include "cases/analysis/joint_diagnosis.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "tests/cases/report/jointed_results.h"
 
@@ -20,6 +21,9 @@ BOOST_AUTO_TEST_CASE(rows_and_masses_of_a_mechanism) {
   Scene loop = chain;  // closed to the world: no way to a body is longer than three joints
   loop.joints.push_back({.a = kWorld, .b = 4, .type = BallJoint{{5, 0, 0}}});
   BOOST_TEST(joints_in_a_row(loop) == 3);
+  Scene sliding = test::chain_of(1, 1);  // it is held at its centre: what else it reaches is how it is spread
+  sliding.joints[0].type = SliderJoint{Vec3::UnitX()};
+  BOOST_TEST(joint_reach(sliding) == std::sqrt(0.3 / 2), boost::test_tools::tolerance(1e-15));
   BOOST_TEST(joints_in_a_row(Scene()) == 0);
   BOOST_TEST(mass_ratio(Scene()) == 1);
 }
