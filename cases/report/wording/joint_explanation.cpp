@@ -47,12 +47,15 @@ std::string text_of_gap(const Diagnosis& found, const std::string& names) {
 
 std::string text_of_chain(const Diagnosis& found, const std::string& names, const std::string& other,
                           const Scene& scene) {
+  constexpr double kUneven = 1.5;
+  const double ratio = mass_ratio(scene);
+  const bool is_uneven = ratio > kUneven;
   return fmt::format(
-      "Why: sweeping from joint to joint, {} stretches {} joints in a row, of masses up to {:.3g} : 1, by {:.2g} m at "
-      "dt = {} s; {} leaves {:.2g} m. A sweep carries a load on by one joint, and by little of it past a light body "
-      "under a heavy one. {}",
-      names, joints_in_a_row(scene), mass_ratio(scene), found.value, found.over.front().first.text, other, found.beside,
-      found.cause);
+      "Why: sweeping from joint to joint, {} stretches {} joints in a row{}, by {:.2g} m at dt = {} s; {} leaves "
+      "{:.2g} m. A sweep carries a load on by one joint{}. {}",
+      names, joints_in_a_row(scene), is_uneven ? fmt::format(", of masses up to {:.3g} : 1", ratio) : "", found.value,
+      found.over.front().first.text, other, found.beside,
+      is_uneven ? ", and by little of it past a light body under a heavy one" : "", found.cause);
 }
 
 std::string text_of_energy(const Diagnosis& found, const std::string& names) {
