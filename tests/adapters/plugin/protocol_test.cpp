@@ -1,12 +1,15 @@
 // The published JSON Schemas against what Rigor and an engine really say to each other, and what they must refuse.
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "adapters/plugin/process_engine.h"
 #include "cases/case/suite.h"
@@ -24,6 +27,17 @@ namespace {
 std::string content(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+long whole_lines_of(const std::filesystem::path& path) {
+  const std::string text = content(path);
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+// tee hands a line on before it writes it down, so that an answer may be here before the file has it.
+void wait_for_as_many_lines(const std::filesystem::path& some, const std::filesystem::path& others) {
+  for (int n = 0; n < 1000 && whole_lines_of(some) != whole_lines_of(others); ++n)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 Json lines_of(const std::filesystem::path& path) {
@@ -52,6 +66,7 @@ Json recorded(const Folder& folder) {
   const auto diverging = engine.load(lost, settings);
   for (int n = 0; n < 9; ++n) diverging->step(1);
   diverging->read(now);
+  wait_for_as_many_lines(requests, answers);
   return {{"requests", lines_of(requests)}, {"answers", lines_of(answers)}};
 }
 
