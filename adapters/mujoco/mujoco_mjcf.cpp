@@ -204,9 +204,21 @@ class Writer {
     add("</equality>\n");
   }
 
+  // An equality has no coordinate that a spring, a damper or a motor could act on.
+  void refuse_drive(int index) const {
+    const Joint& joint = scene_.joints[index];
+    const bool has_motor = std::any_of(scene_.motors.begin(), scene_.motors.end(),
+                                       [&](const Motor& motor) { return motor.joint == index; });
+    if (joint.stiffness == 0 && joint.damping == 0 && !has_motor) return;
+    throw EngineFailure(FailureKind::unsupported,
+                        fmt::format("{} closes a loop of joints, where MuJoCo has no spring, damper or motor",
+                                    scene_.joint_name(static_cast<std::size_t>(index))));
+  }
+
   // A hinge is two points on its axis, a metre apart: of their six rows five count, which rows that give way bear.
   void write_loop(int index) {
     const Joint& joint = scene_.joints[index];
+    refuse_drive(index);
     const bool moves = joint.a != kWorld;  // an equality's first body is not the world
     const int first = moves ? joint.a : joint.b, second = moves ? joint.b : kWorld;
     const std::string other = second == kWorld ? "" : fmt::format(R"( body2="{}")", name_of(second));

@@ -162,6 +162,19 @@ BOOST_AUTO_TEST_CASE(what_it_cannot_say_is_refused) {
     return failure.kind() == FailureKind::unsupported &&
            std::string(failure.what()).find("closes a loop") != std::string::npos;
   });
+  for (const double damping : {0.0, 0.1}) {  // a hinge that closes a loop, driven
+    Scene loop = hung_by({.a = 0, .b = 1, .type = BallJoint{{1, 0.1, 0}}});
+    loop.joints.pop_back();
+    loop.joints.push_back({.a = 0, .b = 1, .type = HingeJoint{{1, 0.1, 0}, Vec3::UnitY()}});
+    loop.joints.push_back({.a = kWorld, .b = 1, .type = HingeJoint{{2, 0.3, 0.2}, Vec3::UnitY()}, .damping = damping});
+    loop.joints.push_back({.a = kWorld, .b = 0, .type = HingeJoint{{0, 0, 0}, Vec3::UnitY()}, .damping = damping});
+    Motor motor{.joint = 1, .speed = {}};
+    motor.effort = 1;
+    if (damping == 0) loop.motors = {motor, motor, motor}, loop.motors[1].joint = 2, loop.motors[2].joint = 3;
+    BOOST_CHECK_EXCEPTION(load_run("mujoco", loop), EngineFailure, [](const EngineFailure& failure) {
+      return std::string(failure.what()).find("no spring, damper or motor") != std::string::npos;
+    });
+  }
   Scene chain;
   for (int i = 0; i < 96; ++i) {
     chain.bodies.push_back(rod(fmt::format("link{}", i), {1.0 * i, 0, 0}));
