@@ -20,14 +20,6 @@ namespace {
 constexpr double kStep = 1.0 / 120;  // s
 constexpr int kSteps = 240;
 
-using States = std::vector<BodyState>;
-
-States states_of(const BodyTable& table) {
-  States states;
-  for (std::size_t i = 0; i < table.size(); ++i) states.push_back(table.columns().body(i));
-  return states;
-}
-
 States end_of(const Run& run, const Scene& scene, int steps = kSteps) {
   return states_of(state_after(*run.load(scene), kStep, steps));
 }

@@ -67,6 +67,14 @@ inline BodyTable state_after(World& world, double dt, int steps) {
   return state_of(world);
 }
 
+using States = std::vector<BodyState>;
+
+inline States states_of(const BodyTable& table) {
+  States states;
+  for (std::size_t i = 0; i < table.size(); ++i) states.push_back(table.columns().body(i));
+  return states;
+}
+
 inline bool same_bits(const BodyTable& a, const BodyTable& b) {
   if (a.size() != b.size() || a.has_rotation() != b.has_rotation()) return false;
   for (int c = 0; c < (a.has_rotation() ? 22 : 13); ++c) {

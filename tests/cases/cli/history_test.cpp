@@ -9,21 +9,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr const char* kThrown = R"(title = "thrown"
-[scene]
-gravity = [0, -10, 0]
-[[scene.body]]
-name = "stone"
-mass = 2
-inertia = [1, 1, 1]
-velocity = [1, 0, 0]
-[run]
-duration = 1
-dt = ["1/10"]
-[truth]
-kind = "projectile"
-)";
-
 struct Fixture : Program {
   Fixture() {
     folder.write("stone.toml", kThrown);

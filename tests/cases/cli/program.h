@@ -13,6 +13,22 @@
 
 namespace rigor {
 
+// Thrown without forces but gravity: semi-implicit Euler is off by g t dt/2 in position, 5 m/s × dt after 1 s.
+inline constexpr const char* kThrown = R"(title = "thrown"
+[scene]
+gravity = [0, -10, 0]
+[[scene.body]]
+name = "stone"
+mass = 2
+inertia = [1, 1, 1]
+velocity = [1, 0, 0]
+[run]
+duration = 1
+dt = ["1/10"]
+[truth]
+kind = "projectile"
+)";
+
 struct Program {
   struct Answer {
     int code;

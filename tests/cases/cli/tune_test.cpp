@@ -10,22 +10,6 @@ using Json = nlohmann::json;
 
 namespace {
 
-// Thrown without forces but gravity: semi-implicit Euler is off by g t dt/2 in position, 5 m/s × dt after 1 s.
-constexpr const char* kThrown = R"(title = "thrown"
-[scene]
-gravity = [0, -10, 0]
-[[scene.body]]
-name = "stone"
-mass = 2
-inertia = [1, 1, 1]
-velocity = [1, 0, 0]
-[run]
-duration = 1
-dt = ["1/10"]
-[truth]
-kind = "projectile"
-)";
-
 struct Fixture : Program {
   Fixture() { folder.write("stone.toml", kThrown); }
   Answer tune(std::vector<std::string> words) const {
