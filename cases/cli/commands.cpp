@@ -52,7 +52,7 @@ const std::vector<CommandRow>& commands() {
        {"--regression"},
        baseline_command},
       {"history",
-       "add a run's outcome to a history, or show how errors and costs moved along it",
+       "add a run's result to a history, or show how errors and costs moved along it",
        "ACTION",
        "add, and the folder of a run; or show, and parts of the names of the cases and engines to show",
        {"--file"},

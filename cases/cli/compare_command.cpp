@@ -32,7 +32,7 @@ int compare_command(const CommandLine& line, const EngineTable&) {
                     "baseline",
                     line.words.size()));
   }
-  const Outcomes before = read_outcomes(line.words[0]), after = read_outcomes(line.words[1]);
+  const Baseline before = read_baseline(line.words[0]), after = read_baseline(line.words[1]);
   const Changes changes = changes_between(before, after, line.factor);
   print_table(text_of(changes, line.factor));
   return changes.is_worse() ? kGateFailed : kGood;
@@ -47,7 +47,7 @@ int baseline_command(const CommandLine& line, const EngineTable&) {
     if (found.left_out > 0) say(fmt::format("{} cells have no value to record", found.left_out));
     return kGood;
   }
-  print(baseline_text(read_outcomes(line.words[0])));
+  print(baseline_text(read_baseline(line.words[0])));
   return kGood;
 }
 

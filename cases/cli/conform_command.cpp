@@ -17,54 +17,54 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* word_of(Outcome::Answer answer) {
-  return answer == Outcome::Answer::holds ? "holds" : answer == Outcome::Answer::broken ? "broken" : "not-asked";
+const char* word_of(CheckResult::Answer answer) {
+  return answer == CheckResult::Answer::holds ? "holds" : answer == CheckResult::Answer::broken ? "broken" : "not-asked";
 }
 
-Json json_of(const ConformanceCheck& check, const Outcome& outcome) {
-  Json json = {{"name", check.name}, {"asks", check.asks}, {"answer", word_of(outcome.answer)}};
-  if (outcome.answer == Outcome::Answer::broken)
-    json["sent"] = outcome.sent, json["came"] = outcome.came, json["due"] = outcome.due;
-  if (outcome.answer == Outcome::Answer::not_asked) json["why"] = outcome.why;
+Json json_of(const ConformanceCheck& check, const CheckResult& result) {
+  Json json = {{"name", check.name}, {"asks", check.asks}, {"answer", word_of(result.answer)}};
+  if (result.answer == CheckResult::Answer::broken)
+    json["sent"] = result.sent, json["came"] = result.came, json["due"] = result.due;
+  if (result.answer == CheckResult::Answer::not_asked) json["why"] = result.why;
   return json;
 }
 
 // One message a check, from `first` on.
-void send_outcomes(const Trial& trial, std::size_t first, const Channel& channel) {
+void send_results(const Trial& trial, std::size_t first, const Channel& channel) {
   const auto& checks = conformance_checks();
   for (std::size_t n = first; n < checks.size(); ++n) {
-    Outcome outcome;
+    CheckResult result;
     try {
-      outcome = outcome_of(checks[n], trial);
+      result = check_result(checks[n], trial);
     } catch (const EngineFailure& failure) {  // it hangs: nothing else would be answered either
-      outcome = {Outcome::Answer::broken, checks[n].asks, failure.what(), "an answer", ""};
-      channel.send(json_of(checks[n], outcome).dump(-1, ' ', false, Json::error_handler_t::replace));
+      result = {CheckResult::Answer::broken, checks[n].asks, failure.what(), "an answer", ""};
+      channel.send(json_of(checks[n], result).dump(-1, ' ', false, Json::error_handler_t::replace));
       while (++n < checks.size())
-        channel.send(json_of(checks[n], {Outcome::Answer::not_asked, "", "", "", "it no longer answered"}).dump());
+        channel.send(json_of(checks[n], {CheckResult::Answer::not_asked, "", "", "", "it no longer answered"}).dump());
       return;
     }
-    channel.send(json_of(checks[n], outcome).dump(-1, ' ', false, Json::error_handler_t::replace));
+    channel.send(json_of(checks[n], result).dump(-1, ' ', false, Json::error_handler_t::replace));
   }
 }
 
-Json outcomes_of(const Trial& trial, const EngineTable& engines, double limit) {
+Json results_of(const Trial& trial, const EngineTable& engines, double limit) {
   const auto& checks = conformance_checks();
-  Json outcomes = Json::array();
-  while (outcomes.size() < checks.size()) {
+  Json results = Json::array();
+  while (results.size() < checks.size()) {
     const auto work = [&](const Channel& channel) {
-      send_outcomes(trial, outcomes.size(), channel);
+      send_results(trial, results.size(), channel);
       engines.rest();
     };
-    const auto on_message = [&](std::size_t, const std::string& message) { outcomes.push_back(Json::parse(message)); };
+    const auto on_message = [&](std::size_t, const std::string& message) { results.push_back(Json::parse(message)); };
     const auto on_end = [&](std::size_t, const JobEnd& end) {
-      if (outcomes.size() == checks.size()) return;
-      const ConformanceCheck& check = checks[outcomes.size()];
-      outcomes.push_back(
-          json_of(check, {Outcome::Answer::broken, check.asks, sentence_of(end, limit), "an answer", ""}));
+      if (results.size() == checks.size()) return;
+      const ConformanceCheck& check = checks[results.size()];
+      results.push_back(
+          json_of(check, {CheckResult::Answer::broken, check.asks, sentence_of(end, limit), "an answer", ""}));
     };
     run_jobs({{work, limit}}, 1, on_message, on_end);
   }
-  return outcomes;
+  return results;
 }
 
 // A scene is a long line; what follows it is worth more.
@@ -74,9 +74,9 @@ std::string cut(const std::string& text) {
                                  : text.substr(0, kLongest / 2) + " ... " + text.substr(text.size() - kLongest / 2);
 }
 
-std::string table_of(const RunName& run, const Json& outcomes, bool holds) {
+std::string table_of(const RunName& run, const Json& results, bool holds) {
   std::string text = fmt::format("{}:\n", run.text);
-  for (const Json& row : outcomes) {
+  for (const Json& row : results) {
     const std::string answer = row.at("answer"), name = row.at("name"), asks = row.at("asks");
     const std::string sign = answer == "holds" ? "holds   " : answer == "broken" ? "BROKEN  " : "-       ";
     text += fmt::format("  {}{:<16}{}\n", sign, name, asks);
@@ -110,15 +110,15 @@ RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
 int conform_command(const CommandLine& line, const EngineTable& engines) {
   const RunName run = run_asked_for(line, engines);
   const Trial trial{engines.find(run.engine), engines.info_of(run.engine), run.settings};
-  const Json outcomes = outcomes_of(trial, engines, line.limit);
+  const Json results = results_of(trial, engines, line.limit);
   bool holds = true;
-  for (const Json& row : outcomes) holds = holds && row.at("answer") != "broken";
+  for (const Json& row : results) holds = holds && row.at("answer") != "broken";
   if (line.json) {
     print(
-        Json{{"engine", run.text}, {"version", trial.info.version}, {"conforms", holds}, {"checks", outcomes}}.dump(2) +
+        Json{{"engine", run.text}, {"version", trial.info.version}, {"conforms", holds}, {"checks", results}}.dump(2) +
         "\n");
   } else {
-    print_table(table_of(run, outcomes, holds));
+    print_table(table_of(run, results, holds));
   }
   return holds ? kGood : kGateFailed;
 }

@@ -1,4 +1,4 @@
-// rigor history: add a run's outcome to a file that keeps them from commit to commit, and show how they moved.
+// rigor history: add a run's result to a file that keeps them from commit to commit, and show how they moved.
 #include <fmt/format.h>
 
 #include <array>

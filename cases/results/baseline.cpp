@@ -86,8 +86,8 @@ const Json& object_at(const Json& json, const char* key, const std::string& plac
   return found;
 }
 
-Outcomes::Cell cell_from(const Json& json, const std::string& place) {
-  Outcomes::Cell cell{status_at(json, place), "", {}, {}};
+Baseline::Cell cell_from(const Json& json, const std::string& place) {
+  Baseline::Cell cell{status_at(json, place), "", {}, {}};
   if (const Json& verdict = json.at("verdict"); !verdict.is_null()) cell.verdict = verdict_at(verdict, "word", place);
   for (const auto& [name, metric] : object_at(json, "metrics", place).items()) {
     if (!is_compared(name)) continue;
@@ -102,7 +102,7 @@ Outcomes::Cell cell_from(const Json& json, const std::string& place) {
 
 // A gate's answers by what it asks, for its number changes with the file; the worst where several ask the same. That a
 // regression has nothing to hold a cell against says nothing of the cell.
-void add_gates(const Json& json, const std::string& place, Outcomes& out) {
+void add_gates(const Json& json, const std::string& place, Baseline& out) {
   for (const Json& gate : json.at("gates")) {
     for (const Json& answer : gate.at("answers")) {
       const std::string word = answer_at(answer, fmt::format("{}: gate of {}", place, text_at(gate, "metric")));
@@ -120,9 +120,9 @@ void check_schema(const Json& json) {
     throw InputError(fmt::format("its schema is {}; allowed: {} to {}", schema, kOldestSchema, kSchema));
 }
 
-Outcomes from_json(const Json& json) {
+Baseline from_json(const Json& json) {
   check_schema(json);
-  Outcomes out;
+  Baseline out;
   std::map<std::string, std::set<std::string>> settings;
   std::size_t index = 0;
   for (const Json& cell : json.at("cells")) {
@@ -143,7 +143,7 @@ Outcomes from_json(const Json& json) {
 }
 
 // One line of a baseline: the title, or a setting, an error, a gate's answer or a cell.
-void add_line(const Json& json, Outcomes& out) {
+void add_line(const Json& json, Baseline& out) {
   if (json.contains(kTitleKey)) {
     if (json.at(kTitleKey) != kForm) throw InputError(fmt::format("{} is not {}", kTitleKey, kForm));
     for (const Json& name : json.at("metrics")) out.left_out.insert(name.get<std::string>());
@@ -157,7 +157,7 @@ void add_line(const Json& json, Outcomes& out) {
     out.gates[joined({text_at(json, "case"), text_at(json, "gate"), text_at(json, "engine"), text_at(json, "dt")})] =
         answer_at(json, "gate");
   } else {
-    Outcomes::Cell cell{status_at(json, "cell"), "", {}, {}};
+    Baseline::Cell cell{status_at(json, "cell"), "", {}, {}};
     if (json.contains("verdict")) cell.verdict = verdict_at(json, "verdict", "cell");
     for (const auto& [name, value] : object_at(json, "metrics", "cell").items())
       cell.metrics[name] = value_from(value, name);
@@ -166,8 +166,8 @@ void add_line(const Json& json, Outcomes& out) {
   }
 }
 
-Outcomes from_baseline(const std::string& text) {
-  Outcomes out;
+Baseline from_baseline(const std::string& text) {
+  Baseline out;
   std::istringstream lines(text);
   int count = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -192,7 +192,7 @@ std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::e
 
 double rounded_to_four(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
-Json json_of(const std::string& key, const Outcomes::Cell& cell) {
+Json json_of(const std::string& key, const Baseline::Cell& cell) {
   const auto parts = split(key, "\t");
   Json json = {{"case", parts[0]}, {"engine", parts[1]}, {"dt", parts[2]}, {"status", cell.status}};
   if (!cell.verdict.empty()) json["verdict"] = cell.verdict;
@@ -208,7 +208,7 @@ Json json_of(const std::string& key, const Outcomes::Cell& cell) {
 
 }  // namespace
 
-Outcomes read_outcomes(const std::string& path) {
+Baseline read_baseline(const std::string& path) {
   const std::string text = read_input_file(path, "a results.json or a baseline");
   try {
     if (text.starts_with(kTabForm))
@@ -221,20 +221,20 @@ Outcomes read_outcomes(const std::string& path) {
   }
 }
 
-std::string baseline_text(const Outcomes& outcomes) {
-  std::set<std::string> names = outcomes.left_out;
-  for (const auto& [key, cell] : outcomes.cells) {
+std::string baseline_text(const Baseline& baseline) {
+  std::set<std::string> names = baseline.left_out;
+  for (const auto& [key, cell] : baseline.cells) {
     for (const auto& [name, value] : cell.metrics) names.insert(name);
   }
   std::string text = line_of({{kTitleKey, kForm}, {"metrics", names}});
-  for (const auto& [key, values] : outcomes.settings) {
+  for (const auto& [key, values] : baseline.settings) {
     const auto parts = split(key, "\t");
     text += line_of({{"engine", parts[0]}, {"setting", parts[1]}, {"values", split(values, kBetweenValues)}});
   }
-  for (const auto& [id, error] : outcomes.case_errors) text += line_of({{"case", id}, {"error", error}});
-  for (const auto& [key, cell] : outcomes.cells) text += line_of(json_of(key, cell));
+  for (const auto& [id, error] : baseline.case_errors) text += line_of({{"case", id}, {"error", error}});
+  for (const auto& [key, cell] : baseline.cells) text += line_of(json_of(key, cell));
   // A gate on one cell that holds follows from the cell's status.
-  for (const auto& [key, answer] : outcomes.gates) {
+  for (const auto& [key, answer] : baseline.gates) {
     if (answer == word_of(GateAnswer::held) && !key.ends_with('\t')) continue;
     const auto parts = split(key, "\t");
     text +=

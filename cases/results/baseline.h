@@ -10,7 +10,7 @@ namespace rigor {
 
 inline constexpr const char* kBetweenValues = " | ";
 
-struct Outcomes {
+struct Baseline {
   struct Cell {
     std::string status;                     // "pass", "fail", ...
     std::string verdict;                    // "stable", "gaining", ...; empty if there is none, or it is not known
@@ -27,9 +27,9 @@ struct Outcomes {
 
 // Of a results.json or of a baseline. Throws InputError, with the line or the place in the JSON, for a file that cannot
 // be read, is neither, or holds a status, an answer or a value that there is not.
-Outcomes read_outcomes(const std::string& path);
+Baseline read_baseline(const std::string& path);
 
 // Numbers have four digits: what changes less than that is not worth a line in a difference.
-std::string baseline_text(const Outcomes& outcomes);
+std::string baseline_text(const Baseline& baseline);
 
 }  // namespace rigor

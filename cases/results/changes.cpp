@@ -32,15 +32,15 @@ int badness(const std::string& status) {
 bool holds(const std::string& answer) { return answer == "held" || answer == "known deviation"; }
 
 // None where nobody measured it.
-std::optional<double> value_of(const Outcomes& outcomes, const Outcomes::Cell& cell, const std::string& metric) {
+std::optional<double> value_of(const Baseline& baseline, const Baseline::Cell& cell, const std::string& metric) {
   const auto found = cell.metrics.find(metric);
   if (found != cell.metrics.end()) return found->second;
-  return outcomes.left_out.contains(metric) ? std::optional(0.0) : std::nullopt;
+  return baseline.left_out.contains(metric) ? std::optional(0.0) : std::nullopt;
 }
 
-void compare_errors(const std::string& key, const Outcomes& before, const Outcomes& after, double factor,
+void compare_errors(const std::string& key, const Baseline& before, const Baseline& after, double factor,
                     Changes& out) {
-  const Outcomes::Cell &old_cell = before.cells.at(key), &new_cell = after.cells.at(key);
+  const Baseline::Cell &old_cell = before.cells.at(key), &new_cell = after.cells.at(key);
   std::set<std::string> names;
   for (const auto* cell : {&old_cell, &new_cell}) {
     for (const auto& [name, value] : cell->metrics) names.insert(name);
@@ -58,14 +58,14 @@ void compare_errors(const std::string& key, const Outcomes& before, const Outcom
 }
 
 // An older result may know fewer verdicts, or none.
-void compare_verdicts(const std::string& key, const Outcomes& before, const Outcomes& after, Changes& out) {
+void compare_verdicts(const std::string& key, const Baseline& before, const Baseline& after, Changes& out) {
   const std::string &was = before.cells.at(key).verdict, &is = after.cells.at(key).verdict;
   if (was.empty() || is.empty() || was == is) return;
   (verdict_of(is) > verdict_of(was) ? out.newly_failing : out.newly_passing)
       .push_back(fmt::format("{}: its verdict is {}, was {}", named(key), is, was));
 }
 
-void compare_cells(const std::string& key, const Outcomes& before, const Outcomes& after, double factor, Changes& out) {
+void compare_cells(const std::string& key, const Baseline& before, const Baseline& after, double factor, Changes& out) {
   const std::string &was = before.cells.at(key).status, &is = after.cells.at(key).status;
   if (badness(was) != badness(is)) {
     (badness(is) > badness(was) ? out.newly_failing : out.newly_passing)
@@ -77,14 +77,14 @@ void compare_cells(const std::string& key, const Outcomes& before, const Outcome
   compare_errors(key, before, after, factor, out);
 }
 
-std::set<std::string> cases_of(const Outcomes& outcomes) {
+std::set<std::string> cases_of(const Baseline& baseline) {
   std::set<std::string> ids;
-  for (const auto& [key, cell] : outcomes.cells) ids.insert(key.substr(0, key.find('\t')));
+  for (const auto& [key, cell] : baseline.cells) ids.insert(key.substr(0, key.find('\t')));
   return ids;
 }
 
 // What is in one and not in the other: whole cases by their name, else cells.
-std::vector<std::string> only_in(const Outcomes& one, const Outcomes& other) {
+std::vector<std::string> only_in(const Baseline& one, const Baseline& other) {
   const auto of_other = cases_of(other);
   std::vector<std::string> names;
   for (const std::string& id : cases_of(one)) {
@@ -97,14 +97,14 @@ std::vector<std::string> only_in(const Outcomes& one, const Outcomes& other) {
 }
 
 // A gate that is not listed held, or is not there; its cell tells.
-void compare_gates(const Outcomes& before, const Outcomes& after, Changes& out) {
+void compare_gates(const Baseline& before, const Baseline& after, Changes& out) {
   std::set<std::string> keys;
-  for (const auto* outcomes : {&before, &after}) {
-    for (const auto& [key, answer] : outcomes->gates) keys.insert(key);
+  for (const auto* baseline : {&before, &after}) {
+    for (const auto& [key, answer] : baseline->gates) keys.insert(key);
   }
-  const auto answer_of = [](const Outcomes& outcomes, const std::string& key) {
-    const auto found = outcomes.gates.find(key);
-    return found == outcomes.gates.end() ? std::string("held") : found->second;
+  const auto answer_of = [](const Baseline& baseline, const std::string& key) {
+    const auto found = baseline.gates.find(key);
+    return found == baseline.gates.end() ? std::string("held") : found->second;
   };
   for (const std::string& key : keys) {
     const std::string was = answer_of(before, key), is = answer_of(after, key);
@@ -126,7 +126,7 @@ std::set<std::string> values_in(const std::string& listed) {
 
 // A setting may have one value for each of several scenes, and not all scenes be in both: it differs if there is a
 // value now that was not there before.
-void compare_settings(const Outcomes& before, const Outcomes& after, Changes& out) {
+void compare_settings(const Baseline& before, const Baseline& after, Changes& out) {
   for (const auto& [key, now] : after.settings) {
     const auto was = before.settings.find(key);
     if (was == before.settings.end()) continue;
@@ -145,20 +145,20 @@ std::string section(const std::string& heading, const std::vector<std::string>& 
 
 }  // namespace
 
-Changes changes_between(const Outcomes& old_outcomes, const Outcomes& new_outcomes, double factor) {
+Changes changes_between(const Baseline& old_baseline, const Baseline& new_baseline, double factor) {
   Changes out;
-  for (const auto& [key, cell] : new_outcomes.cells) {
-    if (old_outcomes.cells.contains(key)) compare_cells(key, old_outcomes, new_outcomes, factor, out);
+  for (const auto& [key, cell] : new_baseline.cells) {
+    if (old_baseline.cells.contains(key)) compare_cells(key, old_baseline, new_baseline, factor, out);
   }
-  compare_gates(old_outcomes, new_outcomes, out);
-  for (const auto& [id, error] : new_outcomes.case_errors) {
-    if (!old_outcomes.case_errors.contains(id)) out.newly_failing.push_back(fmt::format("{}: {}", id, error));
+  compare_gates(old_baseline, new_baseline, out);
+  for (const auto& [id, error] : new_baseline.case_errors) {
+    if (!old_baseline.case_errors.contains(id)) out.newly_failing.push_back(fmt::format("{}: {}", id, error));
   }
-  for (const auto& [id, error] : old_outcomes.case_errors) {
-    if (!new_outcomes.case_errors.contains(id)) out.newly_passing.push_back(fmt::format("{}: was {}", id, error));
+  for (const auto& [id, error] : old_baseline.case_errors) {
+    if (!new_baseline.case_errors.contains(id)) out.newly_passing.push_back(fmt::format("{}: was {}", id, error));
   }
-  compare_settings(old_outcomes, new_outcomes, out);
-  out.added = only_in(new_outcomes, old_outcomes), out.gone = only_in(old_outcomes, new_outcomes);
+  compare_settings(old_baseline, new_baseline, out);
+  out.added = only_in(new_baseline, old_baseline), out.gone = only_in(old_baseline, new_baseline);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// What changed from one run's outcomes to another's, beyond noise.
+// What changed from one run's baseline to another's, beyond noise.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ struct Changes {
   bool is_worse() const { return !newly_failing.empty() || !grown.empty() || !lost.empty() || !gone.empty(); }
 };
 
-Changes changes_between(const Outcomes& old_outcomes, const Outcomes& new_outcomes, double factor = kDefaultFactor);
+Changes changes_between(const Baseline& old_baseline, const Baseline& new_baseline, double factor = kDefaultFactor);
 
 std::string text_of(const Changes& changes, double factor);
 

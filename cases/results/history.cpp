@@ -76,9 +76,9 @@ void check_ends_with_a_line(const std::string& file) {
 }  // namespace
 
 HistoryEntry history_entry(const std::string& results_file, const std::string& commit, const std::string& date) {
-  const Outcomes outcomes = read_outcomes(results_file);
+  const Baseline baseline = read_baseline(results_file);
   HistoryEntry entry{commit, date, "", {}};
-  for (const auto& [key, cell] : outcomes.cells) {
+  for (const auto& [key, cell] : baseline.cells) {
     HistoryEntry::Cell& kept = entry.cells[key];
     kept.status = cell.status;
     for (const auto& [name, value] : cell.metrics) kept.metrics[name] = finite_to_four(value);

@@ -21,10 +21,10 @@ std::string text_of(const Quat& q) {
 
 }  // namespace
 
-Outcome holds() { return {}; }
-Outcome not_asked(const std::string& why) { return {Outcome::Answer::not_asked, "", "", "", why}; }
-Outcome broken(const std::string& sent, const std::string& came, const std::string& due) {
-  return {Outcome::Answer::broken, sent, came, due, ""};
+CheckResult holds() { return {}; }
+CheckResult not_asked(const std::string& why) { return {CheckResult::Answer::not_asked, "", "", "", why}; }
+CheckResult broken(const std::string& sent, const std::string& came, const std::string& due) {
+  return {CheckResult::Answer::broken, sent, came, due, ""};
 }
 
 double rounding_of(const Trial& trial) {
@@ -33,20 +33,20 @@ double rounding_of(const Trial& trial) {
 }
 
 void Comparison::number(const std::string& what, double came, double due, double tolerance) {
-  if (outcome_.answer == Outcome::Answer::broken || std::abs(came - due) <= tolerance) return;
-  outcome_ =
+  if (result_.answer == CheckResult::Answer::broken || std::abs(came - due) <= tolerance) return;
+  result_ =
       broken(sent_, fmt::format("{} {:.12g}", what, came), fmt::format("{:.12g}, give or take {:.2g}", due, tolerance));
 }
 
 void Comparison::vector(const std::string& what, const Vec3& came, const Vec3& due, double tolerance) {
-  if (outcome_.answer == Outcome::Answer::broken || (came - due).norm() <= tolerance) return;
-  outcome_ = broken(sent_, fmt::format("{} {}", what, text_of(came)),
+  if (result_.answer == CheckResult::Answer::broken || (came - due).norm() <= tolerance) return;
+  result_ = broken(sent_, fmt::format("{} {}", what, text_of(came)),
                     fmt::format("{}, give or take {:.2g}", text_of(due), tolerance));
 }
 
 void Comparison::orientation(const Quat& came, const Quat& due, double tolerance) {
-  if (outcome_.answer == Outcome::Answer::broken || angle_between(came, due) <= tolerance) return;
-  outcome_ = broken(sent_, fmt::format("orientation (w, x, y, z) {}", text_of(came)),
+  if (result_.answer == CheckResult::Answer::broken || angle_between(came, due) <= tolerance) return;
+  result_ = broken(sent_, fmt::format("orientation (w, x, y, z) {}", text_of(came)),
                     fmt::format("{}, give or take {:.2g} rad", text_of(due), tolerance));
 }
 
@@ -122,7 +122,7 @@ const std::vector<ConformanceCheck>& conformance_checks() {
   return table;
 }
 
-Outcome outcome_of(const ConformanceCheck& check, const Trial& trial) {
+CheckResult check_result(const ConformanceCheck& check, const Trial& trial) {
   try {
     return check.run(trial);
   } catch (const EngineFailure& failure) {

@@ -10,7 +10,7 @@
 
 namespace rigor {
 
-struct Outcome {
+struct CheckResult {
   enum class Answer { holds, broken, not_asked } answer = Answer::holds;
   std::string sent, came, due;  // of a check that is broken
   std::string why;              // one was not asked
@@ -26,12 +26,12 @@ struct Trial {
 struct ConformanceCheck {
   std::string name;
   std::string asks;  // what holds, as a sentence
-  Outcome (*run)(const Trial& trial);
+  CheckResult (*run)(const Trial& trial);
 };
 
 const std::vector<ConformanceCheck>& conformance_checks();  // in the order in which they are of use to an author
 
-// The check's outcome; an engine that throws, or that does not answer, breaks it.
-Outcome outcome_of(const ConformanceCheck& check, const Trial& trial);
+// The check's result; an engine that throws, or that does not answer, breaks it.
+CheckResult check_result(const ConformanceCheck& check, const Trial& trial);
 
 }  // namespace rigor

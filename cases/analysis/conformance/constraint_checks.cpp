@@ -53,7 +53,7 @@ std::vector<Joined> joined_rods() {
           {"universal", UniversalJoint{origin, y, z}, keeps_anchor}};
 }
 
-Outcome of_joint(const Trial& trial, const Joined& joined) {
+CheckResult of_joint(const Trial& trial, const Joined& joined) {
   Body rod;
   rod.name = "rod", rod.position = {0.5, 0, 0}, rod.inertia = Vec3(0.01, 0.09, 0.09).asDiagonal();
   Scene scene = scene_of(rod, {1, 0.5, -9.81});
@@ -66,15 +66,15 @@ Outcome of_joint(const Trial& trial, const Joined& joined) {
   // What moves at all has moved after half a second.
   if (joined.type != "fixed" && (came.position - rod.position).norm() < 0.1)
     return broken(world.sent() + "; read", "a body that stands still", "one that swings or slides down");
-  return is.outcome();
+  return is.result();
 }
 
-Outcome joints_hold(const Trial& trial) {
+CheckResult joints_hold(const Trial& trial) {
   int asked = 0;
   for (const Joined& joined : joined_rods()) {
-    const Outcome outcome = of_joint(trial, joined);
-    if (outcome.answer == Outcome::Answer::broken) return outcome;
-    asked += outcome.answer == Outcome::Answer::holds;
+    const CheckResult result = of_joint(trial, joined);
+    if (result.answer == CheckResult::Answer::broken) return result;
+    asked += result.answer == CheckResult::Answer::holds;
   }
   return asked > 0 ? holds() : not_asked("it declares no joint");
 }
@@ -104,7 +104,7 @@ std::string take_friction(const Trial& trial, Scene& scene) {
   return why;
 }
 
-Outcome of_contact(const Trial& trial, const Resting& pair) {
+CheckResult of_contact(const Trial& trial, const Resting& pair) {
   const double drop = 0.05;
   Scene scene;
   scene.gravity = {0, 0, -9.81};
@@ -115,19 +115,19 @@ Outcome of_contact(const Trial& trial, const Resting& pair) {
   const BodyState came = world.step(kStep, 240).state().columns().body(0);
   Comparison is(world.sent() + "; read");
   is.number("the height of 'above' [m]", came.position.z(), pair.height, kSlack);
-  return is.outcome();
+  return is.result();
 }
 
-Outcome bodies_rest_on_each_other(const Trial& trial) {
+CheckResult bodies_rest_on_each_other(const Trial& trial) {
   int asked = 0;
   std::string why = "it declares no contact";
   for (const Resting& pair : resting_pairs()) {
     const std::string feature = contact_feature(shape_name(pair.above), shape_name(pair.below));
     if (!trial.info.features.contains(feature)) continue;
-    const Outcome outcome = of_contact(trial, pair);
-    if (outcome.answer == Outcome::Answer::broken) return outcome;
-    if (outcome.answer == Outcome::Answer::not_asked) why = outcome.why;
-    asked += outcome.answer == Outcome::Answer::holds;
+    const CheckResult result = of_contact(trial, pair);
+    if (result.answer == CheckResult::Answer::broken) return result;
+    if (result.answer == CheckResult::Answer::not_asked) why = result.why;
+    asked += result.answer == CheckResult::Answer::holds;
   }
   return asked > 0 ? holds() : not_asked(why);
 }

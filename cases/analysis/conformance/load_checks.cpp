@@ -12,7 +12,7 @@
 namespace rigor::conformance {
 namespace {
 
-Outcome a_force_acts_while_it_is_there(const Trial& trial) {
+CheckResult a_force_acts_while_it_is_there(const Trial& trial) {
   const double dt = 1.0 / 64, eps = rounding_of(trial);
   const Body body = round_body();
   Scene scene = scene_of(body);
@@ -31,7 +31,7 @@ Outcome a_force_acts_while_it_is_there(const Trial& trial) {
   Comparison cleared(world.sent() + "; read");
   cleared.vector("velocity ten steps after it", later.velocity, velocity, 200 * eps);
   cleared.vector("angular velocity ten steps after it", later.angular_velocity, pushed.angular_velocity, 200 * eps);
-  return push.outcome().answer == Outcome::Answer::broken ? push.outcome() : cleared.outcome();
+  return push.result().answer == CheckResult::Answer::broken ? push.result() : cleared.result();
 }
 
 // The course's cube, hung off-centre from the world by a damped spring.
@@ -49,7 +49,7 @@ Scene hanging_cube() {
   return scene;
 }
 
-Outcome a_spring_converges(const Trial& trial) {
+CheckResult a_spring_converges(const Trial& trial) {
   const Scene scene = hanging_cube();
   if (const std::string why = why_not(trial, scene, 1e-3); !why.empty()) return not_asked(why);
   BodyTable truth(1);
@@ -65,14 +65,14 @@ Outcome a_spring_converges(const Trial& trial) {
   Comparison spring(sent);
   // A first-order step is off by about dt x 3 m/s, and an explicit one swells by e^(w² dt/2) beside it, 1.4 here.
   spring.number("a distance [m] from the truth of", fine, 0, 5.0 / 1000 + rounding);
-  if (spring.outcome().answer == Outcome::Answer::broken) return spring.outcome();
+  if (spring.result().answer == CheckResult::Answer::broken) return spring.result();
   if (fine <= coarse / 1.6 + rounding) return holds();  // halving the step halves it at least: wrenches are held
   return broken(sent + "; and the same in 500 steps",
                 fmt::format("{:.3g} m from the truth, and {:.3g} m", fine, coarse),
                 fmt::format("at most {:.3g} m", coarse / 1.6 + rounding));
 }
 
-Outcome a_pair_keeps_its_momentum(const Trial& trial) {
+CheckResult a_pair_keeps_its_momentum(const Trial& trial) {
   Scene scene = scene_of(odd_body());
   Body other = round_body();
   other.name = "other", other.mass = 2, other.position += Vec3(1, 0.5, 0), other.velocity = {-0.3, 0.2, 0};
@@ -92,11 +92,11 @@ Outcome a_pair_keeps_its_momentum(const Trial& trial) {
   const Vec3 before = momentum(world.state()), after = momentum(world.step(1e-2, 200).state());
   Comparison kept(world.sent() + "; read");
   kept.vector("linear momentum [kg m/s]", after, before, 2e3 * rounding_of(trial));  // ten roundings a step
-  return kept.outcome();
+  return kept.result();
 }
 
 // A thousand turns of a stiff oscillator: what is symplectic only sways about its energy.
-Outcome symplectic_is_as_it_says(const Trial& trial) {
+CheckResult symplectic_is_as_it_says(const Trial& trial) {
   if (!method_of(trial.info, trial.settings).symplectic) return not_asked("it does not say that it is symplectic");
   constexpr int kSteps = 3000, kWindow = 210;  // ten turns
   const double dt = 0.3;

@@ -20,7 +20,7 @@ BodyState truth_at(const Scene& scene, double t) {
 
 const MethodInfo& method_of(const Trial& trial) { return rigor::method_of(trial.info, trial.settings); }
 
-Outcome a_ball_goes_straight(const Trial& trial) {
+CheckResult a_ball_goes_straight(const Trial& trial) {
   const Body body = round_body();
   const double dt = 1e-2, t = 1, eps = rounding_of(trial);
   TriedWorld world(trial, scene_of(body));
@@ -33,10 +33,10 @@ Outcome a_ball_goes_straight(const Trial& trial) {
   // The crudest update turns by atan(w dt) in a step.
   const double w = body.angular_velocity.norm(), lag = w * w * w * dt * dt / 3 * t;
   straight.orientation(came.orientation, rotation_by(body.angular_velocity * t) * body.orientation, lag + 1e3 * eps);
-  return straight.outcome();
+  return straight.result();
 }
 
-Outcome it_neither_sleeps_nor_damps(const Trial& trial) {
+CheckResult it_neither_sleeps_nor_damps(const Trial& trial) {
   if (trial.settings.track != Track::matched) return not_asked("as shipped it may");
   Body slow = round_body();
   slow.velocity = {1e-3, 0, 0}, slow.angular_velocity = {0, 1e-3, 0};
@@ -46,11 +46,11 @@ Outcome it_neither_sleeps_nor_damps(const Trial& trial) {
   const double rounding = 300 * rounding_of(trial) * 1e-3;
   even.vector("velocity", came.velocity, slow.velocity, rounding);
   even.vector("angular velocity", came.angular_velocity, slow.angular_velocity, 10 * rounding);
-  return even.outcome();
+  return even.result();
 }
 
 // A semi-implicit step falls g dt t / 2 too far, an explicit one as much too little, others are nearer.
-Outcome it_falls_as_its_order_says(const Trial& trial) {
+CheckResult it_falls_as_its_order_says(const Trial& trial) {
   const double dt = 1.0 / 30, t = 1, eps = rounding_of(trial);
   const Scene scene = scene_of(round_body(), {3, -2, -9});
   TriedWorld world(trial, scene);
@@ -68,7 +68,7 @@ Outcome it_falls_as_its_order_says(const Trial& trial) {
   } else {
     fall.vector("position", came, parabola, half_step.norm() + rounding);
   }
-  return fall.outcome();
+  return fall.result();
 }
 
 struct OrderFound {
@@ -91,7 +91,7 @@ OrderFound errors_of_top(const Trial& trial, int steps) {
   return found;
 }
 
-Outcome a_top_turns_as_its_order_says(const Trial& trial) {
+CheckResult a_top_turns_as_its_order_says(const Trial& trial) {
   constexpr int kSteps = 100;
   const OrderFound found = errors_of_top(trial, kSteps);
   const double rounding = 20 * kSteps * rounding_of(trial);  // ten of numbers of about 1 for each step of the longer
@@ -100,7 +100,7 @@ Outcome a_top_turns_as_its_order_says(const Trial& trial) {
   constexpr double kFirstOrder = 2.0 / kSteps;
   Comparison top(found.sent + "; read");
   top.number("an error [rad, rad/s] of", found.coarse, 0, kFirstOrder + rounding);
-  if (top.outcome().answer == Outcome::Answer::broken || method_of(trial).adaptive) return top.outcome();
+  if (top.result().answer == CheckResult::Answer::broken || method_of(trial).adaptive) return top.result();
   // Halving the step divides the error by 2^order, less a tenth for the next term.
   const double due = found.coarse / (0.8 * std::pow(2, method_of(trial).order)) + rounding;
   if (found.fine <= due) return holds();
@@ -109,7 +109,7 @@ Outcome a_top_turns_as_its_order_says(const Trial& trial) {
                 fmt::format("at most {:.3g} at half the step: order {}", due, method_of(trial).order));
 }
 
-Outcome a_turned_world_turns_the_motion(const Trial& trial) {
+CheckResult a_turned_world_turns_the_motion(const Trial& trial) {
   const Scene scene = scene_of(odd_body(), {1, 2, -9.81});
   const Quat turn = rotation_by({0.7, -1.1, 0.4});
   const BodyState here = TriedWorld(trial, scene).step(1.0 / 120, 120).state().columns().body(0);
@@ -122,7 +122,7 @@ Outcome a_turned_world_turns_the_motion(const Trial& trial) {
   same.vector("velocity", there.velocity, turn * here.velocity, rounding);
   same.vector("angular velocity", there.angular_velocity, turn * here.angular_velocity, rounding);
   same.orientation(there.orientation, turn * here.orientation, rounding);
-  return same.outcome();
+  return same.result();
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<std::string> known_features() {
   return words;
 }
 
-Outcome says_what_it_is(const Trial& trial) {
+CheckResult says_what_it_is(const Trial& trial) {
   const auto known = known_features();
   for (const std::string& feature : trial.info.features) {
     if (std::find(known.begin(), known.end(), feature) != known.end()) continue;
@@ -34,7 +34,7 @@ Outcome says_what_it_is(const Trial& trial) {
   return holds();
 }
 
-Outcome time_advances_by_dt(const Trial& trial) {
+CheckResult time_advances_by_dt(const Trial& trial) {
   TriedWorld world(trial, scene_of(round_body()));
   Comparison is("");
   if (const double t = world.time(); t != 0)
@@ -46,7 +46,7 @@ Outcome time_advances_by_dt(const Trial& trial) {
   // Thirty roundings of a sum.
   time.number("time", after, 1, 30 * rounding_of(trial));
   time.number("time", world.time(), 1.25, 30 * rounding_of(trial));
-  return time.outcome();
+  return time.result();
 }
 
 // Bodies as unlike each other as they can be, told apart by every number.
@@ -62,7 +62,7 @@ Scene three_bodies() {
   return scene;
 }
 
-Outcome load_then_read_is_the_scene(const Trial& trial) {
+CheckResult load_then_read_is_the_scene(const Trial& trial) {
   const Scene scene = three_bodies();
   TriedWorld world(trial, scene);
   const BodyTable state = world.state();
@@ -80,10 +80,10 @@ Outcome load_then_read_is_the_scene(const Trial& trial) {
     same.vector("angular velocity" + of, came.angular_velocity, due.angular_velocity,
                 20 * eps * due.angular_velocity.norm());
   }
-  return same.outcome();
+  return same.result();
 }
 
-Outcome a_fixed_body_stays(const Trial& trial) {
+CheckResult a_fixed_body_stays(const Trial& trial) {
   Body fixed = round_body();
   fixed.fixed = true, fixed.velocity = fixed.angular_velocity = Vec3::Zero();
   const Scene scene = scene_of(fixed, {0, 0, -9.81});
@@ -94,10 +94,10 @@ Outcome a_fixed_body_stays(const Trial& trial) {
   same.vector("position", came.position, fixed.position, 2 * rounding_of(trial) * fixed.position.norm());
   same.vector("velocity", came.velocity, Vec3::Zero(), 0);
   same.vector("angular velocity", came.angular_velocity, Vec3::Zero(), 0);
-  return same.outcome();
+  return same.result();
 }
 
-Outcome difference_in_bits(const std::string& sent, const BodyTable& came, const BodyTable& due) {
+CheckResult difference_in_bits(const std::string& sent, const BodyTable& came, const BodyTable& due) {
   for (int c = 0; c < 13; ++c) {
     for (std::size_t i = 0; i < due.size(); ++i) {
       const double a = came.columns().column(c)[i], b = due.columns().column(c)[i];
@@ -109,7 +109,7 @@ Outcome difference_in_bits(const std::string& sent, const BodyTable& came, const
   return holds();
 }
 
-Outcome two_runs_give_the_same_bits(const Trial& trial) {
+CheckResult two_runs_give_the_same_bits(const Trial& trial) {
   const Scene scene = scene_of(odd_body(), {1, 2, -9.81});
   const BodyTable first = TriedWorld(trial, scene).step(1.0 / 120, 60).state();
   TriedWorld second(trial, scene);
@@ -117,7 +117,7 @@ Outcome two_runs_give_the_same_bits(const Trial& trial) {
   return difference_in_bits(second.sent() + "; read, twice", second.state(), first);
 }
 
-Outcome worlds_are_apart(const Trial& trial) {
+CheckResult worlds_are_apart(const Trial& trial) {
   const Scene scene = scene_of(odd_body(), {1, 2, -9.81});
   const BodyTable alone = TriedWorld(trial, scene).step(1.0 / 120, 20).state();
   TriedWorld other(trial, three_bodies()), world(trial, scene);
@@ -125,7 +125,7 @@ Outcome worlds_are_apart(const Trial& trial) {
   return difference_in_bits(world.sent() + ", in turn with steps of another world; read", world.state(), alone);
 }
 
-Outcome run_is_as_many_steps(const Trial& trial) {
+CheckResult run_is_as_many_steps(const Trial& trial) {
   const Scene scene = scene_of(odd_body(), {1, 2, -9.81});
   constexpr int kSteps = 50, kEvery = 7;
   const BodyTable stepped = TriedWorld(trial, scene).step(1e-2, kSteps).state();
@@ -140,7 +140,7 @@ Outcome run_is_as_many_steps(const Trial& trial) {
                             BodyTable(now.bodies()), stepped);
 }
 
-Outcome what_is_not_declared_is_refused(const Trial& trial) {
+CheckResult what_is_not_declared_is_refused(const Trial& trial) {
   Scene scene = scene_of(round_body());
   const std::vector<decltype(Joint::type)> types = {BallJoint{{0, 0, 0}}, HingeJoint{{0, 0, 0}, {0, 0, 1}},
                                                     SliderJoint{{0, 0, 1}}, FixedJoint{}};

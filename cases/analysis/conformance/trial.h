@@ -7,9 +7,9 @@
 
 namespace rigor::conformance {
 
-Outcome holds();
-Outcome not_asked(const std::string& why);
-Outcome broken(const std::string& sent, const std::string& came, const std::string& due);
+CheckResult holds();
+CheckResult not_asked(const std::string& why);
+CheckResult broken(const std::string& sent, const std::string& came, const std::string& due);
 
 // The unit roundoff of the numbers that the engine says it holds.
 double rounding_of(const Trial& trial);
@@ -21,11 +21,11 @@ class Comparison {
   void number(const std::string& what, double came, double due, double tolerance);
   void vector(const std::string& what, const Vec3& came, const Vec3& due, double tolerance);
   void orientation(const Quat& came, const Quat& due, double tolerance);  // rad
-  Outcome outcome() const { return outcome_; }
+  CheckResult result() const { return result_; }
 
  private:
   std::string sent_;
-  Outcome outcome_;
+  CheckResult result_;
 };
 
 // A world that remembers what was asked of it.

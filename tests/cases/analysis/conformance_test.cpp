@@ -21,11 +21,11 @@ Trial trial_of(const Engine& engine, const std::string& run) {
 }
 
 // The checks that this engine breaks, with what they say.
-std::map<std::string, Outcome> broken_by(const Trial& trial) {
-  std::map<std::string, Outcome> found;
+std::map<std::string, CheckResult> broken_by(const Trial& trial) {
+  std::map<std::string, CheckResult> found;
   for (const ConformanceCheck& check : conformance_checks()) {
-    const Outcome outcome = outcome_of(check, trial);
-    if (outcome.answer == Outcome::Answer::broken) found[check.name] = outcome;
+    const CheckResult result = check_result(check, trial);
+    if (result.answer == CheckResult::Answer::broken) found[check.name] = result;
   }
   return found;
 }
@@ -140,8 +140,8 @@ BOOST_AUTO_TEST_SUITE(cases_analysis_conformance)
 
 BOOST_AUTO_TEST_CASE(every_engine_of_the_table_conforms) {
   for (const EngineInfo& info : engines().infos()) {
-    for (const auto& [check, outcome] : broken_by(trial_of(engines().find(info.name), info.name)))
-      BOOST_ERROR(info.name << ": " << check << ": came " << outcome.came << ", due " << outcome.due);
+    for (const auto& [check, result] : broken_by(trial_of(engines().find(info.name), info.name)))
+      BOOST_ERROR(info.name << ": " << check << ": came " << result.came << ", due " << result.due);
   }
 }
 
@@ -151,8 +151,8 @@ BOOST_AUTO_TEST_CASE(each_mistake_is_found_and_told_with_what_was_sent_what_came
       const BrokenEngine engine(engines().find("ode"), mistake.fault);
       const auto found = broken_by(trial_of(engine, "ode"));
       BOOST_TEST_REQUIRE(found.contains(mistake.found_by));
-      const Outcome& outcome = found.at(mistake.found_by);
-      BOOST_TEST((!outcome.sent.empty() && !outcome.came.empty() && !outcome.due.empty()));
+      const CheckResult& result = found.at(mistake.found_by);
+      BOOST_TEST((!result.sent.empty() && !result.came.empty() && !result.due.empty()));
     }
   }
 }

@@ -29,14 +29,14 @@ Results gated_results(double limit = 1) {
   return grid;
 }
 
-Outcomes outcomes_of(const Results& grid) {
+Baseline outcomes_of(const Results& grid) {
   const Folder folder;
-  return read_outcomes(folder.write("results.json", json_report(grid)));
+  return read_baseline(folder.write("results.json", json_report(grid)));
 }
 
-Outcomes by_way_of_a_baseline(const Outcomes& outcomes) {
+Baseline by_way_of_a_baseline(const Baseline& baseline) {
   const Folder folder;
-  return read_outcomes(folder.write("baseline.txt", baseline_text(outcomes)));
+  return read_baseline(folder.write("baseline.txt", baseline_text(baseline)));
 }
 
 Cell& good_cell(Results& grid) { return grid.cases.front().cells.front(); }
@@ -44,7 +44,7 @@ Cell& good_cell(Results& grid) { return grid.cases.front().cells.front(); }
 // Both by results.json alone and with a baseline for the old one.
 template <typename Check>
 void both_ways(const Results& before, const Results& after, const Check& check) {
-  const Outcomes was = outcomes_of(before), is = outcomes_of(after);
+  const Baseline was = outcomes_of(before), is = outcomes_of(after);
   check(changes_between(was, is));
   check(changes_between(by_way_of_a_baseline(was), is));
 }
@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(a_verdict_that_nobody_knows_is_refused) {
   const std::string file = folder.write("b", R"({"rigor_baseline":2,"metrics":[]}
 {"case":"a","engine":"b","dt":"1","status":"pass","verdict":"fine","metrics":{}}
 )");
-  BOOST_CHECK_EXCEPTION(read_outcomes(file), InputError, says("line 2: cell: no such verdict: fine"));
+  BOOST_CHECK_EXCEPTION(read_baseline(file), InputError, says("line 2: cell: no such verdict: fine"));
 }
 
 BOOST_AUTO_TEST_CASE(an_error_that_grows_beyond_the_factor_is_worse_and_one_that_shrinks_is_told) {
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(results_that_say_what_there_is_not_are_refused_with_the_pla
     auto json = nlohmann::json::parse(json_report(gated_results()));
     change(json);
     try {
-      read_outcomes(folder.write("results.json", json.dump()));
+      read_baseline(folder.write("results.json", json.dump()));
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -240,13 +240,13 @@ BOOST_AUTO_TEST_CASE(a_baseline_is_lines_of_json_and_says_the_same_when_written_
   }
   BOOST_TEST(has_cell, text);
   const Folder folder;
-  BOOST_TEST(baseline_text(read_outcomes(folder.write("b", text))) == text);
+  BOOST_TEST(baseline_text(read_baseline(folder.write("b", text))) == text);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_neither_is_refused_with_its_name) {
   const Folder folder;
-  const auto read = [&](const std::string& text) { return read_outcomes(folder.write("file", text)); };
-  BOOST_CHECK_EXCEPTION(read_outcomes((folder.path / "none").string()), InputError, says("cannot be read"));
+  const auto read = [&](const std::string& text) { return read_baseline(folder.write("file", text)); };
+  BOOST_CHECK_EXCEPTION(read_baseline((folder.path / "none").string()), InputError, says("cannot be read"));
   for (const char* text : {"", "{}", "[1]", "not json", "{\"schema\": 1}", "{\"schema\": \"1\"}"})
     BOOST_CHECK_EXCEPTION(read(text), InputError, says("neither"));
   BOOST_CHECK_EXCEPTION(read("{\"schema\": 99}"), InputError, says("99"));
@@ -267,7 +267,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_regular_file_is_refused) {
   const std::string pipe = (folder.path / "pipe").string();
   BOOST_REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   for (const std::string& path : {folder.path.string(), pipe, std::string("/dev/zero")})
-    BOOST_CHECK_EXCEPTION(read_outcomes(path), InputError, says("not a regular file"));
+    BOOST_CHECK_EXCEPTION(read_baseline(path), InputError, says("not a regular file"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
