@@ -75,7 +75,7 @@ bool something_broke(const Results& grid) {
 }
 
 // On a GitHub runner: annotations on stdout, where it looks for them, and the job's summary.
-void tell_the_runner(const Results& grid, const std::vector<Shortfall>& rows) {
+void tell_the_runner(const Results& grid, const std::vector<Failure>& rows) {
   const char *is_one = std::getenv("GITHUB_ACTIONS"), *summary = std::getenv("GITHUB_STEP_SUMMARY");
   if (is_one && std::string(is_one) == "true") print_table(annotations(rows));
   if (!summary || !*summary) return;
@@ -86,8 +86,8 @@ void tell_the_runner(const Results& grid, const std::vector<Shortfall>& rows) {
 }
 
 // Of the whole suite each gate of a family has to meet something; of a part of it, another part may be meant.
-std::vector<Shortfall> unmet_of_whole_suite(const CommandLine& line, const Results& grid) {
-  std::vector<Shortfall> rows;
+std::vector<Failure> unmet_of_whole_suite(const CommandLine& line, const Results& grid) {
+  std::vector<Failure> rows;
   if (!line.words.empty() || !line.engines.empty() || !line.dt.empty() || line.quick) return rows;
   for (const Gate& gate : unmet_family_gates(grid))
     rows.push_back(
@@ -96,10 +96,10 @@ std::vector<Shortfall> unmet_of_whole_suite(const CommandLine& line, const Resul
 }
 
 int answer_of_gate(const GridRun& run, int ending) {
-  std::vector<Shortfall> rows = shortfalls(run.grid);
-  const std::vector<Shortfall> unmet = unmet_of_whole_suite(run.line, run.grid);
+  std::vector<Failure> rows = failures(run.grid);
+  const std::vector<Failure> unmet = unmet_of_whole_suite(run.line, run.grid);
   rows.insert(rows.end(), unmet.begin(), unmet.end());
-  print_table(console_table(run.grid) + gate_summary(run.grid) + shortfalls_text(rows));
+  print_table(console_table(run.grid) + gate_summary(run.grid) + failures_text(rows));
   tell_the_runner(run.grid, rows);
   return ending == kGood && !(all_gates_hold(run.grid) && unmet.empty()) ? int{kGateFailed} : ending;
 }

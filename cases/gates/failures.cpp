@@ -29,9 +29,9 @@ std::string worst_text(const GateResult& answer, const Scene& scene) {
                      worst.component, worst.found, worst.expected);
 }
 
-Shortfall of_gate(const CaseResult& result, const GateResult& answer) {
+Failure of_gate(const CaseResult& result, const GateResult& answer) {
   const Gate& gate = result.definition.gates[answer.gate];
-  Shortfall row{result.definition.id, answer.engine, answer.dt, gate.metric, "", limit_of(gate), "", "", gate.where};
+  Failure row{result.definition.id, answer.engine, answer.dt, gate.metric, "", limit_of(gate), "", "", gate.where};
   const std::string unit = gate.at_least_order ? "" : unit_after(gate.metric);
   row.found = answer.value ? fmt::format("{:.6g}{}", *answer.value, unit) : word_of(answer.answer);
   row.worst = worst_text(answer, result.definition.scene);
@@ -45,14 +45,14 @@ Shortfall of_gate(const CaseResult& result, const GateResult& answer) {
 bool came_to_nothing(const Cell& cell, const CaseResult& result, const Results& results) {
   if (cell.status != Status::invalid) return cell.status == Status::crashed || cell.status == Status::timed_out;
   return std::any_of(result.gates.begin(), result.gates.end(), [&](const GateResult& answer) {
-    return answer.engine == results.runs[cell.run].text && answer.dt == cell.dt.text && falls_short(answer.answer);
+    return answer.engine == results.runs[cell.run].text && answer.dt == cell.dt.text && is_failure(answer.answer);
   });
 }
 
 }  // namespace
 
-std::vector<Shortfall> shortfalls(const Results& results) {
-  std::vector<Shortfall> rows;
+std::vector<Failure> failures(const Results& results) {
+  std::vector<Failure> rows;
   for (const CaseResult& result : results.cases) {
     const Case& definition = result.definition;
     if (!result.error.empty())
@@ -63,7 +63,7 @@ std::vector<Shortfall> shortfalls(const Results& results) {
                         cell.reason, ""});
     }
     for (const GateResult& answer : result.gates) {
-      if (falls_short(answer.answer)) rows.push_back(of_gate(result, answer));
+      if (is_failure(answer.answer)) rows.push_back(of_gate(result, answer));
     }
   }
   return rows;

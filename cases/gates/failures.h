@@ -9,7 +9,7 @@
 
 namespace rigor {
 
-struct Shortfall {
+struct Failure {
   std::string case_id, engine, dt;  // the last two empty where it is not about one run or step
   std::string what;                 // the metric, or the status of a cell: "crashed"
   std::string found, limit;         // "0.0612 m", "at most 0.06 m"
@@ -18,6 +18,6 @@ struct Shortfall {
   std::string where;                // "file:line:column" of the gate or the row that says so; may be empty
 };
 
-std::vector<Shortfall> shortfalls(const Results& results);
+std::vector<Failure> failures(const Results& results);
 
 }  // namespace rigor

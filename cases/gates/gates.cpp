@@ -293,7 +293,7 @@ void check_gates(CaseResult& result, const Results& grid, const RecordedValues& 
 bool all_gates_hold(const Results& grid) {
   return std::all_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& result) {
     return result.error.empty() && std::none_of(result.gates.begin(), result.gates.end(),
-                                                [](const GateResult& gate) { return falls_short(gate.answer); });
+                                                [](const GateResult& gate) { return is_failure(gate.answer); });
   });
 }
 

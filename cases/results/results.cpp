@@ -36,7 +36,7 @@ MetricValue condensed(const MetricResult& result, const Trajectory& trajectory) 
   return out;
 }
 
-bool falls_short(GateAnswer answer) {
+bool is_failure(GateAnswer answer) {
   return answer == GateAnswer::failed || answer == GateAnswer::not_checked || answer == GateAnswer::unexpected_pass;
 }
 

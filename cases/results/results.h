@@ -44,7 +44,7 @@ struct SchemeFindings {
 // is no value to hold the cell's against.
 enum class GateAnswer { held, failed, not_checked, known_deviation, unexpected_pass, not_recorded };
 std::string word_of(GateAnswer answer);
-bool falls_short(GateAnswer answer);  // whether `rigor gate` may not answer with exit code 0
+bool is_failure(GateAnswer answer);  // whether `rigor gate` may not answer with exit code 0
 struct GateResult {
   std::size_t gate = 0;  // index in Case::gates
   std::string engine;    // a run's name; empty if the gate met no cell at all

@@ -99,7 +99,7 @@ std::string row_line(const RowText& row) {
 std::string gate_lines(const CaseResult& result, bool with_unchecked) {
   std::string lines;
   for (const GateResult& gate : result.gates) {
-    if (!falls_short(gate.answer) || (gate.answer == GateAnswer::not_checked && !with_unchecked)) continue;
+    if (!is_failure(gate.answer) || (gate.answer == GateAnswer::not_checked && !with_unchecked)) continue;
     const std::string kind = kind_of(result.definition.gates[gate.gate]);
     lines += "  " + wrapped(fmt::format("{} {}: {}", kind, word_of(gate.answer), gate.text), 4) + "\n";
   }
@@ -215,10 +215,10 @@ std::string console_table(const Results& results) {
   return text + count_line(results);
 }
 
-std::string shortfalls_text(const std::vector<Shortfall>& rows) {
+std::string failures_text(const std::vector<Failure>& rows) {
   if (rows.empty()) return "";
   std::string text = fmt::format("what fell short: {}\n", rows.size());
-  for (const Shortfall& row : rows) {
+  for (const Failure& row : rows) {
     std::string line = row.case_id;
     if (!row.engine.empty()) line += fmt::format(", {}", row.engine);
     if (!row.dt.empty()) line += fmt::format(", dt = {} s", row.dt);

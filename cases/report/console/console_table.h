@@ -12,7 +12,7 @@ namespace rigor {
 std::string console_table(const Results& results);
 
 // What fell short, a paragraph each, worst things first.
-std::string shortfalls_text(const std::vector<Shortfall>& rows);
+std::string failures_text(const std::vector<Failure>& rows);
 
 // How many gates held, failed and were not checked.
 std::string gate_summary(const Results& results);

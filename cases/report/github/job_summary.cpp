@@ -46,7 +46,7 @@ std::string counts_by_case(const Results& results) {
 }  // namespace
 
 std::string job_summary(const Results& results, std::size_t longest) {
-  const std::vector<Shortfall> rows = shortfalls(results);
+  const std::vector<Failure> rows = failures(results);
   std::string text = fmt::format("## Rigor: {}\n\n{}\n", rows.empty() ? "all gates hold" : "gates fell short",
                                  plain(gate_summary(results)));
   if (!rows.empty())
@@ -54,7 +54,7 @@ std::string job_summary(const Results& results, std::size_t longest) {
         "| case | engine | dt [s] | gate | found | wanted | worst instant | because "
         "|\n|---|---|---|---|---|---|---|---|\n";
   std::size_t shown = 0;
-  for (const Shortfall& row : rows) {
+  for (const Failure& row : rows) {
     const std::string line =
         fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", plain(row.case_id), plain(row.engine), plain(row.dt),
                     plain(row.what), plain(row.found), plain(row.limit), plain(row.worst), plain(row.because));
@@ -66,9 +66,9 @@ std::string job_summary(const Results& results, std::size_t longest) {
   return text.size() + counts.size() <= longest ? text + counts : text;
 }
 
-std::string annotations(const std::vector<Shortfall>& rows) {
+std::string annotations(const std::vector<Failure>& rows) {
   std::string text;
-  for (const Shortfall& row : rows) {
+  for (const Failure& row : rows) {
     const std::string title = fmt::format("{}: {}", row.case_id, row.what);
     text +=
         fmt::format("::error {}title={}::{}\n", place_of(row.where), percent_encoded(title, true),

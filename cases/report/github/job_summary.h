@@ -14,6 +14,6 @@ inline constexpr std::size_t kLongestSummary = 200000;  // bytes
 std::string job_summary(const Results& results, std::size_t longest = kLongestSummary);
 
 // One `::error file=...,line=...::` line a row.
-std::string annotations(const std::vector<Shortfall>& rows);
+std::string annotations(const std::vector<Failure>& rows);
 
 }  // namespace rigor

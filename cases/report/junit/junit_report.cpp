@@ -75,7 +75,7 @@ TestCase of_cell(const Results& results, const CaseResult& result, const Cell& c
   for (const GateResult& answer : result.gates) {
     if (answer.engine != run || answer.dt != cell.dt.text) continue;
     const Gate& gate = result.definition.gates[answer.gate];
-    if (falls_short(answer.answer)) {
+    if (is_failure(answer.answer)) {
       if (test.kind != "error") test.kind = "failure";
       if (test.type.empty()) test.type = gate.metric;
       add_line(test, kind_of(gate) + ": " + answer.text);
@@ -91,7 +91,7 @@ TestCase of_answer(const CaseResult& result, const GateResult& answer) {
   const Gate& gate = result.definition.gates[answer.gate];
   const std::string of = answer.engine.empty() ? "" : " " + answer.engine;
   TestCase test{fmt::format("gate {}{}", answer.gate + 1, of), result.definition.id, 0, "", "", "", ""};
-  if (falls_short(answer.answer))
+  if (is_failure(answer.answer))
     test.kind = "failure", test.type = gate.metric, add_line(test, kind_of(gate) + ": " + answer.text);
   if (answer.answer == GateAnswer::known_deviation) test.kind = "skipped", add_line(test, answer.text);
   return test;

@@ -84,12 +84,12 @@ BOOST_AUTO_TEST_CASE(an_invalid_cell_fails_only_where_a_value_is_recorded) {
   result().cells[0].status = Status::invalid;
   check_gates(result(), grid);
   BOOST_TEST((result().gates.front().answer == GateAnswer::not_recorded));
-  const auto of_cell = [](const Shortfall& row) { return row.engine == "good"; };
-  auto rows = shortfalls(grid);
+  const auto of_cell = [](const Failure& row) { return row.engine == "good"; };
+  auto rows = failures(grid);
   BOOST_TEST(std::none_of(rows.begin(), rows.end(), of_cell));
   check_gates(result(), grid, recorded(kLine));
   BOOST_TEST((result().gates.front().answer == GateAnswer::failed));
-  rows = shortfalls(grid);
+  rows = failures(grid);
   BOOST_TEST(std::count_if(rows.begin(), rows.end(), of_cell) == 2);  // as a cell and for its gate
 }
 

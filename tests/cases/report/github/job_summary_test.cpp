@@ -26,10 +26,10 @@ Results failing_results() {
 BOOST_AUTO_TEST_SUITE(cases_report_github_job_summary)
 
 BOOST_AUTO_TEST_CASE(a_row_has_the_worst_instant_and_both_values_and_the_reason) {
-  const auto rows = shortfalls(failing_results());
+  const auto rows = failures(failing_results());
   // Two cells of "good"; of "wild" the one that blew up, and the one that crashed twice: as a cell and for its gate.
   BOOST_TEST_REQUIRE(rows.size() == 5u);
-  const auto good = std::find_if(rows.begin(), rows.end(), [](const Shortfall& row) { return row.engine == "good"; });
+  const auto good = std::find_if(rows.begin(), rows.end(), [](const Failure& row) { return row.engine == "good"; });
   BOOST_TEST(good->what == "position_error");
   BOOST_TEST(good->found == "0.25 m");
   BOOST_TEST(good->limit == "at most 0.125 m");
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(a_long_summary_is_cut_between_rows_and_says_so) {
 }
 
 BOOST_AUTO_TEST_CASE(an_annotation_points_at_the_gate_in_its_file) {
-  const std::string text = annotations(shortfalls(failing_results()));
+  const std::string text = annotations(failures(failing_results()));
   BOOST_TEST(std::count(text.begin(), text.end(), '\n') == 5);
   BOOST_TEST(text.find("::error file=suite/a%2C b.toml,line=7,col=3,title=family/case%3A position_error::good at dt = "
                        "1/10: found 0.25 m, wanted at most 0.125 m; worst at 0.3 s") != std::string::npos,
@@ -70,9 +70,9 @@ BOOST_AUTO_TEST_CASE(nothing_is_said_of_gates_that_hold) {
   grid.cases.front().cells.erase(grid.cases.front().cells.begin() + 2, grid.cases.front().cells.end());
   grid.cases.front().definition.gates.front().max = 1;
   check_gates(grid.cases.front(), grid);
-  BOOST_TEST(shortfalls(grid).empty());
-  BOOST_TEST(shortfalls(grid).empty());
-  BOOST_TEST(annotations(shortfalls(grid)).empty());
+  BOOST_TEST(failures(grid).empty());
+  BOOST_TEST(failures(grid).empty());
+  BOOST_TEST(annotations(failures(grid)).empty());
   BOOST_TEST(job_summary(grid).find("all gates hold") != std::string::npos);
 }
 
