@@ -22,10 +22,10 @@ bool is_pile(const CaseResult& result) {
 // Bodies that should stay together part, with a share of the speed they met with. One that keeps more than half has not
 // been stopped at all.
 std::optional<Diagnosis> overlap_given_back(const CaseResult& result, const MetricOverSteps& restitution) {
-  constexpr double kWorthSaying = 0.02, kMostGivenBack = 0.5;
+  constexpr double kNotable = 0.02, kMostGivenBack = 0.5;
   for (std::size_t i = restitution.values.size(); i-- > 0;) {
     const Instant& worst = restitution.values[i]->worst;
-    if (worst.expected != 0 || worst.found < kWorthSaying || worst.found > kMostGivenBack) continue;
+    if (worst.expected != 0 || worst.found < kNotable || worst.found > kMostGivenBack) continue;
     Diagnosis one =
         diagnosis_of(kOverlapGivenBack, result, restitution, i, worst.found, how_it_corrects(*restitution.cells[i]));
     one.over = {one.over[i]};
@@ -36,7 +36,7 @@ std::optional<Diagnosis> overlap_given_back(const CaseResult& result, const Metr
 
 // Of a first-order engine the error falls with dt; this one's is, at some finer step, larger than at the coarsest.
 std::optional<Diagnosis> unconverged(const CaseResult& result, const MetricOverSteps& restitution) {
-  constexpr double kWorthSaying = 0.05;
+  constexpr double kNotable = 0.05;
   if (restitution.values.size() < 2 || is_pile(result)) return std::nullopt;
   double later = 0;
   std::size_t at = 0;
@@ -44,14 +44,14 @@ std::optional<Diagnosis> unconverged(const CaseResult& result, const MetricOverS
     if (restitution.values[i]->worst.expected > 0 && restitution.values[i]->value > later)
       later = restitution.values[i]->value, at = i;
   }
-  if (later < kWorthSaying || later <= restitution.values.front()->value) return std::nullopt;
+  if (later < kNotable || later <= restitution.values.front()->value) return std::nullopt;
   return diagnosis_of(kUnconverged, result, restitution, at, later,
                       in_its_words(*restitution.cells.front(), "restitution"));
 }
 
 std::optional<Diagnosis> friction_with_directions(const CaseResult& result, const MetricOverSteps& anisotropy) {
-  constexpr double kWorthSaying = 0.1;
-  if (anisotropy.values.empty() || anisotropy.values.back()->value < kWorthSaying) return std::nullopt;
+  constexpr double kNotable = 0.1;
+  if (anisotropy.values.empty() || anisotropy.values.back()->value < kNotable) return std::nullopt;
   return diagnosis_of(kFrictionDirections, result, anisotropy, anisotropy.values.size() - 1,
                       anisotropy.values.back()->value, in_its_words(*anisotropy.cells.back(), "friction"));
 }

@@ -85,14 +85,14 @@ std::optional<Diagnosis> joints_part(const CaseResult& result, const MetricOverS
 // Of first order in dt, step by step: what a position's error makes of the energy is of second. Only of engines that
 // say how they correct their joints: of ours the method explains the energy.
 std::optional<Diagnosis> joints_take_energy(const CaseResult& result, const MetricOverSteps& drifts) {
-  constexpr double kWorthSaying = 0.01, kAll = 1;  // of what is in play
+  constexpr double kNotable = 0.01, kAll = 1;  // of what is in play
   if (drifts.cells.size() < 2 || may_change_energy(result.definition.scene)) return std::nullopt;
   if (setting_of(*drifts.cells.front(), "erp").empty()) return std::nullopt;
   const bool only_losses = std::all_of(drifts.values.begin(), drifts.values.end(), [](const MetricValue* drift) {
     return drift->worst.found < drift->worst.expected;
   });
   const double coarse = drifts.values.front()->value;
-  if (!only_losses || coarse < kWorthSaying || coarse > kAll) return std::nullopt;
+  if (!only_losses || coarse < kNotable || coarse > kAll) return std::nullopt;
   constexpr double kLeast = 0.6, kMost = 1.5;  // that is neither none nor second order
   double order = 0;
   for (std::size_t n = 1; n < drifts.cells.size(); ++n) {

@@ -144,8 +144,8 @@ class Explainer {
       if (method.leapfrog_stagger == 0 || cell.stability.verdict == Verdict::blown_up) return;
       if (raw == cell.metrics.end() || synchronised == cell.metrics.end()) return;
       if (!raw->second.not_applicable.empty() || !synchronised->second.not_applicable.empty()) return;
-      constexpr double kWorthSaying = 1e-3;
-      if (raw->second.value > 3 * synchronised->second.value && raw->second.value > kWorthSaying)
+      constexpr double kNotable = 1e-3;
+      if (raw->second.value > 3 * synchronised->second.value && raw->second.value > kNotable)
         append(list, name_of(cell));
     });
     if (list.empty()) return;
@@ -164,14 +164,14 @@ class Explainer {
 
   // Energy that the engine and its twin lose or gain alike, and that the twin keeps once its gyroscopic term is off.
   void explain_gyroscopic_loss() {
-    constexpr double kWorthSaying = 0.01, kAlike = 1e-3, kGone = 0.1;
+    constexpr double kNotable = 0.01, kAlike = 1e-3, kGone = 0.1;
     std::map<std::string, std::string> names;  // by what is said of them
     for_headline_cells([&](const Cell& cell, const MethodInfo&) {
       const double engine = signed_drift(cell.metrics, "energy_drift"),
                    scheme = signed_drift(cell.scheme.metrics, "energy_drift"),
                    without = signed_drift(cell.scheme.without_gyroscopic_term, "energy_drift"),
                    momentum = signed_drift(cell.scheme.without_gyroscopic_term, "angular_momentum_drift");
-      const bool is_it = std::abs(engine) > kWorthSaying && std::abs(engine - scheme) < kAlike * std::abs(engine) &&
+      const bool is_it = std::abs(engine) > kNotable && std::abs(engine - scheme) < kAlike * std::abs(engine) &&
                          std::abs(without) < kGone * std::abs(engine);
       if (!is_it) return;
       const std::string wrong =

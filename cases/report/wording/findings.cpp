@@ -94,9 +94,9 @@ class Finder {
   }
 
   // What is said of each that failed; of ours likewise, or only how many of them did.
-  std::string losers(Sayings theirs, const Sayings& said_of_ours, const std::vector<std::size_t>& ours,
+  std::string losers(GroupedWording theirs, const GroupedWording& text_of_ours, const std::vector<std::size_t>& ours,
                      std::size_t all_ours) const {
-    ours.size() > kFewOfOurs ? theirs.add(brief(ours, all_ours), " in some") : theirs.add(said_of_ours);
+    ours.size() > kFewOfOurs ? theirs.add(brief(ours, all_ours), " in some") : theirs.add(text_of_ours);
     return theirs.text();
   }
 
@@ -115,7 +115,7 @@ class Finder {
 
   void say_who_blows_up() {
     std::vector<std::size_t> steady, ours;
-    Sayings lost, of_ours, where;
+    GroupedWording lost, of_ours, where;
     for (const std::size_t run : runs()) {
       std::vector<std::string> blown;
       std::size_t ran = 0;
@@ -147,7 +147,7 @@ class Finder {
     }
     std::vector<std::string> ids;
     std::vector<std::size_t> stable, drifting, ours;
-    Sayings lost, of_ours;
+    GroupedWording lost, of_ours;
     for (const CaseResult* result : stiff) ids.push_back(result->definition.id);
     for (const std::size_t run : runs()) {
       std::size_t ran = 0, blown = 0, drifts = 0;
@@ -260,17 +260,17 @@ class Finder {
 
   // Energy that seems to come and go because velocities are read half a step apart from positions.
   void say_what_sampling_does() {
-    constexpr double kWorthSaying = 0.01, kKept = 0.01;  // of the largest kinetic energy: as read, and in truth
+    constexpr double kNotable = 0.01, kKept = 0.01;  // of the largest kinetic energy: as read, and in truth
     std::map<std::string, std::vector<std::size_t>> said;
     std::vector<std::string> cases;
     for (const std::size_t run : runs()) {
       if (is_ours(run) || !is_common(run)) continue;
-      double largest = kWorthSaying, then = 0;
+      double largest = kNotable, then = 0;
       std::string where;
       for_cells(run, [&](const CaseResult& result, const Cell& cell) {
         const double raw = std::abs(value_of(cell.metrics, kDrift)),
                      synchronised = std::abs(value_of(cell.metrics, "energy_drift_synchronised"));
-        if (cell.stability.verdict == Verdict::blown_up || !(synchronised < kKept) || !(raw > kWorthSaying)) return;
+        if (cell.stability.verdict == Verdict::blown_up || !(synchronised < kKept) || !(raw > kNotable)) return;
         const std::string& id = result.definition.id;
         if (std::find(cases.begin(), cases.end(), id) == cases.end()) cases.push_back(id);
         if (raw > largest) largest = raw, then = synchronised, where = id;
