@@ -21,12 +21,12 @@ bool ContactModes::solve(BodyColumns state, const double* wrench) {
   accelerations_ = state;
   const MutableBodyColumns table = accelerations_.columns();
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const auto [linear, angular] = held_.free_acceleration(state, wrench, static_cast<int>(i));
+    const auto [linear, angular] = persistent_.free_acceleration(state, wrench, static_cast<int>(i));
     table.set_velocity(i, linear), table.set_angular_velocity(i, angular);
   }
   cones_.clear();
   size_ = kLeastSize;
-  for (const HeldPoint& point : held_.points()) {
+  for (const PersistentPoint& point : persistent_.points()) {
     ConeConstraint cone = point.contact.cone;
     cone.arm_a = point.arm_a, cone.arm_b = point.arm_b, cone.frame = point.frame;
     cone.offset = point.bias;
@@ -36,7 +36,7 @@ bool ContactModes::solve(BodyColumns state, const double* wrench) {
     cones_.push_back(cone);
   }
   for (std::size_t i = 0; i < cones_.size(); ++i) {
-    const HeldPoint& point = held_.points()[i];
+    const PersistentPoint& point = persistent_.points()[i];
     const double slip = point.velocity.tail<2>().norm();
     if (slip > kSliding && std::isfinite(point.friction()))
       cones_[i].offset.tail<2>() += kSlip * size_ / slip * point.velocity.tail<2>();
@@ -49,16 +49,16 @@ bool ContactModes::solve(BodyColumns state, const double* wrench) {
 }
 
 Vec3 ContactModes::acceleration_of(std::size_t point) const {
-  return ConeSolver::velocity_at(cones_[point], accelerations_.columns()) + held_.points()[point].bias;
+  return ConeSolver::velocity_at(cones_[point], accelerations_.columns()) + persistent_.points()[point].bias;
 }
 
 bool ContactModes::choose(BodyColumns state, const double* wrench) {
-  std::vector<HeldPoint>& points = held_.points();
-  held_.place(state);
+  std::vector<PersistentPoint>& points = persistent_.points();
+  persistent_.place(state);
   if (!solve(state, wrench)) return false;
-  std::vector<HeldPoint> kept;
+  std::vector<PersistentPoint> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    HeldPoint& point = points[i];
+    PersistentPoint& point = points[i];
     const Vec3 acceleration = acceleration_of(i);
     if (acceleration.x() > kParting * size_) continue;
     if (point.velocity.x() > kSeparating && !(cones_[i].impulse.x() > 0)) continue;
@@ -66,7 +66,7 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
     const bool slides = slip.norm() > kSliding && std::isfinite(point.friction());
     point.begins_to_slip = !slides && std::isfinite(point.friction()) && change.norm() > kSlipping * size_;
     point.mode =
-        slides || point.begins_to_slip || point.friction() == 0 ? HeldPoint::Mode::slides : HeldPoint::Mode::sticks;
+        slides || point.begins_to_slip || point.friction() == 0 ? PersistentPoint::Mode::slides : PersistentPoint::Mode::sticks;
     point.slip_direction.setZero();
     if (slides) point.slip_direction = point.frame.rightCols<2>() * slip.normalized();
     if (point.begins_to_slip) point.slip_direction = point.frame.rightCols<2>() * change.normalized();
@@ -81,22 +81,22 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
 // Where points slide, how their forces are shared out matters, and of the least forces some may pull: without their
 // points the others carry the body. False if it then sinks there, for which there are no forces (Painlevé).
 bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) {
-  std::vector<HeldPoint>& points = held_.points();
-  std::vector<HeldPoint> dropped;
-  while (held_.has_friction_of_slip()) {
-    held_.begin_attempt();
-    held_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
+  std::vector<PersistentPoint>& points = persistent_.points();
+  std::vector<PersistentPoint> dropped;
+  while (persistent_.has_friction_of_slip()) {
+    persistent_.begin_attempt();
+    persistent_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
     const auto least = std::min_element(
-        points.begin(), points.end(), [](const HeldPoint& a, const HeldPoint& b) { return a.force.x() < b.force.x(); });
-    if (least->force.x() >= -kPulling * held_.largest_force()) break;
+        points.begin(), points.end(), [](const PersistentPoint& a, const PersistentPoint& b) { return a.force.x() < b.force.x(); });
+    if (least->force.x() >= -kPulling * persistent_.largest_force()) break;
     dropped.push_back(*least);
     points.erase(least);
   }
   if (dropped.empty()) return true;
-  held_.begin_attempt();
-  const double* total = held_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
-  return std::none_of(dropped.begin(), dropped.end(), [&](HeldPoint& point) {
-    return held_.normal_acceleration(state, total, point) < -kParting * size_;
+  persistent_.begin_attempt();
+  const double* total = persistent_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
+  return std::none_of(dropped.begin(), dropped.end(), [&](PersistentPoint& point) {
+    return persistent_.normal_acceleration(state, total, point) < -kParting * size_;
   });
 }
 
@@ -114,10 +114,10 @@ bool ContactModes::are_at_rest(BodyColumns state) const {
 double ContactModes::violation(BodyColumns state, const double* wrench) {
   const bool has_settled = solve(state, wrench);
   double most = has_settled ? -1 : 1;
-  for (std::size_t i = 0; i < held_.points().size(); ++i) {
+  for (std::size_t i = 0; i < persistent_.points().size(); ++i) {
     const Vec3 acceleration = acceleration_of(i) / size_;
     most = std::max(most, acceleration.x() - kEnding * kParting);
-    if (held_.points()[i].mode == HeldPoint::Mode::sticks)
+    if (persistent_.points()[i].mode == PersistentPoint::Mode::sticks)
       most = std::max(most, acceleration.tail<2>().norm() - kEnding * kSlipping);
   }
   return most;

@@ -2,23 +2,23 @@
 // that obey the contact laws in accelerations, with the laws of an impact's velocities,
 //   0 <= u'_n ⊥ f_n >= 0,   |f_t| <= mu f_n, against u'_t where that is not zero; of a point that slides, against u_t.
 // Where the points are more than the motion can tell apart this finds some forces within the cones if there are any,
-// which HeldForces, of the same accelerations, need not be.
+// which PersistentForces, of the same accelerations, need not be.
 #pragma once
 
-#include "core/dynamics/contact/event/held_forces.h"
+#include "core/dynamics/contact/event/persistent_forces.h"
 
 namespace rigor {
 
 class ContactModes {
  public:
-  ContactModes(const System& system, HeldForces& held) : solver_(system), system_(system), held_(held) {}
+  ContactModes(const System& system, PersistentForces& held) : solver_(system), system_(system), persistent_(held) {}
 
-  // Gives each of the held points its mode, and drops those that part. False if no forces were found.
+  // Gives each of the persistent points its mode, and drops those that part. False if no forces were found.
   bool choose(BodyColumns state, const double* wrench);
   // Whether, after choose(), nothing moves and nothing begins to.
   bool are_at_rest(BodyColumns state) const;
   // By how much the modes that the points have break the laws at this instant, of the accelerations: more than 0 where
-  // others have to be chosen. After held_.hold() there.
+  // others have to be chosen. After persistent_.hold() there.
   double violation(BodyColumns state, const double* wrench);
 
   // m/s: what slides more slowly sticks, if the cone allows it, 5e-15 m/(m/s²) before it would stop.
@@ -31,7 +31,7 @@ class ContactModes {
 
   ConeSolver solver_;
   const System& system_;
-  HeldForces& held_;
+  PersistentForces& persistent_;
   std::vector<ConeConstraint> cones_;
   BodyTable accelerations_;
   double size_ = 0;  // m/s²

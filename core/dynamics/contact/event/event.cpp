@@ -149,7 +149,7 @@ class EventStepper : public ContactStepper {
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
     return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
       const auto [a, b] = pair;
-      const auto is_of_pair = [&](const HeldPoint& held) { return held.contact.a == a && held.contact.b == b; };
+      const auto is_of_pair = [&](const PersistentPoint& held) { return held.contact.a == a && held.contact.b == b; };
       if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair))
         return true;
       const Collider &first = contact_points_.colliders()[a], &second = contact_points_.colliders()[b];
@@ -265,18 +265,18 @@ class EventStepper : public ContactStepper {
   // them too.
   double least_free_gap() {
     double least = kInfinity;
-    const std::vector<HeldPoint>& held = persistent_contact_.points();
+    const std::vector<PersistentPoint>& held = persistent_contact_.points();
     for (const auto& [a, b] : pairs_) {
       double drift = 0;
       const auto is_of_pair = [&](const auto& point) { return point.a == a && point.b == b; };
       for (const ContactPoint& point : touching_) {
         if (is_of_pair(point)) drift = std::max(drift, kRounding - point.gap);
       }
-      for (const HeldPoint& point : held) {
+      for (const PersistentPoint& point : held) {
         if (is_of_pair(point.contact)) drift = std::max(drift, kRounding + 4 * std::abs(point.touch.gap));
       }
       for (const ManifoldPoint& point : contact_points_.manifold(end_.columns(), a, b)) {
-        const bool is_held = std::any_of(held.begin(), held.end(), [&](const HeldPoint& h) {
+        const bool is_held = std::any_of(held.begin(), held.end(), [&](const PersistentPoint& h) {
           return is_of_pair(h.contact) && h.contact.feature == point.feature;
         });
         if (!is_held) least = std::min(least, point.gap + drift);

@@ -42,8 +42,8 @@ PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& c
     : system_(parts.system),
       in_contact_(rigor::integrator_in_contact(parts.integrator)),
       contact_points_(contact_points),
-      held_(system_, contact_points.colliders()),
-      modes_(system_, held_),
+      persistent_(system_, contact_points.colliders()),
+      modes_(system_, persistent_),
       free_stepper_(parts.integrator.make({system_, nullptr, parts.orientation, parts.settings})),
       held_stepper_(in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, nullptr, &held_})),
       loads_(system_),
@@ -53,14 +53,14 @@ PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& c
 
 bool PersistentContact::select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t,
                                double dt) {
-  std::vector<HeldPoint>& points = held_.points();
+  std::vector<PersistentPoint>& points = persistent_.points();
   old_points_.swap(points);
   points.clear();
   const auto& colliders = contact_points_.colliders();
   for (const ContactPoint& contact : contact_points) {
     const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
     if (u.x() > kSlow * restitution_threshold_) continue;
-    HeldPoint point;
+    PersistentPoint point;
     point.contact = contact;
     const Collider &a = colliders[contact.a], &b = colliders[contact.b];
     const ManifoldPoint place{contact.cone.frame.col(0), state.position(contact.cone.a) + contact.cone.arm_a,
@@ -68,9 +68,9 @@ bool PersistentContact::select(MutableBodyColumns state, const std::vector<Conta
     point.features = features_at(place, a, pose_of(state, a.body), b, pose_of(state, b.body));
     const bool slides = contact.cone.friction == 0 ||
                         (std::isfinite(contact.cone.friction) && u.tail<2>().norm() > ContactModes::kSliding);
-    point.mode = slides ? HeldPoint::Mode::slides : HeldPoint::Mode::sticks;
+    point.mode = slides ? PersistentPoint::Mode::slides : PersistentPoint::Mode::sticks;
     const auto old = std::find_if(old_points_.begin(), old_points_.end(),
-                                  [&](const HeldPoint& p) { return p.contact.same_place(contact); });
+                                  [&](const PersistentPoint& p) { return p.contact.same_place(contact); });
     if (old != old_points_.end()) point.force = contact.cone.frame.transpose() * (old->frame * old->force);
     points.push_back(point);
   }
@@ -81,7 +81,7 @@ bool PersistentContact::select(MutableBodyColumns state, const std::vector<Conta
 }
 
 void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
-  held_.begin_attempt();
+  persistent_.begin_attempt();
   copy_columns(start, end);
   ++passes_;
   if (points().empty()) return free_stepper_->step(end, t, dt);
@@ -91,14 +91,14 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
   }
   end_ = end;
   wrench_at_end_ = loads_.over_step(end, t, dt);
-  held_.hold(end, wrench_at_end_, ConstraintForces::Rows::as_chosen);
+  persistent_.hold(end, wrench_at_end_, ConstraintForces::Rows::as_chosen);
 }
 
 double PersistentContact::longest_step() const {
   double fastest = 0;
-  for (const HeldPoint& point : points()) {
+  for (const PersistentPoint& point : points()) {
     const double slip = point.velocity.tail<2>().norm();
-    if (point.mode != HeldPoint::Mode::slides || point.begins_to_slip || !(slip > 0)) continue;
+    if (point.mode != PersistentPoint::Mode::slides || point.begins_to_slip || !(slip > 0)) continue;
     fastest = std::max(fastest, point.friction() * point.force.x() / (point.tangential_mass * slip));
   }
   return fastest > 0 ? std::max(kShortest, kStable / fastest) : kForever;
@@ -111,9 +111,9 @@ bool PersistentContact::is_at_rest(BodyColumns state) const {
 // Of the forces: how far they are from pulling, or from passing their cones.
 double PersistentContact::margin() const {
   double least = kForever;
-  for (const HeldPoint& point : points()) {
+  for (const PersistentPoint& point : points()) {
     least = std::min(least, point.force.x());
-    if (point.mode == HeldPoint::Mode::sticks && std::isfinite(point.friction()))
+    if (point.mode == PersistentPoint::Mode::sticks && std::isfinite(point.friction()))
       least = std::min(least, point.friction() * point.force.x() - point.force.tail<2>().norm());
   }
   return least;
@@ -122,12 +122,12 @@ double PersistentContact::margin() const {
 // Of the slips, and of the forces where their shares matter.
 double PersistentContact::slipping_margin() const {
   double least = kForever;
-  const bool shares_matter = held_.has_friction_of_slip();
-  const double size = held_.largest_force();
-  for (const HeldPoint& point : points()) {
+  const bool shares_matter = persistent_.has_friction_of_slip();
+  const double size = persistent_.largest_force();
+  for (const PersistentPoint& point : points()) {
     if (shares_matter && size > kLeastSize * point.tangential_mass)
       least = std::min(least, point.force.x() / size + kPulling);
-    if (point.mode != HeldPoint::Mode::slides || point.friction() == 0) continue;
+    if (point.mode != PersistentPoint::Mode::slides || point.friction() == 0) continue;
     least = std::min(least, point.slip + (point.begins_to_slip ? kBeginning : 0));
     // A slip that ended within a long step, and began again; what an adaptive method tries and refuses is no sign of
     // it.
@@ -157,12 +157,12 @@ void PersistentContact::take_inelastic_step(MutableBodyColumns state, std::vecto
   }
   solver_.prepare(state, cones_);
   solver_.solve(state, cones_);
-  held_.points().clear();
+  persistent_.points().clear();
 }
 
 bool PersistentContact::carries(const ContactPoint& contact) const {
   return std::any_of(points().begin(), points().end(),
-                     [&](const HeldPoint& point) { return point.contact.same_place(contact) && point.force.x() > 0; });
+                     [&](const PersistentPoint& point) { return point.contact.same_place(contact) && point.force.x() > 0; });
 }
 
 bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,
@@ -191,13 +191,13 @@ bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<s
 
 void PersistentContact::stop_points(MutableBodyColumns state) {
   if (points().empty()) return;
-  held_.place(state);
+  persistent_.place(state);
   targets_.clear();
   double most = 0, speed = 0;
-  for (const HeldPoint& point : points()) {
+  for (const PersistentPoint& point : points()) {
     ConeConstraint cone = point.contact.cone;
     cone.arm_a = point.arm_a, cone.arm_b = point.arm_b, cone.frame = point.frame;
-    const int last = point.mode == HeldPoint::Mode::sticks ? 2 : 0;
+    const int last = point.mode == PersistentPoint::Mode::sticks ? 2 : 0;
     for (int axis = 0; axis <= last; ++axis) {
       add_target(cone, axis, -point.velocity[axis], true);
       most = std::max(most, std::abs(point.velocity[axis]));

@@ -1,5 +1,5 @@
 // Motion in persistent contact, for the method `event`: the forces at the points in contact are part of the equations
-// of motion (held_forces.h), which the integrator asks at each of its stages, so that they keep its order as long as
+// of motion (persistent_forces.h), which the integrator asks at each of its stages, so that they keep its order as long as
 // each point goes on to stick or to slide. Its drift is taken back after each step. An integrator that does not ask at
 // stages hands what is in contact over to one that does, of no lower order.
 #pragma once
@@ -17,7 +17,7 @@ class PersistentContact {
  public:
   PersistentContact(const ContactParts& parts, ContactPoints& contact_points);
 
-  const std::vector<HeldPoint>& points() const { return held_.points(); }
+  const std::vector<PersistentPoint>& points() const { return persistent_.points(); }
   // Which of the touching points stay in contact from t on, for some of dt. False if there are no forces that obey the
   // laws.
   bool select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t, double dt);
@@ -40,7 +40,7 @@ class PersistentContact {
   // Takes the velocities away that the points must not have.
   void stop_points(MutableBodyColumns state);
 
-  const std::vector<Loading>& largest_loads() const { return held_.largest_loads(); }
+  const std::vector<Loading>& largest_loads() const { return persistent_.largest_loads(); }
   const std::string& integrator_in_contact() const { return in_contact_.name; }
   long passes() const { return passes_; }  // steps of the integrator so far
   // What went wrong in closing gaps and stopping points since the last call; empty if nothing did.
@@ -57,7 +57,7 @@ class PersistentContact {
   const System& system_;
   const Integrator& in_contact_;
   ContactPoints& contact_points_;
-  HeldForces held_;
+  PersistentForces persistent_;
   ContactModes modes_;
   std::unique_ptr<Stepper> free_stepper_, held_stepper_;
   WrenchColumns loads_;
@@ -66,7 +66,7 @@ class PersistentContact {
   double restitution_threshold_;  // m/s
   BodyColumns end_;
   const double* wrench_at_end_ = nullptr;
-  std::vector<HeldPoint> old_points_;
+  std::vector<PersistentPoint> old_points_;
   std::vector<ConeConstraint> cones_;
   std::vector<ContactPoint> open_;
   std::vector<ProjectionTarget> targets_;

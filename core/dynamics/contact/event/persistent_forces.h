@@ -19,7 +19,7 @@
 
 namespace rigor {
 
-struct HeldPoint {
+struct PersistentPoint {
   enum class Mode : std::uint8_t { sticks, slides } mode = Mode::sticks;
   ContactPoint contact;  // as it was at the start
   FeaturePair features;
@@ -40,12 +40,12 @@ struct HeldPoint {
   double friction() const { return contact.cone.friction; }
 };
 
-class HeldForces : public ConstraintForces {
+class PersistentForces : public ConstraintForces {
  public:
-  HeldForces(const System& system, const std::vector<Collider>& colliders);
+  PersistentForces(const System& system, const std::vector<Collider>& colliders);
 
-  std::vector<HeldPoint>& points() { return points_; }
-  const std::vector<HeldPoint>& points() const { return points_; }
+  std::vector<PersistentPoint>& points() { return points_; }
+  const std::vector<PersistentPoint>& points() const { return points_; }
 
   const double* hold(BodyColumns state, const double* wrench, Rows rows) override;
 
@@ -55,7 +55,7 @@ class HeldForces : public ConstraintForces {
   // V' of a body under the loads alone: linear and angular.
   std::pair<Vec3, Vec3> free_acceleration(BodyColumns state, const double* wrench, int body) const;
   // Of a point at `state`, under wrench columns of everything that acts on the bodies [m/s²].
-  double normal_acceleration(BodyColumns state, const double* total, const HeldPoint& point) const;
+  double normal_acceleration(BodyColumns state, const double* total, const PersistentPoint& point) const;
   bool has_friction_of_slip() const;
   double largest_force() const;  // N, of one point
   // The most that was on each body at any instant since begin_attempt().
@@ -95,7 +95,7 @@ class HeldForces : public ConstraintForces {
   const System& system_;
   const std::vector<Collider>& colliders_;
   std::vector<Mat3> inertia_root_B_;  // G with G Gᵀ the inverse inertia, of each body
-  std::vector<HeldPoint> points_;
+  std::vector<PersistentPoint> points_;
   std::vector<int> place_, bodies_;  // by body; the moving bodies at points
   std::vector<Mat3> root_W_;         // R G, by place
   std::vector<Row> rows_;

@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/event/held_forces.h"
+#include "core/dynamics/contact/event/persistent_forces.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -11,14 +11,14 @@ namespace {
 
 // rho of a row, in units of its own effective mass. Each round leaves some 1/rho of an error and loses as many digits,
 // which the next one wins back.
-constexpr double kHeldSteepness = 1e6;
-constexpr int kMostHeldRounds = 6;
+constexpr double kRegularisation = 1e6;
+constexpr int kMostForceRounds = 6;
 constexpr double kSettled = 1e-15;  // of the accelerations without forces
 constexpr double kStill = 1e-9;     // m/s: a slip that has no direction of its own
 
 }  // namespace
 
-HeldForces::HeldForces(const System& system, const std::vector<Collider>& colliders)
+PersistentForces::PersistentForces(const System& system, const std::vector<Collider>& colliders)
     : system_(system), colliders_(colliders), place_(system.size(), -1), largest_(system.size()) {
   for (const Inertia& body : system.bodies) {
     const Mat3 root = body.fixed ? Mat3::Zero().eval() : Mat3(body.inverse_inertia_B.llt().matrixL());
@@ -27,16 +27,16 @@ HeldForces::HeldForces(const System& system, const std::vector<Collider>& collid
   wrench_.resize(kWrenchColumns, system.size());
 }
 
-void HeldForces::begin_attempt() {
+void PersistentForces::begin_attempt() {
   largest_.assign(system_.size(), {});
-  for (HeldPoint& point : points_) point.least_slip = point.largest_slip = 0;
+  for (PersistentPoint& point : points_) point.least_slip = point.largest_slip = 0;
   list_bodies();
 }
 
-void HeldForces::list_bodies() {
+void PersistentForces::list_bodies() {
   for (const int body : bodies_) place_[body] = -1;
   bodies_.clear();
-  for (const HeldPoint& point : points_) {
+  for (const PersistentPoint& point : points_) {
     for (const int body : {point.contact.cone.a, point.contact.cone.b}) {
       if (system_.bodies[body].fixed || place_[body] >= 0) continue;
       place_[body] = static_cast<int>(bodies_.size());
@@ -45,8 +45,8 @@ void HeldForces::list_bodies() {
   }
 }
 
-void HeldForces::place(BodyColumns state) {
-  for (HeldPoint& point : points_) {
+void PersistentForces::place(BodyColumns state) {
+  for (PersistentPoint& point : points_) {
     const ConeConstraint& cone = point.contact.cone;
     const RigidMotion a = motion_of(state, colliders_[point.contact.a]),
                       b = motion_of(state, colliders_[point.contact.b]);
@@ -68,8 +68,8 @@ void HeldForces::place(BodyColumns state) {
   }
 }
 
-void HeldForces::add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force) {
-  const HeldPoint& at = points_[point];
+void PersistentForces::add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force) {
+  const PersistentPoint& at = points_[point];
   Row row;
   row.point = point, row.axis = axis;
   double square = 0;
@@ -86,17 +86,17 @@ void HeldForces::add_row(std::size_t point, int axis, const Vec3& direction, con
   }
   if (square == 0) return;
   row.bias = at.bias[axis];
-  row.weight = kHeldSteepness / square;
+  row.weight = kRegularisation / square;
   rows_.push_back(row);
 }
 
-void HeldForces::list_rows() {
+void PersistentForces::list_rows() {
   rows_.clear();
   is_symmetric_ = true;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const HeldPoint& point = points_[i];
+    const PersistentPoint& point = points_[i];
     const Vec3 n = point.touch.normal;
-    if (point.mode == HeldPoint::Mode::sticks) {
+    if (point.mode == PersistentPoint::Mode::sticks) {
       for (int axis = 0; axis < 3; ++axis) add_row(i, axis, point.frame.col(axis), point.frame.col(axis));
       continue;
     }
@@ -112,7 +112,7 @@ void HeldForces::list_rows() {
   }
 }
 
-std::pair<Vec3, Vec3> HeldForces::free_acceleration(BodyColumns state, const double* wrench, int body) const {
+std::pair<Vec3, Vec3> PersistentForces::free_acceleration(BodyColumns state, const double* wrench, int body) const {
   const Inertia& inertia = system_.bodies[body];
   if (inertia.fixed) return {Vec3::Zero(), Vec3::Zero()};
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
@@ -125,7 +125,7 @@ std::pair<Vec3, Vec3> HeldForces::free_acceleration(BodyColumns state, const dou
           angular_acceleration(inertia, R, state.angular_velocity(body), torque)};
 }
 
-double HeldForces::normal_acceleration(BodyColumns state, const double* total, const HeldPoint& point) const {
+double PersistentForces::normal_acceleration(BodyColumns state, const double* total, const PersistentPoint& point) const {
   const auto along = [&](int body, const Vec3& arm) {
     const auto [linear, angular] = free_acceleration(state, total, body);
     return point.touch.normal.dot(linear + angular.cross(arm));
@@ -133,20 +133,20 @@ double HeldForces::normal_acceleration(BodyColumns state, const double* total, c
   return along(point.contact.cone.a, point.arm_a) - along(point.contact.cone.b, point.arm_b) + point.bias.x();
 }
 
-bool HeldForces::has_friction_of_slip() const {
-  return std::any_of(points_.begin(), points_.end(), [](const HeldPoint& point) {
-    return point.mode == HeldPoint::Mode::slides && point.friction() > 0;
+bool PersistentForces::has_friction_of_slip() const {
+  return std::any_of(points_.begin(), points_.end(), [](const PersistentPoint& point) {
+    return point.mode == PersistentPoint::Mode::slides && point.friction() > 0;
   });
 }
 
-double HeldForces::largest_force() const {
+double PersistentForces::largest_force() const {
   double largest = 0;
-  for (const HeldPoint& point : points_) largest = std::max(largest, point.force.norm());
+  for (const PersistentPoint& point : points_) largest = std::max(largest, point.force.norm());
   return largest;
 }
 
 // What the rows' accelerations still lack.
-double HeldForces::find_residuals(const Eigen::VectorXd& free) {
+double PersistentForces::find_residuals(const Eigen::VectorXd& free) {
   acceleration_ = free;
   for (const Row& row : rows_) {
     for (const Side& side : row.side) {
@@ -165,9 +165,9 @@ double HeldForces::find_residuals(const Eigen::VectorXd& free) {
 }
 
 template <typename Change>
-void HeldForces::refine(const Eigen::VectorXd& free, const Change& change) {
+void PersistentForces::refine(const Eigen::VectorXd& free, const Change& change) {
   double size = 0;
-  for (int round = 0; round < kMostHeldRounds; ++round) {
+  for (int round = 0; round < kMostForceRounds; ++round) {
     const double largest = find_residuals(free);
     if (round == 0) size = largest;
     if (!(largest > kSettled * size)) break;
@@ -178,7 +178,7 @@ void HeldForces::refine(const Eigen::VectorXd& free, const Change& change) {
 
 // dl = rho (r - J dV'),   (M + Pᵀ rho J) dV' = Pᵀ rho r.
 template <typename Factor>
-void HeldForces::solve_in_accelerations(const Factor& factor, const Eigen::VectorXd& free) {
+void PersistentForces::solve_in_accelerations(const Factor& factor, const Eigen::VectorXd& free) {
   Eigen::VectorXd right_side(free.size());
   change_.resize(static_cast<Eigen::Index>(rows_.size()));
   refine(free, [&] {
@@ -201,7 +201,7 @@ void HeldForces::solve_in_accelerations(const Factor& factor, const Eigen::Vecto
   });
 }
 
-void HeldForces::assemble_in_accelerations(Eigen::Index size) {
+void PersistentForces::assemble_in_accelerations(Eigen::Index size) {
   matrix_.setIdentity(size, size);
   for (const Row& row : rows_) {
     for (const Side& of : row.side) {
@@ -214,7 +214,7 @@ void HeldForces::assemble_in_accelerations(Eigen::Index size) {
   }
 }
 
-void HeldForces::assemble_in_forces() {
+void PersistentForces::assemble_in_forces() {
   const auto count = static_cast<Eigen::Index>(rows_.size());
   matrix_.setZero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -230,7 +230,7 @@ void HeldForces::assemble_in_forces() {
 }
 
 // In whichever there are fewer of.
-void HeldForces::find_multipliers(const Eigen::VectorXd& free) {
+void PersistentForces::find_multipliers(const Eigen::VectorXd& free) {
   if (static_cast<Eigen::Index>(rows_.size()) < free.size()) {
     assemble_in_forces();
     const auto by = [&](const auto& factor) { refine(free, [&] { change_ = factor.solve(residual_); }); };
@@ -241,7 +241,7 @@ void HeldForces::find_multipliers(const Eigen::VectorXd& free) {
   is_symmetric_ ? solve_in_accelerations(matrix_.llt(), free) : solve_in_accelerations(matrix_.partialPivLu(), free);
 }
 
-void HeldForces::solve(BodyColumns state, const double* wrench) {
+void PersistentForces::solve(BodyColumns state, const double* wrench) {
   root_W_.resize(bodies_.size());
   Eigen::VectorXd free(6 * bodies_.size());
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -258,19 +258,19 @@ void HeldForces::solve(BodyColumns state, const double* wrench) {
   find_multipliers(free);
 }
 
-void HeldForces::set_forces() {
-  for (HeldPoint& point : points_) point.force.setZero();
+void PersistentForces::set_forces() {
+  for (PersistentPoint& point : points_) point.force.setZero();
   for (const Row& row : rows_) {
-    HeldPoint& point = points_[row.point];
+    PersistentPoint& point = points_[row.point];
     point.force[row.axis] += row.multiplier;
-    if (point.mode == HeldPoint::Mode::sticks || point.friction() == 0) continue;
+    if (point.mode == PersistentPoint::Mode::sticks || point.friction() == 0) continue;
     Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
     slip = std::abs(point.slip) > kStill ? Vec3(slip / point.slip) : Vec3(point.slip_direction);
     point.force -= point.friction() * row.multiplier * (point.frame.transpose() * slip);
   }
 }
 
-const double* HeldForces::as_wrench(const double* wrench) {
+const double* PersistentForces::as_wrench(const double* wrench) {
   for (std::size_t c = 0; c < kWrenchColumns; ++c) {
     double* const to = wrench_.column(c);
     if (wrench)
@@ -279,7 +279,7 @@ const double* HeldForces::as_wrench(const double* wrench) {
       std::fill_n(to, system_.size(), 0.0);
   }
   std::vector<Loading> now(bodies_.size());
-  for (const HeldPoint& point : points_) {
+  for (const PersistentPoint& point : points_) {
     const Vec3 force = point.frame * point.force;
     for (int end = 0; end < 2; ++end) {
       const int body = end == 0 ? point.contact.cone.a : point.contact.cone.b;
@@ -299,7 +299,7 @@ const double* HeldForces::as_wrench(const double* wrench) {
   return wrench_.data();
 }
 
-const double* HeldForces::hold(BodyColumns state, const double* wrench, Rows) {
+const double* PersistentForces::hold(BodyColumns state, const double* wrench, Rows) {
   place(state);
   solve(state, wrench);
   set_forces();
