@@ -83,19 +83,19 @@ Direction direction_of(const Vec3& line, const Vec3& rate) {
   return {n, (rate - n * n.dot(rate)) / length, length};
 }
 
-Touch point_on_plane(const Moving& point, const Moving& plane) {
+ContactKinematics point_on_plane(const Moving& point, const Moving& plane) {
   const Vec3& n = plane.d;
   const double gap = n.dot(point.p - plane.p) - point.radius;
   return {n, point.p - (point.radius + 0.5 * gap) * n, gap, plane.rate, point.v - point.radius * plane.rate};
 }
 
-Touch point_on_point(const Moving& a, const Moving& b) {
+ContactKinematics point_on_point(const Moving& a, const Moving& b) {
   const Direction line = direction_of(a.p - b.p, a.v - b.v);
   const double gap = line.length - a.radius - b.radius;
   return {line.n, b.p + (b.radius + 0.5 * gap) * line.n, gap, line.rate, b.v + b.radius * line.rate};
 }
 
-Touch point_on_line(const Moving& point, const Moving& line) {
+ContactKinematics point_on_line(const Moving& point, const Moving& line) {
   const Vec3 from = point.p - line.p;
   const double s = line.d.dot(from), s_rate = line.rate.dot(from) + line.d.dot(point.v - line.v);
   const Moving foot{line.p + s * line.d, line.v + s_rate * line.d + s * line.rate, {}, {}, line.radius};
@@ -103,7 +103,7 @@ Touch point_on_line(const Moving& point, const Moving& line) {
 }
 
 // From a + s ea = b + t eb + D n and its derivative.
-Touch line_on_line(const Moving& a, const Moving& b, double side) {
+ContactKinematics line_on_line(const Moving& a, const Moving& b, double side) {
   const Direction across = direction_of(side * a.d.cross(b.d), side * (a.rate.cross(b.d) + a.d.cross(b.rate)));
   const Vec3& n = across.n;
   Mat3 directions;
@@ -116,8 +116,8 @@ Touch line_on_line(const Moving& a, const Moving& b, double side) {
           b.v + rate[1] * b.d + at[1] * b.rate + b.radius * across.rate};
 }
 
-Touch reversed(Touch touch) {
-  touch.normal *= -1, touch.normal_rate *= -1;
+ContactKinematics reversed(ContactKinematics kinematics) {
+  kinematics.normal *= -1, kinematics.normal_rate *= -1;
   return touch;
 }
 
@@ -155,7 +155,7 @@ FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pos
   return {of_a.point, {Kind::plane, of_b.point.at, pose_b.R.transpose() * point.normal}};
 }
 
-Touch touch_of(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b) {
+ContactKinematics contact_kinematics(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b) {
   const Moving of_a = moving(features.a, a), of_b = moving(features.b, b);
   const Kind kind_a = features.a.kind, kind_b = features.b.kind;
   if (kind_b == Kind::plane) return point_on_plane(of_a, of_b);

@@ -33,15 +33,15 @@ struct RigidMotion {
 // Of the collider's body; a plane's feature is at rest in W.
 RigidMotion motion_of(BodyColumns state, const Collider& collider);
 
-struct Touch {
+struct ContactKinematics {
   Vec3 normal = Vec3::UnitX(), point = Vec3::Zero();  // unit, from b to a; m, midway between the surfaces; in W
   double gap = 0;                                     // m
   Vec3 normal_rate = Vec3::Zero(), point_rate = Vec3::Zero();  // 1/s, m/s
 };
 
-// The features at a point of a manifold, where the bodies touch.
+// The features at a point of a manifold, where the bodies kinematics.
 FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pose& pose_a, const Collider& b,
                         const Pose& pose_b);
-Touch touch_of(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b);
+ContactKinematics contact_kinematics(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b);
 
 }  // namespace rigor

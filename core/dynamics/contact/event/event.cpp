@@ -273,7 +273,7 @@ class EventStepper : public ContactStepper {
         if (is_of_pair(point)) drift = std::max(drift, kRounding - point.gap);
       }
       for (const PersistentPoint& point : held) {
-        if (is_of_pair(point.contact)) drift = std::max(drift, kRounding + 4 * std::abs(point.touch.gap));
+        if (is_of_pair(point.contact)) drift = std::max(drift, kRounding + 4 * std::abs(point.kinematics.gap));
       }
       for (const ManifoldPoint& point : contact_points_.manifold(end_.columns(), a, b)) {
         const bool is_held = std::any_of(held.begin(), held.end(), [&](const PersistentPoint& h) {

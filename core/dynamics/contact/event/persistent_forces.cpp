@@ -50,18 +50,18 @@ void PersistentForces::place(BodyColumns state) {
     const ConeConstraint& cone = point.contact.cone;
     const RigidMotion a = motion_of(state, colliders_[point.contact.a]),
                       b = motion_of(state, colliders_[point.contact.b]);
-    point.touch = touch_of(point.features, a, b);
-    const Touch& touch = point.touch;
-    point.frame = contact_frame(touch.normal);
-    point.arm_a = touch.point - state.position(cone.a), point.arm_b = touch.point - state.position(cone.b);
+    point.kinematics = contact_kinematics(point.features, a, b);
+    const ContactKinematics& kinematics = point.kinematics;
+    point.frame = contact_frame(kinematics.normal);
+    point.arm_a = kinematics.point - state.position(cone.a), point.arm_b = kinematics.point - state.position(cone.b);
     const auto velocity = [&](const RigidMotion& body) {
-      return Vec3(body.v + body.w.cross(touch.point - body.pose.p));
+      return Vec3(body.v + body.w.cross(kinematics.point - body.pose.p));
     };
     const Vec3 of_a = velocity(a), of_b = velocity(b), u = of_a - of_b;
-    const Vec3 bias = a.w.cross(touch.point_rate - a.v) - b.w.cross(touch.point_rate - b.v);
+    const Vec3 bias = a.w.cross(kinematics.point_rate - a.v) - b.w.cross(kinematics.point_rate - b.v);
     point.velocity = point.frame.transpose() * u;
-    point.bias = point.frame.transpose() * bias + Vec3(touch.normal_rate.dot(u), 0, 0);
-    const Vec3 slip = u - touch.normal * touch.normal.dot(u);
+    point.bias = point.frame.transpose() * bias + Vec3(kinematics.normal_rate.dot(u), 0, 0);
+    const Vec3 slip = u - kinematics.normal * kinematics.normal.dot(u);
     point.slip = std::copysign(slip.norm(), slip.dot(point.slip_direction));
     point.least_slip = std::min(point.least_slip, point.slip);
     point.largest_slip = std::max(point.largest_slip, point.slip);
@@ -95,7 +95,7 @@ void PersistentForces::list_rows() {
   is_symmetric_ = true;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const PersistentPoint& point = points_[i];
-    const Vec3 n = point.touch.normal;
+    const Vec3 n = point.kinematics.normal;
     if (point.mode == PersistentPoint::Mode::sticks) {
       for (int axis = 0; axis < 3; ++axis) add_row(i, axis, point.frame.col(axis), point.frame.col(axis));
       continue;
@@ -128,7 +128,7 @@ std::pair<Vec3, Vec3> PersistentForces::free_acceleration(BodyColumns state, con
 double PersistentForces::normal_acceleration(BodyColumns state, const double* total, const PersistentPoint& point) const {
   const auto along = [&](int body, const Vec3& arm) {
     const auto [linear, angular] = free_acceleration(state, total, body);
-    return point.touch.normal.dot(linear + angular.cross(arm));
+    return point.kinematics.normal.dot(linear + angular.cross(arm));
   };
   return along(point.contact.cone.a, point.arm_a) - along(point.contact.cone.b, point.arm_b) + point.bias.x();
 }

@@ -29,7 +29,7 @@ struct PersistentPoint {
   double tangential_mass = 0;  // kg, the least, at the start
 
   // At the last instant asked for.
-  Touch touch;
+  ContactKinematics kinematics;
   Mat3 frame = Mat3::Identity();                      // columns: the normal and two tangents
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();    // m, in W
   Vec3 velocity = Vec3::Zero(), bias = Vec3::Zero();  // m/s and m/s², of a against b, in the frame
