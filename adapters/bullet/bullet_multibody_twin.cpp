@@ -117,9 +117,9 @@ class SliderStep : public JointStep {
   Motion child_after(const Ends& ends) const override {
     const Motion &above = ends.parent, &then = ends.parent_then;
     const Vec3 axis = above.q * axis_, line = ends.child.position - above.position,
-               parting = ends.child.velocity - above.velocity;
-    const Vec3 carried = ends.of_parent.angular.cross(line) + above.angular_velocity.cross(parting);
-    const double rate = axis.dot(parting - above.angular_velocity.cross(line)) +
+               relative_velocity = ends.child.velocity - above.velocity;
+    const Vec3 carried = ends.of_parent.angular.cross(line) + above.angular_velocity.cross(relative_velocity);
+    const double rate = axis.dot(relative_velocity - above.angular_velocity.cross(line)) +
                         ends.dt * axis.dot(ends.of_child.linear - ends.of_parent.linear - carried);
     const Vec3 line_then = then.q * (above.q.conjugate() * line + ends.dt * rate * axis_);
     return {then.position + line_then, (then.q * ends.between()).normalized(),

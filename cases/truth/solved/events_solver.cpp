@@ -28,7 +28,7 @@ constexpr double kWantedEventsError = 1e-8;  // m and rad; metrics ask for a hun
 constexpr double kUseful = 1e-6;             // m and rad, what metrics ask for
 constexpr double kMostWork = 2e5;            // steps of a body, of some 20 µs each where it touches others
 constexpr double kSafety = 3;
-// What both ways have in common: gaps that count as closed [m], and speeds of parting or sliding that count as none
+// What both ways have in common: gaps that count as closed [m], and speeds of separating or sliding that count as none
 // [m/s]; see event.cpp and contact_modes.h.
 constexpr double kClosed = 1e-10, kStill = 1e-9;
 

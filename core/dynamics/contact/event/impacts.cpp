@@ -50,21 +50,21 @@ void Impacts::let_infinite_friction_grip() {
 // Fills chosen_ with this round's points; false if none approaches.
 bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool inelastic, bool all) {
   chosen_.clear();
-  bool hit = false;
+  bool any_impact = false;
   for (std::size_t i = 0; i < contact_points.size(); ++i) {
     ConeConstraint& point = points_[i];
     const Vec3 u = ConeSolver::velocity_at(point, state);
     const double approach = -u.x();
     const bool jams = std::isinf(point.friction) && approach > -kStillSpeed && u.tail<2>().norm() > kJamming;
-    const bool hits = approach > kStillSpeed || jams;
-    hit = hit || hits;
+    const bool is_impact = approach > kStillSpeed || jams;
+    any_impact = any_impact || is_impact;
     const bool rebounds = approach > restitution_threshold_ && !inelastic && !all && contact_points[i].restitution > 0;
-    rebound_ = rebound_ || (hits && approach > restitution_threshold_) || jams;
+    rebound_ = rebound_ || (is_impact && approach > restitution_threshold_) || jams;
     point.target_velocity = rebounds ? contact_points[i].restitution * approach : 0;
     if (jams) point.target_velocity = std::max(point.target_velocity, kJammed);
-    if (hits || all || contact_points[i].restitution == 0) chosen_.push_back(point);
+    if (is_impact || all || contact_points[i].restitution == 0) chosen_.push_back(point);
   }
-  return hit;
+  return any_impact;
 }
 
 void Impacts::solve_round(MutableBodyColumns state) {
