@@ -40,7 +40,7 @@ const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns st
 
 const std::vector<std::pair<int, int>>& ContactPoints::overlapping_boxes() {
   pairs_.clear();
-  for (const auto& pair : finder_.overlaps(boxes_)) {
+  for (const auto& pair : broad_phase_.overlaps(boxes_)) {
     if (!(colliders_[pair.first].fixed && colliders_[pair.second].fixed)) pairs_.push_back(pair);
   }
   return pairs_;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/dynamics/collision/aabb_broad_phase.h"
+#include "core/dynamics/collision/broad_phase.h"
 #include "core/dynamics/contact/event/acceleration_bounds.h"
 #include "core/dynamics/contact/event/cone_solver.h"
 #include "core/scene/contact_laws.h"
@@ -49,7 +49,7 @@ class ContactPoints {
 
   std::vector<Collider> colliders_;
   ContactLaws laws_;
-  AabbBroadPhase finder_;
+  BroadPhase broad_phase_;
   std::vector<Aabb> boxes_;
   std::vector<std::pair<int, int>> pairs_;
   Manifold manifold_;

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "core/dynamics/collision/aabb_broad_phase.h"
+#include "core/dynamics/collision/broad_phase.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -46,7 +46,7 @@ class Manifolds {
 
   std::vector<Collider> colliders_;
   ContactLaws laws_;
-  AabbBroadPhase broad_phase_;
+  BroadPhase broad_phase_;
   std::vector<Pose> poses_;
   std::vector<Aabb> boxes_, fat_boxes_;
   std::vector<double> bounding_radii_;  // m: of all that a body can reach within dt

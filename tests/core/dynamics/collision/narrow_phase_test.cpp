@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "core/dynamics/collision/aabb_broad_phase.h"
+#include "core/dynamics/collision/broad_phase.h"
 
 using namespace rigor;
 
@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(the_pair_finder_finds_what_a_search_of_all_pairs_finds) {
     const Vec3 low(coordinate(random), coordinate(random), coordinate(random));
     return Aabb{low, low + scale * Vec3(size(random), size(random), size(random))};
   };
-  AabbBroadPhase finder;
+  BroadPhase finder;
   for (int round = 0; round < 20; ++round) {
     std::vector<Aabb> boxes;
     for (int i = 0; i < 150; ++i) boxes.push_back(random_box(i % 50 == 0 ? 20 : 1));  // a few large ones

@@ -12,7 +12,7 @@
 
 namespace rigor {
 
-class AabbBroadPhase {
+class BroadPhase {
  public:
   // Each pair (first < second by their place in `boxes`) that overlaps, in ascending order. Boxes that are not finite
   // are tried against all.

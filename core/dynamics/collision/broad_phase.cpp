@@ -1,4 +1,4 @@
-#include "core/dynamics/collision/aabb_broad_phase.h"
+#include "core/dynamics/collision/broad_phase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ std::uint64_t cell_number(std::int64_t x, std::int64_t y, std::int64_t z) {
          static_cast<std::uint64_t>(z + kOffset);
 }
 
-std::int64_t aabb_cell_index(double coordinate, double width) {
+std::int64_t cell_index(double coordinate, double width) {
   return static_cast<std::int64_t>(std::floor(coordinate / width));
 }
 
@@ -33,7 +33,7 @@ void sort_from(std::vector<T>& values, std::ptrdiff_t known) {
 
 }  // namespace
 
-void AabbBroadPhase::choose_width(const std::vector<Aabb>& boxes) {
+void BroadPhase::choose_width(const std::vector<Aabb>& boxes) {
   sizes_.clear();
   for (const Aabb& box : boxes) {
     const double size = (box.high - box.low).maxCoeff();
@@ -46,21 +46,21 @@ void AabbBroadPhase::choose_width(const std::vector<Aabb>& boxes) {
   width_ = 2 * *middle;
 }
 
-void AabbBroadPhase::forget_changed() {
+void BroadPhase::forget_changed() {
   const auto is_changed = [&](int place) { return is_changed_[place] != 0; };
   std::erase_if(entries_, [&](const Entry& entry) { return is_changed(entry.box); });
   std::erase_if(large_, is_changed);
   std::erase_if(pairs_, [&](const auto& pair) { return is_changed(pair.first) || is_changed(pair.second); });
 }
 
-void AabbBroadPhase::enter(const Aabb& box, int place) {
+void BroadPhase::enter(const Aabb& box, int place) {
   const double farthest = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
   // Written so that what is not a number is large.
   if (!((box.high - box.low).maxCoeff() <= kLarge * width_ && farthest < kFarthestCell * width_)) {
     large_.push_back(place);
     return;
   }
-  const auto cell = [&](const Vec3& p, int axis) { return aabb_cell_index(p[axis], width_); };
+  const auto cell = [&](const Vec3& p, int axis) { return cell_index(p[axis], width_); };
   for (std::int64_t x = cell(box.low, 0); x <= cell(box.high, 0); ++x)
     for (std::int64_t y = cell(box.low, 1); y <= cell(box.high, 1); ++y)
       for (std::int64_t z = cell(box.low, 2); z <= cell(box.high, 2); ++z)
@@ -68,12 +68,12 @@ void AabbBroadPhase::enter(const Aabb& box, int place) {
 }
 
 // Those with a changed box: each of these with all that are not, and with the changed ones that come after it.
-void AabbBroadPhase::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t first, std::size_t last) {
+void BroadPhase::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t first, std::size_t last) {
   const auto try_pair = [&](int a, int b) {
     if (!overlap(boxes[a], boxes[b])) return;
     const Vec3 corner = boxes[a].low.cwiseMax(boxes[b].low);
-    const std::uint64_t cell = cell_number(aabb_cell_index(corner.x(), width_), aabb_cell_index(corner.y(), width_),
-                                           aabb_cell_index(corner.z(), width_));
+    const std::uint64_t cell = cell_number(cell_index(corner.x(), width_), cell_index(corner.y(), width_),
+                                           cell_index(corner.z(), width_));
     if (cell == entries_[first].cell) pairs_.push_back(std::minmax(a, b));
   };
   for (std::size_t i = first; i < last; ++i) {
@@ -87,7 +87,7 @@ void AabbBroadPhase::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t f
   }
 }
 
-void AabbBroadPhase::pairs_with_large(const std::vector<Aabb>& boxes) {
+void BroadPhase::pairs_with_large(const std::vector<Aabb>& boxes) {
   for (const int i : large_) {
     for (int j = 0; j < static_cast<int>(boxes.size()); ++j) {
       if (is_changed_[i] == 0 && is_changed_[j] == 0) continue;
@@ -101,7 +101,7 @@ void AabbBroadPhase::pairs_with_large(const std::vector<Aabb>& boxes) {
   }
 }
 
-const std::vector<std::pair<int, int>>& AabbBroadPhase::overlaps(const std::vector<Aabb>& boxes) {
+const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<Aabb>& boxes) {
   choose_width(boxes);
   entries_.clear(), large_.clear(), pairs_.clear();
   all_.resize(boxes.size());
@@ -109,7 +109,7 @@ const std::vector<std::pair<int, int>>& AabbBroadPhase::overlaps(const std::vect
   return overlaps(boxes, all_);
 }
 
-const std::vector<std::pair<int, int>>& AabbBroadPhase::overlaps(const std::vector<Aabb>& boxes,
+const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<Aabb>& boxes,
                                                                  const std::vector<int>& changed) {
   is_changed_.assign(boxes.size(), 0);
   for (const int place : changed) is_changed_[place] = 1;
