@@ -51,9 +51,9 @@ void check_echo(const Json& answer, const char* key, const Json& due, const Aske
 
 }  // namespace
 
-void refuse_answer(const Asked& asked, const std::string& complaint) {
+void refuse_answer(const Asked& asked, const std::string& fault) {
   throw EngineFailure(FailureKind::invalid,
-                      fmt::format("{} gave no answer to '{}': {}", asked.engine, asked.call, complaint));
+                      fmt::format("{} gave no answer to '{}': {}", asked.engine, asked.call, fault));
 }
 
 Json parsed_answer(const std::string& line, const Asked& asked) {

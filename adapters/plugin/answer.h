@@ -40,6 +40,6 @@ void check_time(const nlohmann::json& answer, const Asked& asked, double due, do
 bool is_time(double time, double due, double dt);
 void check_time(double time, const Asked& asked, double due, double dt);
 
-[[noreturn]] void refuse_answer(const Asked& asked, const std::string& complaint);
+[[noreturn]] void refuse_answer(const Asked& asked, const std::string& fault);
 
 }  // namespace rigor

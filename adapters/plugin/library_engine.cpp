@@ -93,8 +93,8 @@ class LibraryWorld : public World {
     room_.front() = room_.back() = '\0';
     return {room_.data(), room_.size() - 1};
   }
-  [[noreturn]] void refuse(const char* call, const std::string& complaint) const {
-    refuse_answer({name_, call}, complaint);
+  [[noreturn]] void refuse(const char* call, const std::string& fault) const {
+    refuse_answer({name_, call}, fault);
   }
 
   void answered(const char* call, rigor_status status) const {

@@ -20,7 +20,7 @@ void print(const std::string& text);
 // For people to read, wherever it goes.
 inline void print_table(const std::string& text) { print(harmless(text)); }
 
-// A line on stderr, "rigor: " before it. Never throws: there is nowhere left to complain.
+// A line on stderr, "rigor: " before it. Never throws: there is nowhere left to say it.
 void say(const std::string& line);
 
 }  // namespace rigor

@@ -47,8 +47,8 @@ class LineReader {
   }
 
  private:
-  [[noreturn]] void refuse(std::size_t column, const std::string& complaint) const {
-    throw InputError(fmt::format("{}:{}: {}", place_, column, complaint));
+  [[noreturn]] void refuse(std::size_t column, const std::string& fault) const {
+    throw InputError(fmt::format("{}:{}: {}", place_, column, fault));
   }
 
   Json parsed(const std::string& line) const {

@@ -13,8 +13,8 @@ namespace rigor {
 std::string read_input_file(const std::string& path, const std::string& what) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  const auto refuse = [&](const std::string& complaint) {
-    throw InputError(fmt::format("{}: {}; give {}", path, complaint, what));
+  const auto refuse = [&](const std::string& fault) {
+    throw InputError(fmt::format("{}: {}; give {}", path, fault, what));
   };
   if (!std::filesystem::exists(status)) refuse("cannot be read");
   if (!std::filesystem::is_regular_file(status)) refuse("is not a regular file");

@@ -15,7 +15,7 @@
 namespace rigor {
 
 // The end of a cell. invalid: the engine refused the scene, or its method did not do what it promises (an iteration
-// that did not converge) in a run that did not blow up; one that did is `diverged`, whatever it complained of.
+// that did not converge) in a run that did not blow up; one that did is `diverged`, whatever it warned of.
 enum class Status { pass, fail, known_deviation, unexpected_pass, unsupported, diverged, crashed, timed_out, invalid };
 std::string word_of(Status status);
 Status status_of(const std::string& word);  // throws std::runtime_error for a word that is none

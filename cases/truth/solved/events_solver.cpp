@@ -77,7 +77,7 @@ void add_node(ReferenceSolution& solution, double t, BodyColumns state) {
   solution.states.push_back(0);
 }
 
-// Ends early where the method complains, or when the work, in steps of a body, is more than is allowed.
+// Ends early where the method warns, or when the work, in steps of a body, is more than is allowed.
 ReferenceSolution solve(const Scene& scene, double duration, const Way& way, double dt, double& work) {
   Stepping stepping(scene, way);
   BodyTable state = stepping.start();

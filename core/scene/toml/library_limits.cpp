@@ -30,9 +30,9 @@ class Scan {
     if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;  // a byte order mark, which the library passes over
   }
 
-  std::optional<TextComplaint> first_complaint() {
-    while (at_ < text_.size() && !complaint_) pass_one();
-    return complaint_;
+  std::optional<TextFault> first_fault() {
+    while (at_ < text_.size() && !fault_) pass_one();
+    return fault_;
   }
 
  private:
@@ -44,7 +44,7 @@ class Scan {
       begins_line_ = false;
       pass_string(c);
     } else if (is_beyond_ascii(text_, at_)) {
-      complain(at_, "is not TOML: found a character outside of strings and comments that is not ASCII");
+      found_fault(at_, "is not TOML: found a character outside of strings and comments that is not ASCII");
     } else if (c == '[' && begins_line_ && depth_ == 0) {
       pass_header_start();
     } else {
@@ -56,7 +56,7 @@ class Scan {
     constexpr std::string_view kEndsKey = "=,{}[]\n";
     if (kEndsKey.find(c) != std::string_view::npos) parts_ = 1;
     if (c == '.' && ++parts_ > kDeepestKey) {
-      return complain(at_, fmt::format("found a key of more than {} parts", kDeepestKey));
+      return found_fault(at_, fmt::format("found a key of more than {} parts", kDeepestKey));
     }
     if (c == '[' || c == '{') ++depth_;
     if (c == ']' || c == '}') --depth_;
@@ -74,7 +74,7 @@ class Scan {
     if (at_ == text_.size() || text_[at_] == ']' || text_[at_] == '[' || begins_key(text_[at_])) return;
     const char c = text_[at_];
     const bool is_printable = c > ' ' && c < 0x7f;
-    complain(at_, fmt::format("is not TOML: found {} where the name of a table begins",
+    found_fault(at_, fmt::format("is not TOML: found {} where the name of a table begins",
                               is_printable ? fmt::format("'{}'", c) : "a character that no name has"));
   }
 
@@ -105,21 +105,21 @@ class Scan {
     const bool is_line_end = i < text_.size() && is_blank(text_[i]);
     while (is_line_end && i + 1 < text_.size() && is_blank(text_[i + 1])) ++i;
     if (is_line_end && is_beyond_ascii(text_, i + 1)) {
-      complain(i + 1,
+      found_fault(i + 1,
                "found a character that is not ASCII right behind a line's end that a string escapes; begin that line "
                "by another");
     } else if (is_beyond_ascii(text_, i)) {
-      complain(i, "is not TOML: found a backslash before a character that is not ASCII");
+      found_fault(i, "is not TOML: found a backslash before a character that is not ASCII");
     }
     return i;
   }
 
-  void complain(std::size_t at, std::string what) {
-    if (complaint_) return;
+  void found_fault(std::size_t at, std::string what) {
+    if (fault_) return;
     const std::string_view before = text_.substr(0, at);
     const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
     const auto is_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
-    complaint_ = {
+    fault_ = {
         std::count(before.begin(), before.end(), '\n') + 1,
         std::count_if(before.begin() + static_cast<std::ptrdiff_t>(line_start), before.end(), is_character) + 1,
         std::move(what)};
@@ -130,11 +130,11 @@ class Scan {
   bool begins_line_ = true;
   int depth_ = 0;  // of brackets
   int parts_ = 1;  // of the key
-  std::optional<TextComplaint> complaint_;
+  std::optional<TextFault> fault_;
 };
 
 }  // namespace
 
-std::optional<TextComplaint> beyond_library(std::string_view text) { return Scan(text).first_complaint(); }
+std::optional<TextFault> beyond_library(std::string_view text) { return Scan(text).first_fault(); }
 
 }  // namespace rigor

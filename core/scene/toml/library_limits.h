@@ -15,12 +15,12 @@ namespace rigor {
 
 inline constexpr int kDeepestKey = 32;  // parts; a case file needs three
 
-struct TextComplaint {
+struct TextFault {
   long line, column;  // from 1; the column counts characters
   std::string what;   // "found ...", or "is not TOML: found ..."
 };
 
 // The first such place; none if the text may be given to the library, which still has to say whether it is TOML.
-std::optional<TextComplaint> beyond_library(std::string_view text);
+std::optional<TextFault> beyond_library(std::string_view text);
 
 }  // namespace rigor

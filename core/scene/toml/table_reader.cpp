@@ -91,8 +91,8 @@ TextRange TomlValue::range() const {
 
 std::string TomlValue::label() const { return name_.empty() ? where() : fmt::format("{}: {}", where(), name_); }
 
-void TomlValue::refuse(const std::string& complaint) const {
-  throw InputError(fmt::format("{}: {}", label(), complaint));
+void TomlValue::refuse(const std::string& fault) const {
+  throw InputError(fmt::format("{}: {}", label(), fault));
 }
 
 void TomlValue::refuse_found(const std::string& allowed) const {
@@ -225,8 +225,8 @@ void TableReader::narrow(Keys allowed, const std::string& what) {
   refuse_others(fmt::format("{} has no such key", what));
 }
 
-// Complains of the first key in the file that is not allowed; the table holds them in alphabetical order.
-void TableReader::refuse_others(const std::string& complaint) const {
+// Refuses the first key in the file that is not allowed; the table holds them in alphabetical order.
+void TableReader::refuse_others(const std::string& fault) const {
   const toml::key* unknown = nullptr;
   for (const auto& [key, value] : *table_) {
     if (std::find(allowed_->begin(), allowed_->end(), key.str()) != allowed_->end()) continue;
@@ -234,7 +234,7 @@ void TableReader::refuse_others(const std::string& complaint) const {
   }
   if (!unknown) return;
   throw InputError(fmt::format("{}: {}: {}{}; allowed: {}", place(self_.document_->path, unknown->source().begin),
-                               name_of(shown(unknown->str())), complaint, did_you_mean(unknown->str(), *allowed_),
+                               name_of(shown(unknown->str())), fault, did_you_mean(unknown->str(), *allowed_),
                                listed(*allowed_)));
 }
 
@@ -257,8 +257,8 @@ TomlValue TableReader::at(std::string_view key) const {
 }
 
 TomlFile TomlFile::parse(std::string text, const std::string& path) {
-  if (const auto complaint = beyond_library(text)) {
-    throw InputError(fmt::format("{}:{}:{}: {}", path, complaint->line, complaint->column, complaint->what));
+  if (const auto fault = beyond_library(text)) {
+    throw InputError(fmt::format("{}:{}:{}: {}", path, fault->line, fault->column, fault->what));
   }
   TomlFile file;
   try {

@@ -54,7 +54,7 @@ class TomlValue {
   TableReader table(const Keys& allowed) const;                // with no other keys than these
   std::vector<TableReader> tables(const Keys& allowed) const;  // an array of tables, [[key]]
 
-  [[noreturn]] void refuse(const std::string& complaint) const;      // label: complaint
+  [[noreturn]] void refuse(const std::string& fault) const;      // label: fault
   [[noreturn]] void refuse_found(const std::string& allowed) const;  // label: found ...; allowed: ...
 
  private:
@@ -78,13 +78,13 @@ class TableReader {
 
   const TomlValue& self() const { return self_; }
   bool is_inline() const;  // { key = value } on one line
-  [[noreturn]] void refuse(const std::string& complaint) const { self_.refuse(complaint); }
+  [[noreturn]] void refuse(const std::string& fault) const { self_.refuse(fault); }
 
  private:
   friend class TomlValue;
   using SharedKeys = std::shared_ptr<const Keys>;  // by all rows of an array, of which there may be many
   TableReader(TomlValue self, const toml::table& table, SharedKeys allowed);
-  void refuse_others(const std::string& complaint) const;
+  void refuse_others(const std::string& fault) const;
   std::string name_of(std::string_view key) const;
 
   TomlValue self_;

@@ -455,7 +455,7 @@ BOOST_AUTO_TEST_CASE(a_report_that_cannot_be_written_costs_itself_and_resume_goe
   };
   const std::vector<std::string> words = {"run", "stone", "--engine", "core:rk4", "--out", out};
   folder.write("out/report.md", "old"), folder.write("out/results.json", "old");
-  BOOST_TEST(run(words, limit(0)).code == 3);  // not even a complaint can be written to the test's file
+  BOOST_TEST(run(words, limit(0)).code == 3);  // not even a message can be written to the test's file
   BOOST_TEST(content(fs::path(out) / "report.md") == "old");
   BOOST_TEST(content(fs::path(out) / "results.json") == "old");
   if (!RIGOR_HTML_REPORT) return;

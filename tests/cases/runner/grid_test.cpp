@@ -55,7 +55,7 @@ EngineTable faulty_engines(bool with_one_that_hangs = true) {
   EngineTable table;
   const auto add = [&](auto&&... parts) { table.add(std::make_unique<FaultyEngine>(parts...)); };
   add("aborts", [](double&) { std::fputs("solver: matrix is singular\n", stderr), std::abort(); });
-  add("complains", sit_still, "Newton's iteration did not converge");
+  add("warns", sit_still, "Newton's iteration did not converge");
   add("exits", [](double&) { std::exit(0); });
   add("good", sit_still);
   if (with_one_that_hangs) add("hangs", [](double&) { spin(); });
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(a_broken_engine_costs_its_own_cells_and_says_how) {
   const Results grid = run({drifting_body("a"), drifting_body("b")}, table, {2, 0.5, {}, false});
   const std::map<std::string, std::pair<Status, std::string>> expected = {
       {"aborts", {Status::crashed, "SIGABRT"}},
-      {"complains", {Status::invalid, "Newton's iteration did not converge"}},
+      {"warns", {Status::invalid, "Newton's iteration did not converge"}},
       {"exits", {Status::crashed, "exit(0)"}},
       {"good", {Status::pass, ""}},
       {"hangs", {Status::timed_out, "0.5 s"}},
@@ -311,7 +311,7 @@ BOOST_AUTO_TEST_CASE(only_cells_with_a_result_leave_a_trajectory) {
   }
   fs::remove_all(folder);
   BOOST_TEST(written == named, boost::test_tools::per_element());
-  BOOST_TEST(named.size() == 6u);  // good, complaining and without numbers, at two step sizes each
+  BOOST_TEST(named.size() == 6u);  // good, warning and without numbers, at two step sizes each
 }
 
 BOOST_AUTO_TEST_CASE(steps_that_make_no_run_are_refused) {

@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void check(const std::string& path, const std::string& complaint) {
-  BOOST_TEST(refusal_of([&] { read_text_file(path); }) == path + ": " + complaint);
+void check(const std::string& path, const std::string& fault) {
+  BOOST_TEST(refusal_of([&] { read_text_file(path); }) == path + ": " + fault);
 }
 
 }  // namespace
