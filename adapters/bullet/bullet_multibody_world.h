@@ -1,4 +1,4 @@
-// A scene as Bullet's btMultiBody: reduced coordinates (joint angles and ways), accelerations by Featherstone's
+// A scene as Bullet's btMultiBody: reduced coordinates (joint angles and displacements), accelerations by Featherstone's
 // articulated-body algorithm, so that joints hold to rounding. Trees only, without contacts. A joint of the scene is
 // one of Bullet's:
 //   ball spherical    hinge revolute    slider prismatic    fixed fixed

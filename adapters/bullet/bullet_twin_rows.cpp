@@ -18,7 +18,7 @@ ConstraintRow turn_row(const Vec3& axis, double gap) {
 }
 
 // The point at arm_b moves against that at arm_a along the axis.
-ConstraintRow way_row(const Vec3& axis, const Vec3& arm_a, const Vec3& arm_b, double gap) {
+ConstraintRow linear_row(const Vec3& axis, const Vec3& arm_a, const Vec3& arm_b, double gap) {
   return {both(-axis, -arm_a.cross(axis)), both(axis, arm_b.cross(axis)), gap, 0};
 }
 
@@ -57,7 +57,7 @@ class Ball : public BulletJointRows {
   explicit Ball(const Frames& frames) : frames_(frames) {}
   void add_to(std::vector<ConstraintRow>& rows, const BulletEnd& a, const BulletEnd& b) const override {
     const Frames::Now now = frames_.now(a, b);
-    for (int k = 0; k < 3; ++k) rows.push_back(way_row(Vec3::Unit(k), now.arm_a, now.arm_b, now.apart[k]));
+    for (int k = 0; k < 3; ++k) rows.push_back(linear_row(Vec3::Unit(k), now.arm_a, now.arm_b, now.apart[k]));
   }
 
  private:
@@ -71,7 +71,7 @@ class Hinge : public BulletJointRows {
   void add_to(std::vector<ConstraintRow>& rows, const BulletEnd& a, const BulletEnd& b) const override {
     const Frames::Now now = frames_.now(a, b);
     const Vec3 tilt = now.of_a.col(2).cross(now.of_b.col(2));
-    for (int k = 0; k < 3; ++k) rows.push_back(way_row(Vec3::Unit(k), now.arm_a, now.arm_b, now.apart[k]));
+    for (int k = 0; k < 3; ++k) rows.push_back(linear_row(Vec3::Unit(k), now.arm_a, now.arm_b, now.apart[k]));
     for (int k = 0; k < 2; ++k) rows.push_back(turn_row(now.of_a.col(k), tilt.dot(now.of_a.col(k))));
   }
 
@@ -79,7 +79,7 @@ class Hinge : public BulletJointRows {
   Frames frames_;
 };
 
-// btGeneric6DofSpring2Constraint with the ways along a's axes kept, and some of the three angles of the turn from a's
+// btGeneric6DofSpring2Constraint with the displacements along a's axes kept, and some of the three angles of the turn from a's
 // axes to b's, about a's z first and b's x last.
 class SixCoordinates : public BulletJointRows {
  public:
@@ -96,7 +96,7 @@ class SixCoordinates : public BulletJointRows {
       const double share_a = frees_arms(now, angles, k) ? now.share_a : 1;
       const double share_b = frees_arms(now, angles, k) ? 1 - now.share_a : 1;
       const Vec3 axis = now.of_a.col(k);
-      rows.push_back(way_row(axis, share_a * now.arm_a, share_b * now.arm_b, axis.dot(now.apart)));
+      rows.push_back(linear_row(axis, share_a * now.arm_a, share_b * now.arm_b, axis.dot(now.apart)));
     }
   }
 
@@ -142,10 +142,10 @@ class Slider : public BulletJointRows {
     const bool has_direction = first.squaredNorm() > std::numeric_limits<double>::epsilon();
     first = has_direction ? first.normalized() : Vec3(now.of_a.col(1));
     const Vec3 second = axis.cross(first);
-    rows.push_back(way_row(first, arm_a, arm_b, first.dot(now.apart)));
+    rows.push_back(linear_row(first, arm_a, arm_b, first.dot(now.apart)));
     const bool frees = now.has_static && is_turned;
     rows.push_back(
-        way_row(second, (frees ? share_a : 1) * arm_a, (frees ? share_b : 1) * arm_b, second.dot(now.apart)));
+        linear_row(second, (frees ? share_a : 1) * arm_a, (frees ? share_b : 1) * arm_b, second.dot(now.apart)));
   }
 
   Frames frames_;

@@ -1,4 +1,4 @@
-// The ends of a joint as ODE counts them, for the engine and its twin alike: an angle or way is that of its first body
+// The ends of a joint as ODE counts them, for the engine and its twin alike: an angle or displacement is that of its first body
 // against its second, and the first must move. So b comes first, as the scene counts, and where b stays, a comes first
 // and all signs turn.
 #pragma once
@@ -21,7 +21,7 @@ class OdeJointEnds {
   }
 
   OdePair<int> bodies;                                  // indices; the second kWorld where it stays
-  double sign() const { return b_is_first_ ? 1 : -1; }  // of ODE's angle or way, against the scene's
+  double sign() const { return b_is_first_ ? 1 : -1; }  // of ODE's angle or displacement, against the scene's
 
   // In W at t = 0.
   OdePair<Vec3> points(const DistanceJoint& distance) const {

@@ -34,7 +34,7 @@ class OdeJoints {
   };
   struct Held {
     dJointID id;
-    double sign;  // of ODE's angle or way, against the scene's
+    double sign;  // of ODE's angle or displacement, against the scene's
     const Axis* axis;
     bool has_limits;
   };

@@ -63,7 +63,7 @@ std::optional<Diagnosis> chain_stretches(const Results& results, const CaseResul
   if (gaps.empty() || (joints_in_a_row(scene) < kChain && mass_ratio(scene) < kUneven)) return std::nullopt;
   const std::string sweeps = in_its_words(*gaps.cells.front(), "iterations");
   const double gap = gaps.values.front()->value;
-  if (sweeps.empty() || gap < kSmall * joint_reach(scene)) return std::nullopt;
+  if (sweeps.empty() || gap < kSmall * joint_size(scene)) return std::nullopt;
   const auto other = run_that_holds(results, result, *gaps.cells.front(), gap);
   if (!other) return std::nullopt;
   Diagnosis found = diagnosis_of(kChainStretches, result, gaps, 0, gap, sweeps);
@@ -76,7 +76,7 @@ std::optional<Diagnosis> joints_part(const CaseResult& result, const MetricOverS
   if (gaps.empty()) return std::nullopt;
   const double gap = gaps.values.front()->value;
   const std::string share = setting_of(*gaps.cells.front(), "erp");
-  if (gap < kSmall * joint_reach(result.definition.scene) || share.empty()) return std::nullopt;
+  if (gap < kSmall * joint_size(result.definition.scene) || share.empty()) return std::nullopt;
   Diagnosis found = diagnosis_of(kJointsPart, result, gaps, 0, gap, in_its_words(*gaps.cells.front(), "erp"));
   found.beside = gaps.values.front()->first_second;
   return found;
@@ -107,7 +107,7 @@ std::optional<Diagnosis> joints_take_energy(const CaseResult& result, const Metr
 
 }  // namespace
 
-double joint_reach(const Scene& scene) {
+double joint_size(const Scene& scene) {
   double reach = 0;
   for (const Joint& joint : scene.joints) {
     const JointGeometry geometry(scene, joint);

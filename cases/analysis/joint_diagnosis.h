@@ -20,7 +20,7 @@ std::vector<Diagnosis> joint_diagnoses(const Results& results, const CaseResult&
 
 // The largest reach [m] from a body's centre to a joint of its, or the largest radius of gyration where that is more (a
 // slider holds the centre itself): what a gap is large or small beside.
-double joint_reach(const Scene& scene);
+double joint_size(const Scene& scene);
 
 // How many joints follow each other at most, from what stands still or else from an end of the mechanism.
 int joints_in_a_row(const Scene& scene);

@@ -78,8 +78,8 @@ class Fit {
     }
     constexpr double kStill = 1e-9, kTrace = 1e-9;  // m; 1
     if (!(moved + turned > kStill * kStill * mass * static_cast<double>(count_))) return;
-    const auto period = [](double square_way, double square_rate) {
-      return 2 * std::numbers::pi * std::sqrt(0.5 * square_way / square_rate);
+    const auto period = [](double square_displacement, double square_rate) {
+      return 2 * std::numbers::pi * std::sqrt(0.5 * square_displacement / square_rate);
     };
     const bool moves = speed > kTrace * (speed + spin), turns = spin > kTrace * (speed + spin);
     if (moves) period_ = period(moved, speed);

@@ -81,7 +81,7 @@ struct UniversalJoint {
 };
 
 // A hinge's angle [rad] is that by which b has turned against a about the axis since t = 0, from -pi to pi; a slider's
-// way [m] is how far b's centre has come along it. Spring, damper and limits act on that coordinate x alone:
+// displacement [m] is how far b's centre has come along it. Spring, damper and limits act on that coordinate x alone:
 //   effort on b = -stiffness (x - rest) - damping x',   the opposite on a.
 struct Joint {
   int a = kWorld, b = kWorld;
@@ -97,7 +97,7 @@ struct Joint {
   bool has_limits() const { return std::isfinite(lower) || std::isfinite(upper); }
 };
 
-// Acts on a hinge's angle or a slider's way while from <= t < until: by a given effort, or by what keeps a given speed.
+// Acts on a hinge's angle or a slider's displacement while from <= t < until: by a given effort, or by what keeps a given speed.
 struct Motor {
   int joint;                                               // index
   double effort = 0;                                       // N m, N: on b along the axis, the opposite on a

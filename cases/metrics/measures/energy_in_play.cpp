@@ -18,13 +18,13 @@ double gained_falling(double speed, double gravity, double height) {
   return std::sqrt(speed * speed + 2 * gravity * std::max(0.0, height)) - speed;
 }
 
-double half_thickness(const Body& body) { return body.shape ? inradius(*body.shape) : 0; }
+double inradius_of(const Body& body) { return body.shape ? inradius(*body.shape) : 0; }
 
 // m/s: falling on the plane, then sliding down it. A plane that does not face up holds nothing.
 double gained_over(const Plane& plane, const Body& body, const Vec3& gravity, double duration) {
   const double rise = -gravity.normalized().dot(plane.normal);  // the cosine of its slope
   if (rise <= 1e-9) return std::numeric_limits<double>::infinity();
-  const double gap = plane.normal.dot(body.position) - plane.offset - half_thickness(body);
+  const double gap = plane.normal.dot(body.position) - plane.offset - inradius_of(body);
   const double slope = std::sqrt(std::max(0.0, 1 - rise * rise));  // its sine
   constexpr double kLevel = 1e-6;                                  // of a normal's roundings
   return gained_falling(body.velocity.norm(), gravity.norm(), gap / rise) +
@@ -96,7 +96,7 @@ double stored_in_springs(const Scene& scene, BodyColumns bodies) {
 double to_lift_everything(const Scene& scene) {
   double sum = 0;
   for (const Body& body : scene.bodies) {
-    if (!body.fixed) sum += body.mass * scene.gravity.norm() * half_thickness(body);
+    if (!body.fixed) sum += body.mass * scene.gravity.norm() * inradius_of(body);
   }
   return sum;
 }

@@ -18,8 +18,8 @@ double bounding_radius(const Shape& shape);  // m, round the body's origin; infi
 double inradius(const Shape& shape);  // m, of the largest sphere inside: half its thickness; infinite for a plane
 
 // Calls `visit(a, b, gap)` for each pair of the scene's colliding bodies, of which one can move, that may be nearer to
-// each other than `reach` [m]: neighbours are found by sorting along one axis.
-void for_each_near_pair(const Scene& scene, BodyColumns bodies, double reach,
+// each other than `distance` [m]: neighbours are found by sorting along one axis.
+void for_each_near_pair(const Scene& scene, BodyColumns bodies, double distance,
                         const std::function<void(int a, int b, double gap)>& visit);
 
 }  // namespace rigor

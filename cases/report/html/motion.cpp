@@ -11,7 +11,7 @@ constexpr double kTurnSeen = 0.01;      // rad
 constexpr double kFarthest = 20;        // times the extent of the truth: a run beyond has left the picture
 constexpr double kMostPoses = 1e5;      // looked at when thinning, bodies times samples: some 50 ms
 
-double reach_of(const Body& body) {
+double bounding_radius_of(const Body& body) {
   if (!body.shape) return 0.1;
   if (const auto* sphere = std::get_if<Sphere>(&*body.shape)) return sphere->radius;
   if (const auto* box = std::get_if<Box>(&*body.shape)) return 0.5 * box->size.norm();
@@ -31,7 +31,7 @@ bool is_within(BodyColumns bodies, const Vec3& centre, double farthest) {
 Motion::Motion(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth)
     : scene_(scene), samples_(trajectory.samples), truth_(truth), count_(samples_.size()) {
   BoundingBox expected;
-  for (const Body& body : scene.bodies) expected.add(body.position), smallest_ = std::max(smallest_, reach_of(body));
+  for (const Body& body : scene.bodies) expected.add(body.position), smallest_ = std::max(smallest_, bounding_radius_of(body));
   const Vec3 start = expected.low;
   if (truth) {
     for (const BodyTable& bodies : truth->bodies) expected.add(bodies.columns());

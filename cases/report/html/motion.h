@@ -42,7 +42,7 @@ class Motion {
   const TruthSamples* truth_;
   std::size_t count_;
   BoundingBox bounds_;
-  double smallest_ = 1e-6;  // m, the largest reach of a body; no scene is smaller
+  double smallest_ = 1e-6;  // m, the largest bounding radius of a body; no scene is smaller
   double position_seen_ = 0;
 };
 

@@ -15,7 +15,7 @@ namespace {
 // What a run's joints do over the cases that it ran and did not blow up in.
 struct Held {
   std::size_t cases = 0;
-  double worst = 0;   // of the joint's reach
+  double worst = 0;   // of the joint's size
   double gap = 0;     // m, then
   std::string where;  // the case
 };
@@ -29,7 +29,7 @@ Held held_by(const Results& results, std::size_t run, const StepSize& dt) {
         continue;
       const bool blew_up = cell.stability.verdict == Verdict::blown_up;
       held.cases += !blew_up;
-      const double share = found->second.value / joint_reach(result.definition.scene);
+      const double share = found->second.value / joint_size(result.definition.scene);
       if (blew_up || !(share > held.worst)) continue;
       held.worst = share, held.gap = found->second.value, held.where = result.definition.id;
     }
@@ -41,7 +41,7 @@ Held held_by(const Results& results, std::size_t run, const StepSize& dt) {
 
 std::optional<Finding> joints_finding(const Results& results, const std::vector<std::size_t>& runs,
                                       const StepSize& dt) {
-  constexpr double kHolds = 1e-6;  // of the joint's reach: a micrometre of a metre
+  constexpr double kHolds = 1e-6;  // of the joint's size: a micrometre of a metre
   std::vector<std::string> hold, stretch, ours;
   for (const std::size_t run : runs) {
     const Held held = held_by(results, run, dt);
@@ -51,7 +51,7 @@ std::optional<Finding> joints_finding(const Results& results, const std::vector<
       (is_in_house(results, run) ? ours : hold).push_back(name);
     } else {
       stretch.push_back(
-          fmt::format("{} by {:.2g} m at a reach of {:.2g} m ({})", name, held.gap, held.gap / held.worst, held.where));
+          fmt::format("{} by {:.2g} m at a size of {:.2g} m ({})", name, held.gap, held.gap / held.worst, held.where));
     }
   }
   if (hold.empty() && stretch.empty() && ours.empty()) return std::nullopt;
@@ -67,7 +67,7 @@ std::optional<Finding> joints_finding(const Results& results, const std::vector<
   return Finding{
       "joints",
       fmt::format(
-          "At dt = {} s, where nothing blows up, joints hold in {}, to a millionth of their reach; they stretch in {}.",
+          "At dt = {} s, where nothing blows up, joints hold in {}, to a millionth of their size; they stretch in {}.",
           dt.text, named.empty() ? "none" : fmt::format("{}", fmt::join(named, ", ")),
           stretch.empty() ? "none" : listed_names(stretch, kMost)),
       fmt::format("Hold: {}. Stretch: {}.", all.empty() ? "none" : fmt::format("{}", fmt::join(all, ", ")),

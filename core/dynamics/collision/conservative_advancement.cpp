@@ -14,7 +14,7 @@ struct SupportBound {
   int body;
   Vec3 n;
   Bend bend;
-  double reach;  // m, round the centre
+  double bounding_radius;  // m, round the centre
   double t;      // s, may be negative
 
   double centre() const {
@@ -27,7 +27,7 @@ struct SupportBound {
   double operator()(const Sphere& sphere) const { return centre() + sphere.radius; }
   double operator()(const Capsule& capsule) const {
     const Vec3 arm = 0.5 * capsule.length * state.rotation(body).col(2);
-    return std::min(std::max(point(arm), point(-arm)) + capsule.radius, centre() + reach);
+    return std::min(std::max(point(arm), point(-arm)) + capsule.radius, centre() + bounding_radius);
   }
   double operator()(const Box& box) const {
     const Mat3 R = state.rotation(body);
@@ -36,7 +36,7 @@ struct SupportBound {
       const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
       most = std::max(most, point(R * sign.cwiseProduct(box.size)));
     }
-    return std::min(most, centre() + reach);
+    return std::min(most, centre() + bounding_radius);
   }
   // Only ever asked along its own normal.
   double operator()(const Plane& plane) const { return n.dot(plane.normal) * plane.offset; }

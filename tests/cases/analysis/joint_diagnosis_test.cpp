@@ -14,7 +14,7 @@ BOOST_AUTO_TEST_CASE(rows_and_masses_of_a_mechanism) {
   const Scene chain = test::chain_of(5, 30);
   BOOST_TEST(joints_in_a_row(chain) == 5);
   BOOST_TEST(mass_ratio(chain) == 30);
-  BOOST_TEST(joint_reach(chain) == 0.5, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(joint_size(chain) == 0.5, boost::test_tools::tolerance(1e-15));
   Scene free = chain;
   free.joints.erase(free.joints.begin());
   BOOST_TEST(joints_in_a_row(free) == 4);
@@ -23,7 +23,7 @@ BOOST_AUTO_TEST_CASE(rows_and_masses_of_a_mechanism) {
   BOOST_TEST(joints_in_a_row(loop) == 3);
   Scene sliding = test::chain_of(1, 1);  // it is held at its centre: what else it reaches is how it is spread
   sliding.joints[0].type = SliderJoint{Vec3::UnitX()};
-  BOOST_TEST(joint_reach(sliding) == std::sqrt(0.3 / 2), boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(joint_size(sliding) == std::sqrt(0.3 / 2), boost::test_tools::tolerance(1e-15));
   BOOST_TEST(joints_in_a_row(Scene()) == 0);
   BOOST_TEST(mass_ratio(Scene()) == 1);
 }

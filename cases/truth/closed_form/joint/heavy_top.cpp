@@ -42,7 +42,7 @@ constexpr Extended kHeavyTopRoundings = 64 * static_cast<Extended>(kEpsilon);  /
 // About the point that stands still.
 struct HeavyBody {
   ExtendedVec3 pivot;                                 // m, in W
-  ExtendedVec3 reach;                                 // m, from there to the centre of mass
+  ExtendedVec3 arm;                                 // m, from there to the centre of mass
   Extended across = 0;                                // kg m², I1
   Extended along = 0;                                 // kg m², I3; 0 for a body on a distance joint
   ExtendedVec3 w;                                     // rad/s, of the axis and about it, in W
@@ -66,9 +66,9 @@ class HeavyTop final : public BodyMotion {
  public:
   HeavyTop(const Body& body, const HeavyBody& heavy, const ExtendedVec3& gravity)
       : heavy_(heavy),
-        length_(heavy.reach.norm()),
+        length_(heavy.arm.norm()),
         up_(-gravity.normalized()),
-        e_(heavy.reach / length_),
+        e_(heavy.arm / length_),
         orientation_(extended(body.orientation)),
         own_w_(extended(body.angular_velocity)),
         own_spin_(body, body.angular_velocity) {
@@ -78,7 +78,7 @@ class HeavyTop final : public BodyMotion {
     nodes_ /= sine;
     spin_ = heavy.along > 0 ? heavy.w.dot(e_) : 0;
     const Quad weight = Quad(body.mass) * sqrt(Quad(gravity.cast<Quad>().squaredNorm()));
-    solve(weight * sqrt(Quad(heavy.reach.cast<Quad>().squaredNorm())) / Quad(heavy.across), gravity);
+    solve(weight * sqrt(Quad(heavy.arm.cast<Quad>().squaredNorm())) / Quad(heavy.across), gravity);
     begin();
   }
 
@@ -129,8 +129,8 @@ class HeavyTop final : public BodyMotion {
 
   // `strength` [1/s²]: m g l / I1. In quadruple precision: at steady motion two roots are one.
   void solve(const Quad& strength, const ExtendedVec3& gravity) {
-    const QuadVec3 reach = heavy_.reach.cast<Quad>(), w = heavy_.w.cast<Quad>(), g = gravity.cast<Quad>();
-    const QuadVec3 e = reach / sqrt(reach.squaredNorm()), up = -g / sqrt(g.squaredNorm()), rate = w.cross(e);
+    const QuadVec3 arm = heavy_.arm.cast<Quad>(), w = heavy_.w.cast<Quad>(), g = gravity.cast<Quad>();
+    const QuadVec3 e = arm / sqrt(arm.squaredNorm()), up = -g / sqrt(g.squaredNorm()), rate = w.cross(e);
     const Quad z0 = e.dot(up), y0 = 1 - z0, beta = 2 * strength;
     // L_z = I1 w_z across the axis, and what of L_3 lies along the vertical.
     const Quad a = Quad(heavy_.along) * w.dot(e) / Quad(heavy_.across), b = rate.dot(up.cross(e)) + a * z0,
@@ -179,9 +179,9 @@ class HeavyTop final : public BodyMotion {
 HeavyBody top_on(const Scene& scene, int index, const Vec3& anchor) {
   const Body& body = scene.bodies[index];
   HeavyBody heavy{extended(anchor), extended(body.position) - extended(anchor), 0, 0, extended(body.angular_velocity)};
-  const Extended length = heavy.reach.norm();
+  const Extended length = heavy.arm.norm();
   if (length == 0) refuse_heavy_top("the joint is at the centre of mass (take 'axisymmetric-top')");
-  const ExtendedVec3 e_B = extended(body.orientation).conjugate() * ExtendedVec3(heavy.reach / length);
+  const ExtendedVec3 e_B = extended(body.orientation).conjugate() * ExtendedVec3(heavy.arm / length);
   const ExtendedMat3 inertia = extended(body.inertia), line = e_B * e_B.transpose();
   heavy.along = e_B.dot(inertia * e_B);
   const Extended across = (inertia.trace() - heavy.along) / 2;
@@ -191,7 +191,7 @@ HeavyBody top_on(const Scene& scene, int index, const Vec3& anchor) {
   heavy.misses += (inertia - across * (ExtendedMat3::Identity() - line) - heavy.along * line).norm() / inertia.norm() *
                   heavy.w.norm();
   heavy.across = across + body.mass * length * length;
-  const ExtendedVec3 v = heavy.w.cross(heavy.reach);
+  const ExtendedVec3 v = heavy.w.cross(heavy.arm);
   if ((extended(body.velocity) - v).norm() > kHeavyTopRoundings * (1 + heavy.w.norm()) * (1 + length))
     refuse_heavy_top(fmt::format("the velocity of body '{}' is not what its spin about the joint gives", body.name));
   return heavy;
@@ -206,11 +206,11 @@ HeavyBody bob_on(const Scene& scene, int index, const Joint& joint) {
   HeavyBody heavy;
   heavy.pivot =
       is_a ? standing_point(scene, joint.b, distance.point_b) : standing_point(scene, joint.a, distance.point_a);
-  heavy.reach = extended(body.position) - heavy.pivot;
+  heavy.arm = extended(body.position) - heavy.pivot;
   heavy.is_top = false;
-  const Extended square = heavy.reach.squaredNorm();
+  const Extended square = heavy.arm.squaredNorm();
   heavy.across = body.mass * square;
-  heavy.w = heavy.reach.cross(extended(body.velocity)) / square;
+  heavy.w = heavy.arm.cross(extended(body.velocity)) / square;
   if (!PrincipalSpin(body, body.angular_velocity).holds())
     refuse_heavy_top(fmt::format("body '{}' would tumble", body.name));
   return heavy;

@@ -22,8 +22,8 @@ struct AccelerationBound {
   double linear = 0;   // m/s², of the centre of mass
   double angular = 0;  // rad/s²
   double spin = 0;     // rad/s, of the angular velocity
-  // m/s², of a point at `reach` [m] from the centre of mass.
-  double of_point(double reach) const { return linear + (spin * spin + angular) * reach; }
+  // m/s², of a point at `distance` [m] from the centre of mass.
+  double of_point(double distance) const { return linear + (spin * spin + angular) * distance; }
 };
 
 // How much of a force and of a torque acts on a body at most.
