@@ -7,8 +7,8 @@
 namespace rigor {
 namespace {
 
-MetricResult measure_with(const JudgedRun& run, double lag) {
-  const EnergySeries energies = energy_series(run, lag);
+MetricResult measure_with(const JudgedRun& run, double stagger) {
+  const EnergySeries energies = energy_series(run, stagger);
   if (!energies.not_applicable.empty()) return {{}, energies.not_applicable};
   TimeSeries series;
   for (std::size_t n = 0; n < energies.expected.size(); ++n) {

@@ -46,11 +46,11 @@ bool stays(const std::vector<double>& energies, double scale) {
 
 }  // namespace
 
-const std::vector<double>& energies_of(const JudgedRun& run, double lag) {
-  const auto [known, is_new] = run.energies.by_lag.try_emplace(lag);
+const std::vector<double>& energies_of(const JudgedRun& run, double stagger) {
+  const auto [known, is_new] = run.energies.by_stagger.try_emplace(stagger);
   std::vector<double>& found = known->second;
   if (!is_new) return found;
-  Synchroniser synchroniser(run.scene, run.trajectory.dt, lag);
+  Synchroniser synchroniser(run.scene, run.trajectory.dt, stagger);
   BodyTable bodies;
   for (const Sample& sample : run.trajectory.samples) {
     bodies = sample.bodies.columns();
@@ -93,7 +93,7 @@ double energy_scale(const JudgedRun& run) {
   return energy_in_play(run.scene, std::max(run.duration, samples.empty() ? 0 : samples.back().time));
 }
 
-EnergySeries energy_series(const JudgedRun& run, double lag) {
+EnergySeries energy_series(const JudgedRun& run, double stagger) {
   EnergySeries series;
   if (run.trajectory.samples.empty()) {
     series.not_applicable = "the run has no finite sample";
@@ -101,8 +101,8 @@ EnergySeries energy_series(const JudgedRun& run, double lag) {
   }
   series.scale = energy_scale(run);
   const Exchange exchange = exchange_of(run.scene);
-  const bool is_lag_known = exchange != Exchange::driving || !contact_may_lose(run.scene);
-  series.found = energies_of(run, is_lag_known ? lag : 0);
+  const bool is_stagger_known = exchange != Exchange::driving || !contact_may_lose(run.scene);
+  series.found = energies_of(run, is_stagger_known ? stagger : 0);
   const auto truth = truths_energies(run, samples_within(run, kTruthNeededPosition));
   const bool conserved = exchange == Exchange::none || (exchange == Exchange::contact && stays(truth, series.scale));
   if (conserved) {

@@ -15,7 +15,7 @@ struct EnergySeries {
   std::string not_applicable;           // why there is nothing to expect; empty if there is
 };
 
-// `lag`: the velocities are first brought forward by that many steps, see synchronised.h; 0 takes them as they are
+// `stagger`: the velocities are first brought forward by that many steps, see synchronised.h; 0 takes them as they are
 // read. So they are, too, where forces push what contact brakes: the push alone, without the friction that all but
 // balances it, would bring them further from the positions' time than they were.
 //
@@ -25,10 +25,10 @@ struct EnergySeries {
 //   timed forces, or dampers, and a truth                its own start plus the truth's change, up to its horizon
 //   timed forces without a truth                         nothing
 //   contact that may lose energy, or dampers             not above the lowest so far: only gains count
-EnergySeries energy_series(const JudgedRun& run, double lag);
+EnergySeries energy_series(const JudgedRun& run, double stagger);
 
-// J, at each sample, with the velocities brought forward by `lag` steps.
-const std::vector<double>& energies_of(const JudgedRun& run, double lag);
+// J, at each sample, with the velocities brought forward by `stagger` steps.
+const std::vector<double>& energies_of(const JudgedRun& run, double stagger);
 std::vector<double> lowest_so_far(const std::vector<double>& energies);  // J, the sample itself included
 
 // J, at each sample: by how much the energy has risen above the lowest before, in both of its readings, whichever says

@@ -61,8 +61,8 @@ struct Watch {
 
 class Watcher {
  public:
-  Watcher(const Scene& scene, const Trajectory& trajectory, double lag)
-      : scene_(scene), trajectory_(trajectory), synchroniser_(scene, trajectory.dt, lag) {
+  Watcher(const Scene& scene, const Trajectory& trajectory, double stagger)
+      : scene_(scene), trajectory_(trajectory), synchroniser_(scene, trajectory.dt, stagger) {
     const auto& samples = trajectory.samples;
     spacing_ = samples.size() > 1 ? samples[1].time - samples[0].time : trajectory.dt;
     slowest_ = 2 * scene.gravity.norm() * spacing_;

@@ -2,7 +2,7 @@
 
 namespace rigor {
 
-Synchroniser::Synchroniser(const Scene& scene, double dt, double lag) : system_(scene), advance_(lag * dt) {
+Synchroniser::Synchroniser(const Scene& scene, double dt, double stagger) : system_(scene), advance_(stagger * dt) {
   if (!scene.joints.empty() && advance_ != 0) joints_.emplace(scene);
 }
 

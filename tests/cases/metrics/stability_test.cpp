@@ -15,8 +15,8 @@ Stability verdict_on(const Scene& scene, const std::string& method, double dt, d
   const double largest = energy_extremes(scene, truth.get(), duration).kinetic;
   const Simulation run = simulate(core(), test::core_method(method), scene, dt, duration);
   const TruthSamples samples = test::sampled(*truth, run.trajectory, scene, largest);
-  const double lag = method_of(core().info(), test::core_method(method)).leapfrog_stagger;
-  return judge_stability({scene, run.trajectory, &samples, lag}, run.not_finite, largest);
+  const double stagger = method_of(core().info(), test::core_method(method)).leapfrog_stagger;
+  return judge_stability({scene, run.trajectory, &samples, stagger}, run.not_finite, largest);
 }
 
 }  // namespace
