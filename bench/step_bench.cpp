@@ -1,6 +1,6 @@
 // Steps of every engine and method on every scene of scenes.cpp. Each timing begins with a fresh world, unless the
 // scene's motion goes on for ever, and takes the same number of steps with every engine, so that all time the same
-// stretch of motion. The checksum of the final positions shows that the work was done.
+// interval of motion. The checksum of the final positions shows that the work was done.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <malloc.h>
@@ -18,8 +18,8 @@
 namespace rigor::bench {
 namespace {
 
-// So many that reading the clock does not count, so few that a stretch of a slow engine lasts tens of milliseconds.
-int steps_of_stretch(const SceneRow& row, int count) {
+// So many that reading the clock does not count, so few that a interval of a slow engine lasts tens of milliseconds.
+int steps_of_interval(const SceneRow& row, int count) {
   if (row.reached == Reached::penetration) return 240;
   if (row.reached == Reached::joint_gap) return std::clamp(5000 / count, 12, 240);
   // What bounces must have the time to: one second.
@@ -47,7 +47,7 @@ struct Subject {
 };
 
 // A step includes reading the state, which is what a user of an engine does after each.
-double run_stretch(World& world, Snapshot& snapshot, int steps, double dt, bool by_wall) {
+double run_interval(World& world, Snapshot& snapshot, int steps, double dt, bool by_wall) {
   const double start = by_wall ? wall_seconds() : thread_seconds();
   for (int n = 0; n < steps; ++n) {
     world.step(dt);
@@ -71,7 +71,7 @@ const Facts& facts_of(const Subject& subject, const std::string& name) {
   const auto world = subject.engine->load(scene, subject.run.settings);
   at->second.bytes_per_body = (heap_in_use() - before) / subject.count;
   Snapshot snapshot;
-  run_stretch(*world, snapshot, std::min(100, steps_of_stretch(*subject.row, subject.count)), subject.row->dt, false);
+  run_interval(*world, snapshot, std::min(100, steps_of_interval(*subject.row, subject.count)), subject.row->dt, false);
   double sum = 0;
   for (std::size_t i = 0; i < snapshot.bodies().size(); ++i) sum += snapshot.bodies().position(i).sum();
   at->second.checksum = sum;
@@ -87,7 +87,7 @@ void time_steps(benchmark::State& state, const Subject& subject, const std::stri
     state.SkipWithError(obstacle.c_str());
     return;
   }
-  const int steps = steps_of_stretch(row, subject.count);
+  const int steps = steps_of_interval(row, subject.count);
   const Facts& facts = facts_of(subject, name);
   auto world = subject.engine->load(scene, subject.run.settings);
   Snapshot snapshot;
@@ -95,9 +95,9 @@ void time_steps(benchmark::State& state, const Subject& subject, const std::stri
   double seconds = 0, least = std::numeric_limits<double>::infinity();
   for (auto _ : state) {
     if (used && !row.goes_on) world = subject.engine->load(scene, subject.run.settings);
-    if (!used && row.goes_on) run_stretch(*world, snapshot, 1, row.dt, false);  // touches its memory
+    if (!used && row.goes_on) run_interval(*world, snapshot, 1, row.dt, false);  // touches its memory
     used = true;
-    const double taken = run_stretch(*world, snapshot, steps, row.dt, subject.by_wall);
+    const double taken = run_interval(*world, snapshot, steps, row.dt, subject.by_wall);
     seconds += taken;
     least = std::min(least, taken);
     state.SetIterationTime(taken);

@@ -75,8 +75,8 @@ void BulletTwinJoints::push(MutableBodyColumns state, double dt) {
   const Sparse system = Sparse(J_ * by_impulse) + (cfm_ ? *cfm_ / dt : softness_) * identity;
   const Eigen::SimplicialLDLT<Sparse> factor(system);
   warning_ = factor.info() == Eigen::Success ? "" : "the joints' equations are singular, and cfm is zero";
-  const Eigen::VectorXd wanted = -erp_ / dt * Eigen::Map<const Eigen::VectorXd>(gaps_.data(), count),
-                        right = wanted - J_ * velocities_of(state);
+  const Eigen::VectorXd target = -erp_ / dt * Eigen::Map<const Eigen::VectorXd>(gaps_.data(), count),
+                        right = target - J_ * velocities_of(state);
   Eigen::VectorXd impulses = factor.solve(right);
   impulses += factor.solve(right - system * impulses);  // once refined: rows that repeat others are nearly singular
   const Eigen::VectorXd change = by_impulse * impulses;

@@ -19,7 +19,7 @@
 namespace rigor {
 namespace {
 
-constexpr double kLinearSeen = 5e-3;       // of a course's range: a pixel of a plot
+constexpr double kLinearSeen = 5e-3;       // of a series' range: a pixel of a plot
 constexpr double kDecadesSeen = 0.04;      // of a logarithmic plot: likewise
 constexpr double kNoise = 1e-12;           // of a series in any unit: what is smaller is rounding, and has no shape
 constexpr std::size_t kMostKeys = 6000;    // of a motion

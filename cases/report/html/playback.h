@@ -15,7 +15,7 @@ namespace rigor {
 // A series beside the metrics': (E - E at the start) / the truth's largest kinetic energy, with its sign, as read.
 inline constexpr const char* kEnergyChange = "energy_change";
 
-// The names that a packed course's number stands for.
+// The names that a packed series' number stands for.
 const std::vector<std::string>& series_names();
 
 // Texts in base64, the finest first, each shorter than the one before. All but the finest leave out the series that

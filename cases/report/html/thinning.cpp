@@ -6,20 +6,20 @@
 namespace rigor {
 namespace {
 
-// A stretch between two kept samples and the sample in it that deviates most.
-struct Stretch {
+// A interval between two kept samples and the sample in it that deviates most.
+struct Interval {
   std::size_t first, last, worst;
   double deviation;
-  bool operator<(const Stretch& other) const { return deviation < other.deviation; }
+  bool operator<(const Interval& other) const { return deviation < other.deviation; }
 };
 
-Stretch examined(std::size_t first, std::size_t last, const Deviation& deviation) {
-  Stretch stretch{first, last, first, 0};
+Interval examined(std::size_t first, std::size_t last, const Deviation& deviation) {
+  Interval interval{first, last, first, 0};
   for (std::size_t i = first + 1; i < last; ++i) {
     const double here = deviation(i, first, last);
-    if (here > stretch.deviation) stretch.worst = i, stretch.deviation = here;
+    if (here > interval.deviation) interval.worst = i, interval.deviation = here;
   }
-  return stretch;
+  return interval;
 }
 
 }  // namespace
@@ -30,10 +30,10 @@ std::vector<KeptSample> ranked_samples(std::size_t count, std::size_t limit, con
   kept.push_back({0, 0});
   if (count == 1) return kept;
   kept.push_back({count - 1, 0});
-  std::priority_queue<Stretch> open;
+  std::priority_queue<Interval> open;
   open.push(examined(0, count - 1, deviation));
   while (!open.empty() && kept.size() < limit) {
-    const Stretch worst = open.top();
+    const Interval worst = open.top();
     open.pop();
     if (worst.deviation <= 1) break;
     kept.push_back({worst.worst, worst.deviation});

@@ -1,5 +1,5 @@
 // Which samples of a series to keep so that straight lines between them stay close to it. Top-down as by Ramer, Douglas
-// and Peucker, worst deviation first: an impact or an extreme is the worst of its stretch and so among the first.
+// and Peucker, worst deviation first: an impact or an extreme is the worst of its interval and so among the first.
 #pragma once
 
 #include <cstddef>

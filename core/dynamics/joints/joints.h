@@ -3,7 +3,7 @@
 //   accelerations  M V' = f + Jᵀ l,  J V' = -J' V             hold()
 //   velocities     J V = 0 by an impulse Jᵀ l                 velocity_impulse()
 //   a drift        that ends where g = 0, by an impulse at its start along J there  (SHAKE and RATTLE)   close()
-//   a state        moved by the least motion in the metric of M to g = 0 and J V = 0    project()
+//   a state        projected, with the least norm in the metric of M, to g = 0 and J V = 0    project()
 // Coordinates that are kept or driven (joint_rows.h) have rows in all of these; which are is for their owner to say
 // (joint_stops.h).
 #pragma once

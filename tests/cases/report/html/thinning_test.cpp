@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(impacts_come_before_all_else) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(short_and_straight_courses_keep_their_ends) {
+BOOST_AUTO_TEST_CASE(short_and_straight_series_keep_their_ends) {
   const std::vector<double> line = {0, 1, 2, 3};
   BOOST_TEST(ranked_samples(0, 9, deviation_of(line, 1)).empty());
   BOOST_TEST(ranked_samples(1, 9, deviation_of(line, 1)).size() == 1u);

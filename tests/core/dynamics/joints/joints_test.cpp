@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(a_singular_position_at_the_start_is_named_at_once) {
   BOOST_TEST(warning_at(0.8) == "");
 }
 
-// The least motion in the metric of the masses: of two bodies on one ball joint, pulled apart by a gap, each moves by
+// The mass-weighted least-norm projection: of two bodies on one ball joint, pulled apart by a gap, each moves by
 // its share of the inverse masses, for the anchor is at both centres.
 BOOST_AUTO_TEST_CASE(projection_moves_each_body_by_its_inverse_mass) {
   Scene scene;
