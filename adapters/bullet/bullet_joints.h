@@ -8,8 +8,8 @@
 //   universal  btGeneric6DofSpring2Constraint with one of three angles locked: z of a's frame is the axis, x of b's
 //   frame
 //              axis2, and the angle about z x x is what keeps them at right angles
-// A slider's limits are a second constraint beside it, a btGeneric6DofSpring2Constraint of which all but the displacement along
-// the axis is free: btSliderConstraint looks for its bounce on the way out, and so never bounces.
+// A slider's limits are a second constraint beside it, a btGeneric6DofSpring2Constraint of which all but the
+// displacement along the axis is free: btSliderConstraint looks for its bounce on the way out, and so never bounces.
 // Bullet has no joint that keeps a distance, and none of its constraints is one for a special choice of its parameters.
 // Springs, dampers and given efforts are not here: they are loads (external_loads.h).
 #pragma once

@@ -2,8 +2,8 @@
 // semi-implicit Euler in the coordinates u of the joints and of a free base,
 //   u1' = u0' + dt u0'',   u1 = u0 + dt u1',   then every body's pose and velocities from u1 and u1'.
 // u0'' are exact: here of bodies in W that the core's joints hold (joints.h), in Bullet of Featherstone's algorithm.
-// Along a hinge, a slider and a universal joint u is an angle or a displacement. A ball joint's rate is the child's angular
-// velocity against its parent as the child sees it, a free base's its own v and w in W; both turn by turn_of().
+// Along a hinge, a slider and a universal joint u is an angle or a displacement. A ball joint's rate is the child's
+// angular velocity against its parent as the child sees it, a free base's its own v and w in W; both turn by turn_of().
 // Everything is taken from the bodies' motion at the start of the step, which the joints hold to rounding.
 #include "adapters/bullet/bullet_multibody_twin.h"
 

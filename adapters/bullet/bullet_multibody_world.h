@@ -1,6 +1,6 @@
-// A scene as Bullet's btMultiBody: reduced coordinates (joint angles and displacements), accelerations by Featherstone's
-// articulated-body algorithm, so that joints hold to rounding. Trees only, without contacts. A joint of the scene is
-// one of Bullet's:
+// A scene as Bullet's btMultiBody: reduced coordinates (joint angles and displacements), accelerations by
+// Featherstone's articulated-body algorithm, so that joints hold to rounding. Trees only, without contacts. A joint of
+// the scene is one of Bullet's:
 //   ball spherical    hinge revolute    slider prismatic    fixed fixed
 //   universal         two revolute ones with a link between them that has neither mass nor inertia; only the inertia
 //                     of all that hangs on a joint is ever divided by, and that is never zero here

@@ -1,6 +1,6 @@
-// The ends of a joint as ODE counts them, for the engine and its twin alike: an angle or displacement is that of its first body
-// against its second, and the first must move. So b comes first, as the scene counts, and where b stays, a comes first
-// and all signs turn.
+// The ends of a joint as ODE counts them, for the engine and its twin alike: an angle or displacement is that of its
+// first body against its second, and the first must move. So b comes first, as the scene counts, and where b stays, a
+// comes first and all signs turn.
 #pragma once
 
 #include "core/scene/scene.h"

@@ -93,9 +93,7 @@ class LibraryWorld : public World {
     room_.front() = room_.back() = '\0';
     return {room_.data(), room_.size() - 1};
   }
-  [[noreturn]] void refuse(const char* call, const std::string& fault) const {
-    refuse_answer({name_, call}, fault);
-  }
+  [[noreturn]] void refuse(const char* call, const std::string& fault) const { refuse_answer({name_, call}, fault); }
 
   void answered(const char* call, rigor_status status) const {
     if (status == RIGOR_OK && room_.back() == '\0') return;

@@ -18,7 +18,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* word_of(CheckResult::Answer answer) {
-  return answer == CheckResult::Answer::holds ? "holds" : answer == CheckResult::Answer::broken ? "broken" : "not-asked";
+  return answer == CheckResult::Answer::holds    ? "holds"
+         : answer == CheckResult::Answer::broken ? "broken"
+                                                 : "not-asked";
 }
 
 Json json_of(const ConformanceCheck& check, const CheckResult& result) {

@@ -33,7 +33,7 @@ struct TwinRun {
 
 // J, at each sample: several metrics ask for the same, and it is worked out once.
 struct EnergiesKnown {
-  std::map<double, std::vector<double>> by_stagger;      // of the run, see energies_of
+  std::map<double, std::vector<double>> by_stagger;  // of the run, see energies_of
   std::optional<std::vector<double>> of_truth = {};  // as far as the truth was sampled
 };
 

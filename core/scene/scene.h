@@ -97,7 +97,8 @@ struct Joint {
   bool has_limits() const { return std::isfinite(lower) || std::isfinite(upper); }
 };
 
-// Acts on a hinge's angle or a slider's displacement while from <= t < until: by a given effort, or by what keeps a given speed.
+// Acts on a hinge's angle or a slider's displacement while from <= t < until: by a given effort, or by what keeps a
+// given speed.
 struct Motor {
   int joint;                                               // index
   double effort = 0;                                       // N m, N: on b along the axis, the opposite on a

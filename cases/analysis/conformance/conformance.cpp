@@ -41,13 +41,13 @@ void Comparison::number(const std::string& what, double came, double due, double
 void Comparison::vector(const std::string& what, const Vec3& came, const Vec3& due, double tolerance) {
   if (result_.answer == CheckResult::Answer::broken || (came - due).norm() <= tolerance) return;
   result_ = broken(sent_, fmt::format("{} {}", what, text_of(came)),
-                    fmt::format("{}, give or take {:.2g}", text_of(due), tolerance));
+                   fmt::format("{}, give or take {:.2g}", text_of(due), tolerance));
 }
 
 void Comparison::orientation(const Quat& came, const Quat& due, double tolerance) {
   if (result_.answer == CheckResult::Answer::broken || angle_between(came, due) <= tolerance) return;
   result_ = broken(sent_, fmt::format("orientation (w, x, y, z) {}", text_of(came)),
-                    fmt::format("{}, give or take {:.2g} rad", text_of(due), tolerance));
+                   fmt::format("{}, give or take {:.2g} rad", text_of(due), tolerance));
 }
 
 TriedWorld::TriedWorld(const Trial& trial, const Scene& scene)

@@ -17,8 +17,8 @@ class Synchroniser {
   // `stagger`: steps by which the velocities are behind, see MethodInfo::leapfrog_stagger.
   Synchroniser(const Scene& scene, double dt, double stagger);
 
-  // v + stagger dt v' and w + stagger dt w', with the scene's own accelerations at the bodies' positions and time; then to the
-  // nearest velocities that the joints allow there, for a joint turns velocities as the bodies go on.
+  // v + stagger dt v' and w + stagger dt w', with the scene's own accelerations at the bodies' positions and time; then
+  // to the nearest velocities that the joints allow there, for a joint turns velocities as the bodies go on.
   void apply(double time, MutableBodyColumns bodies);
 
  private:

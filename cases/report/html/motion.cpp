@@ -31,7 +31,8 @@ bool is_within(BodyColumns bodies, const Vec3& centre, double farthest) {
 Motion::Motion(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth)
     : scene_(scene), samples_(trajectory.samples), truth_(truth), count_(samples_.size()) {
   BoundingBox expected;
-  for (const Body& body : scene.bodies) expected.add(body.position), smallest_ = std::max(smallest_, bounding_radius_of(body));
+  for (const Body& body : scene.bodies)
+    expected.add(body.position), smallest_ = std::max(smallest_, bounding_radius_of(body));
   const Vec3 start = expected.low;
   if (truth) {
     for (const BodyTable& bodies : truth->bodies) expected.add(bodies.columns());

@@ -94,7 +94,7 @@ class Finder {
   }
 
   // What is said of each that failed; of ours likewise, or only how many of them did.
-  std::string losers(GroupedWording theirs, const GroupedWording& text_of_ours, const std::vector<std::size_t>& ours,
+  std::string losers(GroupedNames theirs, const GroupedNames& text_of_ours, const std::vector<std::size_t>& ours,
                      std::size_t all_ours) const {
     ours.size() > kFewOfOurs ? theirs.add(brief(ours, all_ours), " in some") : theirs.add(text_of_ours);
     return theirs.text();
@@ -115,7 +115,7 @@ class Finder {
 
   void say_who_blows_up() {
     std::vector<std::size_t> steady, ours;
-    GroupedWording lost, of_ours, where;
+    GroupedNames lost, of_ours, where;
     for (const std::size_t run : runs()) {
       std::vector<std::string> blown;
       std::size_t ran = 0;
@@ -147,7 +147,7 @@ class Finder {
     }
     std::vector<std::string> ids;
     std::vector<std::size_t> stable, drifting, ours;
-    GroupedWording lost, of_ours;
+    GroupedNames lost, of_ours;
     for (const CaseResult* result : stiff) ids.push_back(result->definition.id);
     for (const std::size_t run : runs()) {
       std::size_t ran = 0, blown = 0, drifts = 0;

@@ -22,13 +22,13 @@ std::string wrapped(const std::string& text, std::size_t indent);
 std::string listed_names(const std::vector<std::string>& names, std::size_t most);
 
 // "a, b in 2 of 3; c in 1 of 3": those that the same is said of stand together, in the order they came.
-class GroupedWording {
+class GroupedNames {
  public:
   void add(const std::string& name, const std::string& what) {
     const auto said = std::find_if(said_.begin(), said_.end(), [&](const auto& s) { return s.first == what; });
     said == said_.end() ? said_.push_back({what, name}) : void(said->second += ", " + name);
   }
-  void add(const GroupedWording& others) { said_.insert(said_.end(), others.said_.begin(), others.said_.end()); }
+  void add(const GroupedNames& others) { said_.insert(said_.end(), others.said_.begin(), others.said_.end()); }
   bool empty() const { return said_.empty(); }
   std::string text() const {
     std::string text;

@@ -72,8 +72,8 @@ void BroadPhase::pairs_of_cell(const std::vector<Aabb>& boxes, std::size_t first
   const auto try_pair = [&](int a, int b) {
     if (!overlap(boxes[a], boxes[b])) return;
     const Vec3 corner = boxes[a].low.cwiseMax(boxes[b].low);
-    const std::uint64_t cell = cell_number(cell_index(corner.x(), width_), cell_index(corner.y(), width_),
-                                           cell_index(corner.z(), width_));
+    const std::uint64_t cell =
+        cell_number(cell_index(corner.x(), width_), cell_index(corner.y(), width_), cell_index(corner.z(), width_));
     if (cell == entries_[first].cell) pairs_.push_back(std::minmax(a, b));
   };
   for (std::size_t i = first; i < last; ++i) {
@@ -110,7 +110,7 @@ const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<A
 }
 
 const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<Aabb>& boxes,
-                                                                 const std::vector<int>& changed) {
+                                                             const std::vector<int>& changed) {
   is_changed_.assign(boxes.size(), 0);
   for (const int place : changed) is_changed_[place] = 1;
   forget_changed();

@@ -15,7 +15,7 @@ struct SupportBound {
   Vec3 n;
   Bend bend;
   double bounding_radius;  // m, round the centre
-  double t;      // s, may be negative
+  double t;                // s, may be negative
 
   double centre() const {
     return n.dot(state.position(body) + t * state.velocity(body)) + 0.5 * bend.of_centre * t * t;

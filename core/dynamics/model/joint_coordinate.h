@@ -1,6 +1,6 @@
 // The one coordinate x of a hinge or a slider, on which its spring, damper, limits and motors act: the angle [rad] by
-// which b has turned against a about the axis since t = 0, from -pi to pi, or the displacement [m] that b's centre has come
-// along it.
+// which b has turned against a about the axis since t = 0, from -pi to pi, or the displacement [m] that b's centre has
+// come along it.
 #pragma once
 
 #include "core/engine/body_table.h"

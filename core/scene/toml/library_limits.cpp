@@ -75,7 +75,7 @@ class Scan {
     const char c = text_[at_];
     const bool is_printable = c > ' ' && c < 0x7f;
     found_fault(at_, fmt::format("is not TOML: found {} where the name of a table begins",
-                              is_printable ? fmt::format("'{}'", c) : "a character that no name has"));
+                                 is_printable ? fmt::format("'{}'", c) : "a character that no name has"));
   }
 
   // A string that does not end, or goes over the line's end without three quotes, is malformed.
@@ -105,9 +105,10 @@ class Scan {
     const bool is_line_end = i < text_.size() && is_blank(text_[i]);
     while (is_line_end && i + 1 < text_.size() && is_blank(text_[i + 1])) ++i;
     if (is_line_end && is_beyond_ascii(text_, i + 1)) {
-      found_fault(i + 1,
-               "found a character that is not ASCII right behind a line's end that a string escapes; begin that line "
-               "by another");
+      found_fault(
+          i + 1,
+          "found a character that is not ASCII right behind a line's end that a string escapes; begin that line "
+          "by another");
     } else if (is_beyond_ascii(text_, i)) {
       found_fault(i, "is not TOML: found a backslash before a character that is not ASCII");
     }
@@ -119,10 +120,9 @@ class Scan {
     const std::string_view before = text_.substr(0, at);
     const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
     const auto is_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
-    fault_ = {
-        std::count(before.begin(), before.end(), '\n') + 1,
-        std::count_if(before.begin() + static_cast<std::ptrdiff_t>(line_start), before.end(), is_character) + 1,
-        std::move(what)};
+    fault_ = {std::count(before.begin(), before.end(), '\n') + 1,
+              std::count_if(before.begin() + static_cast<std::ptrdiff_t>(line_start), before.end(), is_character) + 1,
+              std::move(what)};
   }
 
   std::string_view text_;

@@ -91,9 +91,7 @@ TextRange TomlValue::range() const {
 
 std::string TomlValue::label() const { return name_.empty() ? where() : fmt::format("{}: {}", where(), name_); }
 
-void TomlValue::refuse(const std::string& fault) const {
-  throw InputError(fmt::format("{}: {}", label(), fault));
-}
+void TomlValue::refuse(const std::string& fault) const { throw InputError(fmt::format("{}: {}", label(), fault)); }
 
 void TomlValue::refuse_found(const std::string& allowed) const {
   refuse(fmt::format("found {}; allowed: {}", described(*node_), allowed));

@@ -54,7 +54,7 @@ class TomlValue {
   TableReader table(const Keys& allowed) const;                // with no other keys than these
   std::vector<TableReader> tables(const Keys& allowed) const;  // an array of tables, [[key]]
 
-  [[noreturn]] void refuse(const std::string& fault) const;      // label: fault
+  [[noreturn]] void refuse(const std::string& fault) const;          // label: fault
   [[noreturn]] void refuse_found(const std::string& allowed) const;  // label: found ...; allowed: ...
 
  private:

@@ -42,7 +42,7 @@ constexpr Extended kHeavyTopRoundings = 64 * static_cast<Extended>(kEpsilon);  /
 // About the point that stands still.
 struct HeavyBody {
   ExtendedVec3 pivot;                                 // m, in W
-  ExtendedVec3 arm;                                 // m, from there to the centre of mass
+  ExtendedVec3 arm;                                   // m, from there to the centre of mass
   Extended across = 0;                                // kg m², I1
   Extended along = 0;                                 // kg m², I3; 0 for a body on a distance joint
   ExtendedVec3 w;                                     // rad/s, of the axis and about it, in W

@@ -39,7 +39,7 @@ struct ContactKinematics {
   Vec3 normal_rate = Vec3::Zero(), point_rate = Vec3::Zero();  // 1/s, m/s
 };
 
-// The features at a point of a manifold, where the bodies kinematics.
+// The features at a point of a manifold, where the bodies touch.
 FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pose& pose_a, const Collider& b,
                         const Pose& pose_b);
 ContactKinematics contact_kinematics(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b);

@@ -65,8 +65,8 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
     const Eigen::Vector2d slip = point.velocity.tail<2>(), change = acceleration.tail<2>();
     const bool slides = slip.norm() > kSliding && std::isfinite(point.friction());
     point.begins_to_slip = !slides && std::isfinite(point.friction()) && change.norm() > kSlipping * size_;
-    point.mode =
-        slides || point.begins_to_slip || point.friction() == 0 ? PersistentPoint::Mode::slides : PersistentPoint::Mode::sticks;
+    point.mode = slides || point.begins_to_slip || point.friction() == 0 ? PersistentPoint::Mode::slides
+                                                                         : PersistentPoint::Mode::sticks;
     point.slip_direction.setZero();
     if (slides) point.slip_direction = point.frame.rightCols<2>() * slip.normalized();
     if (point.begins_to_slip) point.slip_direction = point.frame.rightCols<2>() * change.normalized();
@@ -86,8 +86,9 @@ bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) 
   while (persistent_.has_friction_of_slip()) {
     persistent_.begin_attempt();
     persistent_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
-    const auto least = std::min_element(
-        points.begin(), points.end(), [](const PersistentPoint& a, const PersistentPoint& b) { return a.force.x() < b.force.x(); });
+    const auto least =
+        std::min_element(points.begin(), points.end(),
+                         [](const PersistentPoint& a, const PersistentPoint& b) { return a.force.x() < b.force.x(); });
     if (least->force.x() >= -kPulling * persistent_.largest_force()) break;
     dropped.push_back(*least);
     points.erase(least);

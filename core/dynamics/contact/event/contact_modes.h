@@ -11,7 +11,8 @@ namespace rigor {
 
 class ContactModes {
  public:
-  ContactModes(const System& system, PersistentForces& held) : solver_(system), system_(system), persistent_(held) {}
+  ContactModes(const System& system, PersistentForces& forces)
+      : solver_(system), system_(system), persistent_(forces) {}
 
   // Gives each of the persistent points its mode, and drops those that part. False if no forces were found.
   bool choose(BodyColumns state, const double* wrench);

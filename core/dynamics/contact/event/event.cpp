@@ -81,7 +81,7 @@ class EventStepper : public ContactStepper {
   SettingsInForce settings_in_force() const override {
     return {
         {"impacts", "at their own instants, simultaneous ones together"},
-        {"held contact", "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
+        {"persistent contact", "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
         {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.restitution_threshold())},
         {"most events in a step", fmt::format("{}", kMostEvents)}};
   }
@@ -149,7 +149,9 @@ class EventStepper : public ContactStepper {
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
     return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
       const auto [a, b] = pair;
-      const auto is_of_pair = [&](const PersistentPoint& held) { return held.contact.a == a && held.contact.b == b; };
+      const auto is_of_pair = [&](const PersistentPoint& point) {
+        return point.contact.a == a && point.contact.b == b;
+      };
       if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair))
         return true;
       const Collider &first = contact_points_.colliders()[a], &second = contact_points_.colliders()[b];
@@ -265,21 +267,21 @@ class EventStepper : public ContactStepper {
   // them too.
   double least_free_gap() {
     double least = kInfinity;
-    const std::vector<PersistentPoint>& held = persistent_contact_.points();
+    const std::vector<PersistentPoint>& known = persistent_contact_.points();
     for (const auto& [a, b] : pairs_) {
       double drift = 0;
       const auto is_of_pair = [&](const auto& point) { return point.a == a && point.b == b; };
       for (const ContactPoint& point : touching_) {
         if (is_of_pair(point)) drift = std::max(drift, kRounding - point.gap);
       }
-      for (const PersistentPoint& point : held) {
+      for (const PersistentPoint& point : known) {
         if (is_of_pair(point.contact)) drift = std::max(drift, kRounding + 4 * std::abs(point.kinematics.gap));
       }
       for (const ManifoldPoint& point : contact_points_.manifold(end_.columns(), a, b)) {
-        const bool is_held = std::any_of(held.begin(), held.end(), [&](const PersistentPoint& h) {
+        const bool is_known = std::any_of(known.begin(), known.end(), [&](const PersistentPoint& h) {
           return is_of_pair(h.contact) && h.contact.feature == point.feature;
         });
-        if (!is_held) least = std::min(least, point.gap + drift);
+        if (!is_known) least = std::min(least, point.gap + drift);
       }
     }
     return least;

@@ -161,8 +161,9 @@ void PersistentContact::take_inelastic_step(MutableBodyColumns state, std::vecto
 }
 
 bool PersistentContact::carries(const ContactPoint& contact) const {
-  return std::any_of(points().begin(), points().end(),
-                     [&](const PersistentPoint& point) { return point.contact.same_place(contact) && point.force.x() > 0; });
+  return std::any_of(points().begin(), points().end(), [&](const PersistentPoint& point) {
+    return point.contact.same_place(contact) && point.force.x() > 0;
+  });
 }
 
 bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,

@@ -1,7 +1,7 @@
 // Motion in persistent contact, for the method `event`: the forces at the points in contact are part of the equations
-// of motion (persistent_forces.h), which the integrator asks at each of its stages, so that they keep its order as long as
-// each point goes on to stick or to slide. Its drift is taken back after each step. An integrator that does not ask at
-// stages hands what is in contact over to one that does, of no lower order.
+// of motion (persistent_forces.h), which the integrator asks at each of its stages, so that they keep its order as long
+// as each point goes on to stick or to slide. Its drift is taken back after each step. An integrator that does not ask
+// at stages hands what is in contact over to one that does, of no lower order.
 #pragma once
 
 #include "core/dynamics/contact/contact_method.h"

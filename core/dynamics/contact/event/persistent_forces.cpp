@@ -125,7 +125,8 @@ std::pair<Vec3, Vec3> PersistentForces::free_acceleration(BodyColumns state, con
           angular_acceleration(inertia, R, state.angular_velocity(body), torque)};
 }
 
-double PersistentForces::normal_acceleration(BodyColumns state, const double* total, const PersistentPoint& point) const {
+double PersistentForces::normal_acceleration(BodyColumns state, const double* total,
+                                             const PersistentPoint& point) const {
   const auto along = [&](int body, const Vec3& arm) {
     const auto [linear, angular] = free_acceleration(state, total, body);
     return point.kinematics.normal.dot(linear + angular.cross(arm));

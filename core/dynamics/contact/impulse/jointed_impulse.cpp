@@ -1,7 +1,7 @@
 // Contact by impulses (impulse.cpp) of bodies that joints hold together, with limits and motors. A sub-step is the same
 // but for three things: the integrator moves the bodies with their joints; the impulses of rows act through the joints
-// (jointed_rows.h); and the sub-step ends with the mass-weighted least-norm projection that closes the joints again, for the corrections of
-// positions went along their tangents.
+// (jointed_rows.h); and the sub-step ends with the mass-weighted least-norm projection that closes the joints again,
+// for the corrections of positions went along their tangents.
 #include "core/dynamics/contact/impulse/jointed_impulse.h"
 
 #include <algorithm>
