@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/dynamics/collision/sphere_broad_phase.h"
+#include "core/dynamics/collision/neighbour_list.h"
 #include "core/dynamics/contact/contact_method.h"
 #include "core/scene/contact_laws.h"
 
@@ -43,7 +43,7 @@ class CourseContact : public Contact {
         balls_(balls_of(scene)),
         spheres_(kSphereColumns, scene.bodies.size()),
         below_(spheres_.stride()),
-        broad_phase_(balls_) {
+        neighbours_(balls_) {
     double* const radii = spheres_.column(kRadius);
     std::fill_n(radii, spheres_.stride(), -std::numeric_limits<double>::infinity());
     for (const Ball& ball : balls_) radii[ball.body] = ball.radius;
@@ -57,7 +57,7 @@ class CourseContact : public Contact {
   void resolve(MutableBodyColumns state) override {
     for (const Ground& ground : grounds_) resolve_on_ground(ground, state);
     if (balls_.size() < 2) return;
-    for (const auto& [a, b] : broad_phase_.overlaps(system_.constants.all(), state, spheres_))
+    for (const auto& [a, b] : neighbours_.overlaps(system_.constants.all(), state, spheres_))
       resolve_balls(balls_[a], balls_[b], state);
   }
 
@@ -130,7 +130,7 @@ class CourseContact : public Contact {
   std::vector<Ball> balls_;
   Columns spheres_;                  // columns of SphereColumn, by body
   std::vector<std::int32_t> below_;  // the plane
-  SphereBroadPhase broad_phase_;
+  NeighbourList neighbours_;
 };
 
 class CourseStepper : public ContactStepper {

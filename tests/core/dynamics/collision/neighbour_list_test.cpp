@@ -1,4 +1,4 @@
-#include "core/dynamics/collision/sphere_broad_phase.h"
+#include "core/dynamics/collision/neighbour_list.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -30,8 +30,8 @@ class Search {
     Pairs pairs;
     for (int a = 0; a < static_cast<int>(radii_.size()); ++a) {
       for (int b = a + 1; b < static_cast<int>(radii_.size()); ++b) {
-        const double reach = radii_[a] + radii_[b];
-        if ((centre(a) - centre(b)).squaredNorm() < reach * reach) pairs.emplace_back(a, b);
+        const double distance = radii_[a] + radii_[b];
+        if ((centre(a) - centre(b)).squaredNorm() < distance * distance) pairs.emplace_back(a, b);
       }
     }
     return pairs;
@@ -47,7 +47,7 @@ class Search {
   std::vector<double> radii_;
   BodyTable state_;
   Columns spheres_;
-  SphereBroadPhase search_;
+  NeighbourList search_;
 };
 
 Vec3 wandering(int ball, double t, double speed) {
@@ -57,7 +57,7 @@ Vec3 wandering(int ball, double t, double speed) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_dynamics_collision_sphere_broad_phase)
+BOOST_AUTO_TEST_SUITE(core_dynamics_collision_neighbour_list)
 
 // A search holds for many steps; what it was made for changes in between: speeds, and a ball that jumps, goes far or is
 // lost.
