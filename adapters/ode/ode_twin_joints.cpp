@@ -174,18 +174,15 @@ struct MakeRows {
   }
 };
 
-template <typename Block>
-void add_block(Eigen::Index row, Eigen::Index column, const Block& block,
-               std::vector<Eigen::Triplet<double>>& triplets) {
-  for (Eigen::Index i = 0; i < block.rows(); ++i) {
-    for (Eigen::Index j = 0; j < block.cols(); ++j) triplets.emplace_back(row + i, column + j, block(i, j));
-  }
+OdeEnd end_of(BodyColumns state, int body) {
+  if (body == kWorld) return {};
+  return {state.position(body), state.orientation(body), state.rotation(body), true};
 }
 
 }  // namespace
 
 OdeTwinJoints::OdeTwinJoints(const Scene& scene, const System& system, double erp, std::optional<double> cfm)
-    : system_(system), erp_(erp), cfm_(cfm), softness_(matched_softness(scene)) {
+    : solver_(system, erp, cfm, matched_softness(scene)) {
   BodyTable start(system.size());
   set_initial_state(scene, start.columns());
   for (const Joint& joint : scene.joints) {
@@ -193,60 +190,17 @@ OdeTwinJoints::OdeTwinJoints(const Scene& scene, const System& system, double er
     const auto [first, second] = ends.bodies;
     const OdeEnd one = end_of(start.columns(), first), other = end_of(start.columns(), second);
     joints_.push_back({std::visit(MakeRows{ends, one, other}, joint.type), first, second});
-    row_count_ += joints_.back().rows->count();
   }
-}
-
-OdeEnd OdeTwinJoints::end_of(BodyColumns state, int body) const {
-  if (body == kWorld) return {};
-  return {state.position(body), state.orientation(body), state.rotation(body), true};
-}
-
-void OdeTwinJoints::assemble(BodyColumns state) {
-  std::vector<Eigen::Triplet<double>> jacobian, mass;
-  missing_.resize(row_count_);
-  Eigen::Index at = 0;
-  for (const Held& joint : joints_) {
-    OdeRows rows;
-    joint.rows->fill(end_of(state, joint.first), end_of(state, joint.second), rows);
-    const int count = joint.rows->count();
-    add_block(at, 6 * joint.first, rows.on_first.topRows(count), jacobian);
-    if (joint.second != kWorld) add_block(at, 6 * joint.second, rows.on_second.topRows(count), jacobian);
-    missing_.segment(at, count) = rows.missing.head(count);
-    at += count;
-  }
-  const auto columns = static_cast<Eigen::Index>(6 * system_.size());
-  velocities_.resize(columns);
-  for (std::size_t i = 0; i < system_.size(); ++i) {
-    const Inertia& body = system_.bodies[i];
-    const auto first = static_cast<Eigen::Index>(6 * i);
-    velocities_.segment<3>(first) = state.velocity(i), velocities_.segment<3>(first + 3) = state.angular_velocity(i);
-    if (body.fixed) continue;
-    const Mat3 R = state.rotation(i);
-    add_block(first, first, body.inverse_mass * Mat3::Identity(), mass);
-    add_block(first + 3, first + 3, R * body.inverse_inertia_B * R.transpose(), mass);
-  }
-  J_.resize(row_count_, columns), inverse_mass_.resize(columns, columns);
-  J_.setFromTriplets(jacobian.begin(), jacobian.end());
-  inverse_mass_.setFromTriplets(mass.begin(), mass.end());
 }
 
 void OdeTwinJoints::push(MutableBodyColumns state, double dt) {
-  if (joints_.empty()) return;
-  assemble(state);
-  const Sparse spread = inverse_mass_ * J_.transpose();  // M⁻¹ Jᵀ
-  Sparse A = J_ * spread, soft(row_count_, row_count_);
-  soft.setIdentity();
-  A += (cfm_ ? *cfm_ / dt : softness_) * soft;
-  factor_.compute(A);
-  warning_ = factor_.info() == Eigen::Success ? "" : "the joints' equations have no single solution";
-  const Eigen::VectorXd impulse = factor_.solve(erp_ / dt * missing_ - J_ * velocities_);
-  velocities_ += spread * impulse;
-  for (std::size_t i = 0; i < system_.size(); ++i) {
-    if (system_.bodies[i].fixed) continue;
-    state.set_velocity(i, velocities_.segment<3>(static_cast<Eigen::Index>(6 * i)));
-    state.set_angular_velocity(i, velocities_.segment<3>(static_cast<Eigen::Index>(6 * i) + 3));
+  for (const JointWithRows& joint : joints_) {
+    OdeRows rows;
+    joint.rows->fill(end_of(state, joint.first), end_of(state, joint.second), rows);
+    for (int k = 0; k < joint.rows->count(); ++k)
+      solver_.add_row(joint.first, rows.on_first.row(k), joint.second, rows.on_second.row(k), rows.missing[k]);
   }
+  solver_.push(state, dt);
 }
 
 }  // namespace rigor

@@ -1,20 +1,14 @@
-// Joints as worldstep of ODE 0.16 holds them, for its twin. With J the rows of all joints, e what is missing along each
-// (m, rad), v the velocities that the loads have made of the step's, M and J at the step's start:
-//   (J M⁻¹ Jᵀ + cfm/dt) p = erp/dt e - J v,   v <- v + M⁻¹ Jᵀ p
-// so that a share erp of each gap is closed in a step, by a speed that stays. Without limits there is nothing to choose
-// and ODE's Dantzig solver comes to the same as any factorisation. Rows as its manual derives them ("Joint error and
-// the error reduction parameter", "Constraint equations"), told from its motion.
+// Joints as worldstep of ODE 0.16 holds them, for its twin: rows as its manual derives them ("Joint error and the error
+// reduction parameter", "Constraint equations"), told from its motion, and the solution that all direct solvers come to
+// (twin_joint_solver.h).
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/dynamics/joints/constraint_rows.h"
-#include "core/dynamics/model/system.h"
-#include "core/engine/columns.h"
+#include "adapters/twin_joint_solver.h"
 
 namespace rigor {
 
@@ -46,28 +40,16 @@ class OdeTwinJoints {
 
   // Pushes the velocities of a state whose poses are those of the step's start.
   void push(MutableBodyColumns state, double dt);
-  std::string warning() const { return warning_; }  // of the last push
+  std::string warning() const { return solver_.warning(); }  // of the last push
 
  private:
-  using Sparse = Eigen::SparseMatrix<double>;
-  struct Held {
+  struct JointWithRows {
     std::unique_ptr<OdeJointRows> rows;
     int first, second;  // bodies; the second kWorld where it stays
   };
 
-  OdeEnd end_of(BodyColumns state, int body) const;
-  void assemble(BodyColumns state);  // J, what is missing, M⁻¹
-
-  const System& system_;
-  double erp_;
-  std::optional<double> cfm_;
-  double softness_;  // 1/kg
-  std::vector<Held> joints_;
-  Eigen::Index row_count_ = 0;
-  Sparse J_, inverse_mass_;  // columns: (v, w) of each body
-  Eigen::VectorXd missing_, velocities_;
-  Eigen::SimplicialLDLT<Sparse> factor_;
-  std::string warning_;
+  TwinJointSolver solver_;
+  std::vector<JointWithRows> joints_;
 };
 
 }  // namespace rigor
