@@ -314,14 +314,8 @@ std::vector<Gate> unmet_family_gates(const Results& grid) {
 }
 
 std::string unit_after(const std::string& metric) {
-  const auto of_row = [](const auto& row) { return row.unit == "1" ? "" : " " + row.unit; };
-  for (const MetricRow& row : metrics()) {
-    if (row.name == metric) return of_row(row);
-  }
-  for (const CrossMetricRow& row : cross_metrics()) {
-    if (row.name == metric) return of_row(row);
-  }
-  return "";
+  const std::string unit = unit_of_metric(metric);
+  return unit.empty() || unit == "1" ? "" : " " + unit;
 }
 
 }  // namespace rigor

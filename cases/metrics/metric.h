@@ -90,4 +90,7 @@ struct CrossMetricRow {
 
 const std::vector<CrossMetricRow>& cross_metrics();  // alphabetical
 
+// Of a metric of either kind; empty if there is none of that name.
+std::string unit_of_metric(const std::string& name);
+
 }  // namespace rigor

@@ -82,4 +82,14 @@ const std::vector<CrossMetricRow>& cross_metrics() {
   return table;
 }
 
+std::string unit_of_metric(const std::string& name) {
+  for (const MetricRow& row : metrics()) {
+    if (row.name == name) return row.unit;
+  }
+  for (const CrossMetricRow& row : cross_metrics()) {
+    if (row.name == name) return row.unit;
+  }
+  return "";
+}
+
 }  // namespace rigor

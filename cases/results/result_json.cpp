@@ -11,13 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string unit_of(const std::string& metric) {
-  for (const MetricRow& row : metrics()) {
-    if (row.name == metric) return row.unit;
-  }
-  return "";
-}
-
 constexpr const char *kInfinite = "inf", *kMinusInfinite = "-inf", *kNoNumber = "nan";
 
 const char* word_of_not_finite(double value) {
@@ -44,7 +37,7 @@ Json json_of(const MetricValue& metric, const std::string& name, const Scene& sc
   if (!metric.not_applicable.empty()) return {{"not_applicable", metric.not_applicable}};
   const Instant& worst = metric.worst;
   return {{"value", metric.value},
-          {"unit", unit_of(name)},
+          {"unit", unit_of_metric(name)},
           {"first_second", metric.first_second},
           {"worst",
            {{"time", worst.time},

@@ -28,13 +28,6 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
 }
 
-std::string unit_of_metric(const std::string& name) {
-  for (const MetricRow& row : metrics()) {
-    if (row.name == name) return row.unit;
-  }
-  return "";
-}
-
 std::string sweep_csv_header(const Sweep& sweep) {
   std::string line = "case,engine,dt [s]";
   for (const SweepAxis& axis : sweep.axes()) {

@@ -13,6 +13,5 @@ std::string sweep_json_row(const Sweep& sweep, const SweepRow& row);
 
 // "dt [s]", "scene.spring[0].stiffness [N/m]"
 std::string with_unit(const std::string& name, const std::string& unit);
-std::string unit_of_metric(const std::string& name);
 
 }  // namespace rigor
