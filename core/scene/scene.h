@@ -80,8 +80,9 @@ struct UniversalJoint {
   Vec3 axis2;   // unit, in W at t = 0
 };
 
-// A hinge's angle [rad] is that by which b has turned against a about the axis since t = 0, from -pi to pi; a slider's
-// displacement [m] is how far b's centre has come along it. Spring, damper and limits act on that coordinate x alone:
+// A hinge's angle [rad] is that by which b has turned against a about the axis since t = 0: springs take it from -pi to
+// pi, limits count whole turns. A slider's displacement [m] is how far b's centre has come along it. Spring, damper and
+// limits act on that coordinate x alone:
 //   effort on b = -stiffness (x - rest) - damping x',   the opposite on a.
 struct Joint {
   int a = kWorld, b = kWorld;

@@ -52,17 +52,6 @@ Fault fault_of_motion(const Body& body) {
   return {};
 }
 
-// The two ends of a spring or joint, of which at least one must be able to move.
-Fault fault_of_ends(int a, int b, const char* what, const Scene& scene) {
-  for (const auto& [key, end] : {std::pair{"a", a}, {"b", b}}) {
-    if (end != kWorld && !is_body(end, scene)) return SceneFault{key, fmt::format("there is no body number {}", end)};
-  }
-  if (a == b) return SceneFault{"b", fmt::format("a {} from '{}' to itself does nothing", what, scene.body_name(a))};
-  if (can_move(a, scene) || can_move(b, scene)) return {};
-  return SceneFault{"b", fmt::format("a {} from '{}' to '{}' does nothing, for neither can move", what,
-                                     scene.body_name(a), scene.body_name(b))};
-}
-
 Fault fault_of_times(double from, double until) {
   if (const Fault early = not_at_least_zero("from", from)) return early;
   if (until > from) return {};
@@ -114,6 +103,17 @@ struct JointFault {
   }
 };
 
+Fault fault_of_limits(const Joint& joint) {
+  if (!(joint.lower < joint.upper)) {
+    return SceneFault{"upper", fmt::format("found {}, and lower is {}; allowed: limits of which the upper is greater",
+                                           joint.upper, joint.lower)};
+  }
+  if (joint.lower > 0) return SceneFault{"lower", fmt::format("the joint is at 0 at t = 0, {} below it", joint.lower)};
+  if (joint.upper < 0) return SceneFault{"upper", fmt::format("the joint is at 0 at t = 0, {} above it", -joint.upper)};
+  if (joint.restitution >= 0 && joint.restitution <= 1) return {};
+  return SceneFault{"restitution", fmt::format("found {}; allowed: a number from 0 to 1", joint.restitution)};
+}
+
 template <typename Rows, typename F>
 void check_rows(const Rows& rows, const F& fault_and_name) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -163,6 +163,16 @@ Fault fault_of(const Body& body) {
   return fault_of_motion(body);
 }
 
+Fault fault_of_ends(int a, int b, const char* what, const Scene& scene) {
+  for (const auto& [key, end] : {std::pair{"a", a}, {"b", b}}) {
+    if (end != kWorld && !is_body(end, scene)) return SceneFault{key, fmt::format("there is no body number {}", end)};
+  }
+  if (a == b) return SceneFault{"b", fmt::format("a {} from '{}' to itself does nothing", what, scene.body_name(a))};
+  if (can_move(a, scene) || can_move(b, scene)) return {};
+  return SceneFault{"b", fmt::format("a {} from '{}' to '{}' does nothing, for neither can move", what,
+                                     scene.body_name(a), scene.body_name(b))};
+}
+
 Fault fault_of(const Spring& spring, const Scene& scene) {
   if (Fault ends = fault_of_ends(spring.a, spring.b, "spring", scene)) return ends;
   for (const auto& [key, value] :
@@ -179,9 +189,8 @@ Fault fault_of(const Joint& joint, const Scene& scene) {
   for (const auto& [key, value] : {std::pair{"stiffness", joint.stiffness}, {"damping", joint.damping}}) {
     if (Fault negative = not_at_least_zero(key, value)) return negative;
   }
-  if (!(joint.lower <= 0 && joint.upper >= 0 && joint.lower < joint.upper))
-    return SceneFault{"upper", "its limits do not hold the 0 that it is at, at t = 0"};
-  return {};
+  if (!std::isfinite(joint.rest)) return SceneFault{"rest", "it is not finite"};
+  return fault_of_limits(joint);
 }
 
 Fault fault_of(const Motor& motor, const Scene& scene) {

@@ -10,6 +10,7 @@
 
 #include "adapters/engines.h"
 #include "core/engine/run_name.h"
+#include "tests/scenes.h"
 
 namespace rigor {
 
@@ -109,18 +110,8 @@ inline Scene scene_of(Body body, const Vec3& gravity = Vec3::Zero()) {
 
 // The course's cube, hung off-centre from the world by a spring.
 inline Scene hanging_cube() {
-  Body cube;
-  cube.name = "cube";
-  cube.mass = 100;
-  cube.position = {0, 0.5, 0};
-  Scene scene = scene_of(cube, {0, -9.8, 0});
-  scene.springs = {{.a = kWorld,
-                    .b = 0,
-                    .point_a = {.12, 2, .12},
-                    .point_b = {.12, .12, .12},
-                    .stiffness = 1e4,
-                    .damping = 20,
-                    .rest_length = 1.38}};
+  Scene scene = test::fixed_spring();
+  scene.springs[0].damping = 20;
   return scene;
 }
 

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/unit_vector.h"
-#include "core/scene/toml/table_reader.h"
-#include "core/scene/validate.h"
+#include "core/scene/toml/row_fault.h"
 
 namespace rigor {
 namespace {
@@ -83,13 +82,6 @@ Mat3 read_inertia(const TableReader& row, const Body& body) {
   return inertia;
 }
 
-std::string read_name(const TableReader& row) {
-  const TomlValue value = row.at("name");
-  const std::string name = value.text();
-  if (name == "world") value.refuse("'world' is the name of the world itself; allowed: any other name");
-  return name;
-}
-
 Quat read_orientation(const TomlValue& value) {
   const auto q = value.numbers({4});
   const auto unit = unit_vector(Eigen::Vector4d(q[0], q[1], q[2], q[3]));
@@ -105,32 +97,12 @@ bool read_fixed(const TableReader& row, bool is_plane) {
   return fixed;
 }
 
-bool read_collides(const TableReader& row, bool has_shape) {
-  const auto value = row.find("collides");
-  if (!value) return has_shape;
-  const bool collides = value->flag();
-  if (collides && !has_shape) value->refuse("found true, but the body has no shape to collide with; allowed: false");
-  return collides;
-}
-
 void read_pose(const TableReader& row, bool is_plane, Body& body) {
-  if (const auto value = row.find("position")) {
-    body.position = value->vector();
-    if (is_plane && !body.position.isZero(0))
-      value->refuse("a plane lies where its normal and offset say, not at a position");
-  }
+  if (const auto value = row.find("position")) body.position = value->vector();
   if (const auto value = row.find("orientation_wxyz")) {
     if (is_plane) value->refuse("a plane lies as its normal says and has no orientation");
     body.orientation = read_orientation(*value);
   }
-}
-
-Vec3 read_rate(const TableReader& row, std::string_view key, bool fixed) {
-  const auto value = row.find(key);
-  if (!value) return Vec3::Zero();
-  const Vec3 rate = value->vector();
-  if (fixed && !rate.isZero(0)) value->refuse("a fixed body does not move; allowed: [0, 0, 0], or no such key");
-  return rate;
 }
 
 }  // namespace
@@ -144,16 +116,18 @@ const std::vector<std::string>& body_keys() {
 
 Body read_body(const TableReader& row) {
   Body body;
-  body.name = read_name(row);
+  body.name = row.at("name").text();
   if (const auto shape = row.find("shape")) body.shape = read_shape(*shape);
   const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
   body.fixed = read_fixed(row, is_plane);
-  body.collides = read_collides(row, body.shape.has_value());
+  const auto collides = row.find("collides");
+  body.collides = collides ? collides->flag() : body.shape.has_value();
   if (!body.fixed || row.find("mass")) body.mass = row.at("mass").positive();
   if (!body.fixed || row.find("inertia")) body.inertia = read_inertia(row, body);
   read_pose(row, is_plane, body);
-  body.velocity = read_rate(row, "velocity", body.fixed);
-  body.angular_velocity = read_rate(row, "angular_velocity", body.fixed);
+  if (const auto value = row.find("velocity")) body.velocity = value->vector();
+  if (const auto value = row.find("angular_velocity")) body.angular_velocity = value->vector();
+  refuse_if(fault_of(body), row);
   return body;
 }
 

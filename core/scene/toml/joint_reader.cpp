@@ -56,15 +56,8 @@ const std::vector<JointRow>& joint_rows() {
 }
 
 void read_limits(const TableReader& row, Joint& joint) {
-  const auto lower = row.find("lower"), upper = row.find("upper");
-  if (lower) joint.lower = lower->number();
-  if (upper) joint.upper = upper->number();
-  if (!(joint.lower < joint.upper)) {
-    row.at("upper").refuse(fmt::format("found {}, and lower is {}; allowed: limits of which the upper is greater",
-                                       joint.upper, joint.lower));
-  }
-  if (lower && joint.lower > 0) lower->refuse(fmt::format("the joint is at 0 at t = 0, {} below it", joint.lower));
-  if (upper && joint.upper < 0) upper->refuse(fmt::format("the joint is at 0 at t = 0, {} above it", -joint.upper));
+  if (const auto lower = row.find("lower")) joint.lower = lower->number();
+  if (const auto upper = row.find("upper")) joint.upper = upper->number();
   if (const auto restitution = row.find("restitution")) {
     if (!joint.has_limits()) restitution->refuse("the joint has no limit to bounce off; allowed: lower or upper, too");
     joint.restitution = restitution->fraction_of_one();
@@ -103,12 +96,6 @@ const Keys& joint_keys() {
 const Keys& motor_keys() {
   static const Keys keys = {"joint", "torque", "force", "speed", "most", "from", "until"};
   return keys;
-}
-
-void refuse_if(const std::optional<SceneFault>& fault, const TableReader& row) {
-  if (!fault) return;
-  if (fault->key.empty() || !row.find(fault->key)) row.refuse(fault->what);
-  row.at(fault->key).refuse(fault->what);
 }
 
 Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool check_velocities) {

@@ -3,7 +3,7 @@
 
 #include "core/scene/scene.h"
 #include "core/scene/toml/body_index.h"
-#include "core/scene/validate.h"
+#include "core/scene/toml/row_fault.h"
 
 namespace rigor {
 
@@ -16,9 +16,6 @@ Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool che
 
 // The joint is one of the scene's, by name.
 Motor read_motor(const TableReader& row, const Scene& scene);
-
-// Refuses the row at the key that is at fault, or as a whole.
-void refuse_if(const std::optional<SceneFault>& fault, const TableReader& row);
 
 // [from, until) of a force or motor [s].
 void read_times(const TableReader& row, double& from, double& until);

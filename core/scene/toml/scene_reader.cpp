@@ -65,20 +65,11 @@ class SceneReader {
     scene_.bodies.push_back(std::move(body));
   }
 
-  bool can_move(int body) const { return body != kWorld && !scene_.bodies[body].fixed; }
-
   // The two ends a and b of a spring or joint, of which at least one must be able to move; for a row on an array those
   // of each copy.
   std::vector<Ends> read_ends(const TableReader& row, const char* what) const {
     const std::vector<Ends> all = index_.ends(row.at("a"), row.at("b"));
-    for (const auto& [a, b, offset, copy] : all) {
-      if (a == b)
-        row.at("b").refuse(fmt::format("a {} from '{}' to itself does nothing", what, shown(scene_.body_name(a))));
-      if (!can_move(a) && !can_move(b)) {
-        row.at("b").refuse(fmt::format("a {} from '{}' to '{}' does nothing, for neither can move", what,
-                                       shown(scene_.body_name(a)), shown(scene_.body_name(b))));
-      }
-    }
+    for (const auto& [a, b, offset, copy] : all) refuse_if(fault_of_ends(a, b, what, scene_), row);
     return all;
   }
 
@@ -123,12 +114,13 @@ class SceneReader {
 
   void add_contact(const TableReader& row) {
     const int a = index_.body(row.at("a")), b = index_.body(row.at("b"));
-    if (a == b) row.at("b").refuse(fmt::format("'{}' cannot touch itself", shown(scene_.body_name(a))));
+    const ContactPair pair{a, b, read_law(row, scene_.contact_default)};
+    refuse_if(fault_of(pair, scene_), row);
     if (!pairs_seen_.insert(std::minmax({a, b})).second) {
       row.refuse(fmt::format("the contact of '{}' and '{}' is given twice; allowed: once, in either order",
                              shown(scene_.body_name(a)), shown(scene_.body_name(b))));
     }
-    scene_.contact_pairs.push_back({a, b, read_law(row, scene_.contact_default)});
+    scene_.contact_pairs.push_back(pair);
   }
 
   TimedForce read_force(const TableReader& row) const {

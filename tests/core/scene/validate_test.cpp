@@ -97,7 +97,10 @@ const std::vector<Row> kSpoilt = {
        s.joints[0].type = UniversalJoint{Vec3::Zero(), Vec3::UnitX(), Vec3::UnitX()};
      },
      "joint 1: axis2"},
-    {[](Scene& s) { s.joints[0].lower = 1; }, "joint 1: upper"},
+    {[](Scene& s) { s.joints[0].lower = 1; }, "joint 1: lower"},
+    {[](Scene& s) { s.joints[0].upper = -1; }, "joint 1: upper"},
+    {[](Scene& s) { s.joints[0].restitution = 1.5; }, "joint 1: restitution"},
+    {[](Scene& s) { s.joints[0].rest = kNan; }, "joint 1: rest"},
     {[](Scene& s) { s.joints[0].damping = -1; }, "joint 1: damping"},
     {[](Scene& s) { s.motors[0].joint = 1; }, "motor 1: joint"},
     {[](Scene& s) { s.joints[0].type = FixedJoint{}; }, "motor 1: joint"},

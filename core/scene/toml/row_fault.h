@@ -1,0 +1,14 @@
+// What no scene can have (validate.h), said where the row stands that has it.
+#pragma once
+
+#include <optional>
+
+#include "core/scene/toml/table_reader.h"
+#include "core/scene/validate.h"
+
+namespace rigor {
+
+// Throws InputError at the key that is at fault, or else at the row as a whole.
+void refuse_if(const std::optional<SceneFault>& fault, const TableReader& row);
+
+}  // namespace rigor
