@@ -1,34 +1,15 @@
 // The program with engines from outside: each has its column and its status, and no gate holds for one that did not
 // run.
-#include <sys/wait.h>
-
 #include <boost/test/unit_test.hpp>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "tests/folder.h"
+#include "tests/cases/cli/program.h"
 
 using namespace rigor;
 
 namespace {
 
-constexpr const char* kCase = R"(title = "A stone thrown"
-source = "any book"
-[scene]
-gravity = [0, -10, 0]
-[[scene.body]]
-name = "stone"
-mass = 2
-inertia = [1, 1, 1]
-velocity = [1, 0, 0]
-[run]
-duration = 1
-dt = ["1/10"]
-[truth]
-kind = "projectile"
-[[gate]]
+constexpr const char* kGate = R"([[gate]]
 metric = "position_error"
 max = 1
 because = "a first-order step misses 0.5 m"
@@ -40,21 +21,11 @@ std::string misbehaving(const std::string& mode) {
   return "python3 " RIGOR_SOURCE_DIR "/tests/adapters/plugin/misbehaving.py " + mode;
 }
 
-struct Answer {
-  int code;
-  std::string out, err;
-};
+struct Fixture : Program {
+  std::string suite = path("suite"), out = path("out");
 
-struct Fixture {
-  Folder folder;
-  std::string suite = (folder.path / "suite").string(), out = (folder.path / "out").string();
+  Fixture() { folder.write("suite/air/stone.toml", std::string(kThrown) + kGate); }
 
-  Fixture() { folder.write("suite/air/stone.toml", kCase); }
-
-  std::string content(const std::string& name) const {
-    std::ifstream file(folder.path / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   Answer run(const std::string& words) const {
     const std::string in = folder.path.string();
     const std::string command =
