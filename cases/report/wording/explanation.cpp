@@ -6,34 +6,13 @@
 #include <map>
 #include <utility>
 
+#include "cases/analysis/energy_diagnosis.h"
+#include "cases/analysis/stiffest_frequency.h"
 #include "cases/report/wording/contact_explanation.h"
 #include "cases/report/wording/joint_explanation.h"
 
 namespace rigor {
 namespace {
-
-// What a spring's unit pull does to one of its bodies: a force and a torque, both in W.
-struct Pull {
-  int body;
-  Vec3 force, torque;
-};
-
-std::vector<std::vector<Pull>> pulls_of(const Scene& scene) {
-  const auto point_in_world = [&](int body, const Vec3& point) {
-    return body == kWorld ? point : Vec3(scene.bodies[body].position + scene.bodies[body].orientation * point);
-  };
-  std::vector<std::vector<Pull>> pulls;
-  for (const Spring& spring : scene.springs) {
-    const Vec3 a = point_in_world(spring.a, spring.point_a), b = point_in_world(spring.b, spring.point_b);
-    const Vec3 line = (b - a).normalized() * std::sqrt(spring.stiffness);
-    auto& row = pulls.emplace_back();
-    for (const auto& [body, point, force] : {std::tuple(spring.a, a, Vec3(-line)), std::tuple(spring.b, b, line)}) {
-      if (body == kWorld || scene.bodies[body].fixed) continue;
-      row.push_back({body, force, (point - scene.bodies[body].position).cross(force)});
-    }
-  }
-  return pulls;
-}
 
 const MethodInfo& method_of_run(const Results& results, std::size_t run) {
   for (const EngineInfo& engine : results.engines) {
@@ -155,22 +134,15 @@ class Explainer {
                     list));
   }
 
-  // A drift with its sign, if there is one; else not a number.
-  static double signed_drift(const std::map<std::string, MetricValue>& metrics, const std::string& name) {
-    const auto found = metrics.find(name);
-    if (found == metrics.end() || !found->second.not_applicable.empty()) return std::nan("");
-    return std::copysign(found->second.value, found->second.worst.found - found->second.worst.expected);
-  }
-
   // Energy that the engine and its twin lose or gain alike, and that the twin keeps once its gyroscopic term is off.
   void explain_gyroscopic_loss() {
     constexpr double kNotable = 0.01, kAlike = 1e-3, kGone = 0.1;
     std::map<std::string, std::string> names;  // by what is said of them
     for_headline_cells([&](const Cell& cell, const MethodInfo&) {
-      const double engine = signed_drift(cell.metrics, "energy_drift"),
-                   scheme = signed_drift(cell.scheme.metrics, "energy_drift"),
-                   without = signed_drift(cell.scheme.without_gyroscopic_term, "energy_drift"),
-                   momentum = signed_drift(cell.scheme.without_gyroscopic_term, "angular_momentum_drift");
+      const double engine = signed_value(cell.metrics, "energy_drift"),
+                   scheme = signed_value(cell.scheme.metrics, "energy_drift"),
+                   without = signed_value(cell.scheme.without_gyroscopic_term, "energy_drift"),
+                   momentum = signed_value(cell.scheme.without_gyroscopic_term, "angular_momentum_drift");
       const bool is_it = std::abs(engine) > kNotable && std::abs(engine - scheme) < kAlike * std::abs(engine) &&
                          std::abs(without) < kGone * std::abs(engine);
       if (!is_it) return;
@@ -223,39 +195,6 @@ std::vector<std::string> explanations(const Results& results, const CaseResult& 
   for (std::string& sentence : contact_explanations(results, result)) sentences.push_back(std::move(sentence));
   for (std::string& sentence : joint_explanations(results, result)) sentences.push_back(std::move(sentence));
   return sentences;
-}
-
-double stiffest_frequency(const Scene& scene) {
-  const auto pulls = pulls_of(scene);
-  const std::size_t count = scene.bodies.size();
-  // The power method on K^½ J M⁻¹ Jᵀ K^½, one entry a spring; 300 rounds settle the digits that a sentence shows.
-  std::vector<double> mode(pulls.size());
-  for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = 1 + 0.1 * std::sin(1.0 + i);  // along no symmetry
-  double eigenvalue = 0;
-  for (int round = 0; round < 300 && !mode.empty(); ++round) {
-    std::vector<Vec3> linear(count, Vec3::Zero()), angular(count, Vec3::Zero());
-    for (std::size_t i = 0; i < pulls.size(); ++i) {
-      for (const Pull& pull : pulls[i])
-        linear[pull.body] += mode[i] * pull.force, angular[pull.body] += mode[i] * pull.torque;
-    }
-    for (std::size_t b = 0; b < count; ++b) {
-      const Body& body = scene.bodies[b];
-      if (linear[b].isZero(0) && angular[b].isZero(0)) continue;
-      linear[b] /= body.mass;
-      angular[b] = body.orientation * (body.inertia.inverse() * (body.orientation.conjugate() * angular[b]));
-    }
-    double norm = 0;
-    for (std::size_t i = 0; i < pulls.size(); ++i) {
-      mode[i] = 0;
-      for (const Pull& pull : pulls[i])
-        mode[i] += pull.force.dot(linear[pull.body]) + pull.torque.dot(angular[pull.body]);
-      norm += mode[i] * mode[i];
-    }
-    eigenvalue = std::sqrt(norm);
-    if (!(eigenvalue > 0)) return 0;
-    for (double& entry : mode) entry /= eigenvalue;
-  }
-  return std::sqrt(eigenvalue);
 }
 
 }  // namespace rigor

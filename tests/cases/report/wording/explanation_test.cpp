@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "cases/analysis/stiffest_frequency.h"
+
 using namespace rigor;
 
 namespace {
