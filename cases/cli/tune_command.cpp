@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "adapters/calls.h"
-#include "cases/analysis/tuning.h"
+#include "cases/analysis/tuning/tuning.h"
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adapters/engines.h"
-#include "cases/analysis/bound.h"
+#include "cases/analysis/tuning/bound.h"
 #include "cases/results/results.h"
 
 namespace rigor {

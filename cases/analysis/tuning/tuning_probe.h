@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "adapters/engines.h"
-#include "cases/analysis/tuning.h"
+#include "cases/analysis/tuning/tuning.h"
 
 namespace rigor {
 

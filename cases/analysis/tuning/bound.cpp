@@ -1,4 +1,4 @@
-#include "cases/analysis/bound.h"
+#include "cases/analysis/tuning/bound.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cases/analysis/tuning_probe.h"
+#include "cases/analysis/tuning/tuning_probe.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cases/analysis/tuning_space.h"
+#include "cases/analysis/tuning/tuning_space.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cases/analysis/tuning.h"
+#include "cases/analysis/tuning/tuning.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "cases/analysis/sweep_axis.h"
-#include "cases/analysis/tuning_probe.h"
-#include "cases/analysis/tuning_space.h"
+#include "cases/analysis/tuning/tuning_probe.h"
+#include "cases/analysis/tuning/tuning_space.h"
 
 namespace rigor {
 namespace {
