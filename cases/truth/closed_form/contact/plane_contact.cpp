@@ -50,26 +50,26 @@ Extended between(const Sweep& a, const Sweep& b, const ExtendedVec3& normal) {
 
 Ground::Ground(const Scene& scene, const std::string& truth, const std::string& is_for)
     : truth_(truth), is_for_(is_for) {
-  const auto refuse = [&](const std::string& why) {
+  const auto refuse_scene = [&](const std::string& why) {
     throw InputError(fmt::format("the truth '{}' is for {}: {}", truth_, is_for_, why));
   };
-  if (!scene.springs.empty()) refuse("this scene has springs");
-  if (!scene.joints.empty()) refuse("this scene has joints");
+  if (!scene.springs.empty()) refuse_scene("this scene has springs");
+  if (!scene.joints.empty()) refuse_scene("this scene has joints");
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     const Body& body = scene.bodies[i];
     if (!body.fixed || !body.collides) continue;
     if (!std::holds_alternative<Plane>(*body.shape))
-      refuse(fmt::format("body '{}' is a fixed {}", body.name, shape_name(*body.shape)));
-    if (body_ != kWorld) refuse(fmt::format("'{}' is a second plane", body.name));
+      refuse_scene(fmt::format("body '{}' is a fixed {}", body.name, shape_name(*body.shape)));
+    if (body_ != kWorld) refuse_scene(fmt::format("'{}' is a second plane", body.name));
     body_ = i;
   }
-  if (body_ == kWorld) refuse("there is no plane that collides");
+  if (body_ == kWorld) refuse_scene("there is no plane that collides");
   const Plane& plane = std::get<Plane>(*scene.bodies[body_].shape);
   normal_ = extended(plane.normal).normalized(), offset_ = plane.offset;
   pressing_ = -normal_.dot(extended(scene.gravity));
   along_ = part_along(extended(scene.gravity));
   if (along_.norm() <= 8 * static_cast<Extended>(kEpsilon) * pressing_) along_.setZero();  // roundings of the normal
-  if (!(pressing_ > 0)) refuse(fmt::format("gravity does not press bodies on '{}'", scene.bodies[body_].name));
+  if (!(pressing_ > 0)) refuse_scene(fmt::format("gravity does not press bodies on '{}'", scene.bodies[body_].name));
 }
 
 double Ground::gap_under(const Body& body) const {

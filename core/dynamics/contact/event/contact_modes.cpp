@@ -12,7 +12,7 @@ constexpr double kLeastSize = 1e-6;   // m/s²: beside smaller accelerations rou
 constexpr double kResting = 1e-12;    // m/s, rad/s, and of the accelerations: roundings
 constexpr double kSeparating = 1e-9;  // m/s: ten times what an impact may leave; slower than it nothing parts
 constexpr double kPulling = 1e-9;     // of the forces
-constexpr double kSeparating = 1e-8, kSlipping = 1e-7, kEnding = 2;
+constexpr double kSeparatingShare = 1e-8, kSlipping = 1e-7, kEnding = 2;
 constexpr double kSlip = 1e4;  // of the accelerations: what a slip counts as beside them; its direction errs by 1/kSlip
 
 }  // namespace
@@ -60,7 +60,7 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     PersistentPoint& point = points[i];
     const Vec3 acceleration = acceleration_of(i);
-    if (acceleration.x() > kSeparating * size_) continue;
+    if (acceleration.x() > kSeparatingShare * size_) continue;
     if (point.velocity.x() > kSeparating && !(cones_[i].impulse.x() > 0)) continue;
     const Eigen::Vector2d slip = point.velocity.tail<2>(), change = acceleration.tail<2>();
     const bool slides = slip.norm() > kSliding && std::isfinite(point.friction());
@@ -97,7 +97,7 @@ bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) 
   persistent_.begin_attempt();
   const double* total = persistent_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
   return std::none_of(dropped.begin(), dropped.end(), [&](PersistentPoint& point) {
-    return persistent_.normal_acceleration(state, total, point) < -kSeparating * size_;
+    return persistent_.normal_acceleration(state, total, point) < -kSeparatingShare * size_;
   });
 }
 
@@ -117,7 +117,7 @@ double ContactModes::violation(BodyColumns state, const double* wrench) {
   double most = has_settled ? -1 : 1;
   for (std::size_t i = 0; i < persistent_.points().size(); ++i) {
     const Vec3 acceleration = acceleration_of(i) / size_;
-    most = std::max(most, acceleration.x() - kEnding * kSeparating);
+    most = std::max(most, acceleration.x() - kEnding * kSeparatingShare);
     if (persistent_.points()[i].mode == PersistentPoint::Mode::sticks)
       most = std::max(most, acceleration.tail<2>().norm() - kEnding * kSlipping);
   }

@@ -45,7 +45,8 @@ PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& c
       persistent_(system_, contact_points.colliders()),
       modes_(system_, persistent_),
       free_stepper_(parts.integrator.make({system_, nullptr, parts.orientation, parts.settings})),
-      held_stepper_(in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, nullptr, &held_})),
+      contact_stepper_(
+          in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, nullptr, &persistent_})),
       loads_(system_),
       solver_(system_),
       projection_(system_),
@@ -85,8 +86,8 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
   copy_columns(start, end);
   ++passes_;
   if (points().empty()) return free_stepper_->step(end, t, dt);
-  held_stepper_->step(end, t, dt);
-  if (end.has_rotation() && held_stepper_ && in_contact_.default_orientation.empty()) {
+  contact_stepper_->step(end, t, dt);
+  if (end.has_rotation() && contact_stepper_ && in_contact_.default_orientation.empty()) {
     for (std::size_t i = 0; i < end.size(); ++i) end.set_rotation(i, matrix_of(end.orientation(i)));
   }
   end_ = end;
@@ -215,7 +216,7 @@ void PersistentContact::stop_points(MutableBodyColumns state) {
 }
 
 std::string PersistentContact::solver_warning() const {
-  return points().empty() ? free_stepper_->solver_warning() : held_stepper_->solver_warning();
+  return points().empty() ? free_stepper_->solver_warning() : contact_stepper_->solver_warning();
 }
 
 void PersistentContact::add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral) {

@@ -59,7 +59,7 @@ class PersistentContact {
   ContactPoints& contact_points_;
   PersistentForces persistent_;
   ContactModes modes_;
-  std::unique_ptr<Stepper> free_stepper_, held_stepper_;
+  std::unique_ptr<Stepper> free_stepper_, contact_stepper_;
   WrenchColumns loads_;
   ConeSolver solver_;
   MassWeightedProjection projection_;

@@ -11,10 +11,10 @@ namespace {
 
 // rho of a row, in units of its own effective mass. Each round leaves some 1/rho of an error and loses as many digits,
 // which the next one wins back.
-constexpr double kRegularisation = 1e6;
+constexpr double kPenalty = 1e6;
 constexpr int kMostForceRounds = 6;
 constexpr double kSettled = 1e-15;  // of the accelerations without forces
-constexpr double kStill = 1e-9;     // m/s: a slip that has no direction of its own
+constexpr double kNoSlip = 1e-9;    // m/s: a slip that has no direction of its own
 
 }  // namespace
 
@@ -86,7 +86,7 @@ void PersistentForces::add_row(std::size_t point, int axis, const Vec3& directio
   }
   if (square == 0) return;
   row.bias = at.bias[axis];
-  row.weight = kRegularisation / square;
+  row.weight = kPenalty / square;
   rows_.push_back(row);
 }
 
@@ -106,7 +106,7 @@ void PersistentForces::list_rows() {
     }
     // Past the instant at which it would stop the friction goes on as it was, so that the instant can be found.
     Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
-    slip = std::abs(point.slip) > kStill ? Vec3(slip / point.slip) : Vec3(point.slip_direction);
+    slip = std::abs(point.slip) > kNoSlip ? Vec3(slip / point.slip) : Vec3(point.slip_direction);
     add_row(i, 0, n, n - point.friction() * slip);
     is_symmetric_ = false;
   }
@@ -266,7 +266,7 @@ void PersistentForces::set_forces() {
     point.force[row.axis] += row.multiplier;
     if (point.mode == PersistentPoint::Mode::sticks || point.friction() == 0) continue;
     Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
-    slip = std::abs(point.slip) > kStill ? Vec3(slip / point.slip) : Vec3(point.slip_direction);
+    slip = std::abs(point.slip) > kNoSlip ? Vec3(slip / point.slip) : Vec3(point.slip_direction);
     point.force -= point.friction() * row.multiplier * (point.frame.transpose() * slip);
   }
 }
