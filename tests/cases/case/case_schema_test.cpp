@@ -1,27 +1,19 @@
 // case.schema.json, which editors complete case files by, against the reader itself: the reader names the keys and the
 // words that it allows when it refuses another, so that what is added to it alone is missed here.
-#include <sys/wait.h>
-
 #include <boost/test/unit_test.hpp>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
-// After Boost.Test, whose macros it must not see.
-#include <toml++/toml.h>
-
 #include "cases/case/case_reader.h"
 #include "cases/case/suite.h"
 #include "core/base/error.h"
+#include "tests/cases/case/schema.h"
 #include "tests/cases/vocabulary.h"
 #include "tests/folder.h"
 
 using namespace rigor;
-using Json = nlohmann::ordered_json;
+using test::Json;
 using Words = std::set<std::string>;
 
 namespace {
@@ -29,13 +21,8 @@ namespace {
 const std::string kSchema = RIGOR_SOURCE_DIR "/cases/case/case.schema.json";
 constexpr const char* kUnknown = "zzzzzzzz";  // like no word of ours
 
-std::string content(const std::string& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 const Json& schema() {
-  static const Json all = Json::parse(content(kSchema));
+  static const Json all = Json::parse(test::content(kSchema));
   return all;
 }
 
@@ -222,26 +209,6 @@ BOOST_AUTO_TEST_CASE(has_the_words_of_the_reader_and_no_others) {
 
 namespace {
 
-// JSON has no infinity: the word that the reader takes for it.
-Json as_json(const toml::node& node) {
-  if (const auto* table = node.as_table()) {
-    Json out = Json::object();
-    for (const auto& [key, value] : *table) out[std::string(key.str())] = as_json(value);
-    return out;
-  }
-  if (const auto* array = node.as_array()) {
-    Json out = Json::array();
-    for (const toml::node& value : *array) out.push_back(as_json(value));
-    return out;
-  }
-  if (const auto number = node.as_floating_point()) {
-    return std::isinf(number->get()) ? Json("infinite") : Json(number->get());
-  }
-  if (const auto number = node.as_integer()) return number->get();
-  if (const auto flag = node.as_boolean()) return flag->get();
-  return node.value_or(std::string());
-}
-
 // Cases that the reader refuses, and an editor should underline.
 Json broken_cases() {
   Json broken = Json::array();
@@ -274,7 +241,7 @@ BOOST_AUTO_TEST_CASE(every_case_of_the_suite_is_valid_and_broken_ones_are_not,
                      *boost::unit_test::enable_if<RIGOR_HTML_REPORT>()) {
   Json valid = Json::object();
   for (const Case& one : select_cases({}, default_suite_dir(), test::words()))
-    valid[one.id] = as_json(toml::parse(one.text));
+    valid[one.id] = test::as_json(toml::parse(one.text));
   for (const Json& one : broken_cases()) {
     std::string text;
     for (const auto& [key, value] : one.items()) text += key + " = " + as_toml(value) + "\n";
@@ -283,15 +250,7 @@ BOOST_AUTO_TEST_CASE(every_case_of_the_suite_is_valid_and_broken_ones_are_not,
       BOOST_CHECK_THROW(read_case(folder.write("case.toml", text), "case", test::words()), InputError);
     }
   }
-  const Folder folder;
-  const std::string files =
-      folder.write("valid.json", valid.dump()) + " " + folder.write("broken.json", broken_cases().dump());
-  const std::string said = (folder.path / "said").string();
-  const int answer = std::system(("node " RIGOR_SOURCE_DIR "/tests/cases/case/case_schema_test.mjs " RIGOR_BUILD_DIR
-                                  "/page/node_modules " +
-                                  kSchema + " " + files + " >" + said + " 2>&1")
-                                     .c_str());
-  BOOST_TEST_CONTEXT(content(said)) { BOOST_TEST((WIFEXITED(answer) && WEXITSTATUS(answer) == 0)); }
+  test::check_by_ajv(kSchema, valid, broken_cases());
 }
 
 BOOST_AUTO_TEST_SUITE_END()
