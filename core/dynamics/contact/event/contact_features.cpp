@@ -118,7 +118,7 @@ ContactKinematics line_on_line(const Moving& a, const Moving& b, double side) {
 
 ContactKinematics reversed(ContactKinematics kinematics) {
   kinematics.normal *= -1, kinematics.normal_rate *= -1;
-  return touch;
+  return kinematics;
 }
 
 }  // namespace
