@@ -57,100 +57,128 @@ std::vector<double> parse_times(const std::string& text) {
   return times;
 }
 
-void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Typed& typed) {
-  const auto takes = [&](const std::string& option) {
+// The options of a command that its row takes.
+struct Options {
+  CLI::App& command;
+  const CommandRow& row;
+  CommandLine& line;
+  Typed& typed;
+
+  bool takes(const char* option) const {
     return std::find(row.options.begin(), row.options.end(), option) != row.options.end();
-  };
-  // Options that may be repeated take one value each time, or they would swallow the cases that follow.
+  }
+
+  // What runs, and for how long.
+  void add_runs() const {
+    if (takes("--engine")) {
+      command.add_option("--engine", line.engines, "ENGINE[:METHOD][,key=value...][@TRACK]; may be repeated")
+          ->allow_extra_args(false)
+          ->type_name("E");
+    }
+    if (takes("--plugin")) {
+      command
+          .add_option(
+              "--plugin", line.plugins,
+              "an engine from outside: a path that ends in .so, or a command line; may be repeated. RIGOR_PLUGINS "
+              "names more, separated by colons")
+          ->allow_extra_args(false)
+          ->type_name("P");
+    }
+    if (takes("--dt")) {
+      command.add_option("--dt", typed.dt, "step size in s, a number or a fraction such as 1/30; may be repeated")
+          ->allow_extra_args(false)
+          ->type_name("DT");
+    }
+    if (takes("--duration")) command.add_option("--duration", typed.duration, "length of the run in s")->type_name("S");
+    if (takes("--every")) command.add_option("--every", typed.every, "only each N-th sample")->type_name("N");
+    if (takes("--times")) {
+      command.add_option("--times", typed.times, "instants in s; default: the run, in its coarsest steps")
+          ->type_name("T,T...");
+    }
+  }
+
+  // How a grid is run, and where to.
+  void add_ways_to_run() const {
+    if (takes("--jobs")) command.add_option("--jobs", typed.jobs, "cells at once; default: one a core")->type_name("N");
+    if (takes("--out"))
+      command.add_option("--out", line.out, "folder for the reports")->type_name("DIR")->capture_default_str();
+    if (takes("--timeout")) {
+      command.add_option("--timeout", typed.limit, "seconds of CPU time that a cell, or a truth, may take")
+          ->type_name("S")
+          ->capture_default_str();
+    }
+    if (takes("--shard")) {
+      command.add_option("--shard", typed.shard, "only the K-th of N parts of the grid, for 'rigor merge'")
+          ->type_name("K/N");
+    }
+    if (takes("--resume"))
+      command.add_flag("--resume", line.resume, "go on from where a run to the same folder was stopped");
+    if (takes("--quick"))
+      command.add_flag("--quick", line.quick, "only gates whose cells take a moment; for each change, not each night");
+  }
+
+  // What a sweep or a tuning looks at.
+  void add_searches() const {
+    if (takes("--vary")) {
+      command
+          .add_option(
+              "--vary", line.vary,
+              "dt, duration, a method's option or a path below scene, and its values: 10,20,50 or 0.1..0.9:9 or "
+              "1/1000..1/10:log:20; may be repeated")
+          ->allow_extra_args(false)
+          ->type_name("KEY=VALUES");
+    }
+    if (takes("--metric")) {
+      command.add_option("--metric", line.metrics, "measure this and not the usual ones; may be repeated")
+          ->allow_extra_args(false)
+          ->type_name("M");
+    }
+    if (takes("--sample"))
+      command.add_option("--sample", typed.samples, "draw N points of the space instead of its full grid")
+          ->type_name("N");
+    if (takes("--seed"))
+      command.add_option("--seed", typed.seed, "of what is drawn; the same seed draws the same")->type_name("S");
+    if (takes("--within")) {
+      command
+          .add_option("--within", line.within,
+                      "a bound: 1mm (position), 1mrad (orientation), 2% energy, or METRIC=VALUE; may be repeated")
+          ->allow_extra_args(false)
+          ->type_name("BOUND");
+    }
+  }
+
+  // What else is read, and what is printed.
+  void add_files() const {
+    if (takes("--factor")) {
+      command.add_option("--factor", typed.factor, "errors that grow by no more than this are noise")
+          ->type_name("F")
+          ->capture_default_str();
+    }
+    if (takes("--regression")) {
+      command
+          .add_option("--regression", line.regression,
+                      "print what the regressions found of this engine instead, for adapters/ENGINE/regression.jsonl")
+          ->type_name("ENGINE");
+    }
+    if (takes("--json")) command.add_flag("--json", line.json, "print JSON instead");
+    if (takes("--file"))
+      command.add_option("--file", line.file, "the history's file")->type_name("FILE")->capture_default_str();
+    if (takes("--deviations")) {
+      command.add_option("--deviations", line.adapters_dir, "folder of ENGINE/known_deviations.toml")
+          ->type_name("DIR")
+          ->capture_default_str();
+    }
+    if (takes("--suite")) {
+      command.add_option("--suite", line.suite_dir, "folder of the cases")->type_name("DIR")->capture_default_str();
+    }
+  }
+};
+
+void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Typed& typed) {
   if (!row.words.empty()) command.add_option(row.words, line.words, row.words_summary);
-  if (takes("--engine")) {
-    command.add_option("--engine", line.engines, "ENGINE[:METHOD][,key=value...][@TRACK]; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("E");
-  }
-  if (takes("--plugin")) {
-    command
-        .add_option(
-            "--plugin", line.plugins,
-            "an engine from outside: a path that ends in .so, or a command line; may be repeated. RIGOR_PLUGINS "
-            "names more, separated by colons")
-        ->allow_extra_args(false)
-        ->type_name("P");
-  }
-  if (takes("--dt")) {
-    command.add_option("--dt", typed.dt, "step size in s, a number or a fraction such as 1/30; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("DT");
-  }
-  if (takes("--duration")) command.add_option("--duration", typed.duration, "length of the run in s")->type_name("S");
-  if (takes("--jobs")) command.add_option("--jobs", typed.jobs, "cells at once; default: one a core")->type_name("N");
-  if (takes("--out"))
-    command.add_option("--out", line.out, "folder for the reports")->type_name("DIR")->capture_default_str();
-  if (takes("--every")) command.add_option("--every", typed.every, "only each N-th sample")->type_name("N");
-  if (takes("--times")) {
-    command.add_option("--times", typed.times, "instants in s; default: the run, in its coarsest steps")
-        ->type_name("T,T...");
-  }
-  if (takes("--timeout")) {
-    command.add_option("--timeout", typed.limit, "seconds of CPU time that a cell, or a truth, may take")
-        ->type_name("S")
-        ->capture_default_str();
-  }
-  if (takes("--factor")) {
-    command.add_option("--factor", typed.factor, "errors that grow by no more than this are noise")
-        ->type_name("F")
-        ->capture_default_str();
-  }
-  if (takes("--regression")) {
-    command
-        .add_option("--regression", line.regression,
-                    "print what the regressions found of this engine instead, for adapters/ENGINE/regression.jsonl")
-        ->type_name("ENGINE");
-  }
-  if (takes("--quick"))
-    command.add_flag("--quick", line.quick, "only gates whose cells take a moment; for each change, not each night");
-  if (takes("--resume"))
-    command.add_flag("--resume", line.resume, "go on from where a run to the same folder was stopped");
-  if (takes("--json")) command.add_flag("--json", line.json, "print JSON instead");
-  if (takes("--shard")) {
-    command.add_option("--shard", typed.shard, "only the K-th of N parts of the grid, for 'rigor merge'")
-        ->type_name("K/N");
-  }
-  if (takes("--vary")) {
-    command
-        .add_option("--vary", line.vary,
-                    "dt, duration, a method's option or a path below scene, and its values: 10,20,50 or 0.1..0.9:9 or "
-                    "1/1000..1/10:log:20; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("KEY=VALUES");
-  }
-  if (takes("--metric")) {
-    command.add_option("--metric", line.metrics, "measure this and not the usual ones; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("M");
-  }
-  if (takes("--sample"))
-    command.add_option("--sample", typed.samples, "draw N points of the space instead of its full grid")
-        ->type_name("N");
-  if (takes("--seed"))
-    command.add_option("--seed", typed.seed, "of what is drawn; the same seed draws the same")->type_name("S");
-  if (takes("--within")) {
-    command
-        .add_option("--within", line.within,
-                    "a bound: 1mm (position), 1mrad (orientation), 2% energy, or METRIC=VALUE; may be repeated")
-        ->allow_extra_args(false)
-        ->type_name("BOUND");
-  }
-  if (takes("--file"))
-    command.add_option("--file", line.file, "the history's file")->type_name("FILE")->capture_default_str();
-  if (takes("--deviations")) {
-    command.add_option("--deviations", line.adapters_dir, "folder of ENGINE/known_deviations.toml")
-        ->type_name("DIR")
-        ->capture_default_str();
-  }
-  if (takes("--suite")) {
-    command.add_option("--suite", line.suite_dir, "folder of the cases")->type_name("DIR")->capture_default_str();
-  }
+  // Options that may be repeated take one value each time, or they would swallow the cases that follow.
+  const Options options{command, row, line, typed};
+  options.add_runs(), options.add_ways_to_run(), options.add_searches(), options.add_files();
 }
 
 // An option without its value would take the next option for one; and an empty value, which a variable that is not set
