@@ -30,14 +30,6 @@ struct HalfWidth {
   Vec3 operator()(const Plane&) const { return Vec3::Constant(kInfinity); }
 };
 
-struct HalfWidthAlong {
-  Vec3 n_B;
-  double operator()(const Sphere& s) const { return s.radius; }
-  double operator()(const Box& b) const { return 0.5 * n_B.cwiseAbs().dot(b.size); }
-  double operator()(const Capsule& c) const { return 0.5 * c.length * std::abs(n_B.z()) + c.radius; }
-  double operator()(const Plane&) const { return kInfinity; }
-};
-
 }  // namespace
 
 std::vector<Collider> colliders_of(const Scene& scene) {
@@ -56,12 +48,6 @@ Pose pose_of(BodyColumns state, int body) { return {state.position(body), state.
 Aabb aabb_of(const Shape& shape, const Pose& pose, double margin) {
   const Vec3 half = std::visit(HalfWidth{pose.R}, shape) + Vec3::Constant(margin);
   return {pose.p - half, pose.p + half};
-}
-
-bool reaches_plane(const Shape& shape, const Pose& pose, const Plane& plane, double margin) {
-  const double half = std::visit(HalfWidthAlong{pose.R.transpose() * plane.normal}, shape);
-  // Written so that what is not a number counts as reaching: the narrow phase sees it then.
-  return !(plane.normal.dot(pose.p) - plane.offset - half > margin);
 }
 
 }  // namespace rigor

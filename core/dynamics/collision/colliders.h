@@ -26,7 +26,5 @@ std::vector<Collider> colliders_of(const Scene& scene);
 Pose pose_of(BodyColumns state, int body);
 // `margin` is added on all sides.
 Aabb aabb_of(const Shape& shape, const Pose& pose, double margin);
-// Whether a shape comes within `margin` of a plane.
-bool reaches_plane(const Shape& shape, const Pose& pose, const Plane& plane, double margin);
 
 }  // namespace rigor

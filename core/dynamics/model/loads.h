@@ -85,10 +85,6 @@ class Loads {
       for (const std::size_t i : schedule_.acting(t, t + dt)) visit_one(forces_[i]);
     }
   }
-  // Gives one of the timed forces other values, from the next step on.
-  void set_force(std::size_t index, const Vec3& force, const Vec3& torque) {
-    forces_[index].force = force, forces_[index].torque = torque;
-  }
   // What the motors of a joint that has one of a given speed put on its coordinate from now on [N m, N].
   void set_push(std::size_t joint, double effort);
   const std::vector<JointDrive>& drives() const { return drives_; }

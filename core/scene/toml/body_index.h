@@ -52,7 +52,6 @@ class BodyIndex {
   void check_arrays_are_used() const;
 
   int body(const TomlValue& value) const { return find(value, false); }
-  int body_or_world(const TomlValue& value) const { return find(value, true); }
 
   // "link" stands for each copy of an array, "link+x" for the one next to it along the array's x.
   std::vector<Ends> ends(const TomlValue& a, const TomlValue& b) const;

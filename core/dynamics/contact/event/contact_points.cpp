@@ -81,16 +81,6 @@ void ContactPoints::find(BodyColumns state, const std::vector<std::pair<int, int
   }
 }
 
-void ContactPoints::least_gaps(BodyColumns state, const std::vector<std::pair<int, int>>& pairs,
-                               std::vector<double>& out) {
-  out.clear();
-  for (const auto& [a, b] : pairs) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const ManifoldPoint& point : manifold(state, a, b)) least = std::min(least, point.gap);
-    out.push_back(least);
-  }
-}
-
 bool ContactPoints::follow(BodyColumns state, ContactPoint& contact) {
   const Manifold& points = manifold(state, contact.a, contact.b);
   if (points.size() == 0) return false;

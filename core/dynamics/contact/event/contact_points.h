@@ -37,8 +37,6 @@ class ContactPoints {
   // Adds each point of the candidates that is closer than `gap`.
   void find(BodyColumns state, const std::vector<std::pair<int, int>>& pairs, double gap,
             std::vector<ContactPoint>& out);
-  // The least gap of each pair, in the pairs' order.
-  void least_gaps(BodyColumns state, const std::vector<std::pair<int, int>>& pairs, std::vector<double>& out);
   // The contact at the same place in another state: the same feature, or the nearest of the pair. False if the pair has
   // none; the contact is then left as it was. The tangents turn with the normal and no further.
   bool follow(BodyColumns state, ContactPoint& contact);
