@@ -1,6 +1,7 @@
 // An engine whose bodies stand still and whose steps do what a test wants.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -68,5 +69,35 @@ inline Case drifting_body(const std::string& id) {
   definition.dt = {{0.1, "1/10"}, {0.05, "1/20"}};
   return definition;
 }
+
+// Loses its numbers after 20 s, at steps of more than 0.1 s.
+class LateEngine : public FaultyEngine {
+ public:
+  LateEngine() : FaultyEngine("late", [this](double& x) { x = is_lost() ? std::nan("") : 0; }) {}
+  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {
+    time_ = 0;
+    return std::make_unique<LateWorld>(*this, FaultyEngine::load(scene, settings));
+  }
+
+ private:
+  class LateWorld : public World {
+   public:
+    LateWorld(const LateEngine& engine, std::unique_ptr<World> world) : engine_(engine), world_(std::move(world)) {}
+    void step(double dt) override {
+      engine_.dt_ = dt, engine_.time_ += dt;
+      world_->step(dt);
+    }
+    void read(Snapshot& out) const override { world_->read(out); }
+    SettingsInForce settings_in_force() const override { return world_->settings_in_force(); }
+    std::string solver_warning() const override { return ""; }
+
+   private:
+    const LateEngine& engine_;
+    std::unique_ptr<World> world_;
+  };
+
+  bool is_lost() const { return dt_ > 0.1 && time_ > 20; }
+  mutable double dt_ = 0, time_ = 0;  // s
+};
 
 }  // namespace rigor

@@ -1,5 +1,4 @@
 #include "cases/runner/grid.h"
-#include "cases/report/csv/trajectory_csv.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -16,6 +15,7 @@
 #include <thread>
 
 #include "cases/case/run_selector.h"
+#include "cases/report/csv/trajectory_csv.h"
 #include "cases/results/result_json.h"
 #include "cases/runner/process_pool.h"
 #include "core/base/error.h"
@@ -65,36 +65,6 @@ EngineTable faulty_engines(bool with_one_that_hangs = true) {
   add("throws", [](double&) { throw std::runtime_error("no memory left for contacts"); });
   return table;
 }
-
-// Loses its numbers after 20 s, at steps of more than 0.1 s.
-class LateEngine : public FaultyEngine {
- public:
-  LateEngine() : FaultyEngine("late", [this](double& x) { x = is_lost() ? std::nan("") : 0; }) {}
-  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {
-    time_ = 0;
-    return std::make_unique<LateWorld>(*this, FaultyEngine::load(scene, settings));
-  }
-
- private:
-  class LateWorld : public World {
-   public:
-    LateWorld(const LateEngine& engine, std::unique_ptr<World> world) : engine_(engine), world_(std::move(world)) {}
-    void step(double dt) override {
-      engine_.dt_ = dt, engine_.time_ += dt;
-      world_->step(dt);
-    }
-    void read(Snapshot& out) const override { world_->read(out); }
-    SettingsInForce settings_in_force() const override { return world_->settings_in_force(); }
-    std::string solver_warning() const override { return ""; }
-
-   private:
-    const LateEngine& engine_;
-    std::unique_ptr<World> world_;
-  };
-
-  bool is_lost() const { return dt_ > 0.1 && time_ > 20; }
-  mutable double dt_ = 0, time_ = 0;  // s
-};
 
 std::vector<RunName> runs_of(const EngineTable& table) {
   std::vector<RunName> runs;
