@@ -101,8 +101,8 @@ BOOST_AUTO_TEST_CASE(every_family_of_the_suite_is_valid_and_broken_ones_are_not,
   BOOST_TEST(valid.size() > 1u);
   const Json gate = {{"metric", "cost"}, {"max", 1}, {"because", "x"}};
   Json broken = Json::array({Json::object(), {{"gate", Json::array()}}, {{"title", "x"}, {"gate", {gate}}}});
-  for (const auto& [key, value] :
-       Json({{"scene", "sprng"}, {"truth", "guess"}, {"except", 1}, {"colour", "red"}}).items()) {
+  const Json wrong = {{"scene", "sprng"}, {"truth", "guess"}, {"except", 1}, {"colour", "red"}};
+  for (const auto& [key, value] : wrong.items()) {
     Json one = gate;
     one[key] = value;
     broken.push_back({{"gate", {one}}});
