@@ -142,10 +142,14 @@ std::string why_no_inertia(const Mat3& inertia) {
   return "";
 }
 
+Fault fault_of_name(const std::string& body) {
+  if (body.empty()) return SceneFault{"name", "it is empty"};
+  if (body != "world") return {};
+  return SceneFault{"name", "'world' is the name of the world itself; allowed: any other name"};
+}
+
 Fault fault_of(const Body& body) {
-  if (body.name.empty()) return SceneFault{"name", "it is empty"};
-  if (body.name == "world")
-    return SceneFault{"name", "'world' is the name of the world itself; allowed: any other name"};
+  if (const Fault name = fault_of_name(body.name)) return name;
   const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
   if (body.shape) {
     if (Fault shape = std::visit(ShapeFault(), *body.shape)) return shape;

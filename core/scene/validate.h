@@ -17,6 +17,7 @@ struct SceneFault {
 
 // None where all is well. Bodies and joints that a row refers to must be there already.
 std::optional<SceneFault> fault_of(const Body& body);
+std::optional<SceneFault> fault_of_name(const std::string& body);
 // Of the two ends of a spring or joint, `what`: at least one must be able to move.
 std::optional<SceneFault> fault_of_ends(int a, int b, const char* what, const Scene& scene);
 std::optional<SceneFault> fault_of(const Spring& spring, const Scene& scene);

@@ -117,6 +117,7 @@ const std::vector<std::string>& body_keys() {
 Body read_body(const TableReader& row) {
   Body body;
   body.name = row.at("name").text();
+  refuse_if(fault_of_name(body.name), row);
   if (const auto shape = row.find("shape")) body.shape = read_shape(*shape);
   const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
   body.fixed = read_fixed(row, is_plane);
