@@ -30,8 +30,8 @@ int be_a_rank(int argc, char** argv) {
   } catch (const rigor::Interrupted&) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    if (rank == 0)
-      rigor::say("interrupted; no output was changed. What was computed is kept: --resume goes on from it");
+    if (rank != 0) _exit(rigor::kBroken);  // whoever interrupts ends all
+    rigor::say("interrupted; no output was changed. What was computed is kept: --resume goes on from it");
     MPI_Abort(MPI_COMM_WORLD, rigor::kBroken);
   }
   MPI_Finalize();

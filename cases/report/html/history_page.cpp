@@ -12,8 +12,9 @@
 namespace rigor {
 namespace {
 
-constexpr double kLeft = 62, kTop = 10, kWidth = 420, kHeight = 90, kBottom = 34, kRight = 12;  // of a drawing, px
-constexpr std::size_t kMostDrawn = 400;                                                         // cells
+constexpr double kPlotLeft = 62, kPlotTop = 10, kPlotWidth = 420, kPlotHeight = 90, kPlotBottom = 34,
+                 kPlotRight = 12;             // of a drawing, px
+constexpr std::size_t kMostCellsDrawn = 400;  // cells
 
 // Of the finite values that are not 0, and a tenth of a decade around them.
 struct Decades {
@@ -32,7 +33,7 @@ struct Decades {
   }
 };
 
-std::string hint(const HistoryEntry& entry, const std::string& value) {
+std::string hint_of(const HistoryEntry& entry, const std::string& value) {
   return fmt::format("<title>{} ({}): {}</title>", escaped(entry.commit), entry.date.substr(0, 10), value);
 }
 
@@ -40,26 +41,27 @@ std::string hint(const HistoryEntry& entry, const std::string& value) {
 std::string curve(const CellSeries& series, const std::vector<HistoryEntry>& history) {
   const Decades decades(series.values);
   const auto x_of = [&](std::size_t i) {
-    return kLeft + kWidth * (static_cast<double>(i) + 0.5) / static_cast<double>(history.size());
+    return kPlotLeft + kPlotWidth * (static_cast<double>(i) + 0.5) / static_cast<double>(history.size());
   };
   std::string path, marks, text;
   for (std::size_t i = 0; i < series.values.size(); ++i) {
     const double value = series.values[i];
     if (std::isnan(value)) continue;
     const bool is_change = std::find(series.changes.begin(), series.changes.end(), i) != series.changes.end();
-    const double y = kTop + kHeight * (1 - decades.share(value));
+    const double y = kPlotTop + kPlotHeight * (1 - decades.share(value));
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : " L", x_of(i), y);
     marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\">{}</circle>", x_of(i), y,
                          is_change ? 4.5 : 2.5, is_change || !std::isfinite(value) ? "#b3261e" : "#3b76c4",
-                         hint(history[i], rounded(value)));
-    if (is_change) text += svg_line(x_of(i), kTop, x_of(i), kTop + kHeight, "axis");
+                         hint_of(history[i], rounded(value)));
+    if (is_change) text += svg_line(x_of(i), kPlotTop, x_of(i), kPlotTop + kPlotHeight, "axis");
   }
-  text += svg_line(kLeft, kTop + kHeight, kLeft + kWidth, kTop + kHeight, "axis");
+  text += svg_line(kPlotLeft, kPlotTop + kPlotHeight, kPlotLeft + kPlotWidth, kPlotTop + kPlotHeight, "axis");
   for (const double value : {decades.least * 1.26, decades.most / 1.26})
-    text += svg_text(kLeft - 6, kTop + kHeight * (1 - decades.share(value)) + 4, tick(value), "end");
-  text += svg_text(x_of(0), kTop + kHeight + 16, history.front().commit.substr(0, 8), "middle");
+    text += svg_text(kPlotLeft - 6, kPlotTop + kPlotHeight * (1 - decades.share(value)) + 4, tick(value), "end");
+  text += svg_text(x_of(0), kPlotTop + kPlotHeight + 16, history.front().commit.substr(0, 8), "middle");
   if (history.size() > 1)
-    text += svg_text(x_of(history.size() - 1), kTop + kHeight + 16, history.back().commit.substr(0, 8), "middle");
+    text +=
+        svg_text(x_of(history.size() - 1), kPlotTop + kPlotHeight + 16, history.back().commit.substr(0, 8), "middle");
   return text + fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#3b76c4\" stroke-width=\"1.4\"/>", path) + marks;
 }
 
@@ -73,22 +75,22 @@ std::string sentence(const std::string& name, const CellSeries& series, const st
   return text;
 }
 
-std::string figure(const std::string& name, const CellSeries& series, const std::vector<HistoryEntry>& history) {
+std::string figure_of(const std::string& name, const CellSeries& series, const std::vector<HistoryEntry>& history) {
   const bool has_values =
       std::any_of(series.values.begin(), series.values.end(), [](double v) { return !std::isnan(v); });
   if (!has_values) return "";
   return fmt::format(
       "<figure><svg width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} {1:g}\" role=\"img\">{2}</svg>"
       "<figcaption>{3}</figcaption></figure>\n",
-      kLeft + kWidth + kRight, kTop + kHeight + kBottom, curve(series, history),
+      kPlotLeft + kPlotWidth + kPlotRight, kPlotTop + kPlotHeight + kPlotBottom, curve(series, history),
       escaped(sentence(name, series, history)));
 }
 
-std::string section(const CellHistory& cell, const std::vector<HistoryEntry>& history) {
+std::string section_of(const CellHistory& cell, const std::vector<HistoryEntry>& history) {
   std::string text = fmt::format("<h3>{}</h3>\n", escaped(cell.name));
   if (!cell.status_change.empty()) text += fmt::format("<p>status: {}</p>\n", escaped(cell.status_change));
-  const std::string error = cell.metric.empty() ? "" : figure(cell.metric, cell.error, history);
-  return text + "<div class=\"row\">\n" + error + figure("cost [s/s]", cell.cost, history) + "</div>\n";
+  const std::string error = cell.metric.empty() ? "" : figure_of(cell.metric, cell.error, history);
+  return text + "<div class=\"row\">\n" + error + figure_of("cost [s/s]", cell.cost, history) + "</div>\n";
 }
 
 }  // namespace
@@ -109,10 +111,10 @@ std::string history_page(const std::vector<HistoryEntry>& history, const std::ve
       history.size(), escaped(history.front().commit), history.front().date.substr(0, 10),
       escaped(history.back().commit), history.back().date.substr(0, 10), changed, cells.size(),
       escaped(history.back().machine));
-  for (std::size_t i = 0; i < std::min(cells.size(), kMostDrawn); ++i) text += section(cells[i], history);
-  if (cells.size() > kMostDrawn)
+  for (std::size_t i = 0; i < std::min(cells.size(), kMostCellsDrawn); ++i) text += section_of(cells[i], history);
+  if (cells.size() > kMostCellsDrawn)
     text += fmt::format("<p>{} more cells are not drawn; name cases or engines to see them.</p>\n",
-                        cells.size() - kMostDrawn);
+                        cells.size() - kMostCellsDrawn);
   return text + "</body></html>\n";
 }
 

@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(a_page_draws_each_cell_and_marks_its_changes) {
   BOOST_TEST(run({"history", "show", "--page", "history.html"}).code == 0);
   const std::string page = content("history.html");
   BOOST_TEST(page.find("1 of 1 cells changed") != std::string::npos);
-  BOOST_TEST(page.find("from 1 to 2 at &lt;worse&gt;") != std::string::npos, page.substr(page.size() / 2));
+  BOOST_TEST(page.find("from 0.5 to 1 at &lt;worse&gt;") != std::string::npos, page.substr(page.size() / 2));
   BOOST_TEST(page.find("<worse>") == std::string::npos);
   std::size_t marks = 0, changes = 0;
   for (std::size_t at = 0; (at = page.find("<circle", at)) != std::string::npos; ++at)
