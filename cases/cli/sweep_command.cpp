@@ -5,7 +5,7 @@
 #include <fstream>
 #include <map>
 
-#include "cases/analysis/sweep.h"
+#include "cases/analysis/sweep/sweep.h"
 #include "cases/case/suite.h"
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"

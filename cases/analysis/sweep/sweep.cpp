@@ -1,4 +1,4 @@
-#include "cases/analysis/sweep.h"
+#include "cases/analysis/sweep/sweep.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "adapters/engines.h"
-#include "cases/analysis/sweep_axis.h"
+#include "cases/analysis/sweep/sweep_axis.h"
 #include "cases/case/vocabulary.h"
 #include "cases/results/results.h"
 #include "cases/runner/executor.h"
