@@ -163,6 +163,7 @@ struct Options {
     if (takes("--json")) command.add_flag("--json", line.json, "print JSON instead");
     if (takes("--file"))
       command.add_option("--file", line.file, "the history's file")->type_name("FILE")->capture_default_str();
+    if (takes("--page")) command.add_option("--page", line.page, "draw it there as a page too")->type_name("FILE.html");
     if (takes("--deviations")) {
       command.add_option("--deviations", line.adapters_dir, "folder of ENGINE/known_deviations.toml")
           ->type_name("DIR")
@@ -260,8 +261,7 @@ void read_typed(const Typed& typed, CommandLine& line) {
     if (std::find(line.dt.begin(), line.dt.end(), dt) == line.dt.end()) line.dt.push_back(dt);
   }
   if (!typed.duration.empty()) line.duration = parse_step_size(typed.duration, "--duration").seconds;
-  const int cores = std::max(1u, std::thread::hardware_concurrency());
-  line.jobs = typed.jobs.empty() ? cores : parse_count(typed.jobs, "--jobs");
+  if (!typed.jobs.empty()) line.jobs = parse_count(typed.jobs, "--jobs");
   line.every = parse_count(typed.every, "--every");
   line.limit = parse_step_size(typed.limit, "--timeout").seconds;
   line.factor = parse_factor(typed.factor);
@@ -273,8 +273,9 @@ void read_typed(const Typed& typed, CommandLine& line) {
 
 }  // namespace
 
-CommandLine parse_command_line(int argc, const char* const* argv) {
+CommandLine parse_command_line(int argc, const char* const* argv, int jobs) {
   CommandLine line;
+  line.jobs = jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   Typed typed;
   line.suite_dir = default_suite_dir(), line.adapters_dir = default_adapters_dir();
   CLI::App app("How right is a rigid-body simulator?", "rigor");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cases/case/case.h"
+#include "cases/runner/executor.h"
 #include "cases/runner/shards/shard.h"
 
 namespace rigor {
@@ -27,17 +28,22 @@ struct CommandLine {
   std::vector<std::string> plugins;  // engines from outside: paths of shared libraries, and command lines
   std::string regression;            // the engine whose recorded values `baseline` prints; empty: the baseline itself
   bool quick = false, resume = false, json = false;
-  Shard shard;                             // of run and gate: all, or a part for `rigor merge`
+  Shard shard;                             // of run, gate and sweep: all, or a part for `rigor merge`
   std::vector<std::string> vary, metrics;  // of a sweep: KEY=VALUES; the metrics asked for
   std::size_t samples = 0;                 // of a sweep; 0: the full grid
   unsigned long seed = 1;
   std::vector<std::string> within;     // of tune: bounds, "1mm"
   std::string file = "history.jsonl";  // of history
+  std::string page;                    // of history: where it is drawn; empty: nowhere
   std::vector<std::string> arguments;  // as typed, without where to, how many at once, and which shard
+  const Executor* executor = nullptr;  // of a grid's cases and a sweep's; null: processes of this machine
   std::string printed;                 // --help or --version: what to print instead of doing anything
 };
 
-// Throws InputError, with the near match of a word that is not known.
-CommandLine parse_command_line(int argc, const char* const* argv);
+// Whether this process plans, judges and writes, or works for one that does.
+inline bool leads(const CommandLine& line) { return line.executor == nullptr || line.executor->leads(); }
+
+// Throws InputError, with the near match of a word that is not known. `jobs`: without --jobs; 0: one a core.
+CommandLine parse_command_line(int argc, const char* const* argv, int jobs = 0);
 
 }  // namespace rigor

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "cases/case/run_selector.h"
@@ -15,7 +16,9 @@
 #include "cases/gates/quick.h"
 #include "cases/report/console/console_table.h"
 #include "cases/report/github/job_summary.h"
+#include "cases/report/json/machine.h"
 #include "cases/report/reports.h"
+#include "cases/runner/build_identity.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -124,9 +127,33 @@ GridRun plan_run(const CommandLine& line, const EngineTable& engines) {
   return {line, engines, std::move(deviations), std::move(recorded), std::move(grid)};
 }
 
+OutputFolder output_folder_of(const CommandLine& line) {
+  if (!leads(line)) return OutputFolder::of_helper(line.out);
+  std::vector<std::string> files = report_files();
+  files.push_back(kPartFile);
+  return OutputFolder(line.out, files, line.resume);
+}
+
 GridOptions options_of(const GridRun& run, const OutputFolder& folder) {
   return {run.line.jobs,      run.line.limit,     recorders_for(run.grid, folder.trajectories()),
-          !is_gate(run.line), !is_gate(run.line), folder.journals()};
+          !is_gate(run.line), !is_gate(run.line), folder.journals(),
+          run.line.executor};
+}
+
+PartTitle title_of_part(const CommandLine& line, std::vector<std::pair<std::string, std::string>> plans,
+                        double wall_seconds) {
+  const auto whole = [](const std::string& path) {
+    std::error_code error;
+    return std::filesystem::absolute(path, error).lexically_normal().string();
+  };
+  return {line.shard,
+          this_machine().program_version,
+          build_identity(),
+          line.arguments,
+          whole(line.suite_dir),
+          whole(line.adapters_dir),
+          std::move(plans),
+          wall_seconds};
 }
 
 std::vector<std::string> report_files() {

@@ -10,6 +10,7 @@
 #include "cases/gates/gates.h"
 #include "cases/runner/grid.h"
 #include "cases/runner/output_folder.h"
+#include "cases/runner/shards/part.h"
 
 namespace rigor {
 
@@ -26,10 +27,15 @@ std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<E
 
 // Nothing has run yet. Throws InputError.
 GridRun plan_run(const CommandLine& line, const EngineTable& engines);
+OutputFolder output_folder_of(const CommandLine& line);
 GridOptions options_of(const GridRun& run, const OutputFolder& folder);
 std::vector<std::string> report_files();
 
 void judge(GridRun& run);
+// Of a part of what the line asks for.
+PartTitle title_of_part(const CommandLine& line, std::vector<std::pair<std::string, std::string>> plans,
+                        double wall_seconds);
+
 // Puts every output that could be written into place and says what could not. Returns whether all could.
 bool write_reports(const Results& grid, OutputFolder& folder);
 

@@ -2,14 +2,18 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/report/console/history_table.h"
+#include "cases/report/html/history_page.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
@@ -56,16 +60,35 @@ int add(const CommandLine& line) {
   return kGood;
 }
 
+// In the page's place all at once, or not at all.
+void write_page(const std::string& file, const std::string& text) {
+  const std::string growing = file + ".partial";
+  std::ofstream stream(growing, std::ios::binary);
+  stream << text;
+  stream.close();
+  std::error_code error;
+  if (stream) fs::rename(growing, file, error);
+  if (stream && !error) return;
+  const std::string why = error ? error.message() : std::strerror(errno);
+  fs::remove(growing, error);
+  throw InputError(fmt::format("--page {}: cannot be written: {}", file, why));
+}
+
+int show(const CommandLine& line) {
+  const std::vector<HistoryEntry> history = read_history(line.file);
+  const std::vector<std::string> words(line.words.begin() + 1, line.words.end());
+  if (!line.page.empty()) write_page(line.page, history_page(history, words));
+  print_table(history_table(history, words));
+  return kGood;
+}
+
 }  // namespace
 
 int history_command(const CommandLine& line, const EngineTable&) {
   const std::vector<std::string> known = {"add", "show"};
   const std::string what = line.words.empty() ? "" : line.words.front();
   if (what == "add") return add(line);
-  if (what == "show") {
-    print_table(history_table(read_history(line.file), {line.words.begin() + 1, line.words.end()}));
-    return kGood;
-  }
+  if (what == "show") return show(line);
   throw InputError(fmt::format("rigor history: found '{}'{}; allowed: add DIR, or show [CASE or ENGINE]", what,
                                did_you_mean(what, known)));
 }

@@ -1,4 +1,4 @@
-// rigor merge: of the parts that --shard made, the whole, judged and written as one run would have.
+// rigor merge: of the parts that --shard made, the whole, judged and written as one run or sweep would have.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -6,6 +6,7 @@
 #include "cases/case/suite.h"
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
+#include "cases/cli/sweep_merge.h"
 #include "cases/report/json/machine.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/shards/part.h"
@@ -78,16 +79,16 @@ void gather_trajectories(const Merged& merged, const OutputFolder& folder) {
 
 int merge_command(const CommandLine& line, const EngineTable& engines) {
   if (line.words.empty())
-    throw InputError("rigor merge: takes the folders of all parts that 'rigor run --shard K/N --out DIR' wrote");
+    throw InputError(
+        "rigor merge: takes the folders of all parts that 'rigor run --shard K/N --out DIR' wrote, or gate, or sweep");
   std::vector<Part> parts;
   for (const std::string& word : line.words) parts.push_back(read_part(word));
   check_same_grid(parts);
   check_same_program(parts.front());
   const CommandLine made_by = line_of_parts(line, parts.front().title);
+  if (made_by.command == "sweep") return merge_sweep(made_by, parts, engines);
   GridRun run = plan_run(made_by, engines);
-  std::vector<std::string> files = report_files();
-  files.push_back(kPartFile);
-  OutputFolder folder(line.out, files);
+  OutputFolder folder = output_folder_of(line);
   check_same_plan(run, parts.front().title, engines, options_of(run, folder));
   const Merged merged = fill_in(run.grid, parts);
   gather_trajectories(merged, folder);

@@ -2,15 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress.h"
-#include "cases/report/json/machine.h"
-#include "cases/runner/build_identity.h"
 #include "cases/runner/shards/part.h"
-#include "core/base/error.h"
 
 namespace rigor {
 namespace {
@@ -20,15 +16,9 @@ void run_with_progress(Results& grid, const EngineTable& engines, const GridOpti
   run_grid(grid, engines, options, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
 }
 
-std::vector<std::string> all_files() {
-  std::vector<std::string> names = report_files();
-  names.push_back(kPartFile);
-  return names;
-}
-
 int run_whole(const CommandLine& line, const EngineTable& engines) {
   GridRun run = plan_run(line, engines);
-  OutputFolder folder(line.out, all_files(), line.resume);
+  OutputFolder folder = output_folder_of(line);
   bool is_whole = false;
   try {
     run_with_progress(run.grid, engines, options_of(run, folder));
@@ -39,21 +29,6 @@ int run_whole(const CommandLine& line, const EngineTable& engines) {
     throw;
   }
   return answer(run, is_whole);
-}
-
-PartTitle title_of(const GridRun& run, const EngineTable& engines, const GridOptions& options, double wall_seconds) {
-  const auto whole = [](const std::string& path) {
-    std::error_code error;
-    return std::filesystem::absolute(path, error).lexically_normal().string();
-  };
-  return {run.line.shard,
-          this_machine().program_version,
-          build_identity(),
-          run.line.arguments,
-          whole(run.line.suite_dir),
-          whole(run.line.adapters_dir),
-          plans_of(run.grid, engines, options),
-          wall_seconds};
 }
 
 // How many there are of its own, and what they came to.
@@ -79,14 +54,14 @@ std::string summary_of(const CommandLine& line, const Results& share) {
 
 int run_shard(const CommandLine& line, const EngineTable& engines) {
   GridRun run = plan_run(line, engines);
-  OutputFolder folder(line.out, all_files(), line.resume);
+  OutputFolder folder = output_folder_of(line);
   const GridOptions options = options_of(run, folder);
   const Results planned = share_of(run.grid, line.shard);
   Results share = planned;
   try {
     run_with_progress(share, engines, options);
-    folder.write(kPartFile,
-                 part_text(title_of(run, engines, options, share.wall_seconds), planned, share, engines, options));
+    folder.write(kPartFile, part_text(title_of_part(line, plans_of(run.grid, engines, options), share.wall_seconds),
+                                      planned, share, engines, options));
     std::vector<std::string> trajectories;
     for (const CaseResult& result : share.cases) {
       for (const Cell& cell : result.cells) {

@@ -1,17 +1,21 @@
-// rigor sweep: a grid, or a sample of one, over steps, options and values of the scene; as a table and drawn.
+// rigor sweep: a grid, or a sample of one, over steps, options and values of the scene; as a table and drawn. Or a
+// shard of it, and of all shards the whole.
 #include <fmt/format.h>
 
 #include <fstream>
 #include <map>
 
-#include "cases/analysis/sweep.h"
+#include "cases/analysis/sweep/sweep.h"
 #include "cases/case/suite.h"
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress.h"
+#include "cases/cli/sweep_merge.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/report/csv/sweep_table.h"
 #include "cases/report/html/sweep_page.h"
+#include "cases/runner/shards/part.h"
+#include "core/base/content_hash.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -38,6 +42,8 @@ SweepInput input_of(const CommandLine& line, const Vocabulary& words) {
   return input;
 }
 
+bool is_broken(const SweepRow& row) { return row.status == Status::crashed || row.status == Status::timed_out; }
+
 // The tables grow in the folder as rows come.
 class SweepFiles {
  public:
@@ -52,7 +58,7 @@ class SweepFiles {
     csv_ << sweep_csv_row(sweep_, row), lines_ << sweep_json_row(sweep_, row);
     page_.add(row);
     ++counts_[{row.of_case, row.run}][row.status == Status::pass ? row.verdict : word_of(row.status)];
-    has_broken_ |= row.status == Status::crashed || row.status == Status::timed_out;
+    has_broken_ |= is_broken(row);
   }
   void finish(OutputFolder& folder) {
     csv_.close(), lines_.close();
@@ -81,17 +87,31 @@ class SweepFiles {
   bool has_broken_ = false;
 };
 
-}  // namespace
+OutputFolder folder_of(const CommandLine& line) {
+  const std::vector<std::string> files = {kCsv, kJsonLines, kPage, kPartFile};
+  return leads(line) ? OutputFolder(line.out, files, line.resume) : OutputFolder::of_helper(line.out);
+}
 
-int sweep_command(const CommandLine& line, const EngineTable& engines) {
-  const Vocabulary words = vocabulary_of(engines.infos());
-  const Sweep sweep(input_of(line, words), words);
-  OutputFolder folder(line.out, {kCsv, kJsonLines, kPage}, line.resume);
+SweepOptions options_of(const CommandLine& line, const OutputFolder& folder) {
+  return {line.jobs, line.limit, folder.journals() + "/sweep.journal", line.executor, line.shard};
+}
+
+std::string hash_of_plan(const Sweep& sweep) { return fmt::format("{:016x}", content_hash(sweep.plan())); }
+
+int end_of(const SweepFiles& files, const Sweep& sweep, const CommandLine& line) {
+  print_table(files.summary() +
+              fmt::format("{} cells: {}, {} and {} are in {}\n", sweep.cells(), kCsv, kJsonLines, kPage, line.out));
+  return files.has_broken() ? kBroken : kGood;
+}
+
+int sweep_whole(const CommandLine& line, const Sweep& sweep, const EngineTable& engines) {
+  OutputFolder folder = folder_of(line);
+  if (!leads(line)) run_sweep(sweep, engines, options_of(line, folder), {});
   SweepFiles files(sweep, folder);
   try {
     Progress progress;
     std::size_t done = 0;
-    run_sweep(sweep, engines, {line.jobs, line.limit, folder.journals() + "/sweep.journal"}, [&](const SweepRow& row) {
+    run_sweep(sweep, engines, options_of(line, folder), [&](const SweepRow& row) {
       files.add(row);
       progress.show(++done, sweep.cells());
     });
@@ -100,9 +120,85 @@ int sweep_command(const CommandLine& line, const EngineTable& engines) {
     folder.keep();
     throw;
   }
-  print_table(files.summary() +
-              fmt::format("{} cells: {}, {} and {} are in {}\n", sweep.cells(), kCsv, kJsonLines, kPage, line.out));
-  return files.has_broken() ? kBroken : kGood;
+  return end_of(files, sweep, line);
+}
+
+int sweep_shard(const CommandLine& line, const Sweep& sweep, const EngineTable& engines) {
+  OutputFolder folder = folder_of(line);
+  const auto [begin, end] = jobs_of(sweep, line.shard);
+  const std::size_t first = sweep.first_row_of(begin), rows = sweep.first_row_of(end) - first;
+  bool has_broken = false;
+  try {
+    Progress progress;
+    std::size_t done = 0;
+    std::ofstream part;
+    if (leads(line)) part.open(folder.growing(kPartFile), std::ios::binary);
+    part << part_head(title_of_part(line, {{"the sweep", hash_of_plan(sweep)}}, 0), rows);
+    run_sweep(sweep, engines, options_of(line, folder), [&](const SweepRow& row) {
+      part << framed(first + done, {answer_of(row), ""});
+      has_broken |= is_broken(row);
+      progress.show(++done, rows);
+    });
+    part.close();
+    if (!part) throw std::runtime_error("the part could not be written");
+    folder.publish_files();
+  } catch (...) {
+    folder.keep();
+    throw;
+  }
+  print_table(
+      fmt::format("shard {0} of {1}: {2} of {3} cells\nThis is a part and no result: 'rigor merge DIR... --out "
+                  "DIR' makes the whole of all {1} parts.\n",
+                  line.shard.index, line.shard.count, rows, sweep.cells()));
+  return has_broken ? kBroken : kGood;
+}
+
+void apply(const Part& part, const Part::Answer& answer, std::size_t cells,
+           std::map<std::size_t, std::string>& answers) {
+  if (answer.of >= cells)
+    throw InputError(fmt::format("{}: is damaged: it has an answer of a cell that is not in the sweep", part.folder));
+  answers[answer.of] = answer.record.message;
+}
+
+SweepRow heard_of(SweepRow row, const std::map<std::size_t, std::string>& answers, std::size_t number) {
+  const auto found = answers.find(number);
+  if (found == answers.end()) return row.reason = "it did not run: its shard is missing", row;
+  try {
+    apply_answer(row, found->second);
+  } catch (const std::exception& error) {
+    throw InputError(
+        fmt::format("a part is damaged: the answer of cell {} cannot be read: {}", number + 1, error.what()));
+  }
+  return row;
+}
+
+}  // namespace
+
+int sweep_command(const CommandLine& line, const EngineTable& engines) {
+  const Vocabulary words = vocabulary_of(engines.infos());
+  const Sweep sweep(input_of(line, words), words);
+  return line.shard.is_all() ? sweep_whole(line, sweep, engines) : sweep_shard(line, sweep, engines);
+}
+
+int merge_sweep(const CommandLine& line, const std::vector<Part>& parts, const EngineTable& engines) {
+  const Vocabulary words = vocabulary_of(engines.infos());
+  const Sweep sweep(input_of(line, words), words);
+  if (parts.front().title.plans.front().second != hash_of_plan(sweep))
+    throw InputError("the cases are not what the parts were made of; merge with the cases of then, see --suite");
+  std::map<std::size_t, std::string> answers;
+  for (const Part& part : parts) {
+    for (const Part::Answer& answer : part.answers) apply(part, answer, sweep.cells(), answers);
+  }
+  OutputFolder folder = folder_of(line);
+  SweepFiles files(sweep, folder);
+  std::size_t number = 0;
+  for (std::size_t job = 0; job < sweep.jobs(); ++job) {
+    for (const SweepRow& row : sweep.rows_of(job)) files.add(heard_of(row, answers, number++));
+  }
+  files.finish(folder);
+  const int ending = end_of(files, sweep, line);
+  for (const std::string& missing : missing_shards(parts)) say(missing + "; this is not the whole sweep");
+  return answers.size() == sweep.cells() ? ending : int{kBroken};
 }
 
 }  // namespace rigor

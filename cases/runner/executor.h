@@ -28,11 +28,23 @@ class Executor {
   using OnEnd = std::function<void(std::size_t job, const JobEnd& end)>;
 
   virtual ~Executor() = default;
+  // One process leads: it plans, judges and writes. Another one has planned the same, does what it is given, and leaves
+  // `run` by Dismissed.
+  virtual bool leads() const { return true; }
+  // Once, before `run`: what was planned, which all have to agree on, and the folder that all have to see. Throws
+  // InputError if they do not.
+  virtual void begin(const std::string& /*plan*/, const std::string& /*folder*/) const {}
+  // Of a process that does not lead, and could not plan or has nothing to do: tells the one that does why; "": no
+  // reason.
+  virtual void stay_out(const std::string& /*why*/) const {}
   // Does each job, apart from the others and from the caller, begun in their order; on_end is called once for each.
   // Throws Interrupted.
   virtual void run(const std::vector<JobSpec>& jobs, const Work& work, const OnMessage& on_message,
                    const OnEnd& on_end) const = 0;
 };
+
+// No more work is left for a process that does not lead.
+struct Dismissed {};
 
 // Forks a child for each, as many at a time as it is told.
 class ProcessExecutor : public Executor {

@@ -151,6 +151,12 @@ void note_case_end(CaseResult& result, const JobEnd& end, double limit) {
   }
 }
 
+std::string plan_of_all(const Results& grid, const EngineTable& engines, const GridOptions& options) {
+  std::string all;
+  for (const CaseResult& planned : grid.cases) all += plan_of(grid, planned, engines, options);
+  return all;
+}
+
 }  // namespace
 
 void override_run(Case& definition, const Overrides& overrides) {
@@ -223,6 +229,7 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   };
   const ProcessExecutor processes(at_once);
   const Executor& executor = options.executor ? *options.executor : processes;
+  executor.begin(plan_of_all(grid, engines, options), options.journals);
   executor.run(jobs, work, on_message, on_end);
   grid.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -168,7 +169,11 @@ OutputFolder::OutputFolder(const std::string& path, const std::vector<std::strin
   }
 }
 
+OutputFolder::OutputFolder(const std::string& path)
+    : folder_(path), partial_(folder_ / kPartial), staged_(partial_ / "staged"), is_helper_(true) {}
+
 OutputFolder::~OutputFolder() {
+  if (is_helper_) return;
   std::error_code no_matter;
   if (is_kept_) {
     if (!fs::exists(staged_ / kReady, no_matter)) fs::remove_all(staged_, no_matter);
@@ -216,6 +221,7 @@ void OutputFolder::publish_files() {
 }
 
 void OutputFolder::put_in_place(ino_t of_trajectories) {
+  assert(!is_helper_);
   std::string ready = fmt::format("{}\n", of_trajectories);
   for (const std::string& name : file_names_) {
     if (!fs::exists(staged_ / "reports" / name)) ready += name + "\n";

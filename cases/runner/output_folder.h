@@ -18,6 +18,8 @@ class OutputFolder {
   // run is writing to it, or if something that is no file stands where one of `file_names` would. `resume`: takes over
   // what a run that is no longer there left, if one did.
   OutputFolder(const std::string& path, const std::vector<std::string>& file_names, bool resume = false);
+  // Of a process that works for the one which has made the folder: says where things are, and changes nothing.
+  static OutputFolder of_helper(const std::string& path) { return OutputFolder(path); }
   ~OutputFolder();  // removes what has not been published
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -36,13 +38,14 @@ class OutputFolder {
   void keep() { is_kept_ = true; }  // for another run to go on from
 
  private:
+  explicit OutputFolder(const std::string& path);
   void put_in_place(ino_t of_trajectories);
   void stage_trajectories(const std::vector<std::string>& trajectories) const;
 
   std::filesystem::path folder_, partial_, staged_;
   std::vector<std::string> file_names_;
   int lock_ = -1;
-  bool is_kept_ = false;
+  bool is_kept_ = false, is_helper_ = false;
 };
 
 }  // namespace rigor

@@ -253,8 +253,8 @@ using Children = std::vector<std::unique_ptr<Child>>;
 
 // Until a child says something, or a tick is over. A child's end shows as the closing of its pipes, an instant before
 // it can be waited for: then the tick is short.
-void wait_for_news(const Children& children) {
-  constexpr int kTick = 50, kShortTick = 1;  // ms
+void wait_for_news(const Children& children, int tick) {
+  constexpr int kShortTick = 1;  // ms
   std::vector<pollfd> watched;
   bool one_is_ending = false;
   for (const auto& child : children) {
@@ -263,8 +263,23 @@ void wait_for_news(const Children& children) {
     }
     one_is_ending |= child->has_closed_its_pipes();
   }
-  poll(watched.data(), watched.size(), one_is_ending ? kShortTick : kTick);
+  poll(watched.data(), watched.size(), one_is_ending ? kShortTick : tick);
 }
+
+class JobList : public JobFeed {
+ public:
+  explicit JobList(const std::vector<Job>& jobs) : jobs_(jobs) {}
+  bool is_over() override { return next_ == jobs_.size(); }
+  std::optional<Numbered> next() override {
+    if (is_over()) return {};
+    const std::size_t number = next_++;
+    return Numbered{number, jobs_[number]};
+  }
+
+ private:
+  const std::vector<Job>& jobs_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace
 
@@ -303,15 +318,21 @@ std::string sentence_of(const JobEnd& end, double limit) {
 void run_jobs(const std::vector<Job>& jobs, int at_once,
               const std::function<void(std::size_t, const std::string&)>& on_message,
               const std::function<void(std::size_t, const JobEnd&)>& on_end) {
+  JobList list(jobs);
+  run_jobs(list, at_once, on_message, on_end);
+}
+
+void run_jobs(JobFeed& feed, int at_once, const std::function<void(std::size_t, const std::string&)>& on_message,
+              const std::function<void(std::size_t, const JobEnd&)>& on_end) {
   const SignalWatch watch;
   Children children;
-  std::size_t next = 0;
-  while (next < jobs.size() || !children.empty()) {
-    while (next < jobs.size() && static_cast<int>(children.size()) < at_once) {
-      children.push_back(std::make_unique<Child>(jobs[next], next));
-      ++next;
+  while (!feed.is_over() || !children.empty()) {
+    while (static_cast<int>(children.size()) < at_once) {
+      const auto next = feed.next();
+      if (!next) break;
+      children.push_back(std::make_unique<Child>(next->job, next->number));
     }
-    wait_for_news(children);
+    wait_for_news(children, feed.longest_wait());
     if (caught_signal) {
       children.clear();
       throw Interrupted{caught_signal};

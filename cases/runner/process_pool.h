@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,23 @@ struct Interrupted {
   int signal;
 };
 
+// Where jobs come from, one by one, as children become free.
+class JobFeed {
+ public:
+  struct Numbered {
+    std::size_t number;  // by which on_message and on_end know it
+    Job job;
+  };
+  virtual ~JobFeed() = default;
+  virtual bool is_over() = 0;                      // no further job will come; asked at every turn
+  virtual std::optional<Numbered> next() = 0;      // none: for now there is none
+  virtual int longest_wait() const { return 50; }  // ms, until it wants to be asked again
+};
+
 // At most `at_once` children at a time, started in order. Throws Interrupted. on_end is called once for every job.
+void run_jobs(JobFeed& feed, int at_once,
+              const std::function<void(std::size_t job, const std::string& message)>& on_message,
+              const std::function<void(std::size_t job, const JobEnd& end)>& on_end);
 void run_jobs(const std::vector<Job>& jobs, int at_once,
               const std::function<void(std::size_t job, const std::string& message)>& on_message,
               const std::function<void(std::size_t job, const JobEnd& end)>& on_end);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "cases/analysis/sweep_axis.h"
+#include "cases/analysis/sweep/sweep_axis.h"
 #include "cases/analysis/tuning/tuning_probe.h"
 #include "cases/analysis/tuning/tuning_space.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cases/analysis/sweep.h"
+#include "cases/analysis/sweep/sweep.h"
 
 namespace rigor {
 

@@ -7,6 +7,22 @@
 #include <cmath>
 
 namespace rigor {
+namespace {
+
+constexpr const char* kStyle = R"(<style>
+:root { color-scheme: light dark; --ink: #1c1c1c; --paper: #fff; --faint: #8a8a8a; --rule: #d5d5d5 }
+@media (prefers-color-scheme: dark) { :root { --ink: #e8e8e8; --paper: #16181c; --faint: #9a9a9a; --rule: #3a3d42 } }
+body { font: 15px/1.45 system-ui, sans-serif; color: var(--ink); background: var(--paper); margin: 0 auto; padding: 20px; max-width: 1240px }
+h1 { font-size: 22px; margin: 0 0 4px } h2 { font-size: 18px; margin: 28px 0 4px } h3 { font-size: 15px; margin: 14px 0 0 }
+p { margin: 4px 0 } .faint { color: var(--faint) } .row { display: flex; flex-wrap: wrap; gap: 4px 18px }
+figure { margin: 0 } figcaption { font-size: 13px; color: var(--faint) }
+svg { display: block } svg rect { shape-rendering: crispEdges } svg text { font: 11px system-ui, sans-serif; fill: var(--ink) } .rule { stroke: var(--rule) } .axis { stroke: var(--faint) }
+.key { display: inline-flex; align-items: center; gap: 6px; margin-right: 16px } .key i { width: 14px; height: 14px; border-radius: 3px; display: inline-block }
+.bar { width: 140px; height: 12px; border-radius: 3px; display: inline-block }
+</style></head><body>
+)";
+
+}  // namespace
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -52,6 +68,15 @@ std::string shade(double share) {
   std::array<int, 3> mixed{};
   for (std::size_t c = 0; c < 3; ++c) mixed[c] = static_cast<int>(stops[i][c] + rest * (stops[i + 1][c] - stops[i][c]));
   return fmt::format("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2]);
+}
+
+std::string page_head(const std::string& title) {
+  return fmt::format(
+             R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{}</title>)",
+             escaped(title)) +
+         kStyle;
 }
 
 std::string tick(double value) {

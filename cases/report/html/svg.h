@@ -12,6 +12,9 @@ std::string svg_line(double x1, double y1, double x2, double y2, const char* css
 // A number from 0 to 1 as a colour, light to dark and the same to every eye.
 std::string shade(double share);
 
+// What a page begins with, up to its body's first line.
+std::string page_head(const std::string& title);
+
 // Two or three digits: a tick's label.
 std::string tick(double value);
 

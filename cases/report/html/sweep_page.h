@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/analysis/sweep.h"
+#include "cases/analysis/sweep/sweep.h"
 
 namespace rigor {
 

@@ -108,6 +108,16 @@ std::string difference(const PartTitle& a, const PartTitle& b) {
   return fmt::format("{} cases and {}", a.plans.size(), b.plans.size());
 }
 
+std::set<int> shards_of(const std::vector<Part>& parts) {
+  std::set<int> there;
+  for (const Part& part : parts) there.insert(part.title.shard.index);
+  return there;
+}
+
+std::string id_of(const Part& part, const Part::Answer& answer) {
+  return answer.of < part.title.plans.size() ? part.title.plans[answer.of].first : "no case";
+}
+
 class Merge {
  public:
   explicit Merge(Results& grid) : grid_(grid), plan_(grid), paths_(grid.cases.size()), truths_(grid.cases.size()) {
@@ -120,20 +130,16 @@ class Merge {
         add(part, answer);
       } catch (const std::exception& error) {
         throw InputError(fmt::format("{}: is damaged: an answer of '{}' cannot be read: {}", part.folder,
-                                     answer.of_case, error.what()));
+                                     id_of(part, answer), error.what()));
       }
     }
     grid_.wall_seconds += part.title.wall_seconds;
   }
 
   Merged finish(const std::vector<Part>& parts) {
-    const int count = parts.front().title.shard.count;
-    std::set<int> there;
-    for (const Part& part : parts) there.insert(part.title.shard.index);
-    for (int shard = 1; shard <= count; ++shard) {
-      if (!there.contains(shard)) merged_.missing.push_back(fmt::format("shard {} of {} is missing", shard, count));
-    }
-    const Partition partition(plan_, count);
+    merged_.missing = missing_shards(parts);
+    const std::set<int> there = shards_of(parts);
+    const Partition partition(plan_, parts.front().title.shard.count);
     for (std::size_t c = 0; c < grid_.cases.size(); ++c) {
       note_missing(grid_.cases[c], plan_.cases[c], partition.cases()[c], there);
       CaseResult& result = grid_.cases[c];
@@ -145,7 +151,7 @@ class Merge {
 
  private:
   void add(const Part& part, const Part::Answer& answer) {
-    const std::size_t c = index_.at(answer.of_case);
+    const std::size_t c = index_.at(id_of(part, answer));
     CaseResult& result = grid_.cases[c];
     if (take_error(result, answer.record.message)) return;
     if (answer.record.message.starts_with("{\"truth\"")) return add_truth(part, c, answer.record.message);
@@ -221,7 +227,21 @@ std::string part_text(const PartTitle& title, const Results& planned, const Resu
       ++count;
     }
   }
-  return text_of(json_of(title, count), -1) + "\n" + records;
+  return part_head(title, count) + records;
+}
+
+std::string part_head(const PartTitle& title, std::size_t answers) {
+  return text_of(json_of(title, answers), -1) + "\n";
+}
+
+std::vector<std::string> missing_shards(const std::vector<Part>& parts) {
+  const int count = parts.front().title.shard.count;
+  const std::set<int> there = shards_of(parts);
+  std::vector<std::string> missing;
+  for (int shard = 1; shard <= count; ++shard) {
+    if (!there.contains(shard)) missing.push_back(fmt::format("shard {} of {} is missing", shard, count));
+  }
+  return missing;
 }
 
 Part read_part(const std::string& folder) {
@@ -240,7 +260,7 @@ Part read_part(const std::string& folder) {
     std::size_t index = 0;
     ++at;
     for (Journal::Record record; at < bytes.size() && take_record(bytes, at, index, record);)
-      part.answers.push_back({part.title.plans.at(index).first, std::move(record)});
+      part.answers.push_back({index, std::move(record)});
     if (at != bytes.size() || part.answers.size() != json.at("answers").get<std::size_t>())
       throw std::runtime_error("it is cut short, or bytes of it have changed");
     return part;

@@ -20,7 +20,8 @@ struct PartTitle {
   std::string version, build;          // of the program; see build_identity.h
   std::vector<std::string> arguments;  // the command and what was asked of it, without what may differ between parts
   std::string suite, adapters;         // the folders, absolute
-  std::vector<std::pair<std::string, std::string>> plans;  // of the whole grid: each case's id and the hash of its plan
+  // Of the whole grid: each case's id and the hash of its plan. Of a sweep: one, of all.
+  std::vector<std::pair<std::string, std::string>> plans;
   double wall_seconds = 0;
 };
 
@@ -28,11 +29,14 @@ struct Part {
   std::string folder;  // as it was named
   PartTitle title;
   struct Answer {
-    std::string of_case;  // its id
+    std::size_t of;  // of a grid: index in title.plans; of a sweep: the row, among all
     Journal::Record record;
   };
   std::vector<Answer> answers;
 };
+
+// The file's first line; behind it come the answers, each framed.
+std::string part_head(const PartTitle& title, std::size_t answers);
 
 // Each case's id and the hash of all that its results depend on.
 std::vector<std::pair<std::string, std::string>> plans_of(const Results& grid, const EngineTable& engines,
@@ -47,6 +51,9 @@ Part read_part(const std::string& folder);
 
 // Throws InputError, with what differs, unless the parts are of one grid and each of another shard of it.
 void check_same_grid(const std::vector<Part>& parts);
+
+// Sentences on the shards that no part is of.
+std::vector<std::string> missing_shards(const std::vector<Part>& parts);
 
 // What merging came to, beside the grid that it filled in.
 struct Merged {

@@ -1,5 +1,5 @@
 // KEY=VALUES, and the points of a sample.
-#include "cases/analysis/sweep_axis.h"
+#include "cases/analysis/sweep/sweep_axis.h"
 
 #include <boost/test/unit_test.hpp>
 #include <set>

@@ -53,6 +53,24 @@ BOOST_AUTO_TEST_CASE(a_cost_changes_beyond_its_noise_and_not_within) {
   BOOST_TEST(shown.out.find("0 without a change") != std::string::npos, shown.out);
 }
 
+BOOST_AUTO_TEST_CASE(a_page_draws_each_cell_and_marks_its_changes) {
+  for (int i = 0; i < 5; ++i) add(1, 1, "old" + std::to_string(i));
+  add(2, 1, "<worse>");
+  BOOST_TEST(run({"history", "show", "--page", "history.html"}).code == 0);
+  const std::string page = content("history.html");
+  BOOST_TEST(page.find("1 of 1 cells changed") != std::string::npos);
+  BOOST_TEST(page.find("from 0.5 to 1 at &lt;worse&gt;") != std::string::npos, page.substr(page.size() / 2));
+  BOOST_TEST(page.find("<worse>") == std::string::npos);
+  std::size_t marks = 0, changes = 0;
+  for (std::size_t at = 0; (at = page.find("<circle", at)) != std::string::npos; ++at)
+    ++marks, changes += page.compare(page.find("fill=", at), 14, "fill=\"#b3261e\"") == 0;
+  BOOST_TEST(marks == 12u);  // six entries, an error and a cost of each
+  BOOST_TEST(changes == 1u);
+  const Answer nowhere = run({"history", "show", "--page", "none/history.html"});
+  BOOST_TEST(nowhere.code == 2);
+  BOOST_TEST(nowhere.err.find("--page none/history.html") != std::string::npos, nowhere.err);
+}
+
 BOOST_AUTO_TEST_CASE(each_entry_says_its_commit_date_and_machine) {
   add(1, 1, "abc");
   const Json entry = Json::parse(content("history.jsonl"));

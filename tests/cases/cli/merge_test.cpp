@@ -1,9 +1,9 @@
 // Shards and what `rigor merge` makes of them, by the program itself.
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "tests/cases/cli/program.h"
+#include "tests/cases/cli/without_timings.h"
 
 using namespace rigor;
 using Json = nlohmann::json;
@@ -41,27 +41,6 @@ struct Parts : Program {
   }
 };
 
-bool is_timing(const std::string& key) {
-  static const std::set<std::string> keys = {"cpu_seconds", "wall_seconds", "cost",
-                                             "findings",    "explanations", "work_precision"};
-  return keys.contains(key);
-}
-
-// results.json without what is measured anew each run and what is said of that.
-Json without_timings(const Json& json) {
-  if (json.is_array()) {
-    Json out = Json::array();
-    for (const Json& item : json) out.push_back(without_timings(item));
-    return out;
-  }
-  if (!json.is_object()) return json;
-  Json out = Json::object();
-  for (const auto& [key, value] : json.items()) {
-    if (!is_timing(key)) out[key] = without_timings(value);
-  }
-  return out;
-}
-
 }  // namespace
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_merge, Parts)
@@ -88,6 +67,51 @@ BOOST_AUTO_TEST_CASE(three_shards_make_what_one_run_makes_bit_for_bit) {
       }
     }
   }
+}
+
+std::vector<std::string> sweep_words(const std::string& out) {
+  return {"sweep",    "stone",        "--vary",   "scene.body.stone.mass=1..9:9",
+          "--vary",   "dt=1/10,1/20", "--engine", "ode",
+          "--engine", "core:rk4",     "--jobs",   "2",
+          "--suite",  "suite",        "--out",    out};
+}
+
+BOOST_AUTO_TEST_CASE(shards_of_a_sweep_make_the_very_same_tables) {
+  BOOST_TEST(run(sweep_words("whole")).code == 0);
+  for (const std::string shard : {"1", "2", "3"}) {
+    auto words = sweep_words("part" + shard);
+    words.insert(words.end(), {"--shard", shard + "/3"});
+    const Answer answer = run(words);
+    BOOST_TEST(answer.code == 0, answer.err);
+    BOOST_TEST(answer.out.find("no result") != std::string::npos, answer.out);
+  }
+  const Answer merged = run({"merge", "part2", "part1", "part3", "--out", "merged"});
+  BOOST_TEST(merged.code == 0, merged.err);
+  for (const std::string file : {"/sweep.csv", "/sweep.jsonl", "/sweep.html"}) {
+    BOOST_TEST(!content("whole" + file).empty());
+    BOOST_TEST(content("whole" + file) == content("merged" + file), file);
+  }
+  const Answer partly = run({"merge", "part1", "part3", "--out", "partly"});
+  BOOST_TEST(partly.code == 3);
+  BOOST_TEST(partly.err.find("shard 2 of 3 is missing") != std::string::npos, partly.err);
+  BOOST_TEST(content("partly/sweep.csv").find("its shard is missing") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(parts_of_other_sweeps_are_refused) {
+  for (const std::string shard : {"1", "2"}) {
+    auto words = sweep_words("part" + shard);
+    words.insert(words.end(), {"--shard", shard + "/2"});
+    if (shard == "2") words.insert(words.end(), {"--duration", "0.5"});
+    run(words);
+  }
+  const Answer mixed = run({"merge", "part1", "part2", "--out", "merged"});
+  BOOST_TEST(mixed.code == 2);
+  BOOST_TEST(mixed.err.find("different grids") != std::string::npos, mixed.err);
+  write("1e-8");  // the case is another one now
+  const Answer changed = run({"merge", "part1", "--out", "merged"});
+  BOOST_TEST(changed.code == 2);
+  BOOST_TEST(changed.err.find("merge with the cases of then") != std::string::npos, changed.err);
+  BOOST_TEST(content("merged/sweep.csv").empty());
 }
 
 BOOST_AUTO_TEST_CASE(a_missing_part_is_named_and_never_looks_complete) {

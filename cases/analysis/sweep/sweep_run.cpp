@@ -1,11 +1,12 @@
-// How a sweep runs: jobs are its variants, answers the rows of each.
+// How a sweep runs: the process of a job, what is heard of it, and the journal of the jobs that are done.
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "cases/analysis/sweep.h"
+#include "cases/analysis/sweep/sweep.h"
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/case_process.h"
@@ -18,20 +19,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<SweepRow>;
 
-std::string message_of(std::size_t index, const SweepRow& row) {
-  return text_of(Json::array({index, word_of(row.status), row.reason, row.verdict, row.metrics}), -1);
-}
+std::string message_of(std::size_t index, const SweepRow& row) { return fmt::format("{} {}", index, answer_of(row)); }
 
-// Throws std::exception for a message that is none of these rows.
+// Throws std::exception for a message that is about none of these rows.
 void apply_row(Rows& rows, const std::string& message) {
-  const Json json = Json::parse(message);
-  SweepRow& row = rows.at(json.at(0).get<std::size_t>());
-  SweepRow heard = row;
-  heard.status = status_of(json.at(1).get<std::string>());
-  heard.reason = json.at(2).get<std::string>(), heard.verdict = json.at(3).get<std::string>();
-  if (json.at(4).size() != heard.metrics.size()) throw std::runtime_error("it has other metrics");
-  for (std::size_t i = 0; i < heard.metrics.size(); ++i) heard.metrics[i] = number_of(json.at(4).at(i));
-  row = std::move(heard);
+  const std::size_t space = std::min(message.find(' '), message.size());
+  apply_answer(rows.at(std::stoul(message.substr(0, space))), message.substr(space));
 }
 
 bool is_unheard(const SweepRow& row) { return row.status == Status::crashed && row.reason == SweepRow().reason; }
@@ -43,18 +36,18 @@ void fail(SweepRow& row, const JobEnd& end, double limit) {
                                               : Status::crashed;
 }
 
-// Inside the process of one variant.
-class VariantProcess {
+// Inside the process of one job.
+class JobProcess {
  public:
-  VariantProcess(const Sweep& sweep, const EngineTable& engines, const SweepOptions& options, int jobs)
+  JobProcess(const Sweep& sweep, const EngineTable& engines, const SweepOptions& options, int jobs)
       : sweep_(sweep), engines_(engines), limit_(options.limit), jobs_(jobs) {
     grid_options_.stable_steps = grid_options_.is_thorough = false;
     if (sweep.asks_for_metrics()) grid_options_.only_metrics = sweep.metrics();
   }
 
-  void run(std::size_t variant, const Channel& channel) const {
-    const Case definition = sweep_.definition_of(variant);
-    Rows rows = sweep_.rows_of(variant);
+  void run(std::size_t job, const Channel& channel) const {
+    const Case definition = sweep_.definition_of(job);
+    Rows rows = sweep_.rows_of(job);
     std::vector<std::size_t> left;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const std::string why = why_not(rows[i], definition.scene);
@@ -130,9 +123,9 @@ class VariantProcess {
 // Hands rows out in their order, and keeps those that came too early.
 class InOrder {
  public:
-  explicit InOrder(const std::function<void(const SweepRow&)>& on_row) : on_row_(on_row) {}
-  void add(std::size_t variant, Rows rows) {
-    early_[variant] = std::move(rows);
+  InOrder(std::size_t first, const std::function<void(const SweepRow&)>& on_row) : on_row_(on_row), next_(first) {}
+  void add(std::size_t job, Rows rows) {
+    early_[job] = std::move(rows);
     for (auto next = early_.find(next_); next != early_.end(); next = early_.find(next_)) {
       for (const SweepRow& row : next->second) on_row_(row);
       early_.erase(next);
@@ -142,37 +135,37 @@ class InOrder {
 
  private:
   const std::function<void(const SweepRow&)>& on_row_;
-  std::map<std::size_t, Rows> early_;  // by variant
-  std::size_t next_ = 0;
+  std::map<std::size_t, Rows> early_;  // by job
+  std::size_t next_;
 };
 
-// The rows of a variant as they come in, and the journal of those that are whole.
+// The rows of a job as they come in, and the journal of those that are whole.
 class SweepProgress {
  public:
   SweepProgress(const Sweep& sweep, const SweepOptions& options, const std::function<void(const SweepRow&)>& on_row)
       : sweep_(sweep),
         limit_(options.limit),
         journal_(options.journal, options.journal.empty() ? "" : build_identity() + "\n" + sweep.plan()),
-        in_order_(on_row) {}
+        in_order_(jobs_of(sweep, options.shard).first, on_row) {}
 
   // Whether a run before this one has been through it.
-  bool take_from_journal(std::size_t variant) {
-    const auto kept = journal_.found().find(variant);
+  bool take_from_journal(std::size_t job) {
+    const auto kept = journal_.found().find(job);
     if (kept == journal_.found().end()) return false;
-    Rows rows = sweep_.rows_of(variant);
+    Rows rows = sweep_.rows_of(job);
     try {
       for (const Json& message : Json::parse(kept->second.message)) apply_row(rows, message.get<std::string>());
     } catch (const std::exception&) {
       return false;
     }
     if (std::any_of(rows.begin(), rows.end(), is_unheard)) return false;
-    in_order_.add(variant, std::move(rows));
+    in_order_.add(job, std::move(rows));
     return true;
   }
 
-  void hear(std::size_t variant, const std::string& message) {
+  void hear(std::size_t job, const std::string& message) {
     if (message.empty()) return;
-    Variant& open = open_of(variant);
+    Open& open = open_of(job);
     try {
       apply_row(open.rows, message);
       open.messages.push_back(message);
@@ -181,28 +174,28 @@ class SweepProgress {
     }
   }
 
-  void end(std::size_t variant, JobEnd end) {
-    Variant open = std::move(open_of(variant));
-    open_.erase(variant);
+  void end(std::size_t job, JobEnd end) {
+    Open open = std::move(open_of(job));
+    open_.erase(job);
     if (!open.flaw.empty()) end.how = Ending::threw, end.text = open.flaw;
     bool is_whole = end.how == Ending::finished;
     for (SweepRow& row : open.rows) {
       if (is_unheard(row)) fail(row, end, limit_), is_whole = false;
       is_whole &= row.status != Status::crashed && row.status != Status::timed_out;
     }
-    if (is_whole) journal_.add(variant, {text_of(Json(open.messages), -1), ""});
-    in_order_.add(variant, std::move(open.rows));
+    if (is_whole) journal_.add(job, {text_of(Json(open.messages), -1), ""});
+    in_order_.add(job, std::move(open.rows));
   }
 
  private:
-  struct Variant {
+  struct Open {
     Rows rows;
     std::vector<std::string> messages;
     std::string flaw;
   };
-  Variant& open_of(std::size_t variant) {
-    const auto [found, is_new] = open_.try_emplace(variant);
-    if (is_new) found->second.rows = sweep_.rows_of(variant);
+  Open& open_of(std::size_t job) {
+    const auto [found, is_new] = open_.try_emplace(job);
+    if (is_new) found->second.rows = sweep_.rows_of(job);
     return found->second;
   }
 
@@ -210,30 +203,61 @@ class SweepProgress {
   double limit_;
   Journal journal_;
   InOrder in_order_;
-  std::map<std::size_t, Variant> open_;
+  std::map<std::size_t, Open> open_;
 };
 
 }  // namespace
 
+std::string answer_of(const SweepRow& row) {
+  return text_of(Json::array({word_of(row.status), row.reason, row.verdict, row.metrics}), -1);
+}
+
+void apply_answer(SweepRow& row, const std::string& answer) {
+  const Json json = Json::parse(answer);
+  SweepRow heard = row;
+  heard.status = status_of(json.at(0).get<std::string>());
+  heard.reason = json.at(1).get<std::string>(), heard.verdict = json.at(2).get<std::string>();
+  if (json.at(3).size() != heard.metrics.size()) throw std::runtime_error("it has other metrics");
+  for (std::size_t i = 0; i < heard.metrics.size(); ++i) heard.metrics[i] = number_of(json.at(3).at(i));
+  row = std::move(heard);
+}
+
+std::pair<std::size_t, std::size_t> jobs_of(const Sweep& sweep, const Shard& shard) {
+  // Of two shards that meet, a job is the one's in which it begins.
+  const auto begin_of = [&](int index) {
+    const double row = static_cast<double>(sweep.cells()) * (index - 1) / shard.count;
+    std::size_t low = 0, high = sweep.jobs();
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      (static_cast<double>(sweep.first_row_of(middle)) < row ? low = middle + 1 : high = middle);
+    }
+    return low;
+  };
+  return {begin_of(shard.index), begin_of(shard.index + 1)};
+}
+
 void run_sweep(const Sweep& sweep, const EngineTable& engines, const SweepOptions& options,
                const std::function<void(const SweepRow& row)>& on_row) {
   constexpr std::size_t kBatch = 5000;  // jobs known at a time
-  if (!options.journal.empty()) build_identity();
-  const int at_once = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(options.jobs), sweep.variants()));
-  const VariantProcess process(sweep, engines, options, options.jobs / std::max(1, at_once));
+  const auto [first, behind] = jobs_of(sweep, options.shard);
+  const int at_once = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(options.jobs), behind - first));
+  const JobProcess process(sweep, engines, options, options.jobs / std::max(1, at_once));
   const ProcessExecutor processes(at_once);
   const Executor& executor = options.executor ? *options.executor : processes;
-  // A variant of one cell makes its truth and runs it under one limit.
-  const double limit = sweep.cells() == sweep.variants() ? 2 * options.limit : options.limit;
+  const auto work = [&](const JobSpec& job, const Channel& channel) { process.run(job.of_case, channel); };
+  executor.begin(build_identity() + "\n" + sweep.plan(), std::filesystem::path(options.journal).parent_path().string());
+  if (!executor.leads()) return executor.run({}, work, {}, {});
   SweepProgress progress(sweep, options, on_row);
-  for (std::size_t next = 0; next < sweep.variants();) {
+  for (std::size_t next = first; next < behind;) {
     std::vector<JobSpec> jobs;
-    for (; next < sweep.variants() && jobs.size() < kBatch; ++next) {
+    for (; next < behind && jobs.size() < kBatch; ++next) {
+      // One of a single row makes its truth and runs it under one limit.
+      const bool is_single = sweep.first_row_of(next + 1) - sweep.first_row_of(next) == 1;
+      const double limit = is_single ? 2 * options.limit : options.limit;
       if (!progress.take_from_journal(next)) jobs.push_back({JobSpec::Kind::whole_case, next, limit});
     }
     executor.run(
-        jobs, [&](const JobSpec& job, const Channel& channel) { process.run(job.of_case, channel); },
-        [&](std::size_t job, const std::string& message) { progress.hear(jobs[job].of_case, message); },
+        jobs, work, [&](std::size_t job, const std::string& message) { progress.hear(jobs[job].of_case, message); },
         [&](std::size_t job, const JobEnd& end) { progress.end(jobs[job].of_case, end); });
   }
 }

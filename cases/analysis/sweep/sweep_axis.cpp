@@ -1,4 +1,4 @@
-#include "cases/analysis/sweep_axis.h"
+#include "cases/analysis/sweep/sweep_axis.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cases/analysis/sweep.h"
+#include "cases/analysis/sweep/sweep.h"
 
 #include <fmt/format.h>
 
@@ -88,6 +88,11 @@ Sweep::Sweep(SweepInput input, const Vocabulary& vocabulary) : input_(std::move(
   check_count(cells);
   scenes_ = static_cast<std::size_t>(scenes), rest_ = static_cast<std::size_t>(rest);
   cells_ = static_cast<std::size_t>(cells);
+  first_jobs_ = first_rows_ = {0};
+  for (std::size_t c = 0; c < input_.cases.size(); ++c) {
+    first_jobs_.push_back(first_jobs_.back() + scenes_ * ((rows_of_variant(c) + kRowsOfJob - 1) / kRowsOfJob));
+    first_rows_.push_back(first_rows_.back() + scenes_ * rows_of_variant(c));
+  }
   for (const auto& shares : is_sampled() ? sample_points(input_.samples, input_.axes.size(), input_.seed)
                                          : std::vector<std::vector<double>>()) {
     Point point;
@@ -188,27 +193,43 @@ Case Sweep::definition_at(std::size_t of_case, const Point& point) const {
   }
 }
 
-Case Sweep::definition_of(std::size_t variant) const {
-  return definition_at(variant / scenes_, point_of(variant % scenes_, 0));
+Sweep::Place Sweep::place_of(std::size_t job) const {
+  const auto behind = std::upper_bound(first_jobs_.begin(), first_jobs_.end(), job);
+  const auto of_case = static_cast<std::size_t>(behind - first_jobs_.begin()) - 1;
+  const std::size_t jobs_of_variant = (rows_of_variant(of_case) + kRowsOfJob - 1) / kRowsOfJob;
+  const std::size_t within = job - first_jobs_[of_case];
+  return {of_case, within / jobs_of_variant, kRowsOfJob * (within % jobs_of_variant)};
 }
 
-std::vector<SweepRow> Sweep::rows_of(std::size_t variant) const {
-  std::vector<SweepRow> rows;
+Case Sweep::definition_of(std::size_t job) const {
+  const Place place = place_of(job);
+  return definition_at(place.of_case, point_of(place.scene, 0));
+}
+
+std::size_t Sweep::first_row_of(std::size_t job) const {
+  if (job == jobs()) return cells_;
+  const Place place = place_of(job);
+  return first_rows_[place.of_case] + place.scene * rows_of_variant(place.of_case) + place.first;
+}
+
+SweepRow Sweep::row_at(const Place& place, std::size_t number) const {
+  const std::size_t steps = steps_of(place.of_case);
   SweepRow row;
-  row.of_case = variant / scenes_;
+  row.of_case = place.of_case, row.run = number / (steps * rest_);
   row.metrics.assign(metrics_.size(), std::numeric_limits<double>::quiet_NaN());
-  for (row.run = 0; row.run < input_.runs.size(); ++row.run) {
-    for (std::size_t rest = 0; rest < rest_; ++rest) {
-      row.values = point_of(variant % scenes_, rest);
-      for (std::size_t i = 0; i < row.values.size(); ++i) {
-        if (input_.axes[i].kind == Kind::step) row.dt = parse_step_size(row.values[i], "dt");
-      }
-      for (const StepSize& dt : has_step_axis_ ? std::vector<StepSize>{row.dt} : input_.cases[row.of_case].dt) {
-        row.dt = dt;
-        rows.push_back(row);
-      }
-    }
+  row.values = point_of(place.scene, number / steps % rest_);
+  if (!has_step_axis_) row.dt = input_.cases[place.of_case].dt[number % steps];
+  for (std::size_t i = 0; i < row.values.size(); ++i) {
+    if (input_.axes[i].kind == Kind::step) row.dt = parse_step_size(row.values[i], "dt");
   }
+  return row;
+}
+
+std::vector<SweepRow> Sweep::rows_of(std::size_t job) const {
+  const Place place = place_of(job);
+  std::vector<SweepRow> rows;
+  for (std::size_t i = place.first; i < std::min(place.first + kRowsOfJob, rows_of_variant(place.of_case)); ++i)
+    rows.push_back(row_at(place, i));
   return rows;
 }
 

@@ -1,0 +1,69 @@
+#include "cases/cli/program.h"
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <stdexcept>
+
+#include "adapters/plugin/plugins.h"
+#include "cases/cli/command_line.h"
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "core/base/error.h"
+
+namespace rigor {
+namespace {
+
+// Those of the program and, for a command that takes them, those from outside.
+EngineTable engines_for(const CommandRow& row, const CommandLine& line) {
+  EngineTable table = built_in_engines();
+  if (std::find(row.options.begin(), row.options.end(), "--plugin") == row.options.end()) return table;
+  std::vector<std::string> plugins = plugins_of_environment();
+  plugins.insert(plugins.end(), line.plugins.begin(), line.plugins.end());
+  for (auto plugin = plugins.begin(); plugin != plugins.end(); ++plugin) {
+    if (std::find(plugins.begin(), plugin, *plugin) == plugin) add_plugin(table, *plugin, line.limit);
+  }
+  return table;
+}
+
+int answer(int argc, const char* const* argv, const Executor* executor) {
+  // Of several processes each is one job already.
+  CommandLine line = parse_command_line(argc, argv, executor ? 1 : 0);
+  line.executor = executor;
+  for (const CommandRow& row : commands()) {
+    const bool is_shared = std::find(row.options.begin(), row.options.end(), "--shard") != row.options.end();
+    if (!leads(line) && (!line.printed.empty() || (row.name == line.command && !is_shared))) throw Dismissed();
+    if (line.printed.empty() && row.name == line.command) return row.run(line, engines_for(row, line));
+  }
+  return print_table(line.printed), kGood;
+}
+
+// Of several processes only one speaks.
+int refuse(const std::string& why, ExitCode code, const Executor* executor) {
+  if (executor && !executor->leads()) {
+    executor->stay_out(why);
+  } else {
+    say(why);
+  }
+  return code;
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv, const Executor* executor) {
+  // Such a write then fails with a reason, which is said.
+  std::signal(SIGPIPE, SIG_IGN), std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    take_standard_streams();
+    return answer(argc, argv, executor);
+  } catch (const InputError& error) {
+    return refuse(error.what(), kBadInput, executor);
+  } catch (const std::exception& error) {
+    return refuse(error.what(), kBroken, executor);
+  } catch (const Dismissed&) {
+    executor->stay_out("");
+    return kGood;
+  }
+}
+
+}  // namespace rigor
