@@ -101,7 +101,9 @@ BOOST_AUTO_TEST_CASE(a_gate_answers_the_same_over_ranks) {
   const Answer whole = shell("'" RIGOR_PROGRAM "' " + words + "whole"), shared = ranks(3, words + "shared");
   BOOST_TEST(whole.code == 1);
   BOOST_TEST(shared.code == 1, shared.err);
-  BOOST_TEST(shared.out == whole.out);
+  // Beside it the table has costs, which are measured anew.
+  const auto bounds = [](const std::string& out) { return out.substr(out.find("bounds:")); };
+  BOOST_TEST(bounds(shared.out) == bounds(whole.out));
   BOOST_TEST(without_timings(Json::parse(content("whole/results.json"))) ==
              without_timings(Json::parse(content("shared/results.json"))));
 }
