@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kLinearSeen = 5e-3;       // of a series' range: a pixel of a plot
 constexpr double kDecadesSeen = 0.04;      // of a logarithmic plot: likewise
-constexpr double kNoise = 1e-12;           // of a series in any unit: what is smaller is rounding, and has no shape
+constexpr double kShapeless = 1e-12;       // of a series in any unit: what is smaller is rounding, and has no shape
 constexpr std::size_t kMostKeys = 6000;    // of a motion
 constexpr std::size_t kMostPoints = 1500;  // of the series
 constexpr std::size_t kMost = 300000, kLeast = 200;  // characters of a packing
@@ -78,11 +78,11 @@ class SeriesSet {
  public:
   explicit SeriesSet(std::vector<NamedSeries> all) : series_(std::move(all)) {
     for (const NamedSeries& series : series_) {
-      double largest = kNoise;
+      double largest = kShapeless;
       for (const double value : series.values) {
         if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
       }
-      const double floor = std::max(kNoise, 1e-6 * largest);
+      const double floor = std::max(kShapeless, 1e-6 * largest);
       Seen& seen = seen_.emplace_back();
       for (const double value : series.values) {
         seen.linear.push_back(value / (largest * kLinearSeen));

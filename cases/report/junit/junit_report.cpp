@@ -61,7 +61,7 @@ struct Suite {
   }
 };
 
-void add_line(TestCase& test, const std::string& line) {
+void add_text(TestCase& test, const std::string& line) {
   if (test.message.empty()) test.message = line;
   test.text += line + "\n";
 }
@@ -69,18 +69,18 @@ void add_line(TestCase& test, const std::string& line) {
 TestCase of_cell(const Results& results, const CaseResult& result, const Cell& cell) {
   const std::string& run = results.runs[cell.run].text;
   TestCase test{fmt::format("{} dt={}", run, cell.dt.text), result.definition.id, cell.wall_seconds, "", "", "", ""};
-  if (cell.status == Status::unsupported) test.kind = "skipped", add_line(test, cell.reason);
+  if (cell.status == Status::unsupported) test.kind = "skipped", add_text(test, cell.reason);
   if (cell.status == Status::crashed || cell.status == Status::timed_out || cell.status == Status::invalid)
-    test.kind = "error", test.type = word_of(cell.status), add_line(test, cell.reason);
+    test.kind = "error", test.type = word_of(cell.status), add_text(test, cell.reason);
   for (const GateResult& answer : result.gates) {
     if (answer.engine != run || answer.dt != cell.dt.text) continue;
     const Gate& gate = result.definition.gates[answer.gate];
     if (is_failure(answer.answer)) {
       if (test.kind != "error") test.kind = "failure";
       if (test.type.empty()) test.type = gate.metric;
-      add_line(test, kind_of(gate) + ": " + answer.text);
+      add_text(test, kind_of(gate) + ": " + answer.text);
     } else if (answer.answer == GateAnswer::known_deviation && test.kind.empty()) {
-      test.kind = "skipped", add_line(test, "known deviation: " + answer.text);
+      test.kind = "skipped", add_text(test, "known deviation: " + answer.text);
     }
   }
   return test;
@@ -92,8 +92,8 @@ TestCase of_answer(const CaseResult& result, const GateResult& answer) {
   const std::string of = answer.engine.empty() ? "" : " " + answer.engine;
   TestCase test{fmt::format("gate {}{}", answer.gate + 1, of), result.definition.id, 0, "", "", "", ""};
   if (is_failure(answer.answer))
-    test.kind = "failure", test.type = gate.metric, add_line(test, kind_of(gate) + ": " + answer.text);
-  if (answer.answer == GateAnswer::known_deviation) test.kind = "skipped", add_line(test, answer.text);
+    test.kind = "failure", test.type = gate.metric, add_text(test, kind_of(gate) + ": " + answer.text);
+  if (answer.answer == GateAnswer::known_deviation) test.kind = "skipped", add_text(test, answer.text);
   return test;
 }
 
