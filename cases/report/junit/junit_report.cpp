@@ -13,7 +13,7 @@ namespace rigor {
 namespace {
 
 // Text of other people: bytes that are no UTF-8 and characters that XML 1.0 does not allow at all become U+FFFD or '?'.
-std::string escaped(const std::string& text) {
+std::string xml_text(const std::string& text) {
   const auto clean = nlohmann::json::parse(text_of(text, -1)).get<std::string>();
   std::string out;
   for (std::size_t i = 0; i < clean.size(); ++i) {
@@ -109,12 +109,12 @@ Suite suite_of(const Results& results, const CaseResult& result) {
 }
 
 std::string xml_of(const TestCase& test) {
-  std::string xml = fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.6f}\"", escaped(test.name),
-                                escaped(test.classname), test.seconds);
+  std::string xml = fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.6f}\"", xml_text(test.name),
+                                xml_text(test.classname), test.seconds);
   if (test.kind.empty()) return xml + "/>\n";
-  xml += fmt::format(">\n      <{} message=\"{}\"", test.kind, escaped(test.message));
-  if (test.kind != "skipped") xml += fmt::format(" type=\"{}\"", escaped(test.type));
-  return xml + (test.kind == "skipped" ? "/>" : fmt::format(">{}</{}>", escaped(test.text), test.kind)) +
+  xml += fmt::format(">\n      <{} message=\"{}\"", test.kind, xml_text(test.message));
+  if (test.kind != "skipped") xml += fmt::format(" type=\"{}\"", xml_text(test.type));
+  return xml + (test.kind == "skipped" ? "/>" : fmt::format(">{}</{}>", xml_text(test.text), test.kind)) +
          "\n    </testcase>\n";
 }
 
@@ -134,7 +134,7 @@ std::string junit_report(const Results& results) {
     tests += all, failures += suite.count("failure"), errors += suite.count("error");
     skipped += suite.count("skipped");
     suites += fmt::format(
-        "  <testsuite name=\"{}\" {}>\n", escaped(suite.name),
+        "  <testsuite name=\"{}\" {}>\n", xml_text(suite.name),
         counts_of(all, suite.count("failure"), suite.count("error"), suite.count("skipped"), suite.seconds()));
     for (const TestCase& test : suite.cases) suites += xml_of(test);
     suites += "  </testsuite>\n";
