@@ -29,7 +29,7 @@
 namespace rigor {
 namespace {
 
-constexpr double kNoTorqueLimit = 1e30;                         // N m
+constexpr double kNoLimit = 1e30;                               // N m
 constexpr double kSlow = 0.8, kSlowTurn = 1, kTimeToSleep = 2;  // m/s, rad/s, s
 
 // What the gyroscopic torque depends on: the inertia in W and in B, the orientation, w in W, the step, and the limit [N
@@ -85,7 +85,7 @@ class BulletTwin : public Stepper {
   explicit BulletTwin(const StepperParts& parts)
       : parts_(parts),
         gyroscopic_change_(gyroscopic_change(word_option(parts.settings, "gyroscopic", "implicit-body"))),
-        limit_(number_option(parts.settings, "gyroscopic-limit", kNoTorqueLimit)),
+        limit_(number_option(parts.settings, "gyroscopic-limit", kNoLimit)),
         may_sleep_(word_option(parts.settings, "sleeping", "off") == "on"),
         time_slow_(parts.system.size()) {
     if (!parts.scene || parts.scene->joints.empty()) return;
@@ -145,7 +145,7 @@ class BulletTwin : public Stepper {
   Wrenches wrenches_;
 };
 
-const Features kJointsOfBullet = {"joint:ball", "joint:fixed", "joint:hinge", "joint:slider", "joint:universal"};
+const Features kJointKinds = {"joint:ball", "joint:fixed", "joint:hinge", "joint:slider", "joint:universal"};
 
 }  // namespace
 
@@ -158,18 +158,17 @@ const Integrator kBulletTwin = {
     .default_orientation = "",
     .takes_joints = true,
     .lacks = {"joint:distance", "joint-limit", "joints-with-contacts", "motor:speed"},  // no rows with bounds
-    .options =
-        {{"gyroscopic",
-          "the gyroscopic torque; default implicit-body",
-          {"implicit-body", "implicit-world", "explicit", "off"}},
-         {"gyroscopic-limit", "where the explicit torque is cut off [N m]; default nowhere", {}, 0, kNoTorqueLimit},
-         {"sleeping", "whether slow bodies fall asleep; default off", {"on", "off"}},
-         {"erp", "share of a joint's gap closed in one step; default that of bullet's matched track", {}, 0, 1},
-         {"cfm", "softness of the joints' rows; default that of bullet:mlcp's matched track", {}, 0, 1},
-         {.name = "joints",
-          .meaning = "direct: as mlcp solves for them; none: sweeps of sequential impulses are not repeated",
-          .choices = {"direct", "none"},
-          .features_of_choice = {{"direct", kJointsOfBullet}, {"none", {}}}}},
+    .options = {{"gyroscopic",
+                 "the gyroscopic torque; default implicit-body",
+                 {"implicit-body", "implicit-world", "explicit", "off"}},
+                {"gyroscopic-limit", "where the explicit torque is cut off [N m]; default nowhere", {}, 0, kNoLimit},
+                {"sleeping", "whether slow bodies fall asleep; default off", {"on", "off"}},
+                {"erp", "share of a joint's gap closed in one step; default that of bullet's matched track", {}, 0, 1},
+                {"cfm", "softness of the joints' rows; default that of bullet:mlcp's matched track", {}, 0, 1},
+                {.name = "joints",
+                 .meaning = "direct: as mlcp solves for them; none: sweeps of sequential impulses are not repeated",
+                 .choices = {"direct", "none"},
+                 .features_of_choice = {{"direct", kJointKinds}, {"none", {}}}}},
     .twin_of = "bullet",
     .make = make_stepper<BulletTwin>,
 };

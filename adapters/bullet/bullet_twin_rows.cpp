@@ -157,7 +157,7 @@ BulletEnd end_at_start(const Scene& scene, int body) {
   return {pose.position, matrix_of(pose.orientation), 1 / scene.bodies[static_cast<std::size_t>(body)].mass};
 }
 
-struct MakeBulletRows {
+struct MakeRows {
   BulletEnd a, b;
   Vec3 center_b;  // m, in W
 
@@ -191,7 +191,7 @@ struct MakeBulletRows {
 }  // namespace
 
 std::unique_ptr<BulletJointRows> make_bullet_rows(const Scene& scene, const Joint& joint) {
-  const MakeBulletRows make{end_at_start(scene, joint.a), end_at_start(scene, joint.b), scene.pose(joint.b).position};
+  const MakeRows make{end_at_start(scene, joint.a), end_at_start(scene, joint.b), scene.pose(joint.b).position};
   return std::visit(make, joint.type);
 }
 

@@ -11,8 +11,8 @@
 namespace rigor {
 namespace {
 
-std::string numbers_of(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
-std::string numbers_of(const Quat& q) { return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z()); }
+std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
+std::string text_of(const Quat& q) { return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z()); }
 
 constexpr int kDeepest = 95;  // bodies: TinyXML-2, which reads for it, nests a hundred elements
 
@@ -20,7 +20,7 @@ std::string name_of(int body) { return fmt::format("b{}", body); }
 
 // MuJoCo's numbers of friction: sliding along two axes, spinning, rolling twice. Contacts of three rows look at the
 // first two alone; without friction one row is enough, for a coefficient of zero would be raised.
-std::string friction_words(const ContactLaw& law, bool of_a_pair) {
+std::string friction_of(const ContactLaw& law, bool of_a_pair) {
   if (law.friction == 0) return R"(condim="1")";
   return of_a_pair ? fmt::format(R"(condim="3" friction="{0} {0} 0.005 0.0001 0.0001")", law.friction)
                    : fmt::format(R"(condim="3" friction="{} 0.005 0.0001")", law.friction);
@@ -28,13 +28,13 @@ std::string friction_words(const ContactLaw& law, bool of_a_pair) {
 
 struct GeomOf {
   std::string operator()(const Sphere& s) const { return fmt::format(R"(type="sphere" size="{}")", s.radius); }
-  std::string operator()(const Box& b) const { return fmt::format(R"(type="box" size="{}")", numbers_of(b.size / 2)); }
+  std::string operator()(const Box& b) const { return fmt::format(R"(type="box" size="{}")", text_of(b.size / 2)); }
   std::string operator()(const Capsule& c) const {
     return fmt::format(R"(type="capsule" size="{} {}")", c.radius, c.length / 2);
   }
   std::string operator()(const Plane& p) const {
-    return fmt::format(R"(type="plane" size="0 0 1" pos="{}" zaxis="{}")", numbers_of(p.normal * p.offset),
-                       numbers_of(p.normal));
+    return fmt::format(R"(type="plane" size="0 0 1" pos="{}" zaxis="{}")", text_of(p.normal * p.offset),
+                       text_of(p.normal));
   }
 };
 
@@ -71,7 +71,7 @@ class Writer {
   void write_options() {
     static const std::map<std::string, std::string> kIntegrators = {
         {"euler", "Euler"}, {"implicit", "implicit"}, {"rk4", "RK4"}};
-    add(R"(<option gravity="{}" integrator="{}")", numbers_of(scene_.gravity), kIntegrators.at(settings_.method));
+    add(R"(<option gravity="{}" integrator="{}")", text_of(scene_.gravity), kIntegrators.at(settings_.method));
     const bool matched = settings_.track == Track::matched;
     const std::string cone = word_option(settings_, "cone", matched ? "elliptic" : "pyramidal");
     add(R"( cone="{}")", cone);
@@ -98,8 +98,7 @@ class Writer {
     const Body& body = scene_.bodies[index];
     const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
     if (is_plane) write_geom(index);  // it is given in W
-    add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index), numbers_of(body.position),
-        numbers_of(body.orientation));
+    add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index), text_of(body.position), text_of(body.orientation));
     if (!is_plane) write_geom(index);
     write_sites(index);
     add("</body>\n");
@@ -115,8 +114,8 @@ class Writer {
     const MujocoTree::Link& link = tree_.links[index];
     const BodyPose parent = scene_.pose(link.parent);
     add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index),
-        numbers_of(parent.orientation.conjugate() * (body.position - parent.position)),
-        numbers_of((parent.orientation.conjugate() * body.orientation).normalized()));
+        text_of(parent.orientation.conjugate() * (body.position - parent.position)),
+        text_of((parent.orientation.conjugate() * body.orientation).normalized()));
     const Mat3& I = body.inertia;
     add(R"(<inertial pos="0 0 0" mass="{}" fullinertia="{} {} {} {} {} {}"/>)", body.mass, I(0, 0), I(1, 1), I(2, 2),
         I(0, 1), I(0, 2), I(1, 2));
@@ -135,13 +134,13 @@ class Writer {
     const Body& body = scene_.bodies[index];
     if (!body.collides) return;
     add(R"(<geom name="g{}" {} {}/>)", index, std::visit(GeomOf{}, *body.shape),
-        friction_words(scene_.contact_default, false));
+        friction_of(scene_.contact_default, false));
   }
 
   // The points of springs and distance joints.
   void write_sites(int body) {
     const auto site = [&](const std::string& name, const Vec3& point) {
-      add(R"(<site name="{}" pos="{}"/>)", name, numbers_of(point));
+      add(R"(<site name="{}" pos="{}"/>)", name, text_of(point));
     };
     for (std::size_t k = 0; k < scene_.springs.size(); ++k) {
       const Spring& spring = scene_.springs[k];
@@ -168,21 +167,20 @@ class Writer {
     const Joint& joint = scene_.joints[index];
     const double sign = joint.b == body ? 1 : -1;
     if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-      add(R"(<joint name="j{}" type="ball" pos="{}"/>)", index, numbers_of(point_in(body, ball->anchor)));
+      add(R"(<joint name="j{}" type="ball" pos="{}"/>)", index, text_of(point_in(body, ball->anchor)));
     } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
       // Of several joints of a body the first moves with the parent: that is the axis which is fixed in it.
       const Vec3 first = sign > 0 ? universal->axis : universal->axis2;
       const Vec3 second = sign > 0 ? universal->axis2 : universal->axis;
-      const std::string anchor = numbers_of(point_in(body, universal->anchor));
-      add(R"(<joint name="j{}x" type="hinge" pos="{}" axis="{}"/>)", index, anchor,
-          numbers_of(direction_in(body, first)));
+      const std::string anchor = text_of(point_in(body, universal->anchor));
+      add(R"(<joint name="j{}x" type="hinge" pos="{}" axis="{}"/>)", index, anchor, text_of(direction_in(body, first)));
       add(R"(<joint name="j{}y" type="hinge" pos="{}" axis="{}"/>)", index, anchor,
-          numbers_of(direction_in(body, second)));
+          text_of(direction_in(body, second)));
     } else if (const Vec3* axis = free_axis(joint)) {
       const auto* hinge = std::get_if<HingeJoint>(&joint.type);
       add(R"(<joint name="j{}" type="{}" pos="{}" axis="{}" stiffness="{}" springref="{}" damping="{}"/>)", index,
-          hinge ? "hinge" : "slide", numbers_of(hinge ? point_in(body, hinge->anchor) : Vec3::Zero().eval()),
-          numbers_of(direction_in(body, *axis)), joint.stiffness, sign * joint.rest, joint.damping);
+          hinge ? "hinge" : "slide", text_of(hinge ? point_in(body, hinge->anchor) : Vec3::Zero().eval()),
+          text_of(direction_in(body, *axis)), joint.stiffness, sign * joint.rest, joint.damping);
     }
   }
 
@@ -225,7 +223,7 @@ class Writer {
     const int first = moves ? joint.a : joint.b, second = moves ? joint.b : kWorld;
     const std::string other = second == kWorld ? "" : fmt::format(R"( body2="{}")", name_of(second));
     const auto connect = [&](const Vec3& anchor) {
-      add("<connect body1=\"{}\"{} anchor=\"{}\"/>\n", name_of(first), other, numbers_of(point_in(first, anchor)));
+      add("<connect body1=\"{}\"{} anchor=\"{}\"/>\n", name_of(first), other, text_of(point_in(first, anchor)));
     };
     if (std::holds_alternative<DistanceJoint>(joint.type)) {
       add("<tendon tendon1=\"d{}\"/>\n", index);
@@ -250,7 +248,7 @@ class Writer {
     for (const ContactPair& pair : scene_.contact_pairs) {
       const Body &a = scene_.bodies[pair.a], &b = scene_.bodies[pair.b];
       if (!a.collides || !b.collides || (a.fixed && b.fixed)) continue;
-      add("<pair geom1=\"g{}\" geom2=\"g{}\" {}/>\n", pair.a, pair.b, friction_words(pair.law, true));
+      add("<pair geom1=\"g{}\" geom2=\"g{}\" {}/>\n", pair.a, pair.b, friction_of(pair.law, true));
     }
     add("</contact>\n");
   }

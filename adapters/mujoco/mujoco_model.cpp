@@ -52,11 +52,11 @@ MujocoModel mujoco_model(const Scene& scene, const MujocoTree& tree, const Setti
 
 namespace {
 
-struct MotionOfPoint {  // in W
+struct Motion {  // in W
   Vec3 position, velocity, turning;
 };
 
-MotionOfPoint motion_of(const Scene& scene, int body) {
+Motion motion_of(const Scene& scene, int body) {
   if (body == kWorld || scene.bodies[body].fixed) return {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   const Body& b = scene.bodies[body];
   return {b.position, b.velocity, b.angular_velocity};
@@ -78,8 +78,7 @@ std::vector<double> mujoco_velocities(const Scene& scene, const MujocoTree& tree
     const int id = made.body[i];
     if (scene.bodies[i].fixed || model.body_dofnum[id] == 0) continue;
     double* out = &velocities[static_cast<std::size_t>(model.body_dofadr[id])];
-    const MotionOfPoint of_body = motion_of(scene, static_cast<int>(i)),
-                        of_parent = motion_of(scene, tree.links[i].parent);
+    const Motion of_body = motion_of(scene, static_cast<int>(i)), of_parent = motion_of(scene, tree.links[i].parent);
     const Vec3 w = of_body.turning - of_parent.turning;
     const Mat3 to_body = matrix_of(scene.bodies[i].orientation).transpose();
     Eigen::Map<Vec3> first(out);

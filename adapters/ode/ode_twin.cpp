@@ -66,8 +66,8 @@ class OdeTwin : public Stepper {
   Wrenches wrenches_;
 };
 
-const Features kJointsOfOde = {"joint:ball",  "joint:distance", "joint:fixed",
-                               "joint:hinge", "joint:slider",   "joint:universal"};
+const Features kJointKinds = {"joint:ball",  "joint:distance", "joint:fixed",
+                              "joint:hinge", "joint:slider",   "joint:universal"};
 
 }  // namespace
 
@@ -89,7 +89,7 @@ const Integrator kOdeTwin = {
                 {.name = "joints",
                  .meaning = "direct: as worldstep solves for them; none: quickstep's sweeps are not repeated",
                  .choices = {"direct", "none"},
-                 .features_of_choice = {{"direct", kJointsOfOde}, {"none", {}}}}},
+                 .features_of_choice = {{"direct", kJointKinds}, {"none", {}}}}},
     .twin_of = "ode",
     .make = make_stepper<OdeTwin>,
 };

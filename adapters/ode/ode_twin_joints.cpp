@@ -155,7 +155,7 @@ class OdeDistance : public OdeJointRows {
   double distance_;
 };
 
-struct MakeOdeRows {
+struct MakeRows {
   using Rows = std::unique_ptr<OdeJointRows>;
   const OdeJointEnds& ends;
   const OdeEnd &first, &second;
@@ -189,7 +189,7 @@ OdeTwinJoints::OdeTwinJoints(const Scene& scene, const System& system, double er
     const OdeJointEnds ends(scene, joint);
     const auto [first, second] = ends.bodies;
     const OdeEnd one = end_of(start.columns(), first), other = end_of(start.columns(), second);
-    joints_.push_back({std::visit(MakeOdeRows{ends, one, other}, joint.type), first, second});
+    joints_.push_back({std::visit(MakeRows{ends, one, other}, joint.type), first, second});
   }
 }
 

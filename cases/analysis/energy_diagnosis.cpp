@@ -7,14 +7,14 @@
 namespace rigor {
 namespace {
 
-constexpr double kNotableEnergy = 0.01;  // of the largest kinetic energy
+constexpr double kNotable = 0.01;  // of the largest kinetic energy
 
 void add_drift(const CaseResult& result, const Cell& cell, std::vector<Diagnosis>& all) {
   constexpr double kGone = 0.1;
   const Verdict verdict = cell.stability.verdict;
   const double drift = signed_value(cell.metrics, "energy_drift");
   if (verdict != Verdict::drifting && verdict != Verdict::gaining) return;
-  if (may_change_energy(result.definition.scene) || !(std::abs(drift) > kNotableEnergy)) return;
+  if (may_change_energy(result.definition.scene) || !(std::abs(drift) > kNotable)) return;
   const double without = signed_value(cell.scheme.without_gyroscopic_term, "energy_drift");
   const bool is_gyroscopic = std::abs(without) < kGone * std::abs(drift);
   all.push_back({.topic = kEnergyDrifts,
@@ -29,8 +29,7 @@ void add_drift(const CaseResult& result, const Cell& cell, std::vector<Diagnosis
 void add_misread(const CaseResult& result, const Cell& cell, std::vector<Diagnosis>& all) {
   const double raw = std::abs(signed_value(cell.metrics, "energy_drift")),
                synchronised = std::abs(signed_value(cell.metrics, "energy_drift_synchronised"));
-  if (cell.stability.verdict == Verdict::blown_up || !(synchronised < kNotableEnergy) || !(raw > kNotableEnergy))
-    return;
+  if (cell.stability.verdict == Verdict::blown_up || !(synchronised < kNotable) || !(raw > kNotable)) return;
   all.push_back({.topic = kEnergyMisread,
                  .runs = {cell.run},
                  .of_case = result.definition.id,

@@ -27,7 +27,7 @@ const OptionInfo* find_option(const MethodInfo& method, const std::string& name)
   return nullptr;
 }
 
-const MethodInfo& method_named(const RunName& run, const std::vector<EngineInfo>& engines) {
+const MethodInfo& method_of(const RunName& run, const std::vector<EngineInfo>& engines) {
   for (const EngineInfo& engine : engines) {
     if (engine.name == run.engine) return method_of(engine, run.settings);
   }
@@ -100,7 +100,7 @@ Sweep::Sweep(SweepInput input, const Vocabulary& vocabulary) : input_(std::move(
 void Sweep::refuse_key(const SweepAxis& axis) const {
   std::vector<std::string> known = {"dt", "duration", "scene"};
   for (const RunName& run : input_.runs) {
-    for (const OptionInfo& option : method_named(run, vocabulary_.engines).options) {
+    for (const OptionInfo& option : method_of(run, vocabulary_.engines).options) {
       if (std::find(known.begin(), known.end(), option.name) == known.end()) known.push_back(option.name);
     }
   }
@@ -115,13 +115,13 @@ void Sweep::check_options() {
     if (axis.kind != Kind::option) continue;
     bool is_known = false;
     for (const RunName& run : input_.runs) {
-      const OptionInfo* option = find_option(method_named(run, vocabulary_.engines), axis.key);
+      const OptionInfo* option = find_option(method_of(run, vocabulary_.engines), axis.key);
       if (option && option->whole) make_whole(axis);
       is_known |= option != nullptr;
     }
     if (!is_known) refuse_key(axis);
     for (const RunName& run : input_.runs) {
-      if (!find_option(method_named(run, vocabulary_.engines), axis.key)) continue;
+      if (!find_option(method_of(run, vocabulary_.engines), axis.key)) continue;
       for (const std::string& value : axis.values)
         parse_run_name(with_option(run.text, axis.key, value), vocabulary_.engines);
     }

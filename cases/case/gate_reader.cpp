@@ -34,7 +34,7 @@ std::vector<std::string> read_metrics(const TomlValue& value, const Vocabulary& 
   return names;
 }
 
-std::string read_run_name(const TomlValue& value, const Vocabulary& words) {
+std::string read_run(const TomlValue& value, const Vocabulary& words) {
   try {
     return parse_run_name(value.text(), words.engines).text;
   } catch (const InputError& error) {
@@ -43,7 +43,7 @@ std::string read_run_name(const TomlValue& value, const Vocabulary& words) {
 }
 
 std::vector<std::string> read_runs(const TomlValue& value, const Vocabulary& words) {
-  if (!is_run_selector(value.text())) return {read_run_name(value, words)};
+  if (!is_run_selector(value.text())) return {read_run(value, words)};
   try {
     return selected_runs(value.text(), words.engines);
   } catch (const InputError& error) {
@@ -83,7 +83,7 @@ void read_better_than(const TableReader& table, const TomlValue& value, const Vo
   if (const std::string* ranks_nothing = cross_metric_of(out, words))
     value.refuse(fmt::format("{} does not rank runs; give max, min or equals", *ranks_nothing));
   Gate& gate = out.gate;
-  gate.better_than = read_run_name(value, words);
+  gate.better_than = read_run(value, words);
   if (gate.engines.empty()) value.refuse("a ranking names the runs that are better; give engines");
   for (const TomlValue& item : table.at("engines").items()) {
     if (item.text() == gate.better_than)

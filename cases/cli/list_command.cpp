@@ -17,10 +17,10 @@
 namespace rigor {
 namespace {
 
-using ListRows = std::vector<std::pair<std::string, std::string>>;
+using Rows = std::vector<std::pair<std::string, std::string>>;
 
-ListRows case_rows(const CommandLine& line, const EngineTable& engines) {
-  ListRows rows;
+Rows case_rows(const CommandLine& line, const EngineTable& engines) {
+  Rows rows;
   for (const Case& definition : select_cases({}, line.suite_dir, vocabulary_of(engines.infos())))
     rows.emplace_back(definition.id, definition.title);
   return rows;
@@ -38,8 +38,8 @@ std::string method_text(const MethodInfo& method) {
   return text;
 }
 
-ListRows engine_rows(const CommandLine&, const EngineTable& engines) {
-  ListRows rows;
+Rows engine_rows(const CommandLine&, const EngineTable& engines) {
+  Rows rows;
   for (const EngineInfo& engine : engines.infos()) {
     std::vector<std::string> methods;
     for (const MethodInfo& method : engine.methods) methods.push_back(method.name);
@@ -55,8 +55,8 @@ ListRows engine_rows(const CommandLine&, const EngineTable& engines) {
   return rows;
 }
 
-ListRows integrator_rows(const CommandLine&, const EngineTable& engines) {
-  ListRows rows;
+Rows integrator_rows(const CommandLine&, const EngineTable& engines) {
+  Rows rows;
   for (const EngineInfo& engine : engines.infos()) {
     if (!engine.is_in_house) continue;
     for (const MethodInfo& method : engine.methods)
@@ -65,8 +65,8 @@ ListRows integrator_rows(const CommandLine&, const EngineTable& engines) {
   return rows;
 }
 
-ListRows metric_rows(const CommandLine&, const EngineTable&) {
-  ListRows rows;
+Rows metric_rows(const CommandLine&, const EngineTable&) {
+  Rows rows;
   for (const MetricRow& metric : metrics())
     rows.emplace_back(metric.name, fmt::format("[{}] {}", metric.unit, metric.summary));
   for (const CrossMetricRow& metric : cross_metrics())
@@ -74,24 +74,24 @@ ListRows metric_rows(const CommandLine&, const EngineTable&) {
   return rows;
 }
 
-ListRows truth_rows(const CommandLine&, const EngineTable&) {
-  ListRows rows;
+Rows truth_rows(const CommandLine&, const EngineTable&) {
+  Rows rows;
   for (const TruthRow& truth : truths())
     rows.emplace_back(truth.name, fmt::format("{}; {}", truth.summary, provenance_of(truth.name)));
   return rows;
 }
 
-struct Listing {
+struct Kind {
   std::string name;
-  ListRows (*rows)(const CommandLine& line, const EngineTable& engines);
+  Rows (*rows)(const CommandLine& line, const EngineTable& engines);
 };
-const std::vector<Listing> kListings = {{"cases", case_rows},
-                                        {"engines", engine_rows},
-                                        {"integrators", integrator_rows},
-                                        {"metrics", metric_rows},
-                                        {"truths", truth_rows}};
+const std::vector<Kind> kKinds = {{"cases", case_rows},
+                                  {"engines", engine_rows},
+                                  {"integrators", integrator_rows},
+                                  {"metrics", metric_rows},
+                                  {"truths", truth_rows}};
 
-std::string table(const ListRows& rows) {
+std::string table(const Rows& rows) {
   std::size_t width = 0;
   for (const auto& [name, text] : rows) width = std::max(width, name.size());
   std::string out;
@@ -103,7 +103,7 @@ std::string table(const ListRows& rows) {
 
 int list_command(const CommandLine& line, const EngineTable& engines) {
   std::vector<std::string> names;
-  for (const Listing& kind : kListings) names.push_back(kind.name);
+  for (const Kind& kind : kKinds) names.push_back(kind.name);
   for (const std::string& word : line.words) {
     if (std::find(names.begin(), names.end(), word) == names.end()) {
       throw InputError(
@@ -111,7 +111,7 @@ int list_command(const CommandLine& line, const EngineTable& engines) {
     }
   }
   std::string text;
-  for (const Listing& kind : kListings) {
+  for (const Kind& kind : kKinds) {
     const bool is_wanted =
         line.words.empty() || std::find(line.words.begin(), line.words.end(), kind.name) != line.words.end();
     if (is_wanted)

@@ -41,8 +41,7 @@ int run_whole(const CommandLine& line, const EngineTable& engines) {
   return answer(run, is_whole);
 }
 
-PartTitle title_of_part(const GridRun& run, const EngineTable& engines, const GridOptions& options,
-                        double wall_seconds) {
+PartTitle title_of(const GridRun& run, const EngineTable& engines, const GridOptions& options, double wall_seconds) {
   const auto whole = [](const std::string& path) {
     std::error_code error;
     return std::filesystem::absolute(path, error).lexically_normal().string();
@@ -87,7 +86,7 @@ int run_shard(const CommandLine& line, const EngineTable& engines) {
   try {
     run_with_progress(share, engines, options);
     folder.write(kPartFile,
-                 part_text(title_of_part(run, engines, options, share.wall_seconds), planned, share, engines, options));
+                 part_text(title_of(run, engines, options, share.wall_seconds), planned, share, engines, options));
     std::vector<std::string> trajectories;
     for (const CaseResult& result : share.cases) {
       for (const Cell& cell : result.cells) {

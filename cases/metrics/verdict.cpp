@@ -118,7 +118,7 @@ std::optional<Stability> collapsed(const JudgedRun& run) {
 }
 
 // The worst of them is the word; what else was found is said behind it.
-Stability worst_verdict(std::vector<Stability> found) {
+Stability worst_of(std::vector<Stability> found) {
   std::stable_sort(found.begin(), found.end(),
                    [](const Stability& a, const Stability& b) { return a.verdict > b.verdict; });
   Stability worst = found.front();
@@ -182,7 +182,7 @@ Stability verdict_on(const JudgedRun& run) {
   }
   if (const auto overlap = overlapping(run)) found.push_back(*overlap);
   if (const auto fall = collapsed(run)) found.push_back(*fall);
-  return worst_verdict(found);
+  return worst_of(found);
 }
 
 }  // namespace rigor

@@ -22,8 +22,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kTabForm = "# Rigor baseline 1";
 constexpr const char* kTitleKey = "rigor_baseline";
-constexpr int kBaselineForm = 2;
-constexpr int kOldestSchema = 1, kNewestSchema = 2;  // of results.json; in the first what is not finite is null
+constexpr int kForm = 2;
+constexpr int kOldestSchema = 1, kSchema = 2;  // of results.json; in the first what is not finite is null
 
 // A time is measured anew each run; a shift in time has a sign; and of two metrics more is better.
 bool is_compared(const std::string& metric) {
@@ -116,8 +116,8 @@ void add_gates(const Json& json, const std::string& place, Baseline& out) {
 
 void check_schema(const Json& json) {
   const int schema = json.at("schema").get<int>();
-  if (schema < kOldestSchema || schema > kNewestSchema)
-    throw InputError(fmt::format("its schema is {}; allowed: {} to {}", schema, kOldestSchema, kNewestSchema));
+  if (schema < kOldestSchema || schema > kSchema)
+    throw InputError(fmt::format("its schema is {}; allowed: {} to {}", schema, kOldestSchema, kSchema));
 }
 
 Baseline from_json(const Json& json) {
@@ -145,7 +145,7 @@ Baseline from_json(const Json& json) {
 // One line of a baseline: the title, or a setting, an error, a gate's answer or a cell.
 void add_line(const Json& json, Baseline& out) {
   if (json.contains(kTitleKey)) {
-    if (json.at(kTitleKey) != kBaselineForm) throw InputError(fmt::format("{} is not {}", kTitleKey, kBaselineForm));
+    if (json.at(kTitleKey) != kForm) throw InputError(fmt::format("{} is not {}", kTitleKey, kForm));
     for (const Json& name : json.at("metrics")) out.left_out.insert(name.get<std::string>());
   } else if (json.contains("setting")) {
     const auto values = json.at("values").get<std::vector<std::string>>();
@@ -192,7 +192,7 @@ std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::e
 
 double rounded_to_four(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
-Json json_of_cell(const std::string& key, const Baseline::Cell& cell) {
+Json json_of(const std::string& key, const Baseline::Cell& cell) {
   const auto parts = split(key, "\t");
   Json json = {{"case", parts[0]}, {"engine", parts[1]}, {"dt", parts[2]}, {"status", cell.status}};
   if (!cell.verdict.empty()) json["verdict"] = cell.verdict;
@@ -226,13 +226,13 @@ std::string baseline_text(const Baseline& baseline) {
   for (const auto& [key, cell] : baseline.cells) {
     for (const auto& [name, value] : cell.metrics) names.insert(name);
   }
-  std::string text = line_of({{kTitleKey, kBaselineForm}, {"metrics", names}});
+  std::string text = line_of({{kTitleKey, kForm}, {"metrics", names}});
   for (const auto& [key, values] : baseline.settings) {
     const auto parts = split(key, "\t");
     text += line_of({{"engine", parts[0]}, {"setting", parts[1]}, {"values", split(values, kBetweenValues)}});
   }
   for (const auto& [id, error] : baseline.case_errors) text += line_of({{"case", id}, {"error", error}});
-  for (const auto& [key, cell] : baseline.cells) text += line_of(json_of_cell(key, cell));
+  for (const auto& [key, cell] : baseline.cells) text += line_of(json_of(key, cell));
   // A gate on one cell that holds follows from the cell's status.
   for (const auto& [key, answer] : baseline.gates) {
     if (answer == word_of(GateAnswer::held) && !key.ends_with('\t')) continue;

@@ -32,7 +32,7 @@ int badness(const std::string& status) {
 bool holds(const std::string& answer) { return answer == "held" || answer == "known deviation"; }
 
 // None where nobody measured it.
-std::optional<double> value_in(const Baseline& baseline, const Baseline::Cell& cell, const std::string& metric) {
+std::optional<double> value_of(const Baseline& baseline, const Baseline::Cell& cell, const std::string& metric) {
   const auto found = cell.metrics.find(metric);
   if (found != cell.metrics.end()) return found->second;
   return baseline.left_out.contains(metric) ? std::optional(0.0) : std::nullopt;
@@ -46,7 +46,7 @@ void compare_errors(const std::string& key, const Baseline& before, const Baseli
     for (const auto& [name, value] : cell->metrics) names.insert(name);
   }
   for (const std::string& name : names) {
-    const auto was = value_in(before, old_cell, name), is = value_in(after, new_cell, name);
+    const auto was = value_of(before, old_cell, name), is = value_of(after, new_cell, name);
     if (was && !is && !new_cell.not_asked.contains(name) && *was > kNoise)
       out.lost.push_back(fmt::format("{}: {} is missing, was {:.4g}", named(key), name, *was));
     if (!was || !is) continue;

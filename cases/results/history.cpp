@@ -27,12 +27,12 @@ constexpr int kHistoryForm = 1;
 
 double finite_to_four(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.4g}", value)) : value; }
 
-std::string key_of_cell(const Json& cell) {
+std::string key_of(const Json& cell) {
   return cell.at("case").get<std::string>() + "\t" + cell.at("engine").get<std::string>() + "\t" +
          cell.at("dt").get<std::string>();
 }
 
-Json json_of_entry(const HistoryEntry& entry) {
+Json json_of(const HistoryEntry& entry) {
   Json cells = Json::array();
   for (const auto& [key, cell] : entry.cells) {
     const std::size_t first = key.find('\t'), second = key.find('\t', first + 1);
@@ -61,7 +61,7 @@ HistoryEntry entry_from(const Json& json) {
     cell.status = word_of(status_of(row.at("status").get<std::string>()));
     for (const auto& [name, value] : row.at("metrics").items()) cell.metrics[name] = number_of(value);
     if (row.contains("cost")) cell.cost = number_of(row.at("cost"));
-    entry.cells[key_of_cell(row)] = std::move(cell);
+    entry.cells[key_of(row)] = std::move(cell);
   }
   return entry;
 }
@@ -95,7 +95,7 @@ HistoryEntry history_entry(const std::string& results_file, const std::string& c
       const Json& metrics = cell.at("metrics");
       if (!metrics.contains("cost") || !metrics.at("cost").contains("value")) continue;
       const double cost = number_of(metrics.at("cost").at("value"));
-      if (std::isfinite(cost)) entry.cells.at(key_of_cell(cell)).cost = finite_to_four(cost);
+      if (std::isfinite(cost)) entry.cells.at(key_of(cell)).cost = finite_to_four(cost);
     }
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: is no whole results.json: {}", results_file, error.what()));
@@ -105,7 +105,7 @@ HistoryEntry history_entry(const std::string& results_file, const std::string& c
 
 void add_to_history(const std::string& file, const HistoryEntry& entry) {
   check_ends_with_a_line(file);
-  const std::string line = text_of(json_of_entry(entry), -1) + "\n";
+  const std::string line = text_of(json_of(entry), -1) + "\n";
   const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor < 0) throw InputError(fmt::format("{}: cannot be written: {}", file, std::strerror(errno)));
   const ssize_t written = write(descriptor, line.data(), line.size());

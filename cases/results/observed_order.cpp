@@ -10,7 +10,7 @@
 namespace rigor {
 namespace {
 
-const MetricValue* metric_of(const Cell& cell, const std::string& metric) {
+const MetricValue* value_of(const Cell& cell, const std::string& metric) {
   const auto found = cell.metrics.find(metric);
   return found != cell.metrics.end() && found->second.not_applicable.empty() ? &found->second : nullptr;
 }
@@ -45,7 +45,7 @@ std::vector<ErrorPoint> error_points(const CaseResult& result, std::size_t run, 
   std::vector<ErrorPoint> points;
   for (const Cell& cell : result.cells) {
     if (cell.run != run || !came_to_a_result(cell)) continue;
-    const MetricValue *error = metric_of(cell, metric), *cost = metric_of(cell, "cost");
+    const MetricValue *error = value_of(cell, metric), *cost = value_of(cell, "cost");
     if (!error || !cost || !std::isfinite(error->value) || !(cost->value > 0)) continue;
     points.push_back({cell.dt, std::max(error->value, error_floor(result)), cost->value});
   }
@@ -57,7 +57,7 @@ std::vector<std::string> errors_worth_comparing(const CaseResult& result) {
   std::vector<std::string> worth;
   for (const char* metric : {"position_error", "orientation_error"}) {
     const bool one_is_off = std::any_of(result.cells.begin(), result.cells.end(), [&](const Cell& cell) {
-      const MetricValue* error = metric_of(cell, metric);
+      const MetricValue* error = value_of(cell, metric);
       return came_to_a_result(cell) && error && error->value > kSameForAll;
     });
     if (one_is_off) worth.emplace_back(metric);

@@ -36,7 +36,7 @@ void compare_with_turned(const Trajectory& turned_twin, const Quat& turn, TwinRu
   }
 }
 
-MetricValue measured_by(const std::string& name, const JudgedRun& run) {
+MetricValue measured(const std::string& name, const JudgedRun& run) {
   const auto row = std::find_if(metrics().begin(), metrics().end(), [&](const auto& r) { return r.name == name; });
   return condensed(row->measure(run), run.trajectory);
 }
@@ -78,7 +78,7 @@ SchemeFindings judge_scheme(const EngineTable& engines, const RunName& twin, con
   findings.twin = twin.text;
   const JudgedRun as_run{judged.scene, judged.twin->trajectory, judged.truth, judged.leapfrog_stagger};
   for (const char* name : {"angular_momentum_drift", "energy_drift", "orientation_error", "position_error"}) {
-    findings.metrics[name] = measured_by(name, as_run);
+    findings.metrics[name] = measured(name, as_run);
   }
   const auto without = without_gyroscopic_term(twin);
   if (!without) return findings;
@@ -88,7 +88,7 @@ SchemeFindings judge_scheme(const EngineTable& engines, const RunName& twin, con
   samples.resize(std::min(samples.size(), as_run.trajectory.samples.size()));  // the truth may have no more
   const JudgedRun off{judged.scene, off_run.trajectory, judged.truth, judged.leapfrog_stagger};
   for (const char* name : {"angular_momentum_drift", "energy_drift"}) {
-    findings.without_gyroscopic_term[name] = measured_by(name, off);
+    findings.without_gyroscopic_term[name] = measured(name, off);
   }
   return findings;
 }

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kMostShown = 60, kLongestLine = 40;  // cells without a word for them; values of a sparkline
 constexpr double kSameBits = 1.001;  // four digits are kept of an error, which is the same in each run of one program
-constexpr double kRoundingNoise = 1e-12;  // what is smaller is rounding
-constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoise = 1e-12;     // what is smaller is rounding
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct Series {
   std::vector<double> values;        // of each entry of the history; not a number where it has none
@@ -38,7 +38,7 @@ std::string metric_of(const std::vector<HistoryEntry>& history, const std::strin
     const auto& metrics = cell->second.metrics;
     for (const char* name : {"position_error", "orientation_error", "energy_drift_synchronised"}) {
       const auto found = metrics.find(name);
-      if (found != metrics.end() && found->second > kRoundingNoise) return name;
+      if (found != metrics.end() && found->second > kNoise) return name;
     }
     return metrics.begin()->first;
   }
@@ -48,10 +48,10 @@ std::string metric_of(const std::vector<HistoryEntry>& history, const std::strin
 // Errors repeat bit for bit, so that each change of theirs is one of the program.
 std::vector<std::size_t> changes_of_errors(const std::vector<double>& values) {
   std::vector<std::size_t> changes;
-  double before = kNotMeasured;
+  double before = kNone;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isnan(values[i])) continue;
-    const double a = std::max(kRoundingNoise, std::abs(before)), b = std::max(kRoundingNoise, std::abs(values[i]));
+    const double a = std::max(kNoise, std::abs(before)), b = std::max(kNoise, std::abs(values[i]));
     const bool is_same = a == b || std::max(a, b) / std::min(a, b) <= kSameBits;
     if (!std::isnan(before) && !is_same) changes.push_back(i);
     before = values[i];
@@ -79,9 +79,9 @@ CellHistory history_of(const std::vector<HistoryEntry>& history, const std::stri
     const bool is_there = cell != entry.cells.end();
     const auto metric = is_there ? cell->second.metrics.find(found.metric) : decltype(cell->second.metrics.end()){};
     const bool has_error = is_there && metric != cell->second.metrics.end();
-    found.error.values.push_back(has_error ? metric->second : kNotMeasured);
+    found.error.values.push_back(has_error ? metric->second : kNone);
     const bool is_comparable = is_there && entry.machine == history.back().machine && cell->second.cost;
-    found.cost.values.push_back(is_comparable ? *cell->second.cost : kNotMeasured);
+    found.cost.values.push_back(is_comparable ? *cell->second.cost : kNone);
     if (is_there && !status.empty() && cell->second.status != status)
       found.status_change = fmt::format("{} -> {} at {}", status, cell->second.status, entry.commit);
     if (is_there) status = cell->second.status;
@@ -93,7 +93,7 @@ CellHistory history_of(const std::vector<HistoryEntry>& history, const std::stri
 
 double median(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });
-  if (values.empty()) return kNotMeasured;
+  if (values.empty()) return kNone;
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
 }
@@ -120,7 +120,7 @@ std::string series_text(const std::string& name, const Series& series, const std
   return text + "\n";
 }
 
-std::string text_of_cell(const CellHistory& cell, const std::vector<HistoryEntry>& history) {
+std::string text_of(const CellHistory& cell, const std::vector<HistoryEntry>& history) {
   std::string text = "  " + cell.name + "\n";
   if (!cell.status_change.empty()) text += fmt::format("    {:<28} * {}\n", "status", cell.status_change);
   if (!cell.metric.empty()) text += series_text(cell.metric, cell.error, history);
@@ -170,7 +170,7 @@ std::string history_table(const std::vector<HistoryEntry>& history, const std::v
     if (!words.empty() && !is_named) continue;
     const CellHistory cell = history_of(history, key);
     unchanged += !cell.has_changed(), shown += shows_all || cell.has_changed();
-    if (shows_all || cell.has_changed()) text += text_of_cell(cell, history);
+    if (shows_all || cell.has_changed()) text += text_of(cell, history);
   }
   std::string head = fmt::format("{} entries, from {} ({}) to {} ({}); costs on {}\n", history.size(),
                                  history.front().commit, history.front().date.substr(0, 10), history.back().commit,

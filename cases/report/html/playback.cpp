@@ -21,12 +21,12 @@ namespace {
 
 constexpr double kLinearSeen = 5e-3;       // of a series' range: a pixel of a plot
 constexpr double kDecadesSeen = 0.04;      // of a logarithmic plot: likewise
-constexpr double kShapeless = 1e-12;       // of a series in any unit: what is smaller is rounding, and has no shape
+constexpr double kNoise = 1e-12;           // of a series in any unit: what is smaller is rounding, and has no shape
 constexpr std::size_t kMostKeys = 6000;    // of a motion
 constexpr std::size_t kMostPoints = 1500;  // of the series
-constexpr std::size_t kLongestPacking = 300000, kShortestPacking = 200;  // characters of a packing
-constexpr double kOfAllRuns = 6e6, kShares = 6;  // characters; even shares of them that a run may ask for
-constexpr double kCoarser = 0.7;                 // of the keys and points, from one packing to the next
+constexpr std::size_t kMost = 300000, kLeast = 200;  // characters of a packing
+constexpr double kOfAllRuns = 6e6, kShares = 6;      // characters; even shares of them that a run may ask for
+constexpr double kCoarser = 0.7;                     // of the keys and points, from one packing to the next
 
 // What the page always plots.
 bool is_main(const NamedSeries& series) {
@@ -78,11 +78,11 @@ class SeriesSet {
  public:
   explicit SeriesSet(std::vector<NamedSeries> all) : series_(std::move(all)) {
     for (const NamedSeries& series : series_) {
-      double largest = kShapeless;
+      double largest = kNoise;
       for (const double value : series.values) {
         if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
       }
-      const double floor = std::max(kShapeless, 1e-6 * largest);
+      const double floor = std::max(kNoise, 1e-6 * largest);
       Seen& seen = seen_.emplace_back();
       for (const double value : series.values) {
         seen.linear.push_back(value / (largest * kLinearSeen));
@@ -174,7 +174,7 @@ class Packer {
     add(all_, 1);
     for (double share = 1; share * std::max(keys_.size(), main_.points.size()) >= 1;) {
       share *= std::min(kCoarser, add(main_, share));
-      if (!found.empty() && found.back().size() <= kShortestPacking) break;
+      if (!found.empty() && found.back().size() <= kLeast) break;
     }
     return found;
   }
@@ -294,7 +294,7 @@ PlaybackLimit::PlaybackLimit(const Results& grid) {
 
 std::size_t PlaybackLimit::of(const Case& definition, const StepSize* dt) const {
   const double even = kOfAllRuns * weight_of(definition, dt ? dt->seconds : kTruth) / weights_;
-  return static_cast<std::size_t>(std::min(kShares * even, static_cast<double>(kLongestPacking)));
+  return static_cast<std::size_t>(std::min(kShares * even, static_cast<double>(kMost)));
 }
 
 Recording PlaybackRecorder::of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts) const {
@@ -317,7 +317,7 @@ PlaybackChoice::PlaybackChoice(const Results& results, std::size_t budget) {
     }
     return sum;
   };
-  double fits = 0, too_much = 2.0 * kLongestPacking;  // of the latter each is at its finest
+  double fits = 0, too_much = 2.0 * kMost;  // of the latter each is at its finest
   if (total(too_much) <= budget) return;
   for (int halving = 0; halving < 50; ++halving) {
     const double middle = 0.5 * (fits + too_much);

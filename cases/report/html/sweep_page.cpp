@@ -25,7 +25,7 @@ constexpr Kind kKinds[] = {{"stable", "#3b76c4"},      {"drifting", "#9cc3ea"}, 
                            {"unsupported", "#d9d9d9"}, {"invalid", "#8a8a8a"},   {"broke off", "#111111"}};
 constexpr unsigned char kUnsupported = 6, kInvalid = 7, kBrokeOff = 8;
 
-unsigned char kind_of_row(const SweepRow& row) {
+unsigned char kind_of(const SweepRow& row) {
   if (row.status == Status::unsupported) return kUnsupported;
   if (row.status == Status::crashed || row.status == Status::timed_out) return kBrokeOff;
   for (unsigned char kind = 0; kind < kUnsupported; ++kind) {
@@ -49,7 +49,7 @@ svg { display: block } svg rect { shape-rendering: crispEdges } svg text { font:
 </style></head><body>
 )";
 
-std::string legend_entry(const std::string& style, const std::string& text) {
+std::string key_of(const std::string& style, const std::string& text) {
   return fmt::format("<span class=\"key\"><i style=\"background:{}\"></i>{}</span>", style, escaped(text));
 }
 
@@ -99,7 +99,7 @@ SweepPage::SweepPage(const Sweep& sweep) : sweep_(sweep) {
 bool SweepPage::has_key_of_steps() const { return keys_.size() > sweep_.axes().size(); }
 
 void SweepPage::add(const SweepRow& row) {
-  Point point{row.of_case, row.run, {}, kind_of_row(row), {kNothing, kNothing, kNothing}};
+  Point point{row.of_case, row.run, {}, kind_of(row), {kNothing, kNothing, kNothing}};
   const auto number_of_value = [](const Key& key, const std::string& value) {
     return static_cast<float>(std::find(key.values.begin(), key.values.end(), value) - key.values.begin());
   };
@@ -277,8 +277,7 @@ std::string SweepPage::legend(std::size_t of_case) const {
   for (const Point& point : points_) counts[point.kind] += point.of_case == of_case;
   std::string text = "<p>";
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
-    if (counts[kind] > 0)
-      text += legend_entry(kKinds[kind].colour, fmt::format("{} {}", kKinds[kind].word, counts[kind]));
+    if (counts[kind] > 0) text += key_of(kKinds[kind].colour, fmt::format("{} {}", kKinds[kind].word, counts[kind]));
   }
   return text + "</p>\n";
 }
@@ -302,7 +301,7 @@ std::string SweepPage::section(std::size_t of_case) const {
   if (is_line) {
     text += "<p>";
     for (std::size_t run = 0; run < sweep_.runs().size(); ++run)
-      text += legend_entry(colour_of_run(run), sweep_.runs()[run].text);
+      text += key_of(colour_of_run(run), sweep_.runs()[run].text);
     text += "</p>\n" +
             (keys_.empty() ? "" : drawing(lines(of_case, error, range), error_name + "; red at the top: blown up"));
     return text;

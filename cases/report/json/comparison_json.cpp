@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of_furthest(const Furthest& furthest, const Scene& scene) {
+Json json_of(const Furthest& furthest, const Scene& scene) {
   return {{"value", furthest.value}, {"time", furthest.time}, {"body", scene.body_name(furthest.body)}};
 }
 
@@ -35,8 +35,8 @@ Json spreads_json(const Results& results, const CaseResult& result) {
     spreads.push_back({{"first", results.runs[spread.first].text},
                        {"second", results.runs[spread.second].text},
                        {"dt", spread.dt.text},
-                       {"distance", json_of_furthest(spread.distance, result.definition.scene)},
-                       {"angle", json_of_furthest(spread.angle, result.definition.scene)},
+                       {"distance", json_of(spread.distance, result.definition.scene)},
+                       {"angle", json_of(spread.angle, result.definition.scene)},
                        {"parted_at", spread.parted_at ? Json(*spread.parted_at) : Json(nullptr)},
                        {"compared_until", spread.compared_until}});
   }

@@ -13,7 +13,7 @@ namespace rigor {
 namespace {
 
 // Text of other people: bytes that are no UTF-8 and characters that XML 1.0 does not allow at all become U+FFFD or '?'.
-std::string xml_text(const std::string& text) {
+std::string escaped(const std::string& text) {
   const auto clean = nlohmann::json::parse(text_of(text, -1)).get<std::string>();
   std::string out;
   for (std::size_t i = 0; i < clean.size(); ++i) {
@@ -61,7 +61,7 @@ struct Suite {
   }
 };
 
-void add_text(TestCase& test, const std::string& line) {
+void add_line(TestCase& test, const std::string& line) {
   if (test.message.empty()) test.message = line;
   test.text += line + "\n";
 }
@@ -69,18 +69,18 @@ void add_text(TestCase& test, const std::string& line) {
 TestCase of_cell(const Results& results, const CaseResult& result, const Cell& cell) {
   const std::string& run = results.runs[cell.run].text;
   TestCase test{fmt::format("{} dt={}", run, cell.dt.text), result.definition.id, cell.wall_seconds, "", "", "", ""};
-  if (cell.status == Status::unsupported) test.kind = "skipped", add_text(test, cell.reason);
+  if (cell.status == Status::unsupported) test.kind = "skipped", add_line(test, cell.reason);
   if (cell.status == Status::crashed || cell.status == Status::timed_out || cell.status == Status::invalid)
-    test.kind = "error", test.type = word_of(cell.status), add_text(test, cell.reason);
+    test.kind = "error", test.type = word_of(cell.status), add_line(test, cell.reason);
   for (const GateResult& answer : result.gates) {
     if (answer.engine != run || answer.dt != cell.dt.text) continue;
     const Gate& gate = result.definition.gates[answer.gate];
     if (is_failure(answer.answer)) {
       if (test.kind != "error") test.kind = "failure";
       if (test.type.empty()) test.type = gate.metric;
-      add_text(test, kind_of(gate) + ": " + answer.text);
+      add_line(test, kind_of(gate) + ": " + answer.text);
     } else if (answer.answer == GateAnswer::known_deviation && test.kind.empty()) {
-      test.kind = "skipped", add_text(test, "known deviation: " + answer.text);
+      test.kind = "skipped", add_line(test, "known deviation: " + answer.text);
     }
   }
   return test;
@@ -92,8 +92,8 @@ TestCase of_answer(const CaseResult& result, const GateResult& answer) {
   const std::string of = answer.engine.empty() ? "" : " " + answer.engine;
   TestCase test{fmt::format("gate {}{}", answer.gate + 1, of), result.definition.id, 0, "", "", "", ""};
   if (is_failure(answer.answer))
-    test.kind = "failure", test.type = gate.metric, add_text(test, kind_of(gate) + ": " + answer.text);
-  if (answer.answer == GateAnswer::known_deviation) test.kind = "skipped", add_text(test, answer.text);
+    test.kind = "failure", test.type = gate.metric, add_line(test, kind_of(gate) + ": " + answer.text);
+  if (answer.answer == GateAnswer::known_deviation) test.kind = "skipped", add_line(test, answer.text);
   return test;
 }
 
@@ -109,12 +109,12 @@ Suite suite_of(const Results& results, const CaseResult& result) {
 }
 
 std::string xml_of(const TestCase& test) {
-  std::string xml = fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.6f}\"", xml_text(test.name),
-                                xml_text(test.classname), test.seconds);
+  std::string xml = fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.6f}\"", escaped(test.name),
+                                escaped(test.classname), test.seconds);
   if (test.kind.empty()) return xml + "/>\n";
-  xml += fmt::format(">\n      <{} message=\"{}\"", test.kind, xml_text(test.message));
-  if (test.kind != "skipped") xml += fmt::format(" type=\"{}\"", xml_text(test.type));
-  return xml + (test.kind == "skipped" ? "/>" : fmt::format(">{}</{}>", xml_text(test.text), test.kind)) +
+  xml += fmt::format(">\n      <{} message=\"{}\"", test.kind, escaped(test.message));
+  if (test.kind != "skipped") xml += fmt::format(" type=\"{}\"", escaped(test.type));
+  return xml + (test.kind == "skipped" ? "/>" : fmt::format(">{}</{}>", escaped(test.text), test.kind)) +
          "\n    </testcase>\n";
 }
 
@@ -134,7 +134,7 @@ std::string junit_report(const Results& results) {
     tests += all, failures += suite.count("failure"), errors += suite.count("error");
     skipped += suite.count("skipped");
     suites += fmt::format(
-        "  <testsuite name=\"{}\" {}>\n", xml_text(suite.name),
+        "  <testsuite name=\"{}\" {}>\n", escaped(suite.name),
         counts_of(all, suite.count("failure"), suite.count("error"), suite.count("skipped"), suite.seconds()));
     for (const TestCase& test : suite.cases) suites += xml_of(test);
     suites += "  </testsuite>\n";

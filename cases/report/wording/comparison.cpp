@@ -13,7 +13,7 @@ namespace {
 const std::string kNone = "-";
 
 // "position" of "position_error".
-std::string kind_of_error(const std::string& metric) { return metric.substr(0, metric.find('_')); }
+std::string kind_of(const std::string& metric) { return metric.substr(0, metric.find('_')); }
 std::string unit_of(const std::string& metric) { return metric == "position_error" ? "m" : "rad"; }
 
 // ~: extrapolated to a longer step; >=: it could spend the rest of the time on smaller ones.
@@ -25,9 +25,9 @@ std::string times_text(const EqualCost& point) {
 }
 
 TextTable errors_and_costs(const Results& results, const CaseResult& result, const std::string& metric) {
-  TextTable table{fmt::format("{} error [{}] at a cost in CPU time per simulated time [µs/s]", kind_of_error(metric),
-                              unit_of(metric)),
-                  {{"engine", "order"}}};
+  TextTable table{
+      fmt::format("{} error [{}] at a cost in CPU time per simulated time [µs/s]", kind_of(metric), unit_of(metric)),
+      {{"engine", "order"}}};
   for (const StepSize& dt : result.definition.dt) table.rows[0].push_back(fmt::format("dt = {} s", dt.text));
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
     const auto points = error_points(result, run, metric);
@@ -44,7 +44,7 @@ TextTable errors_and_costs(const Results& results, const CaseResult& result, con
 }
 
 TextTable times_less(const Results& results, const CaseResult& result, const std::string& metric) {
-  TextTable table{fmt::format("times less {} error at equal cost (~ extrapolated, >= at least)", kind_of_error(metric)),
+  TextTable table{fmt::format("times less {} error at equal cost (~ extrapolated, >= at least)", kind_of(metric)),
                   {{"engine"}}};
   for (const std::size_t baseline : baselines(results)) {
     for (const ErrorPoint& point : error_points(result, baseline, metric))
@@ -112,7 +112,7 @@ std::string sentence(const Results& results, const BestOfCore& best) {
       "At the cost of {} at dt = {} s ({:.3g} ns a step, {} error {:.2g} {}) {} has an error of {}{:.2g} {}; "
       "times less at equal cost: {}.",
       results.runs[coarsest->baseline].text, of_baseline.dt.text, 1e9 * of_baseline.cost * of_baseline.dt.seconds,
-      kind_of_error(best.metric), of_baseline.error, unit, results.runs[coarsest->run].text,
+      kind_of(best.metric), of_baseline.error, unit, results.runs[coarsest->run].text,
       coarsest->of_run->reach == Reach::extrapolated ? "~" : "", coarsest->of_run->error, unit, all);
 }
 

@@ -23,7 +23,7 @@ std::vector<Diagnosis> diagnoses(const Results& results, const StepSize& dt) {
 
 // A run's largest of the chosen ones; null if it has none.
 template <typename Chosen>
-const Diagnosis* worst_instant_of(const std::vector<Diagnosis>& all, std::size_t run, const Chosen& is_chosen) {
+const Diagnosis* worst_of(const std::vector<Diagnosis>& all, std::size_t run, const Chosen& is_chosen) {
   const Diagnosis* worst = nullptr;
   for (const Diagnosis& found : all) {
     if (found.runs.front() != run || !is_chosen(found)) continue;
@@ -56,7 +56,7 @@ std::optional<Finding> energy_finding(const Results& results, const RunNames& na
     std::map<std::string, std::vector<std::size_t>> said;  // who, by what is said of them
     for (const std::size_t run : names.order()) {
       if (names.is_ours(run) || !names.is_common(run)) continue;
-      const Diagnosis* worst = worst_instant_of(all, run, [&](const Diagnosis& found) {
+      const Diagnosis* worst = worst_of(all, run, [&](const Diagnosis& found) {
         return found.topic == kEnergyDrifts && (found.value < 0) == is_loss;
       });
       if (!worst) continue;
@@ -87,7 +87,7 @@ std::optional<Finding> sampling_finding(const Results& results, const RunNames& 
           std::find(cases.begin(), cases.end(), found.of_case) == cases.end())
         cases.push_back(found.of_case);
     }
-    const Diagnosis* worst = worst_instant_of(all, run, is_misread);
+    const Diagnosis* worst = worst_of(all, run, is_misread);
     if (!worst) continue;
     said[fmt::format("in {} it strays by {} % as read, by {} % with both at one instant", worst->of_case,
                      rounded(100 * worst->value), rounded(100 * worst->beside))]

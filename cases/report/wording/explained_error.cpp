@@ -7,21 +7,21 @@
 namespace rigor {
 namespace {
 
-std::string text_of_metric(const std::map<std::string, MetricValue>& metrics, const std::string& name,
-                           double MetricValue::*part = &MetricValue::value) {
+std::string text_of(const std::map<std::string, MetricValue>& metrics, const std::string& name,
+                    double MetricValue::*part = &MetricValue::value) {
   const auto found = metrics.find(name);
   return found == metrics.end() || !found->second.not_applicable.empty() ? "-" : rounded(found->second.*part);
 }
 
 ExplainedRow row_of(const std::string& engine, const Cell& cell) {
   return {engine,
-          text_of_metric(cell.metrics, "position_error"),
-          text_of_metric(cell.scheme.metrics, "position_error"),
-          text_of_metric(cell.metrics, "unexplained_error"),
-          text_of_metric(cell.metrics, "orientation_error"),
-          text_of_metric(cell.scheme.metrics, "orientation_error"),
-          text_of_metric(cell.metrics, "unexplained_rotation"),
-          text_of_metric(cell.metrics, "unexplained_rotation", &MetricValue::compared_until)};
+          text_of(cell.metrics, "position_error"),
+          text_of(cell.scheme.metrics, "position_error"),
+          text_of(cell.metrics, "unexplained_error"),
+          text_of(cell.metrics, "orientation_error"),
+          text_of(cell.scheme.metrics, "orientation_error"),
+          text_of(cell.metrics, "unexplained_rotation"),
+          text_of(cell.metrics, "unexplained_rotation", &MetricValue::compared_until)};
 }
 
 }  // namespace

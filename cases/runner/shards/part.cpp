@@ -22,7 +22,7 @@ using Subject = MessageSubject;
 
 constexpr int kForm = 1;
 
-Json json_of_title(const PartTitle& title, std::size_t answers) {
+Json json_of(const PartTitle& title, std::size_t answers) {
   return {{"rigor_part", kForm},     {"shard", title.shard.index},
           {"of", title.shard.count}, {"version", title.version},
           {"build", title.build},    {"arguments", title.arguments},
@@ -221,7 +221,7 @@ std::string part_text(const PartTitle& title, const Results& planned, const Resu
       ++count;
     }
   }
-  return text_of(json_of_title(title, count), -1) + "\n" + records;
+  return text_of(json_of(title, count), -1) + "\n" + records;
 }
 
 Part read_part(const std::string& folder) {

@@ -8,7 +8,7 @@ namespace {
 
 // Slack, of the largest radius: what was at rest so far may begin to move; and what one fast ball asks for must not
 // make neighbours of all.
-constexpr double kLeastMargin = 1.0 / 16, kMostMargin = 4;
+constexpr double kLeast = 1.0 / 16, kMost = 4;
 
 }  // namespace
 
@@ -53,8 +53,7 @@ void NeighbourList::choose_slack(BodyColumns state, const Columns& spheres) {
     const double *now = state.column(kPosition + axis), *then = spheres.column(kFoundAt + axis);
     double moved = 0;
     for (const Ball& ball : balls_) moved = std::max(moved, std::abs(now[ball.body] - then[ball.body]));
-    slack_[axis] =
-        std::clamp(steps_to_hold_ / steps_held_ * moved, kLeastMargin * largest_radius_, kMostMargin * largest_radius_);
+    slack_[axis] = std::clamp(steps_to_hold_ / steps_held_ * moved, kLeast * largest_radius_, kMost * largest_radius_);
   }
   if (!slack_.allFinite()) slack_.setZero();
 }
@@ -68,8 +67,7 @@ void NeighbourList::search(BodyColumns state) {
       boxes_[i] = {centre - half, centre + half};
     }
     near_ = &broad_phase_.overlaps(boxes_);
-    if (near_->size() <= kMostPairsOfBall * balls_.size() || slack_.maxCoeff() <= kLeastMargin * largest_radius_)
-      return;
+    if (near_->size() <= kMostPairsOfBall * balls_.size() || slack_.maxCoeff() <= kLeast * largest_radius_) return;
   }
 }
 

@@ -243,8 +243,8 @@ class ExponentialAdams : public Stepper {
 
   // For bodies that have turned far from their own in the step [t, t + dt]; what is remembered is told anew in them.
   void choose_new_frames(double t, double dt) {
-    constexpr double kFarthestTurn = 1;  // rad
-    const auto is_far = [&](std::size_t i) { return instants_[newest_][i].u.segment<3>(3).norm() > kFarthestTurn; };
+    constexpr double kFarthest = 1;  // rad
+    const auto is_far = [&](std::size_t i) { return instants_[newest_][i].u.segment<3>(3).norm() > kFarthest; };
     std::vector<bool> far(frames_.size());
     bool any = false;
     for (std::size_t i = 0; i < frames_.size(); ++i) any |= far[i] = is_far(i);

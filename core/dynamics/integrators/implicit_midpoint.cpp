@@ -14,7 +14,7 @@
 namespace rigor {
 namespace {
 
-constexpr int kMostRounds = 50;
+constexpr int kMostIterations = 50;
 constexpr double kLastCorrection = 1e-9;  // relative; Newton's next correction is about its square
 
 // d exp(phi) = exp([J d phi]x) exp(phi): the left Jacobian of the rotations.
@@ -48,7 +48,7 @@ class ImplicitMidpoint : public Stepper {
   void solve_for_middle(double t, double dt) {
     solver_warning_.clear();
     double correction = 0;
-    for (int iteration = 0; iteration < kMostRounds; ++iteration) {
+    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
       place_middle(dt);
       parts_.system.wrenches(middle_.columns(), t, dt, wrenches_);
       assemble(t, dt);
@@ -63,7 +63,7 @@ class ImplicitMidpoint : public Stepper {
       }
     }
     solver_warning_ = fmt::format("Newton's method did not converge in {} iterations; its last correction was {:.1e}",
-                                  kMostRounds, correction);
+                                  kMostIterations, correction);
     place_middle(dt);
   }
 

@@ -9,7 +9,7 @@
 namespace rigor {
 namespace {
 
-constexpr int kMostStops = 1000;          // in a step
+constexpr int kMostEvents = 1000;         // in a step
 constexpr double kTimeTolerance = 1e-15;  // of a step, to which events are located
 // Of a step: bounces that end sooner are none. From rest on, ten of e = 0.5 go before it, and what the last would have
 // risen is 1e-7 of what gravity does to a body in a step.
@@ -37,10 +37,10 @@ void JointEvents::step(MutableBodyColumns state, double t, double dt) {
     const double now = t + done;
     if (!stops_.settle(state, now, kShortestFlight * dt))
       warn("it could not be decided which limits and motors of the joints hold");
-    if (events == kMostStops) {
+    if (events == kMostEvents) {
       inner_->step(state, now, dt - done);
       stops_.read(state, dt - done);
-      return warn(fmt::format("limits and motors of the joints changed {} times in one step", kMostStops));
+      return warn(fmt::format("limits and motors of the joints changed {} times in one step", kMostEvents));
     }
     const double until = stops_.next_switch(now, t + dt);
     done += advance(state, now, until < t + dt ? until - now : dt - done);

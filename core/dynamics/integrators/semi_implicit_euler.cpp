@@ -13,7 +13,7 @@ namespace rigor {
 namespace {
 
 // Of the longest arm: gaps that are closed anew in each step need no more, for nothing adds up.
-constexpr double kGapClosedByStep = 1e-11;
+constexpr double kClosed = 1e-11;
 
 class SemiImplicitEuler : public Stepper {
  public:
@@ -45,7 +45,7 @@ class SemiImplicitEuler : public Stepper {
       bodies.for_each_block([&](const Bodies& block) { passes_.drift(block, end_.columns(), dt); });
       return end_.columns();
     };
-    if (!parts_.joints->close(state, dt, drift, kGapClosedByStep)) {
+    if (!parts_.joints->close(state, dt, drift, kClosed)) {
       drift(parts_.joints->velocity_impulse(state));
       parts_.joints->project(end_.columns());
     }

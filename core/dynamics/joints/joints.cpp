@@ -13,7 +13,7 @@ namespace rigor {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr int kMostProjections = 50;
+constexpr int kMostIterations = 50;
 constexpr double kClosed = 16 * kEpsilon;  // of the extent: what rounding of poses leaves of a gap,
 constexpr double kRounding = 1e-12;        // and where bodies are far from the origin
 constexpr double kOpen = 1e-9;             // of the extent: a gap that no rounding explains
@@ -187,7 +187,7 @@ void Joints::list_components() {
 // Newton's method, with J and S of its first iteration until they no longer serve.
 void Joints::close_pose(MutableBodyColumns state) {
   double last = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < kMostProjections; ++iteration) {
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     rows_.evaluate(state);
     const double gap = rows_.largest_gap();
     if (is_closed(gap, last)) break;
@@ -234,7 +234,7 @@ bool Joints::close(BodyColumns start, double h, const std::function<BodyColumns(
   aim_driven_coordinates(start, h);
   total_multipliers_ = multipliers_;
   double last = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < kMostProjections; ++iteration) {
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const double gap = rows_.measure_gaps(attempt(rows_.wrench_of(total_multipliers_)));
     if (is_closed(gap, last, within)) return std::isfinite(gap);
     if (gap > extent_) return false;

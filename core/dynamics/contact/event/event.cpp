@@ -23,7 +23,7 @@
 namespace rigor {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTouching = 1e-10;      // m: gaps this small are closed; at 1 m/s it is 1e-10 s
 constexpr double kRounding = 1e-15;      // m: of the gap of bodies that touched at the start
 constexpr double kInstant = 1e-6;        // s
@@ -121,7 +121,7 @@ class EventStepper : public ContactStepper {
     pairs_.clear();
     if (persistent_contact_.is_at_rest(state)) return part_.to;
     part_.to = std::min(part_.to, part_.from + std::min(longest_, persistent_contact_.longest_step()));
-    longest_ = kNever;
+    longest_ = kInfinity;
     attempt(part_.length());
     shorten_until_bounded();
     pairs_ = contact_points_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length(), bounds_);
@@ -266,7 +266,7 @@ class EventStepper : public ContactStepper {
   // The least gap of points not in persistent contact. Where others of the pair are, what these drift is allowed to
   // them too.
   double least_free_gap() {
-    double least = kNever;
+    double least = kInfinity;
     const std::vector<PersistentPoint>& known = persistent_contact_.points();
     for (const auto& [a, b] : pairs_) {
       double drift = 0;
@@ -293,8 +293,8 @@ class EventStepper : public ContactStepper {
   Impacts impacts_;
   AccelerationBounds bounds_;
   Part part_;
-  double longest_ = kNever;  // s, of the next part
-  int instants_ = 0;         // skipped in this step
+  double longest_ = kInfinity;  // s, of the next part
+  int instants_ = 0;            // skipped in this step
   bool is_smooth_ = true;
   BodyTable start_, end_, clear_;
   std::vector<double> ahead_;  // s, ends of the intervals still to be looked at, the next one last

@@ -11,17 +11,17 @@ namespace rigor {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr double kGapClosed = 1e-13;  // m: a few roundings of a position of one metre
+constexpr double kClosed = 1e-13;  // m: a few roundings of a position of one metre
 constexpr int kMostMoves = 20;
-constexpr double kInContact = 1e-3;          // m: a point that drifted further than this is not in contact any more
-constexpr double kBeginning = 1e-11;         // m/s: how much a slip that begins may go the wrong way, by rounding
-constexpr double kPullingApart = 2e-9;       // of the forces: twice what is still chosen
-constexpr double kLeastAcceleration = 1e-6;  // m/s²: of accelerations; weaker forces are roundings
-constexpr double kStable = 2;                // of an explicit method: how much a step may be in units of what it damps
-constexpr double kShortest = 1e-5;           // s: what slips make of themselves within it is some 1e-4 m/s
-constexpr double kReversed = 0.1;            // of the fastest slip at any stage: what stages differ by is less
-constexpr double kComesBack = 10;  // of the restitution threshold: what parts no faster, and comes back, stays
-constexpr double kStill = 1e-15;   // of the speeds: what is left of a velocity that is to be zero
+constexpr double kTouching = 1e-3;    // m: a point that drifted further than this is not in contact any more
+constexpr double kBeginning = 1e-11;  // m/s: how much a slip that begins may go the wrong way, by rounding
+constexpr double kPulling = 2e-9;     // of the forces: twice what is still chosen
+constexpr double kLeastSize = 1e-6;   // m/s²: of accelerations; weaker forces are roundings
+constexpr double kStable = 2;         // of an explicit method: how much a step may be in units of what it damps
+constexpr double kShortest = 1e-5;    // s: what slips make of themselves within it is some 1e-4 m/s
+constexpr double kReversed = 0.1;     // of the fastest slip at any stage: what stages differ by is less
+constexpr double kSlow = 10;          // of the restitution threshold: what parts no faster, and comes back, stays
+constexpr double kStill = 1e-15;      // of the speeds: what is left of a velocity that is to be zero
 
 // Of no lower order than `own`, and asks for forces at its stages.
 const Integrator& integrator_in_contact(const Integrator& own) {
@@ -60,7 +60,7 @@ bool PersistentContact::select(MutableBodyColumns state, const std::vector<Conta
   const auto& colliders = contact_points_.colliders();
   for (const ContactPoint& contact : contact_points) {
     const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
-    if (u.x() > kComesBack * restitution_threshold_) continue;
+    if (u.x() > kSlow * restitution_threshold_) continue;
     PersistentPoint point;
     point.contact = contact;
     const Collider &a = colliders[contact.a], &b = colliders[contact.b];
@@ -126,8 +126,8 @@ double PersistentContact::slipping_margin() const {
   const bool shares_matter = persistent_.has_friction_of_slip();
   const double size = persistent_.largest_force();
   for (const PersistentPoint& point : points()) {
-    if (shares_matter && size > kLeastAcceleration * point.tangential_mass)
-      least = std::min(least, point.force.x() / size + kPullingApart);
+    if (shares_matter && size > kLeastSize * point.tangential_mass)
+      least = std::min(least, point.force.x() / size + kPulling);
     if (point.mode != PersistentPoint::Mode::slides || point.friction() == 0) continue;
     least = std::min(least, point.slip + (point.begins_to_slip ? kBeginning : 0));
     // A slip that ended within a long step, and began again; what an adaptive method tries and refuses is no sign of
@@ -172,7 +172,7 @@ bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<s
   double before = kForever;
   for (int k = 0; k < kMostMoves; ++k) {
     open_.clear(), targets_.clear();
-    contact_points_.find(state, pairs, kInContact, open_);
+    contact_points_.find(state, pairs, kTouching, open_);
     double widest = 0;
     for (const ContactPoint& contact : open_) {
       const bool is_carrying = which == Closing::all && carries(contact);
@@ -181,7 +181,7 @@ bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<s
       add_target(contact.cone, 0, -contact.gap, is_carrying);
     }
     // Where it does not fall by much any more, it is rounding, or there is no place for all bodies.
-    if (!(widest > kGapClosed) || widest > 0.5 * before) return k > 0;
+    if (!(widest > kClosed) || widest > 0.5 * before) return k > 0;
     before = widest;
     const std::vector<PoseStep>& motion = projection_.project(state, targets_);
     for (std::size_t i = 0; i < motion.size(); ++i) {
