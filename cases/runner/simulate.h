@@ -14,7 +14,8 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
 
 // CPU seconds of the run's steps, for comparing engines. Steps of a few microseconds are run again without a pause,
 // from the start and as many as the run had, and the quickest of the repeats counts: reading the clock before and after
-// each would be a good part of them, and whatever else the machine does only ever adds.
+// each would be a good part of them, and whatever else the machine does only ever adds. A run of more than a second is
+// not.
 double timed_again(const Engine& engine, const Settings& settings, const Scene& scene, const Simulation& run);
 
 }  // namespace rigor

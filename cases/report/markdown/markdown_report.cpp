@@ -126,7 +126,8 @@ std::string markdown_report(const Results& results) {
     text += fmt::format("- **{}:** {}\n", found.topic, plain(found.text));
     if (!found.more.empty()) text += fmt::format("  <br>{}\n", plain(found.more));
   }
-  text += "\n" + table(verdict_matrix(results)) + "\n" + plain(gate_summary(results)) + "\n";
+  const Words words = has_tables(results) ? Words::all : Words::few;
+  text += "\n" + table(verdict_matrix(results, words)) + "\n" + plain(gate_summary(results)) + "\n";
   for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
   text += has_tables(results) ? tables(results) : "A case's tables: `rigor run CASE`, or report.html.\n\n";
   const Machine machine = this_machine();

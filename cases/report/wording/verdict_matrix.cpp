@@ -31,7 +31,11 @@ std::string error_text(const Cell& cell, const std::string& metric) {
   return metric == "orientation_error" ? " " + rounded(value) + " rad" : " " + rounded(100 * value) + " %";
 }
 
-std::string cell_text(const Cell& cell, const std::string& metric) {
+std::string cell_text(const Cell& cell, const std::string& metric, Words words) {
+  const bool is_stable =
+      cell.status == Status::pass && !cell.metrics.empty() && cell.stability.verdict == Verdict::stable;
+  if (words == Words::few && is_stable) return sign_of(cell) + error_text(cell, metric);
+  if (words == Words::few && cell.status == Status::unsupported) return sign_of(cell);
   std::string word = word_of(cell.status);
   if (cell.status == Status::diverged) return sign_of(cell) + " " + phrase_of(cell.stability);
   if (cell.status == Status::pass && !cell.metrics.empty()) word = phrase_of(cell.stability);
@@ -111,14 +115,14 @@ std::string main_error(const CaseResult& result) {
   return has_truth && worst_of(result, "energy_drift") < kMoves ? "position_error" : "energy_drift_synchronised";
 }
 
-TextTable verdict_matrix(const Results& results) {
+TextTable verdict_matrix(const Results& results, Words words) {
   const StepSize headline = headline_dt(results);
   TextTable matrix{
       fmt::format("dt = {} s: the verdict, and the largest error of the position [m]; of the orientation "
                   "[rad] where nothing moves away; of the energy [%] where there is no truth. The darker "
                   "the square, the larger the position's error beside the case's size: ░ from 1e-3, ▒ 1e-2, "
-                  "▓ 1e-1, █ 1",
-                  headline.text),
+                  "▓ 1e-1, █ 1{}",
+                  headline.text, words == Words::few ? ". ✓: stable; –: unsupported" : ""),
       {{"case"}}};
   for (const RunName& run : results.runs) matrix.rows[0].push_back(run.text);
   for (const CaseResult& result : results.cases) {
@@ -129,7 +133,7 @@ TextTable verdict_matrix(const Results& results) {
     for (const Cell& cell : result.cells) {
       if (cell.dt != dt) continue;
       const std::string shade = shade_of(result, cell);
-      row[cell.run + 1] = cell_text(cell, metric) + (shade == " " ? "" : " " + shade);
+      row[cell.run + 1] = cell_text(cell, metric, words) + (shade == " " ? "" : " " + shade);
     }
     matrix.rows.push_back(row);
   }

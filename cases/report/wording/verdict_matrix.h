@@ -13,7 +13,9 @@ namespace rigor {
 std::string main_error(const CaseResult& result);
 
 // At headline_dt(); a case that has no such step is shown at its coarsest, which its row says.
-TextTable verdict_matrix(const Results& results);
+// With `Words::few` what is stable or unsupported is told by its sign alone, for where many cases stand.
+enum class Words { all, few };
+TextTable verdict_matrix(const Results& results, Words words = Words::all);
 
 // The step whose cells stand in a case's row: the headline's if the case has it, else its coarsest.
 StepSize matrix_dt(const CaseResult& result, const StepSize& headline);

@@ -71,14 +71,20 @@ std::vector<double> switch_times(const Scene& scene, double duration) {
 }
 
 std::vector<double> state_at(const ReferenceSolution& solution, const DoubleMotion& motion, double t) {
+  using State = std::vector<double>;
+  namespace odeint = boost::numeric::odeint;
+  // Kept from call to call for the room of its thirteen stages, which takes longer to make than a step of one body.
+  thread_local odeint::runge_kutta_fehlberg78<State, double, State, double, odeint::range_algebra,
+                                              odeint::default_operations, odeint::always_resizer>
+      fehlberg;
   const auto after = std::upper_bound(solution.times.begin(), solution.times.end(), static_cast<Extended>(t));
   const std::size_t node = after == solution.times.begin() ? 0 : after - solution.times.begin() - 1;
   const auto first = solution.states.begin() + node * solution.dimension;
-  std::vector<double> state(first, first + solution.dimension);
+  State state(first, first + solution.dimension);
   const double h = after == solution.times.end() ? 0 : static_cast<double>(t - solution.times[node]);
   if (h > 0) {
     auto system = motion.during(static_cast<double>((solution.times[node] + *after) / 2));
-    boost::numeric::odeint::runge_kutta_fehlberg78<std::vector<double>>().do_step(std::ref(system), state, 0.0, h);
+    fehlberg.do_step(std::ref(system), state, 0.0, h);
   }
   return state;
 }

@@ -1,10 +1,11 @@
 // Finds in a text what the TOML library (toml++ 3.3) must not be given, so that it is refused before it gets there:
 // - a dotted key of so many parts, a.a.a.a..., that the library, which walks the nested tables that it makes of one
-//   recursively, would run out of stack; it limits the nesting of values itself, but not this;
+//   recursively, would run out of stack: it refuses values nested deeper than TOML_MAX_NESTED_VALUES by itself, but as
+//   Debian ships it a key of 100,000 parts ends the process;
 // - a table's header that begins with no key, as "[ #": the library takes for granted that one follows;
 // - a character beyond ASCII where it looks for white space, outside of strings and comments or behind a line's end
-// that
-//   a string escapes: its table of white space has no answer for many of them. TOML allows none but in the last place.
+//   that a string escapes: its table of white space has no answer for many of them. TOML allows none but in the last
+//   place.
 #pragma once
 
 #include <optional>

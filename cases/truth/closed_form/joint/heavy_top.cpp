@@ -12,23 +12,17 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
 #include "cases/truth/closed_form/joint/even_quadrature.h"
 #include "cases/truth/closed_form/joint/swinging_body.h"
+#include "cases/truth/closed_form/quadruple.h"
 #include "cases/truth/closed_form/smooth/jacobi_elliptic.h"
 #include "cases/truth/closed_form/smooth/principal_spin.h"
 #include "core/base/error.h"
 
 namespace rigor {
 namespace {
-
-// The roots of f are close together near steady motion and near the upright.
-using Quad = boost::multiprecision::cpp_bin_float_quad;
-using QuadVec3 = Eigen::Matrix<Quad, 3, 1>;
-
-Extended rounded(const Quad& number) { return number.convert_to<Extended>(); }
 
 [[noreturn]] void refuse_heavy_top(const std::string& why) {
   throw InputError(

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
+#include "cases/truth/closed_form/quadruple.h"
 #include "cases/truth/closed_form/smooth/asymmetric_top.h"
 #include "cases/truth/closed_form/smooth/jacobi_elliptic.h"
 #include "core/base/error.h"
@@ -22,13 +22,10 @@ namespace rigor {
 namespace {
 
 // Near the separatrix |L|² - 2 E I2 is a small difference of two large sums, which would lose a long double's digits.
-using Quad = boost::multiprecision::cpp_bin_float_quad;
-using QuadVec3 = Eigen::Matrix<Quad, 3, 1>;
 using QuadMat3 = Eigen::Matrix<Quad, 3, 3>;
 
 constexpr Extended kQuadRoundings = 1e-32L;  // some fifty of them, relative
 
-Extended rounded(const Quad& number) { return number.convert_to<Extended>(); }
 Extended root(const Quad& square) { return std::sqrt(std::max<Extended>(0, rounded(square))); }
 
 // The principal axes, numbered as above.

@@ -194,6 +194,8 @@ BOOST_AUTO_TEST_CASE(the_matrix_has_a_word_and_a_number_in_each_cell) {
   matrix = verdict_matrix(grid);
   BOOST_TEST(
       (matrix.rows[1] == std::vector<std::string>{"family/case (dt 1/20)", "✓ stable 0.25 m ▓", "– unsupported"}));
+  matrix = verdict_matrix(grid, Words::few);
+  BOOST_TEST((matrix.rows[1] == std::vector<std::string>{"family/case (dt 1/20)", "✓ 0.25 m ▓", "–"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_cells_sign_and_word_are_its_verdict_and_its_shade_is_the_decade_of_its_error) {
