@@ -6,6 +6,7 @@
 // where bodies turn by so much in a step that there are none, those that the velocities need at its start, and the
 // least motion back at its end.
 #include "core/dynamics/integrators/euler_passes.h"
+#include "core/dynamics/joints/ball_joints.h"
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/wrench_columns.h"
 
@@ -17,7 +18,11 @@ constexpr double kClosed = 1e-11;
 
 class SemiImplicitEuler : public Stepper {
  public:
-  explicit SemiImplicitEuler(const StepperParts& parts) : parts_(parts), passes_(parts), wrenches_(parts.system) {}
+  explicit SemiImplicitEuler(const StepperParts& parts) : parts_(parts), passes_(parts), wrenches_(parts.system) {
+    if (!parts.joints || !parts.scene || parts.orientation->keeps_matrix) return;
+    if (BallJoints::are_all_of(*parts.scene) && parts.joints->rank() == parts.joints->rows())
+      balls_.emplace(*parts.scene, parts.system, kClosed * parts.joints->extent());
+  }
 
   void step(MutableBodyColumns state, double t, double dt) override {
     const BodyConstants& bodies = parts_.system.constants;
@@ -39,6 +44,7 @@ class SemiImplicitEuler : public Stepper {
   void constrained_step(MutableBodyColumns state, const double* wrench, double dt) {
     const BodyConstants& bodies = parts_.system.constants;
     bodies.for_each_block([&](const Bodies& block) { passes_.kick(block, state, wrench, dt); });
+    if (balls_ && balls_->drift(state, dt, parts_.orientation->turn)) return;
     const auto drift = [&](const double* impulse) -> BodyColumns {
       end_ = BodyColumns(state);
       parts_.joints->push(impulse, end_.columns());
@@ -55,6 +61,7 @@ class SemiImplicitEuler : public Stepper {
   StepperParts parts_;
   EulerPasses passes_;
   WrenchColumns wrenches_;
+  std::optional<BallJoints> balls_;  // where all joints are such
   BodyTable end_;
 };
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/dynamics/joints/constraint_rows.h"
+#include "core/dynamics/joints/elimination_order.h"
 
 namespace rigor {
 
@@ -29,14 +30,9 @@ class BlockCholesky {
   void clear();
   // Rows that a joint may have but has not now: identity there, and zero in the blocks beside. Ranks are to be found
   // anew after it.
-  void set_rows_in_use(std::size_t joint, int rows) { in_use_[position_[joint]] = rows; }
-  Block diagonal(std::size_t joint) { return {diagonal_of(position_[joint]), rows_[joint], rows_[joint]}; }
-  // The place of the block of two joints that share a body, and whether it is (second, first) that stands there.
-  struct Place {
-    std::int32_t index;
-    bool transposed;
-  };
-  Place place(int first, int second) const;
+  void set_rows_in_use(std::size_t joint, int rows) { in_use_[order_.position[joint]] = rows; }
+  Block diagonal(std::size_t joint) { return {diagonal_of(order_.position[joint]), rows_[joint], rows_[joint]}; }
+  EliminationOrder::Place place(int first, int second) const { return order_.place(first, second); }
   Block block(std::int32_t index) { return {block_at(index), block_rows_[index], block_columns_[index]}; }
 
   // Finds each block's rank from the S that has been filled in, on the manifold: a pivot is zero if it is below kZero
@@ -62,20 +58,17 @@ class BlockCholesky {
 
   // Joints that are connected by bodies that can move make a component; its joints are eliminated one after another.
   // Numbered in the order of their first joints.
-  int components() const { return components_; }
-  int component_of(std::size_t joint) const { return component_[joint]; }
+  int components() const { return order_.components; }
+  int component_of(std::size_t joint) const { return order_.component[joint]; }
   // solve() for the joints of a component alone; the others' x is not read.
   void solve_component(int component, std::vector<Vec6>& x) const {
-    solve(x, first_of_component_[component], first_of_component_[component + 1]);
+    solve(x, order_.first_of_component[component], order_.first_of_component[component + 1]);
   }
 
  private:
   void solve(std::vector<Vec6>& x, std::size_t first, std::size_t last) const;
-  void find_components(const std::vector<std::pair<int, int>>& coupled);
-  void order(const std::vector<std::pair<int, int>>& coupled);
-  void list_products();
   void lay_out();
-  int rows_at(std::size_t p) const { return rows_[joint_[p]]; }
+  int rows_at(std::size_t p) const { return rows_[order_.joint[p]]; }
   double* diagonal_of(std::size_t p) { return values_.data() + diagonal_start_[p]; }
   const double* diagonal_of(std::size_t p) const { return values_.data() + diagonal_start_[p]; }
   double* block_at(std::int32_t index) { return values_.data() + block_start_[static_cast<std::size_t>(index)]; }
@@ -89,20 +82,13 @@ class BlockCholesky {
   template <int R>
   void factorise_diagonal(std::size_t p);
 
+  EliminationOrder order_;
   std::vector<int> rows_, in_use_, rank_;  // by joint; by position
-  std::vector<std::size_t> joint_;         // by position in the order of elimination
-  std::vector<std::size_t> position_;      // by joint
   // Each column of blocks in one piece, in the order of elimination: its diagonal block, then those below.
   std::vector<double> values_;
   std::vector<std::size_t> diagonal_start_, block_start_;
   std::vector<Vec6> scale_, kept_;  // by position: the diagonal before elimination; 1 for a row that counts, or 0
-  std::vector<std::int32_t> first_below_, row_below_;  // blocks below the diagonal, column by column, rows ascending
-  std::vector<int> block_rows_, block_columns_;        // in that order
-  std::vector<std::int32_t> target_;  // of the product of each two blocks of a column, in order: a block, or ~position
-  std::vector<std::size_t> first_target_;
-  std::vector<int> component_;  // by joint
-  std::vector<std::size_t> first_of_component_;
-  int components_ = 0;
+  std::vector<int> block_rows_, block_columns_;  // as the order has them below the diagonal
   bool has_redundant_ = false;
   double smallest_pivot_ = 1;
   std::size_t joint_of_smallest_ = 0;

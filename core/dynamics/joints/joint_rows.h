@@ -83,7 +83,7 @@ class JointRows {
   struct Coupling {  // two joints on a body
     std::int32_t first, second;
     std::int8_t first_end, second_end;
-    BlockCholesky::Place place;
+    EliminationOrder::Place place;
   };
   struct Frame {  // of a body that some joint moves
     EndMotion motion;

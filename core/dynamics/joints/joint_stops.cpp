@@ -102,28 +102,39 @@ void JointStops::hold(BodyColumns state, double t) {
 }
 
 bool JointStops::resolve_impacts(MutableBodyColumns state, double t, double shortest_flight) {
-  if (std::none_of(stops_.begin(), stops_.end(), [&](const Stop& stop) { return hit_side(stop) != 0; })) return true;
-  // No motor has an impulse, for its effort has a bound.
-  for (Stop& stop : stops_) stop.at = 0, stop.drive = Drive::off, stop.bounce = 0;
-  find_bounces(state, t, shortest_flight);
-  const bool found = find_impulses(state);
-  read(state, 0);
+  std::vector<int> hit;  // side by stop
+  for (const Stop& stop : stops_) hit.push_back(hit_side(stop));
+  if (std::none_of(hit.begin(), hit.end(), [](int side) { return side != 0; })) return true;
+  for (std::size_t i = 0; i < stops_.size(); ++i)
+    stops_[i].bounce = hit[i] != 0 ? -stops_[i].restitution * stops_[i].rate : 0;
+  before_ = BodyColumns(state);
+  bool found = true;
+  do {
+    copy_columns(before_.columns(), state);
+    // No motor has an impulse, for its effort has a bound.
+    for (std::size_t i = 0; i < stops_.size(); ++i) stops_[i].at = hit[i], stops_[i].drive = Drive::off;
+    found = find_impulses(state);
+    read(state, 0);
+  } while (found && take_away_short_flights(state, t, shortest_flight, hit));
   for (Stop& stop : stops_) stop.bounce = 0;
   return found;
 }
 
-// What is hit sends x' back times the restitution, unless it would be back at once.
-void JointStops::find_bounces(BodyColumns state, double t, double shortest_flight) {
-  apply(state);
-  hold(state, t);
-  for (Stop& stop : stops_) {
-    const int side = hit_side(stop);
-    if (side == 0) continue;
-    stop.at = side;
-    stop.bounce = -stop.restitution * stop.rate;
-    const double back = side * joints_.coordinate_acceleration(stop.joint, state);
-    if (back > 0 && 2 * std::abs(stop.bounce) < back * shortest_flight) stop.bounce = 0;
+// Which bounces end at once is a matter of what else holds after the impact. Whether there were any.
+bool JointStops::take_away_short_flights(BodyColumns state, double t, double shortest_flight,
+                                         const std::vector<int>& hit) {
+  if (std::none_of(stops_.begin(), stops_.end(), [](const Stop& stop) { return stop.bounce != 0; })) return false;
+  guess_modes();
+  find_modes(state, t);
+  bool any = false;
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    Stop& stop = stops_[i];
+    if (stop.bounce == 0) continue;
+    const double back = hit[i] * joints_.coordinate_acceleration(stop.joint, state);
+    if (!(back > 0 && 2 * std::abs(stop.bounce) < back * shortest_flight)) continue;
+    stop.bounce = 0, any = true;
   }
+  return any;
 }
 
 bool JointStops::find_impulses(MutableBodyColumns state) {

@@ -69,7 +69,7 @@ class JointStops {
   void apply(BodyColumns state);
   void hold(BodyColumns state, double t);
   bool resolve_impacts(MutableBodyColumns state, double t, double shortest_flight);
-  void find_bounces(BodyColumns state, double t, double shortest_flight);
+  bool take_away_short_flights(BodyColumns state, double t, double shortest_flight, const std::vector<int>& hit);
   bool find_impulses(MutableBodyColumns state);
   void guess_modes();
   bool find_modes(BodyColumns state, double t);
@@ -79,7 +79,7 @@ class JointStops {
   Loads& loads_;
   WrenchColumns wrenches_;
   std::vector<Stop> stops_;
-  BodyTable after_;
+  BodyTable before_, after_;
   double effort_tolerance_ = 0, acceleration_tolerance_ = 0;
 };
 

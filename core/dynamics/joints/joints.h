@@ -63,6 +63,7 @@ class Joints : public ConstraintForces {
   // not allow.
   void restrict(int component, std::vector<Vec6>& change);
 
+  double extent() const { return extent_; }  // m: the longest arm, what gaps are small against
   // Rows of all joints, and how many of them do not repeat others.
   int rows() const;
   int rank() const { return factor_.rank(); }
@@ -107,7 +108,7 @@ class Joints : public ConstraintForces {
   std::vector<int> component_of_body_;
   std::vector<std::vector<int>> bodies_of_component_, joints_of_component_;  // bodies that can move
   Columns total_;
-  double extent_ = 1;  // m: the longest arm, what gaps are small against
+  double extent_ = 1;  // m
   struct SprungHinge {
     JointCoordinate coordinate;
     std::size_t joint;

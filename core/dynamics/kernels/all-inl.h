@@ -23,6 +23,7 @@ inline constexpr std::size_t kFewBodies = 1, kFewSprings = 2;
 #include "core/dynamics/kernels/spring_kernel-inl.h"
 #include "core/dynamics/kernels/stage_kernels-inl.h"
 // and on these:
+#include "core/dynamics/kernels/ball_kernels-inl.h"
 #include "core/dynamics/kernels/contact_row_kernels-inl.h"
 #include "core/dynamics/kernels/multistep_kernels-inl.h"
 
@@ -62,6 +63,15 @@ const Kernels kTable = {
     .solve_impacts_with_bias = solve_impacts_with_bias,
     .relax = relax,
     .apply_restitution = apply_restitution,
+};
+
+extern const BallKernels kBallTable;
+const BallKernels kBallTable = {
+    .gather_poses = gather_poses,
+    .prepare = prepare_balls,
+    .assemble = assemble_balls,
+    .push_and_drift = push_and_drift,
+    .measure = measure_balls,
 };
 
 }  // namespace RIGOR_LANES_OF

@@ -1,16 +1,21 @@
 #include "core/dynamics/kernels/kernels.h"
 
+#include "core/dynamics/kernels/ball_kernels.h"
+
 namespace rigor {
 
 namespace plain {
 extern const Kernels kTable;
+extern const BallKernels kBallTable;
 }
 #ifdef __x86_64__
 namespace avx2 {
 extern const Kernels kTable;
+extern const BallKernels kBallTable;
 }
 namespace avx512 {
 extern const Kernels kTable;
+extern const BallKernels kBallTable;
 }
 #endif
 
@@ -27,6 +32,14 @@ const Kernels*& in_use() {
 }  // namespace
 
 const Kernels& kernels() { return *in_use(); }
+
+const BallKernels& ball_kernels() {
+#ifdef __x86_64__
+  if (in_use() == &avx2::kTable) return avx2::kBallTable;
+  if (in_use() == &avx512::kTable) return avx512::kBallTable;
+#endif
+  return plain::kBallTable;
+}
 
 std::size_t available_kernels(const Kernels* (&out)[kMostKernelTables]) {
   std::size_t count = 0;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/dynamics/kernels/ball_kernels.h"
 #include "core/dynamics/kernels/kernels.h"
 
 #ifdef __clang__

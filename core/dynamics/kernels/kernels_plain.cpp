@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/dynamics/kernels/ball_kernels.h"
 #include "core/dynamics/kernels/kernels.h"
 
 #define RIGOR_LANES 2
