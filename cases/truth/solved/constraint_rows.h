@@ -15,6 +15,19 @@
 
 namespace rigor {
 
+enum class Residual { gap, rate };
+
+// Onto a state's constraints by `correct`, a round that takes the residuals of all rows away to first order: positions
+// by Newton's rounds, each of which squares what is left, then velocities, which are linear. False if one round is.
+template <typename Correct>
+bool project_by(const Correct& correct) {
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    if (!correct(Residual::gap)) return false;
+  }
+  return correct(Residual::rate);
+}
+
 template <typename Real, int N>
 struct ConstraintRow {
   using Block = Eigen::Matrix<Real, N, 1>;
@@ -29,6 +42,9 @@ struct ConstraintRow {
       if (body[k] >= 0) sum += block[k].dot(velocities[body[k]]);
     }
     return sum;
+  }
+  Real residual(Residual what, const std::vector<Block>& velocities) const {
+    return what == Residual::gap ? gap : rate(velocities);
   }
 };
 

@@ -23,11 +23,7 @@ namespace {
 constexpr double kAtRest = 2e-7;
 
 ReferenceSolution events_solution(const Scene& scene, double duration) {
-  const std::string content = events_content(scene, duration);
-  if (auto kept = kept_solution(content)) return std::move(*kept);
-  ReferenceSolution solution = solve_events(scene, duration);
-  keep_solution(content, solution);
-  return solution;
+  return kept_or_solved(events_content(scene, duration), [&] { return solve_events(scene, duration); });
 }
 
 class Events final : public Truth {

@@ -262,32 +262,31 @@ class JointedMotion<Real>::Interval {
 
   // Moves the state to the nearest, weighed by mass, that its joints allow. False if there is none near.
   bool project(State& state) {
+    return project_by([&](Residual what) { return correct(state, what); });
+  }
+
+ private:
+  bool correct(State& state, Residual what) {
     const JointedMotion& m = *motion_;
-    constexpr int kRounds = 4;  // each squares what is left
-    for (int round = 0; round < kRounds; ++round) {
-      const std::vector<Pose> poses = m.poses_of(state);
-      const std::vector<Row> rows = m.rows_at(poses);
-      const auto mass = m.inverse_masses(poses);
-      if (!solver_.factorise(rows, mass)) return false;
-      const auto moves = solver_.correction(rows, mass, [](const Row& row) { return row.gap; });
-      for (const int i : m.free_.moving()) m.move(poses[i], moves[m.order_[i]], &state[m.free_.slot(i)]);
-    }
     const std::vector<Pose> poses = m.poses_of(state);
     const std::vector<Row> rows = m.rows_at(poses);
     const auto mass = m.inverse_masses(poses);
     if (!solver_.factorise(rows, mass)) return false;
     const auto velocities = m.velocities_of(poses);
-    const auto changes = solver_.correction(rows, mass, [&](const Row& row) { return row.rate(velocities); });
+    const auto changes = solver_.correction(rows, mass, [&](const Row& row) { return row.residual(what, velocities); });
     for (const int i : m.free_.moving()) {
       Real* s = &state[m.free_.slot(i)];
       const auto& change = changes[m.order_[i]];
-      Free::put(s + 7, Free::get(s + 7) + change.template head<3>());
-      Free::put(s + 10, Free::get(s + 10) + poses[i].R.transpose() * change.template tail<3>());
+      if (what == Residual::gap) {
+        m.move(poses[i], change, s);
+      } else {
+        Free::put(s + 7, Free::get(s + 7) + change.template head<3>());
+        Free::put(s + 10, Free::get(s + 10) + poses[i].R.transpose() * change.template tail<3>());
+      }
     }
     return true;
   }
 
- private:
   const JointedMotion* motion_;
   typename Free::Interval free_;
   Rows solver_;

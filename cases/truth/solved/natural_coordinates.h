@@ -9,10 +9,10 @@
 #pragma once
 
 #include <limits>
-#include <stdexcept>
+#include <optional>
 
-#include "cases/truth/solved/constraint_rows.h"
 #include "cases/truth/solved/joint_axis.h"
+#include "cases/truth/solved/natural_joints.h"
 #include "core/engine/body_table.h"
 
 namespace rigor {
@@ -21,8 +21,9 @@ template <typename Real>
 class NaturalCoordinates {
  public:
   using State = std::vector<Real>;
-  using Vector = Eigen::Matrix<Real, 3, 1>;
-  using Matrix = Eigen::Matrix<Real, 3, 3>;
+  using Frame = NaturalFrame<Real>;
+  using Vector = typename Frame::Vector;
+  using Matrix = typename Frame::Matrix;
   using Rows = ConstraintRows<Real, 12>;
   using Row = typename Rows::Row;
   using Block = typename Row::Block;
@@ -35,7 +36,8 @@ class NaturalCoordinates {
       second_moment_.push_back(inertia.trace() / 2 * Matrix::Identity() - inertia);
     }
     const std::vector<Frame> start = frames_of(start_as_read());
-    for (const Joint& joint : scene.joints) add(joint, start);
+    joints_.emplace(order_);
+    for (const Joint& joint : scene.joints) joints_->add(joint, start);
     Rows rows;
     rows.factorise(rows_at(start), inverse_masses(start));
     choice_ = rows.choice();
@@ -59,7 +61,7 @@ class NaturalCoordinates {
       }
       Real s[kNumbersPerBody];
       for (int k = 0; k < kNumbersPerBody; ++k) s[k] = static_cast<Real>(state[kNumbersPerBody * order_[i] + k]);
-      const Frame frame = frame_of(s);
+      const Frame frame = Frame::read(s);
       Mat3 R = frame.R.template cast<double>();
       out.set_body(i, {frame.x.template cast<double>(), Quat(R).normalized(), frame.dx.template cast<double>(),
                        frame.w().template cast<double>()});
@@ -67,58 +69,7 @@ class NaturalCoordinates {
   }
 
  private:
-  static constexpr int kNumbersPerBody = 24;  // x, d_1, d_2, d_3 and their rates
-
-  struct Frame {
-    Vector x = Vector::Zero(), dx = Vector::Zero();
-    Matrix R = Matrix::Identity(), dR = Matrix::Zero();  // columns d_i and d_i'
-    Block force = Block::Zero();                         // generalised: on x, then on each d_i
-
-    Vector point(const Vector& in_B) const { return x + R * in_B; }
-    Vector rate_of(const Vector& in_B) const { return dx + dR * in_B; }
-    // The mean over the axes, for where d_i are not quite at right angles.
-    Vector w() const {
-      Vector sum = Vector::Zero();
-      for (int i = 0; i < 3; ++i) sum += Vector(R.col(i)).cross(Vector(dR.col(i)));
-      return sum / 2;
-    }
-    void push(const Vector& f, const Vector& at_B) {
-      force.template head<3>() += f;
-      for (int i = 0; i < 3; ++i) force.template segment<3>(3 + 3 * i) += at_B[i] * f;
-    }
-    void turn(const Vector& torque) {
-      for (int i = 0; i < 3; ++i) force.template segment<3>(3 + 3 * i) += torque.cross(Vector(R.col(i))) / 2;
-    }
-  };
-
-  // Each keeps a polynomial of the two bodies' coordinates at what it is at t = 0.
-  struct SharedPoint {
-    int a, b;
-    Vector at_a, at_b;
-  };
-  struct DotProduct {  // of a direction of a with one of b
-    int a, b;
-    Vector of_a, of_b;
-    Real kept;
-  };
-  struct DotOffset {  // of a direction of a with the way from a's centre to b's
-    int a, b;
-    Vector of_a;
-    Real kept;
-  };
-  struct Squared {  // of the way between two points
-    int a, b;
-    Vector at_a, at_b;
-    Real kept;
-  };
-
-  static Frame frame_of(const Real* s) {
-    using Map = Eigen::Map<const Eigen::Matrix<Real, 3, 1>>;
-    Frame frame;
-    frame.x = Map(s), frame.dx = Map(s + 12);
-    for (int i = 0; i < 3; ++i) frame.R.col(i) = Map(s + 3 + 3 * i), frame.dR.col(i) = Map(s + 15 + 3 * i);
-    return frame;
-  }
+  static constexpr int kNumbersPerBody = Frame::kNumbers;
 
   State start_as_read() const {
     State state(kNumbersPerBody * moving_.size());
@@ -141,7 +92,7 @@ class NaturalCoordinates {
     std::vector<Frame> frames(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) {
       if (order_[i] >= 0) {
-        frames[i] = frame_of(&state[kNumbersPerBody * order_[i]]);
+        frames[i] = Frame::read(&state[kNumbersPerBody * order_[i]]);
       } else {
         frames[i].x = scene_.bodies[i].position.template cast<Real>();
         frames[i].R = scene_.bodies[i].orientation.template cast<Real>().normalized().toRotationMatrix();
@@ -150,110 +101,10 @@ class NaturalCoordinates {
     return frames;
   }
 
-  static const Frame& frame(const std::vector<Frame>& frames, int body) {
-    static const Frame world;
-    return body == kWorld ? world : frames[body];
-  }
-
-  void keep_dot(const Joint& joint, const std::vector<Frame>& start, const Vector& of_a, const Vector& of_b) {
-    const Vector u = frame(start, joint.a).R * of_a, v = frame(start, joint.b).R * of_b;
-    dots_.push_back({joint.a, joint.b, of_a, of_b, u.dot(v)});
-  }
-
-  void add(const Joint& joint, const std::vector<Frame>& start) {
-    const Frame &a = frame(start, joint.a), &b = frame(start, joint.b);
-    const auto share = [&](const Vector& point) {
-      points_.push_back({joint.a, joint.b, a.R.transpose() * (point - a.x), b.R.transpose() * (point - b.x)});
-    };
-    const auto in_a = [&](const Vector& u) { return Vector(a.R.transpose() * u); };
-    const auto in_b = [&](const Vector& u) { return Vector(b.R.transpose() * u); };
-    // Two directions beside the axis: what is left of two of W's axes, made orthonormal.
-    const auto beside = [](const Vector& axis) {
-      Eigen::Matrix<Real, 3, 1> first = Vector::Unit(0), second = Vector::Unit(1);
-      if (abs_of(axis[0]) > abs_of(axis[2])) first = Vector::Unit(2);
-      if (abs_of(axis[1]) > abs_of(axis[0]) && abs_of(axis[1]) > abs_of(axis[2]))
-        first = Vector::Unit(0), second = Vector::Unit(2);
-      first = (first - axis.dot(first) * axis).normalized();
-      second = (second - axis.dot(second) * axis - first.dot(second) * first).normalized();
-      return std::array<Vector, 2>{first, second};
-    };
-    // The same turn: d_i of a against d_j of b, as at the start.
-    const auto keep_turn = [&] {
-      const Vector e[] = {in_b(a.R.col(0)), in_b(a.R.col(1)), in_b(a.R.col(2))};
-      keep_dot(joint, start, Vector::Unit(1), e[0]), keep_dot(joint, start, Vector::Unit(2), e[1]);
-      keep_dot(joint, start, Vector::Unit(0), e[2]);
-    };
-    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-      share(ball->anchor.template cast<Real>());
-    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-      share(hinge->anchor.template cast<Real>());
-      const Vector axis = hinge->axis.template cast<Real>().normalized();
-      for (const Vector& u : beside(axis)) keep_dot(joint, start, in_a(axis), in_b(u));
-    } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-      share(universal->anchor.template cast<Real>());
-      keep_dot(joint, start, in_a(universal->axis.template cast<Real>()), in_b(universal->axis2.template cast<Real>()));
-    } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
-      keep_turn();
-      for (const Vector& u : beside(slider->axis.template cast<Real>().normalized())) {
-        offsets_.push_back({joint.a, joint.b, in_a(u), u.dot(b.x - a.x)});
-      }
-    } else if (std::holds_alternative<FixedJoint>(joint.type)) {
-      keep_turn();
-      share((a.x + b.x) / 2);
-    } else {
-      const auto& distance = std::get<DistanceJoint>(joint.type);
-      const Vector at_a = distance.point_a.template cast<Real>(), at_b = distance.point_b.template cast<Real>();
-      squares_.push_back({joint.a, joint.b, at_a, at_b, (b.point(at_b) - a.point(at_a)).squaredNorm()});
-    }
-  }
-
-  static Real abs_of(const Real& number) { return number < 0 ? Real(-number) : number; }
-
-  // d/dx = linear, d/d(d_i) = weights_i linear.
-  void set(Row& row, int end, int body, const Vector& on_centre, const Vector& weights, const Vector& on_axes) const {
-    if (body == kWorld || order_[body] < 0) return;
-    row.body[end] = order_[body];
-    row.block[end].template head<3>() = on_centre;
-    for (int i = 0; i < 3; ++i) row.block[end].template segment<3>(3 + 3 * i) = weights[i] * on_axes;
-  }
-
   std::vector<Row> rows_at(const std::vector<Frame>& frames) const {
     std::vector<Row> rows;
     for (const int i : moving_) add_own_rows(order_[i], frames[i], rows);
-    for (const SharedPoint& point : points_) {
-      const Frame &a = frame(frames, point.a), &b = frame(frames, point.b);
-      const Vector gap = b.point(point.at_b) - a.point(point.at_a);
-      for (int k = 0; k < 3; ++k) {
-        Row& row = rows.emplace_back();
-        const Vector axis = Vector::Unit(k);
-        set(row, 0, point.a, -axis, point.at_a, -axis), set(row, 1, point.b, axis, point.at_b, axis);
-        row.gap = gap[k];
-      }
-    }
-    for (const DotProduct& dot : dots_) {
-      const Frame &a = frame(frames, dot.a), &b = frame(frames, dot.b);
-      const Vector u = a.R * dot.of_a, v = b.R * dot.of_b;
-      Row& row = rows.emplace_back();
-      set(row, 0, dot.a, Vector::Zero(), dot.of_a, v), set(row, 1, dot.b, Vector::Zero(), dot.of_b, u);
-      row.gap = u.dot(v) - dot.kept;
-      row.bias = 2 * (a.dR * dot.of_a).dot(b.dR * dot.of_b);
-    }
-    for (const DotOffset& offset : offsets_) {
-      const Frame &a = frame(frames, offset.a), &b = frame(frames, offset.b);
-      const Vector n = a.R * offset.of_a;
-      Row& row = rows.emplace_back();
-      set(row, 0, offset.a, -n, offset.of_a, b.x - a.x), set(row, 1, offset.b, n, Vector::Zero(), n);
-      row.gap = n.dot(b.x - a.x) - offset.kept;
-      row.bias = 2 * (a.dR * offset.of_a).dot(b.dx - a.dx);
-    }
-    for (const Squared& squared : squares_) {
-      const Frame &a = frame(frames, squared.a), &b = frame(frames, squared.b);
-      const Vector d = b.point(squared.at_b) - a.point(squared.at_a);
-      Row& row = rows.emplace_back();
-      set(row, 0, squared.a, -d, squared.at_a, -d), set(row, 1, squared.b, d, squared.at_b, d);
-      row.gap = (d.squaredNorm() - squared.kept) / 2;
-      row.bias = (b.rate_of(squared.at_b) - a.rate_of(squared.at_a)).squaredNorm();
-    }
+    joints_->add_rows(frames, rows);
     return rows;
   }
 
@@ -343,10 +194,7 @@ class NaturalCoordinates {
   std::vector<JointAxis<Real>> axes_;
   std::vector<int> moving_, order_;  // as in JointedMotion
   std::vector<Matrix> second_moment_;
-  std::vector<SharedPoint> points_;
-  std::vector<DotProduct> dots_;
-  std::vector<DotOffset> offsets_;
-  std::vector<Squared> squares_;
+  std::optional<NaturalJoints<Real>> joints_;
   RowChoice choice_;
 };
 
@@ -376,11 +224,7 @@ class NaturalCoordinates<Real>::Interval {
 
   // As JointedMotion's.
   bool project(State& state) {
-    constexpr int kRounds = 4;
-    for (int round = 0; round < kRounds; ++round) {
-      if (!correct(state, 0, [](const Row& row, const std::vector<Block>&) { return row.gap; })) return false;
-    }
-    return correct(state, 12, [](const Row& row, const std::vector<Block>& rates) { return row.rate(rates); });
+    return project_by([&](Residual what) { return correct(state, what); });
   }
 
  private:
@@ -392,16 +236,15 @@ class NaturalCoordinates<Real>::Interval {
     return load;
   }
 
-  // `first`: of the numbers of a body that are moved.
-  template <typename Residual>
-  bool correct(State& state, int first, const Residual& residual) {
+  bool correct(State& state, Residual what) {
     const std::vector<Frame> frames = motion_->frames_of(state);
     const std::vector<Row> rows = motion_->rows_at(frames);
     const auto mass = motion_->inverse_masses(frames);
     if (!solver_.factorise(rows, mass)) return false;
     std::vector<Block> rates(mass.size());
     for (std::size_t b = 0; b < mass.size(); ++b) rates[b] = Eigen::Map<const Block>(&state[kNumbersPerBody * b + 12]);
-    const auto moves = solver_.correction(rows, mass, [&](const Row& row) { return residual(row, rates); });
+    const auto moves = solver_.correction(rows, mass, [&](const Row& row) { return row.residual(what, rates); });
+    const int first = what == Residual::gap ? 0 : 12;  // of the numbers of a body that are moved
     for (std::size_t b = 0; b < mass.size(); ++b) {
       for (int k = 0; k < 12; ++k) state[kNumbersPerBody * b + first + k] += moves[b][k];
     }

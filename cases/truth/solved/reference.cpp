@@ -17,11 +17,7 @@ namespace rigor {
 namespace {
 
 ReferenceSolution reference_solution(const Scene& scene, double duration) {
-  const std::string content = reference_content(scene, duration);
-  if (auto kept = kept_solution(content)) return std::move(*kept);
-  ReferenceSolution solution = solve_reference(scene, duration);
-  keep_solution(content, solution);
-  return solution;
+  return kept_or_solved(reference_content(scene, duration), [&] { return solve_reference(scene, duration); });
 }
 
 class Reference final : public Truth {

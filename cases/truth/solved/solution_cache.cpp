@@ -267,4 +267,11 @@ void keep_solution(const std::string& content, const ReferenceSolution& solution
   drop_unused(folder);
 }
 
+ReferenceSolution kept_or_solved(const std::string& content, const std::function<ReferenceSolution()>& solve) {
+  if (auto kept = kept_solution(content)) return std::move(*kept);
+  ReferenceSolution solution = solve();
+  keep_solution(content, solution);
+  return solution;
+}
+
 }  // namespace rigor

@@ -4,6 +4,7 @@
 // RIGOR_CACHE_DIR switches it off.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -22,5 +23,7 @@ std::string events_content(const Scene& scene, double duration, const std::strin
 
 std::optional<ReferenceSolution> kept_solution(const std::string& content);
 void keep_solution(const std::string& content, const ReferenceSolution& solution);
+// The one that is kept, or else the one that `solve` makes, from now on kept.
+ReferenceSolution kept_or_solved(const std::string& content, const std::function<ReferenceSolution()>& solve);
 
 }  // namespace rigor

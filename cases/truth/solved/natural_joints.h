@@ -1,0 +1,169 @@
+// The joints of a scene in natural coordinates (natural_coordinates.h), each as polynomials of degree two in its
+// bodies' coordinates, kept at what they are at t = 0:
+//   shared point   p_b - p_a                  dot product   u_a . u_b
+//   dot offset     u_a . (x_b - x_a)          squared       (p_b - p_a)^2 / 2
+#pragma once
+
+#include <array>
+#include <variant>
+#include <vector>
+
+#include "cases/truth/solved/constraint_rows.h"
+#include "cases/truth/solved/natural_frame.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+template <typename Real>
+class NaturalJoints {
+ public:
+  using Frame = NaturalFrame<Real>;
+  using Row = ConstraintRow<Real, 12>;
+  using Vector = typename Frame::Vector;
+
+  // `order`: of each body, its place among those that move; -1 if it is fixed.
+  explicit NaturalJoints(std::vector<int> order) : order_(std::move(order)) {}
+
+  // As the bodies stand in `start`.
+  void add(const Joint& joint, const std::vector<Frame>& start) {
+    const Frame &a = frame(start, joint.a), &b = frame(start, joint.b);
+    const auto share = [&](const Vector& point) {
+      points_.push_back({joint.a, joint.b, a.R.transpose() * (point - a.x), b.R.transpose() * (point - b.x)});
+    };
+    const auto in_a = [&](const Vector& u) { return Vector(a.R.transpose() * u); };
+    const auto in_b = [&](const Vector& u) { return Vector(b.R.transpose() * u); };
+    // The same turn: d_i of a against d_j of b, as at the start.
+    const auto keep_turn = [&] {
+      const Vector e[] = {in_b(a.R.col(0)), in_b(a.R.col(1)), in_b(a.R.col(2))};
+      keep_dot(joint, start, Vector::Unit(1), e[0]), keep_dot(joint, start, Vector::Unit(2), e[1]);
+      keep_dot(joint, start, Vector::Unit(0), e[2]);
+    };
+    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
+      share(ball->anchor.template cast<Real>());
+    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
+      share(hinge->anchor.template cast<Real>());
+      const Vector axis = hinge->axis.template cast<Real>().normalized();
+      for (const Vector& u : beside(axis)) keep_dot(joint, start, in_a(axis), in_b(u));
+    } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
+      share(universal->anchor.template cast<Real>());
+      keep_dot(joint, start, in_a(universal->axis.template cast<Real>()), in_b(universal->axis2.template cast<Real>()));
+    } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
+      keep_turn();
+      for (const Vector& u : beside(slider->axis.template cast<Real>().normalized())) {
+        offsets_.push_back({joint.a, joint.b, in_a(u), u.dot(b.x - a.x)});
+      }
+    } else if (std::holds_alternative<FixedJoint>(joint.type)) {
+      keep_turn();
+      share((a.x + b.x) / 2);
+    } else {
+      const auto& distance = std::get<DistanceJoint>(joint.type);
+      const Vector at_a = distance.point_a.template cast<Real>(), at_b = distance.point_b.template cast<Real>();
+      squares_.push_back({joint.a, joint.b, at_a, at_b, (b.point(at_b) - a.point(at_a)).squaredNorm()});
+    }
+  }
+
+  void add_rows(const std::vector<Frame>& frames, std::vector<Row>& rows) const {
+    for (const SharedPoint& point : points_) add_rows(point, frames, rows);
+    for (const DotProduct& dot : dots_) add_row(dot, frames, rows);
+    for (const DotOffset& offset : offsets_) add_row(offset, frames, rows);
+    for (const Squared& squared : squares_) add_row(squared, frames, rows);
+  }
+
+ private:
+  struct SharedPoint {
+    int a, b;
+    Vector at_a, at_b;
+  };
+  struct DotProduct {  // of a direction of a with one of b
+    int a, b;
+    Vector of_a, of_b;
+    Real kept;
+  };
+  struct DotOffset {  // of a direction of a with the way from a's centre to b's
+    int a, b;
+    Vector of_a;
+    Real kept;
+  };
+  struct Squared {  // of the way between two points
+    int a, b;
+    Vector at_a, at_b;
+    Real kept;
+  };
+
+  static const Frame& frame(const std::vector<Frame>& frames, int body) {
+    static const Frame world;
+    return body == kWorld ? world : frames[body];
+  }
+
+  void keep_dot(const Joint& joint, const std::vector<Frame>& start, const Vector& of_a, const Vector& of_b) {
+    const Vector u = frame(start, joint.a).R * of_a, v = frame(start, joint.b).R * of_b;
+    dots_.push_back({joint.a, joint.b, of_a, of_b, u.dot(v)});
+  }
+
+  static Real abs_of(const Real& number) { return number < 0 ? Real(-number) : number; }
+
+  // Two directions beside the axis: what is left of two of W's axes, made orthonormal.
+  static std::array<Vector, 2> beside(const Vector& axis) {
+    Vector first = Vector::Unit(0), second = Vector::Unit(1);
+    if (abs_of(axis[0]) > abs_of(axis[2])) first = Vector::Unit(2);
+    if (abs_of(axis[1]) > abs_of(axis[0]) && abs_of(axis[1]) > abs_of(axis[2]))
+      first = Vector::Unit(0), second = Vector::Unit(2);
+    first = (first - axis.dot(first) * axis).normalized();
+    second = (second - axis.dot(second) * axis - first.dot(second) * first).normalized();
+    return {first, second};
+  }
+
+  // d/dx = linear, d/d(d_i) = weights_i linear.
+  void set(Row& row, int end, int body, const Vector& on_centre, const Vector& weights, const Vector& on_axes) const {
+    if (body == kWorld || order_[body] < 0) return;
+    row.body[end] = order_[body];
+    row.block[end].template head<3>() = on_centre;
+    for (int i = 0; i < 3; ++i) row.block[end].template segment<3>(3 + 3 * i) = weights[i] * on_axes;
+  }
+
+  void add_rows(const SharedPoint& point, const std::vector<Frame>& frames, std::vector<Row>& rows) const {
+    const Frame &a = frame(frames, point.a), &b = frame(frames, point.b);
+    const Vector gap = b.point(point.at_b) - a.point(point.at_a);
+    for (int k = 0; k < 3; ++k) {
+      Row& row = rows.emplace_back();
+      const Vector axis = Vector::Unit(k);
+      set(row, 0, point.a, -axis, point.at_a, -axis), set(row, 1, point.b, axis, point.at_b, axis);
+      row.gap = gap[k];
+    }
+  }
+
+  void add_row(const DotProduct& dot, const std::vector<Frame>& frames, std::vector<Row>& rows) const {
+    const Frame &a = frame(frames, dot.a), &b = frame(frames, dot.b);
+    const Vector u = a.R * dot.of_a, v = b.R * dot.of_b;
+    Row& row = rows.emplace_back();
+    set(row, 0, dot.a, Vector::Zero(), dot.of_a, v), set(row, 1, dot.b, Vector::Zero(), dot.of_b, u);
+    row.gap = u.dot(v) - dot.kept;
+    row.bias = 2 * (a.dR * dot.of_a).dot(b.dR * dot.of_b);
+  }
+
+  void add_row(const DotOffset& offset, const std::vector<Frame>& frames, std::vector<Row>& rows) const {
+    const Frame &a = frame(frames, offset.a), &b = frame(frames, offset.b);
+    const Vector n = a.R * offset.of_a;
+    Row& row = rows.emplace_back();
+    set(row, 0, offset.a, -n, offset.of_a, b.x - a.x), set(row, 1, offset.b, n, Vector::Zero(), n);
+    row.gap = n.dot(b.x - a.x) - offset.kept;
+    row.bias = 2 * (a.dR * offset.of_a).dot(b.dx - a.dx);
+  }
+
+  void add_row(const Squared& squared, const std::vector<Frame>& frames, std::vector<Row>& rows) const {
+    const Frame &a = frame(frames, squared.a), &b = frame(frames, squared.b);
+    const Vector d = b.point(squared.at_b) - a.point(squared.at_a);
+    Row& row = rows.emplace_back();
+    set(row, 0, squared.a, -d, squared.at_a, -d), set(row, 1, squared.b, d, squared.at_b, d);
+    row.gap = (d.squaredNorm() - squared.kept) / 2;
+    row.bias = (b.rate_of(squared.at_b) - a.rate_of(squared.at_a)).squaredNorm();
+  }
+
+  std::vector<int> order_;
+  std::vector<SharedPoint> points_;
+  std::vector<DotProduct> dots_;
+  std::vector<DotOffset> offsets_;
+  std::vector<Squared> squares_;
+};
+
+}  // namespace rigor
