@@ -6,10 +6,15 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/OrderingMethods>
 #include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,15 +22,19 @@ namespace rigor {
 
 enum class Residual { gap, rate };
 
-// Onto a state's constraints by `correct`, a round that takes the residuals of all rows away to first order: positions
-// by Newton's rounds, each of which squares what is left, then velocities, which are linear. False if one round is.
-template <typename Correct>
+// Onto a state's constraints by `correct`, a round that takes the residuals of all rows away to first order and returns
+// how far it moved, or nothing if it cannot: positions by Newton's rounds, each of which squares what is left, until
+// that is below rounding; then velocities, which are linear.
+template <typename Real, typename Correct>
 bool project_by(const Correct& correct) {
-  constexpr int kRounds = 4;
-  for (int round = 0; round < kRounds; ++round) {
-    if (!correct(Residual::gap)) return false;
+  constexpr int kMostRounds = 4;
+  constexpr double kEnough = 1e-2 * std::numeric_limits<Real>::epsilon();
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::optional<double> moved = correct(Residual::gap);
+    if (!moved) return false;
+    if (*moved * *moved < kEnough) break;
   }
-  return correct(Residual::rate);
+  return correct(Residual::rate).has_value();
 }
 
 template <typename Real, int N>
@@ -35,6 +44,7 @@ struct ConstraintRow {
   Block block[2] = {Block::Zero(), Block::Zero()};  // d(rate)/d(velocities of that body)
   Real bias = 0;                                    // the second derivative is sum of block * acceleration, and this
   Real gap = 0;                                     // what has to be zero
+  Real speed = 0;                                   // what the rate has to be
 
   Real rate(const std::vector<Block>& velocities) const {
     Real sum = 0;
@@ -44,12 +54,18 @@ struct ConstraintRow {
     return sum;
   }
   Real residual(Residual what, const std::vector<Block>& velocities) const {
-    return what == Residual::gap ? gap : rate(velocities);
+    return what == Residual::gap ? gap : Real(rate(velocities) - speed);
   }
 };
 
 // Which rows are in use.
 struct RowChoice {
+  static RowChoice all(int rows) {
+    RowChoice choice{rows, std::vector<int>(rows)};
+    std::iota(choice.chosen.begin(), choice.chosen.end(), 0);
+    return choice;
+  }
+
   int rank = -1;            // not known yet
   std::vector<int> chosen;  // ascending
   double condition = 0;     // of S when they were chosen: its smallest pivot beside its largest
@@ -80,20 +96,26 @@ class ConstraintRows {
   // M^-1 J^T lambda for each body, with S lambda = -residual: what takes the residual of each row away.
   template <typename Residual>
   std::vector<Block> correction(const std::vector<Row>& rows, const std::vector<InverseMass>& inverse_mass,
-                                const Residual& residual) const {
+                                const Residual& residual) {
     Multipliers right(choice_.rank);
-    for (int i = 0; i < choice_.rank; ++i) right[i] = -residual(rows[choice_.chosen[i]]);
-    const Multipliers lambda = choice_.rank > 0 ? Multipliers(ldlt_.solve(right)) : right;
+    for (int i = 0; i < choice_.rank; ++i) right[i] = -residual(rows[pivots_[i]]);
+    if (choice_.rank > 0) right = ldlt_.solve(right).eval();
+    multipliers_.setZero(static_cast<Eigen::Index>(rows.size()));
     std::vector<Block> pushes(inverse_mass.size(), Block::Zero());
     for (int i = 0; i < choice_.rank; ++i) {
-      const Row& row = rows[choice_.chosen[i]];
+      const Row& row = rows[pivots_[i]];
+      multipliers_[pivots_[i]] = right[i];
       for (int k = 0; k < 2; ++k) {
-        if (row.body[k] >= 0) pushes[row.body[k]] += lambda[i] * row.block[k];
+        if (row.body[k] >= 0) pushes[row.body[k]] += right[i] * row.block[k];
       }
     }
     for (std::size_t b = 0; b < pushes.size(); ++b) pushes[b] = inverse_mass[b] * pushes[b];
     return pushes;
   }
+  // Whether no row in use comes near to repeating others: far from what roundings make of those that do.
+  bool is_well_posed() const { return condition() > 1e-10; }
+  // Of the last correction, by row: zero where it is left out.
+  const Multipliers& multipliers() const { return multipliers_; }
 
  private:
   using Matrix = Eigen::SparseMatrix<Real>;
@@ -127,11 +149,25 @@ class ConstraintRows {
     return true;
   }
 
+  // The rows in use in the order in which they are eliminated, and where in S each of their products goes.
   void lay_out(const std::vector<Row>& rows, std::size_t bodies) {
-    std::vector<std::vector<std::pair<int, int>>> at(bodies);  // chosen row and end
+    pivots_ = choice_.chosen;
+    is_laid_out_ = true;
+    if (choice_.rank == 0) return;
+    place_terms(rows, bodies);
+    const Matrix whole = matrix_.template selfadjointView<Eigen::Upper>();
+    Eigen::PermutationMatrix<Eigen::Dynamic> order;
+    Eigen::AMDOrdering<int>()(whole, order);
+    for (int i = 0; i < choice_.rank; ++i) pivots_[i] = choice_.chosen[order.indices()[i]];
+    place_terms(rows, bodies);
+    ldlt_.analyzePattern(matrix_);
+  }
+
+  void place_terms(const std::vector<Row>& rows, std::size_t bodies) {
+    std::vector<std::vector<std::pair<int, int>>> at(bodies);  // pivot and end
     for (int i = 0; i < choice_.rank; ++i) {
       for (int k = 0; k < 2; ++k) {
-        if (const int b = rows[choice_.chosen[i]].body[k]; b >= 0) at[b].emplace_back(i, k);
+        if (const int b = rows[pivots_[i]].body[k]; b >= 0) at[b].emplace_back(i, k);
       }
     }
     std::vector<Eigen::Triplet<Real>> places;
@@ -139,7 +175,7 @@ class ConstraintRows {
     for (const auto& here : at) {
       for (const auto& [i, end_i] : here) {
         for (const auto& [j, end_j] : here) {
-          if (i < j) continue;
+          if (i > j) continue;
           places.emplace_back(i, j, Real(1));
           terms_.push_back({i, j, end_i, end_j, 0});
         }
@@ -153,23 +189,20 @@ class ConstraintRows {
                  *end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[term.j + 1];
       term.place = static_cast<int>(std::lower_bound(begin, end, term.i) - matrix_.innerIndexPtr());
     }
-    if (choice_.rank > 0) ldlt_.analyzePattern(matrix_);
-    is_laid_out_ = true;
   }
 
   bool decompose(const std::vector<Row>& rows, const std::vector<InverseMass>& inverse_mass) {
     if (choice_.rank == 0) return true;
     weighed_.resize(choice_.rank);
     for (int i = 0; i < choice_.rank; ++i) {
-      const Row& row = rows[choice_.chosen[i]];
+      const Row& row = rows[pivots_[i]];
       for (int k = 0; k < 2; ++k) {
-        if (row.body[k] >= 0) weighed_[i][k] = inverse_mass[row.body[k]] * row.block[k];
+        if (row.body[k] >= 0) weighed_[i][k].noalias() = inverse_mass[row.body[k]] * row.block[k];
       }
     }
     std::fill(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros(), Real(0));
     for (const Term& term : terms_) {
-      matrix_.valuePtr()[term.place] +=
-          rows[choice_.chosen[term.i]].block[term.end_i].dot(weighed_[term.j][term.end_j]);
+      matrix_.valuePtr()[term.place] += rows[pivots_[term.i]].block[term.end_i].dot(weighed_[term.j][term.end_j]);
     }
     ldlt_.factorize(matrix_);
     constexpr double kSingular = 1e-15;  // of a long double's 1e-19: no digit that counts would be left of a double's
@@ -184,10 +217,12 @@ class ConstraintRows {
 
   RowChoice choice_;
   bool is_laid_out_ = false;
+  std::vector<int> pivots_;  // the rows in use
   std::vector<Term> terms_;
-  Matrix matrix_;  // lower triangle
+  Matrix matrix_;  // upper triangle, by pivots: as ldlt_ takes it without a copy
   std::vector<std::array<Block, 2>> weighed_;
-  Eigen::SimplicialLDLT<Matrix> ldlt_;
+  Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt_;
+  Multipliers multipliers_;
 };
 
 }  // namespace rigor

@@ -5,6 +5,7 @@
 // A moving body has 13 numbers: p_WB, q (w, x, y, z), v_W, and then either w_B or L_W:
 //   body_rates:  I w' = R^T torque - w x I w,   q' = 1/2 q (0, w_B)
 //   momentum:    L' = torque,  w_W = R I^-1 R^T L,   q' = 1/2 (0, w_W) q
+// After those of all bodies stands one of each axis (joint_axis.h): the integral of its rate, for its whole turns.
 // (Goldstein, Classical Mechanics, 3rd ed., sections 4.9 and 5.5). R is the rotation of q / |q|.
 #pragma once
 
@@ -27,7 +28,7 @@ class EquationsOfMotion {
   using Acting = ActingLoads<Real>;
 
   EquationsOfMotion(const Scene& scene, Formulation formulation)
-      : scene_(scene), axes_(axes_with_effort<Real>(scene)), formulation_(formulation) {
+      : scene_(scene), axes_(axes_in_use<Real>(scene)), formulation_(formulation) {
     for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
       const Body& body = scene.bodies[i];
       slot_.push_back(body.fixed ? -1 : kNumbersPerBody * static_cast<int>(moving_.size()));
@@ -39,7 +40,7 @@ class EquationsOfMotion {
   }
 
   State start() const {
-    State state(moving_.size() * kNumbersPerBody);
+    State state(moving_.size() * kNumbersPerBody + axes_.size());
     for (const int i : moving_) {
       const Body& body = scene_.bodies[i];
       Real* s = &state[slot_[i]];
@@ -58,7 +59,7 @@ class EquationsOfMotion {
 
   class Interval;
   // The right-hand side while the timed forces are those that act at t [s].
-  Interval during(double t) const { return {*this, t}; }
+  Interval during(double t, const AxisModes& modes = {}) const { return {*this, t, modes}; }
 
   // The bodies of a state, rounded to double; a fixed body stands where the scene puts it.
   template <typename Number>
@@ -95,6 +96,8 @@ class EquationsOfMotion {
   const Scene& scene() const { return scene_; }
   const std::vector<int>& moving() const { return moving_; }
   int slot(int body) const { return slot_[body]; }  // -1 if fixed
+  const std::vector<JointAxis<Real>>& axes() const { return axes_; }
+  Real turned(const State& state, std::size_t axis) const { return state[moving_.size() * kNumbersPerBody + axis]; }
   const Matrix& inverse_inertia(int body) const { return inverse_inertia_[body]; }
 
   static Matrix rotation_of(const Real* q) {
@@ -151,7 +154,9 @@ class EquationsOfMotion {
   }
 
   // Along the free axis n, fixed in a: a hinge's turns b about it, a slider's pushes b's centre, and a beside it.
-  void add_joint_effort(const JointAxis<Real>& axis, const Joint& joint, Real driving, std::vector<Pose>& poses) const {
+  // Returns the coordinate's rate.
+  Real add_joint_effort(const JointAxis<Real>& axis, Real driving, Real turned, std::vector<Pose>& poses) const {
+    const Joint& joint = scene_.joints[axis.joint];
     Pose world;
     Pose& a = joint.a == kWorld ? world : poses[joint.a];
     Pose& b = joint.b == kWorld ? world : poses[joint.b];
@@ -160,25 +165,27 @@ class EquationsOfMotion {
     if (!axis.is_hinge) rate = n.dot(b.velocity - a.velocity) + a.w.cross(n).dot(apart);
     const Real effort = driving - static_cast<Real>(joint.damping) * rate -
                         static_cast<Real>(joint.stiffness) *
-                            (axis.coordinate(a.position, a.R, b.position, b.R) - static_cast<Real>(joint.rest));
+                            (axis.coordinate(a.position, a.R, b.position, b.R, turned) - static_cast<Real>(joint.rest));
     if (axis.is_hinge) {
       b.torque += effort * n, a.torque -= effort * n;
     } else {
       b.force += effort * n, a.force -= effort * n, a.torque -= effort * apart.cross(n);
     }
+    return rate;
   }
 
   void evaluate(const State& state, const Acting& acting, std::vector<Pose>& poses, State& change) const {
     read_poses(state, poses);
     for (const Spring& spring : scene_.springs) add_spring(spring, poses);
-    for (const auto& [axis, effort] : acting.efforts)
-      add_joint_effort(axes_[axis], scene_.joints[axes_[axis].joint], effort, poses);
     for (const TimedForce* timed : acting.forces) {
       Pose& pose = poses[timed->body];
       const Vector force = timed->force.template cast<Real>(), arm = pose.R * timed->point.template cast<Real>();
       pose.force += force, pose.torque += timed->torque.template cast<Real>() + arm.cross(force);
     }
     change.resize(state.size());
+    for (const auto& [axis, effort] : acting.efforts)
+      change[moving_.size() * kNumbersPerBody + axis] =
+          add_joint_effort(axes_[axis], effort, turned(state, axis), poses);
     for (const int i : moving_) change_of_body(i, poses[i], &state[slot_[i]], &change[slot_[i]]);
   }
 
@@ -200,7 +207,7 @@ class EquationsOfMotion {
   }
 
   Scene scene_;
-  std::vector<JointAxis<Real>> axes_;  // of joints with an effort along their free axis
+  std::vector<JointAxis<Real>> axes_;
   Formulation formulation_;
   std::vector<int> moving_;  // body indices
   std::vector<int> slot_;    // of each body: where its numbers begin in the state; -1 if fixed
@@ -210,8 +217,8 @@ class EquationsOfMotion {
 template <typename Real>
 class EquationsOfMotion<Real>::Interval {
  public:
-  Interval(const EquationsOfMotion& motion, double t)
-      : motion_(&motion), acting_(motion.scene_, motion.axes_, t), poses_(motion.standing_poses()) {}
+  Interval(const EquationsOfMotion& motion, double t, const AxisModes& modes)
+      : motion_(&motion), acting_(motion.scene_, motion.axes_, t, modes), poses_(motion.standing_poses()) {}
   void operator()(const State& state, State& change, Real) { motion_->evaluate(state, acting_, poses_, change); }
   const std::vector<Pose>& poses() const { return poses_; }  // of the state that was evaluated last
 

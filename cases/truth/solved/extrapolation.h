@@ -23,12 +23,7 @@ class Extrapolation {
   template <typename System>
   boost::numeric::odeint::controlled_step_result try_step(System system, State& state, Real& t, Real& h) {
     system(state, slope_, t);
-    std::vector<State> row;
-    for (int k = 0; k < columns_; ++k) {
-      const std::vector<State> above = row;
-      row = {midpoints(system, state, t, h, 2 * (k + 1))};
-      for (int c = 1; c <= k; ++c) row.push_back(extrapolated(row[c - 1], above[c - 1], k + 1, k + 1 - c));
-    }
+    const std::vector<State> row = last_row(system, state, t, h);
     const double error = error_of(row[columns_ - 1], row[columns_ - 2]);
     const bool good = error <= 1;
     if (good) t += h, state = row.back();
@@ -38,9 +33,28 @@ class Extrapolation {
     return good ? boost::numeric::odeint::success : boost::numeric::odeint::fail;
   }
 
- private:
+  // Where a step of length h ends, whatever its error; for one that is shorter than one that was good.
   template <typename System>
-  State midpoints(System& system, const State& start, const Real& t, const Real& h, int substeps) {
+  State after(System& system, const State& state, const Real& t, const Real& h) {
+    system(state, slope_, t);
+    return last_row(system, state, t, h).back();
+  }
+
+ private:
+  // Of the table of extrapolations from a state at which slope_ is.
+  template <typename System>
+  std::vector<State> last_row(System& system, const State& state, const Real& t, const Real& h) const {
+    std::vector<State> row;
+    for (int k = 0; k < columns_; ++k) {
+      const std::vector<State> above = row;
+      row = {midpoints(system, state, t, h, 2 * (k + 1))};
+      for (int c = 1; c <= k; ++c) row.push_back(extrapolated(row[c - 1], above[c - 1], k + 1, k + 1 - c));
+    }
+    return row;
+  }
+
+  template <typename System>
+  State midpoints(System& system, const State& start, const Real& t, const Real& h, int substeps) const {
     const Real s = h / substeps;
     State before = start, now = start, slope(start.size());
     for (std::size_t i = 0; i < start.size(); ++i) now[i] += s * slope_[i];

@@ -1,10 +1,15 @@
 // The coordinate of a hinge or slider, for any number type: the angle [rad] by which b has turned against a about the
-// axis since t = 0, from -pi to pi, or the way [m] that b's centre has come along it.
+// axis since t = 0, whole turns among it, or the way [m] that b's centre has come along it. How many whole turns, the
+// poses do not say: the motion integrates the angle's rate beside them, and here it is only rounded to the nearest.
 #pragma once
 
+#include <algorithm>
+#include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "cases/truth/solved/axis_modes.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
@@ -36,12 +41,16 @@ struct JointAxis {
     way_start = direction_a.dot(rotation(row.a).transpose() * (position(row.b) - position(row.a)));
   }
 
-  Real coordinate(const Vector& p_a, const Matrix& R_a, const Vector& p_b, const Matrix& R_b) const {
+  // `turned`: the angle, to within half a turn.
+  Real coordinate(const Vector& p_a, const Matrix& R_a, const Vector& p_b, const Matrix& R_b, Real turned) const {
     using std::atan2;
+    using std::round;
     if (!is_hinge) return direction_a.dot(R_a.transpose() * (p_b - p_a)) - way_start;
     const Matrix turn = R_a.transpose() * R_b * turn_start.transpose();
     const Vector twice_sine(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
-    return atan2(direction_a.dot(twice_sine), turn.trace() - 1);
+    const Real angle = atan2(direction_a.dot(twice_sine), turn.trace() - 1),
+               whole = 2 * boost::math::constants::pi<Real>();
+    return angle + whole * round((turned - angle) / whole);
   }
 };
 
@@ -51,12 +60,12 @@ struct ActingLoads {
   std::vector<const TimedForce*> forces;
   std::vector<std::pair<std::size_t, Real>> efforts;  // index in `axes`, and what motors give [N m or N]
 
-  ActingLoads(const Scene& scene, const std::vector<JointAxis<Real>>& axes, double t) {
+  ActingLoads(const Scene& scene, const std::vector<JointAxis<Real>>& axes, double t, const AxisModes& modes) {
     for (const TimedForce& force : scene.forces) {
       if (t >= force.from && t < force.until) forces.push_back(&force);
     }
     for (std::size_t k = 0; k < axes.size(); ++k) {
-      Real driven = 0;
+      Real driven = modes.empty() ? 0 : static_cast<Real>(modes[k].push * modes[k].most);
       for (const Motor& motor : scene.motors) {
         const bool acts = t >= motor.from && t < motor.until;
         if (acts && static_cast<std::size_t>(motor.joint) == axes[k].joint) driven += static_cast<Real>(motor.effort);
@@ -66,14 +75,15 @@ struct ActingLoads {
   }
 };
 
-// Of the joints that a spring, damper or motor acts along.
+// Of the joints that a spring, damper, motor or limit acts on.
 template <typename Real>
-std::vector<JointAxis<Real>> axes_with_effort(const Scene& scene) {
+std::vector<JointAxis<Real>> axes_in_use(const Scene& scene) {
   std::vector<JointAxis<Real>> axes;
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
-    bool has_effort = scene.joints[k].stiffness != 0 || scene.joints[k].damping != 0;
-    for (const Motor& motor : scene.motors) has_effort |= static_cast<std::size_t>(motor.joint) == k;
-    if (has_effort) axes.emplace_back(scene, k);
+    const Joint& joint = scene.joints[k];
+    const bool is_driven = std::any_of(scene.motors.begin(), scene.motors.end(),
+                                       [k](const Motor& motor) { return static_cast<std::size_t>(motor.joint) == k; });
+    if (joint.stiffness != 0 || joint.damping != 0 || joint.has_limits() || is_driven) axes.emplace_back(scene, k);
   }
   return axes;
 }

@@ -8,11 +8,16 @@
 //   right angle     u_a . u_b = c                   bias  (w_a x (w_a x u_a)) . u_b + 2 (w_a x u_a) . (w_b x u_b) + ..
 //   no way across   n_a . (x_b - x_a) = c           bias  (w_a x (w_a x n)) . d + 2 (w_a x n) . d'
 //   distance        (d . d - L^2) / 2 = 0           bias  d' . d' + d . (centripetal accelerations)
+// and, where a limit or a motor keeps the coordinate of a joint (axis_modes.h),
+//   an angle        n . (w_b - w_a) = speed         bias  (w_a x n) . w_b
+//   a way           as no way across, with the slider's axis
 #pragma once
 
 #include <array>
+#include <optional>
+#include <utility>
 
-#include "cases/truth/solved/constraint_rows.h"
+#include "cases/truth/solved/axis_rows.h"
 #include "cases/truth/solved/equations_of_motion.h"
 
 namespace rigor {
@@ -33,9 +38,7 @@ class JointedMotion {
     for (std::size_t k = 0; k < free_.moving().size(); ++k) order_[free_.moving()[k]] = static_cast<int>(k);
     const std::vector<Pose> start = poses_of(free_.start());
     for (const Joint& joint : scene.joints) add(joint, start);
-    Rows rows;
-    rows.factorise(rows_at(start), inverse_masses(start));
-    choice_ = rows.choice();
+    choice_ = choose_rows<Rows>(rows_at(start), inverse_masses(start));
   }
 
   State start() const {
@@ -45,8 +48,21 @@ class JointedMotion {
   }
 
   class Interval;
-  // The right-hand side while the loads are those that act at t [s].
-  Interval during(double t) const { return {*this, t}; }
+  // The right-hand side while the loads are those that act at t [s], and limits and motors do what `modes` say.
+  Interval during(double t) const { return {*this, t, {}, choice_}; }
+  Interval during(double t, const AxisModes& modes, RowChoice choice) const {
+    return {*this, t, modes, std::move(choice)};
+  }
+  // Of the rows in these modes, at a state of them.
+  RowChoice choice_at(const State& state, const AxisModes& modes) const {
+    const std::vector<Pose> poses = poses_of(state);
+    std::vector<Row> rows = rows_at(poses);
+    const std::size_t of_joints = rows.size();
+    add_mode_rows(modes, state, poses, rows);
+    return rows.size() == of_joints ? choice_ : choose_rows<Rows>(rows, inverse_masses(poses));
+  }
+  const std::vector<JointAxis<Real>>& axes() const { return free_.axes(); }
+  const Scene& scene() const { return free_.scene(); }
 
   template <typename Number>
   void write(const Number* state, MutableBodyColumns out) const {
@@ -196,6 +212,33 @@ class JointedMotion {
     row.bias = rate.dot(rate) + d.dot(centripetal(b, arm_b) - centripetal(a, arm_a));
   }
 
+  // Of its rate; its gap is the coordinate.
+  Row axis_row(std::size_t k, const State& state, const std::vector<Pose>& poses) const {
+    const JointAxis<Real>& axis = axes()[k];
+    const Joint& joint = scene().joints[axis.joint];
+    const Pose &a = pose(poses, joint.a), &b = pose(poses, joint.b);
+    if (!axis.is_hinge) {
+      std::vector<Row> rows;
+      add_row(Across{joint.a, joint.b, axis.direction_a, axis.way_start}, poses, rows);
+      return rows.front();
+    }
+    const Vector n = a.R * axis.direction_a;
+    Row row;
+    set(row, 0, joint.a, Vector::Zero(), -n);
+    set(row, 1, joint.b, Vector::Zero(), n);
+    row.gap = axis.coordinate(a.position, a.R, b.position, b.R, free_.turned(state, k));
+    row.bias = a.w.cross(n).dot(b.w);
+    return row;
+  }
+
+  void add_mode_rows(const AxisModes& modes, const State& state, const std::vector<Pose>& poses,
+                     std::vector<Row>& rows) const {
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      if (modes[k].has_row())
+        rows.push_back(kept(axis_row(k, state, poses), modes[k], scene().joints[axes()[k].joint]));
+    }
+  }
+
   std::vector<InverseMass> inverse_masses(const std::vector<Pose>& poses) const {
     std::vector<InverseMass> inverse(free_.moving().size(), InverseMass::Zero());
     for (const int i : free_.moving()) {
@@ -234,27 +277,28 @@ class JointedMotion {
 template <typename Real>
 class JointedMotion<Real>::Interval {
  public:
-  Interval(const JointedMotion& motion, double t)
-      : motion_(&motion), free_(motion.free_.during(t)), solver_(motion.choice_) {}
+  Interval(const JointedMotion& motion, double t, AxisModes modes, RowChoice choice)
+      : motion_(&motion), modes_(std::move(modes)), free_(motion.free_.during(t, modes_)), solver_(std::move(choice)) {}
 
   void operator()(const State& state, State& change, Real t) {
     free_(state, change, t);
     const std::vector<Pose>& poses = free_.poses();
-    const std::vector<Row> rows = motion_->rows_at(poses);
+    const std::vector<Row> rows = rows_at(state, poses);
     const auto mass = motion_->inverse_masses(poses);
     if (!solver_.factorise(rows, mass))
       return std::fill(change.begin(), change.end(), std::numeric_limits<Real>::quiet_NaN());
     const auto& moving = motion_->free_.moving();
-    std::vector<Block> accelerations(moving.size());
+    accelerations_.resize(moving.size());
     for (const int i : moving) {
       const Real* c = &change[motion_->free_.slot(i)];
-      accelerations[motion_->order_[i]] << Free::get(c + 7), poses[i].R * Free::get(c + 10);
+      accelerations_[motion_->order_[i]] << Free::get(c + 7), poses[i].R * Free::get(c + 10);
     }
     const auto added =
-        solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(accelerations) + row.bias); });
+        solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(accelerations_) + row.bias); });
     for (const int i : moving) {
       Real* c = &change[motion_->free_.slot(i)];
       const Block& block = added[motion_->order_[i]];
+      accelerations_[motion_->order_[i]] += block;
       Free::put(c + 7, Free::get(c + 7) + block.template head<3>());
       Free::put(c + 10, Free::get(c + 10) + poses[i].R.transpose() * block.template tail<3>());
     }
@@ -262,21 +306,41 @@ class JointedMotion<Real>::Interval {
 
   // Moves the state to the nearest, weighed by mass, that its joints allow. False if there is none near.
   bool project(State& state) {
-    return project_by([&](Residual what) { return correct(state, what); });
+    return project_by<Real>([&](Residual what) { return correct(state, what); });
+  }
+  // The velocities alone: an impact.
+  bool project_rates(State& state) { return correct(state, Residual::rate).has_value(); }
+
+  // The coordinates of all axes at a state; accelerations and efforts (or impulses) as operator() or project_rates()
+  // left them.
+  std::vector<AxisMotion<Real>> axes_at(const State& state) const {
+    const std::vector<Pose> poses = motion_->poses_of(state);
+    const auto velocities = motion_->velocities_of(poses);
+    return axis_motions<Real>(modes_, motion_->axes().size(), solver_.multipliers(), velocities, accelerations_,
+                              [&](std::size_t k) { return motion_->axis_row(k, state, poses); });
   }
 
  private:
-  bool correct(State& state, Residual what) {
+  std::vector<Row> rows_at(const State& state, const std::vector<Pose>& poses) const {
+    std::vector<Row> rows = motion_->rows_at(poses);
+    motion_->add_mode_rows(modes_, state, poses, rows);
+    return rows;
+  }
+
+  // Returns by how much [m, rad; m/s, rad/s] at most.
+  std::optional<double> correct(State& state, Residual what) {
     const JointedMotion& m = *motion_;
     const std::vector<Pose> poses = m.poses_of(state);
-    const std::vector<Row> rows = m.rows_at(poses);
+    const std::vector<Row> rows = rows_at(state, poses);
     const auto mass = m.inverse_masses(poses);
-    if (!solver_.factorise(rows, mass)) return false;
+    if (!solver_.factorise(rows, mass)) return std::nullopt;
     const auto velocities = m.velocities_of(poses);
     const auto changes = solver_.correction(rows, mass, [&](const Row& row) { return row.residual(what, velocities); });
+    double largest = 0;
     for (const int i : m.free_.moving()) {
       Real* s = &state[m.free_.slot(i)];
       const auto& change = changes[m.order_[i]];
+      largest = std::max(largest, static_cast<double>(change.template lpNorm<Eigen::Infinity>()));
       if (what == Residual::gap) {
         m.move(poses[i], change, s);
       } else {
@@ -284,12 +348,14 @@ class JointedMotion<Real>::Interval {
         Free::put(s + 10, Free::get(s + 10) + poses[i].R.transpose() * change.template tail<3>());
       }
     }
-    return true;
+    return largest;
   }
 
   const JointedMotion* motion_;
+  AxisModes modes_;
   typename Free::Interval free_;
   Rows solver_;
+  std::vector<Block> accelerations_;
 };
 
 }  // namespace rigor

@@ -1,39 +1,48 @@
 // The reference of jointed scenes: Newton and Euler's accelerations with the joints' forces (jointed_motion.h), in
 // extended precision, for the solution, and beside it, for its error, the same bodies by natural coordinates
 // (natural_coordinates.h), in double, which share no equation with them. Each is projected onto its constraints after
-// each step. The error so is that of the second, some 1e-12 m and rad where nothing magnifies roundings.
-#include "cases/truth/solved/extrapolation.h"
-#include "cases/truth/solved/jointed_motion.h"
-#include "cases/truth/solved/natural_coordinates.h"
+// each step, and finds its own events (stopped_solution.h). The error so is that of the second, some 1e-12 m and rad
+// where nothing magnifies roundings. Where something does, and it takes but a few seconds, both are solved again, the
+// first to less of a tolerance and the second in extended precision as well.
+#include "cases/truth/solved/jointed_ways.h"
 #include "cases/truth/solved/reference_solver.h"
-#include "cases/truth/solved/solving.h"
 
 namespace rigor {
 namespace {
 
 using namespace solving;
 
-// What an extrapolation allows a step, relative and absolute (reference_solver.cpp says why no less): the equations for
-// the joints' forces magnify roundings by what they are ill-conditioned.
-template <typename Real, typename Motion>
-Nodes nodes_of(const Motion& motion, int columns, double tolerance, const std::vector<double>& switches) {
-  return solve(motion, Extrapolation<Real>(columns, tolerance), switches, kMostTries);
+// Tolerances: reference_solver.cpp says why no less; the equations for the joints' forces magnify roundings by what
+// they are ill-conditioned.
+constexpr Way kFirst = {6, 1e-15, 1e-7}, kBeside = {5, 1e-12, 2e-7};
+constexpr Way kFirstFiner = {7, 2e-17, 1e-7}, kBesideFiner = {6, 1e-16, 2e-7};
+
+constexpr double kWantedJointedError = 1e-10;  // m and rad, at the end
+constexpr double kMostFinerWork = 4e5;         // changes of a body in extended precision, of some 8 µs each
+
+ReferenceSolution judged(const Scene& scene, const Nodes& nodes, Precision precision, const Way& beside,
+                         const std::vector<double>& switches) {
+  Judged judging(newton_euler_in_double(scene, nodes), scene.bodies.size(), nodes);
+  compare_with_natural(judging, precision, scene, beside, switches);
+  return judging.solution();
+}
+
+double work(const Nodes& nodes, const Way& way, const Scene& scene) {
+  const double changes = way.columns * (way.columns + 1);
+  return changes * static_cast<double>(nodes.times.size() * scene.bodies.size());
 }
 
 }  // namespace
 
-std::unique_ptr<DoubleMotion> jointed_motion_in_double(const Scene& scene) {
-  return std::make_unique<InDouble<JointedMotion<double>>>(JointedMotion<double>(scene));
-}
-
 ReferenceSolution solve_jointed_reference(const Scene& scene, double duration) {
   const std::vector<double> switches = switch_times(scene, duration);
-  const auto nodes = nodes_of<Extended>(JointedMotion<Extended>(scene), 6, 1e-15, switches);
-  Judged judged(jointed_motion_in_double(scene), scene.bodies.size(), nodes);
-  const NaturalCoordinates<double> beside(scene);
-  judged.compare([&](const double* state, MutableBodyColumns out) { beside.write(state, out); },
-                 nodes_of<double>(beside, 5, 1e-12, switches));
-  return judged.solution();
+  const Nodes nodes = newton_euler_nodes(scene, kFirst, switches);
+  ReferenceSolution solution = judged(scene, nodes, Precision::plain, kBeside, switches);
+  const bool is_good = !solution.complete || solution.errors.back() <= kWantedJointedError;
+  if (is_good || work(nodes, kFirst, scene) > kMostFinerWork) return solution;
+  const Nodes finer = newton_euler_nodes(scene, kFirstFiner, switches);
+  ReferenceSolution again = judged(scene, finer, Precision::extended, kBesideFiner, switches);
+  return again.complete && again.errors.back() < solution.errors.back() ? again : solution;
 }
 
 }  // namespace rigor

@@ -4,13 +4,18 @@
 // chapter 2). There is no angular velocity, no gyroscopic torque and no quaternion in it:
 //   T = m x'.x'/2 + sum E_ij d_i'.d_j' / 2,   E = (tr I)/2 - I,
 // with d_i.d_j = 0 or 1 as six constraints a body. A torque t about the centre is the forces t x d_i / 2. Where E is
-// singular (a rod, a plate) the mass is made regular by what the six constraints hold anyway:
+// singular or nearly (a rod, a plate) the mass is made regular by what the six constraints hold anyway:
 //   (M + c P^T P) a + J^T lambda = Q - c P^T bias_P.
+// After the numbers of all bodies stands one of each axis, as in equations_of_motion.h.
 #pragma once
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "cases/truth/solved/axis_rows.h"
 #include "cases/truth/solved/joint_axis.h"
 #include "cases/truth/solved/natural_joints.h"
 #include "core/engine/body_table.h"
@@ -27,20 +32,21 @@ class NaturalCoordinates {
   using Rows = ConstraintRows<Real, 12>;
   using Row = typename Rows::Row;
   using Block = typename Row::Block;
+  using InverseMass = typename Rows::InverseMass;
 
-  explicit NaturalCoordinates(const Scene& scene) : scene_(scene), axes_(axes_with_effort<Real>(scene)) {
+  explicit NaturalCoordinates(const Scene& scene) : scene_(scene), axes_(axes_in_use<Real>(scene)) {
     for (const Body& body : scene.bodies) {
       order_.push_back(body.fixed ? -1 : static_cast<int>(moving_.size()));
       if (!body.fixed) moving_.push_back(static_cast<int>(order_.size()) - 1);
       const Matrix inertia = body.inertia.template cast<Real>();
       second_moment_.push_back(inertia.trace() / 2 * Matrix::Identity() - inertia);
+      if (!body.fixed) masses_.push_back(constant_inverse_mass(body, second_moment_.back()));
+      if (!body.fixed && !is_regular(second_moment_.back())) singular_.push_back(static_cast<int>(order_.size()) - 1);
     }
     const std::vector<Frame> start = frames_of(start_as_read());
     joints_.emplace(order_);
     for (const Joint& joint : scene.joints) joints_->add(joint, start);
-    Rows rows;
-    rows.factorise(rows_at(start), inverse_masses(start));
-    choice_ = rows.choice();
+    choice_ = choose_rows<Rows>(rows_at(start), inverse_masses(start));
   }
 
   State start() const {
@@ -49,8 +55,21 @@ class NaturalCoordinates {
     return state;
   }
 
+  // All as of JointedMotion.
   class Interval;
-  Interval during(double t) const { return {*this, t}; }
+  Interval during(double t) const { return {*this, t, {}, choice_}; }
+  Interval during(double t, const AxisModes& modes, RowChoice choice) const {
+    return {*this, t, modes, std::move(choice)};
+  }
+  RowChoice choice_at(const State& state, const AxisModes& modes) const {
+    const std::vector<Frame> frames = frames_of(state);
+    std::vector<Row> rows = rows_at(frames);
+    const std::size_t of_joints = rows.size();
+    add_mode_rows(modes, state, frames, rows);
+    return rows.size() == of_joints ? choice_ : choose_rows<Rows>(rows, inverse_masses(frames));
+  }
+  const std::vector<JointAxis<Real>>& axes() const { return axes_; }
+  const Scene& scene() const { return scene_; }
 
   template <typename Number>
   void write(const Number* state, MutableBodyColumns out) const {
@@ -72,7 +91,7 @@ class NaturalCoordinates {
   static constexpr int kNumbersPerBody = Frame::kNumbers;
 
   State start_as_read() const {
-    State state(kNumbersPerBody * moving_.size());
+    State state(kNumbersPerBody * moving_.size() + axes_.size());
     for (const int i : moving_) {
       const Body& body = scene_.bodies[i];
       const Matrix R = body.orientation.template cast<Real>().normalized().toRotationMatrix();
@@ -108,6 +127,19 @@ class NaturalCoordinates {
     return rows;
   }
 
+  Real turned(const State& state, std::size_t axis) const { return state[kNumbersPerBody * moving_.size() + axis]; }
+
+  Row axis_row(std::size_t k, const State& state, const std::vector<Frame>& frames) const {
+    return joints_->axis_row(axes_[k], scene_.joints[axes_[k].joint], frames, turned(state, k));
+  }
+
+  void add_mode_rows(const AxisModes& modes, const State& state, const std::vector<Frame>& frames,
+                     std::vector<Row>& rows) const {
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      if (modes[k].has_row()) rows.push_back(kept(axis_row(k, state, frames), modes[k], scene_.joints[axes_[k].joint]));
+    }
+  }
+
   // d_i.d_j as of a rotation.
   static void add_own_rows(int body, const Frame& frame, std::vector<Row>& rows) {
     for (int i = 0; i < 3; ++i) {
@@ -122,32 +154,49 @@ class NaturalCoordinates {
     }
   }
 
-  // c of the head comment: of the inertia's size.
+  // c of the head comment: of the inertia's size; none where E is far from singular.
+  static bool is_regular(const Matrix& second_moment) {
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(second_moment.template cast<double>(), Eigen::EigenvaluesOnly);
+    constexpr double kFar = 1e-2;  // at which two digits are lost
+    return solver.eigenvalues().minCoeff() > kFar * solver.eigenvalues().maxCoeff();
+  }
   Real regulariser(int i) const { return second_moment_[i].trace() / 3; }
 
-  std::vector<typename Rows::InverseMass> inverse_masses(const std::vector<Frame>& frames) const {
-    std::vector<typename Rows::InverseMass> inverse(moving_.size(), Rows::InverseMass::Zero());
-    for (const int i : moving_) {
-      Eigen::Matrix<Real, 9, 9> mass = Eigen::Matrix<Real, 9, 9>::Zero();
-      for (int j = 0; j < 3; ++j) {
-        for (int k = 0; k < 3; ++k)
-          mass.template block<3, 3>(3 * j, 3 * k) = second_moment_[i](j, k) * Matrix::Identity();
-      }
+  using Mass9 = Eigen::Matrix<Real, 9, 9>;
+  static Mass9 mass_of(const Matrix& second_moment) {
+    Mass9 mass = Mass9::Zero();
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) mass.template block<3, 3>(3 * j, 3 * k) = second_moment(j, k) * Matrix::Identity();
+    }
+    return mass;
+  }
+  static InverseMass inverse_of(const Body& body, const Mass9& mass) {
+    InverseMass inverse = InverseMass::Zero();
+    inverse.template topLeftCorner<3, 3>() = Matrix::Identity() / static_cast<Real>(body.mass);
+    inverse.template bottomRightCorner<9, 9>() = mass.llt().solve(Mass9::Identity());
+    return inverse;
+  }
+  static InverseMass constant_inverse_mass(const Body& body, const Matrix& second_moment) {
+    return is_regular(second_moment) ? inverse_of(body, mass_of(second_moment)) : InverseMass(InverseMass::Zero());
+  }
+
+  std::vector<InverseMass> inverse_masses(const std::vector<Frame>& frames) const {
+    std::vector<InverseMass> inverse = masses_;
+    for (const int i : singular_) {
+      Mass9 mass = mass_of(second_moment_[i]);
       std::vector<Row> own;
       add_own_rows(order_[i], frames[i], own);
       for (const Row& row : own) {
         const Eigen::Matrix<Real, 9, 1> p = row.block[0].template tail<9>();
         mass += regulariser(i) * p * p.transpose();
       }
-      auto& out = inverse[order_[i]];
-      out.template topLeftCorner<3, 3>() = Matrix::Identity() / static_cast<Real>(scene_.bodies[i].mass);
-      const Eigen::LLT<Eigen::Matrix<Real, 9, 9>> llt(mass);
-      out.template bottomRightCorner<9, 9>() = llt.solve(Eigen::Matrix<Real, 9, 9>::Identity());
+      inverse[order_[i]] = inverse_of(scene_.bodies[i], mass);
     }
     return inverse;
   }
 
-  void add_loads(const ActingLoads<Real>& acting, std::vector<Frame>& frames) const {
+  // Also into `change`: the rates of the axes.
+  void add_loads(const ActingLoads<Real>& acting, const State& state, std::vector<Frame>& frames, State& change) const {
     for (const int i : moving_) {
       const Real mass = static_cast<Real>(scene_.bodies[i].mass);
       frames[i].push(mass * scene_.gravity.template cast<Real>(), Vector::Zero());
@@ -170,17 +219,19 @@ class NaturalCoordinates {
       at(timed->body).push(timed->force.template cast<Real>(), timed->point.template cast<Real>());
       at(timed->body).turn(timed->torque.template cast<Real>());
     }
-    for (const auto& [axis, driven] : acting.efforts) add_effort(axes_[axis], driven, at);
+    for (const auto& [axis, driven] : acting.efforts) {
+      change[kNumbersPerBody * moving_.size() + axis] = add_effort(axes_[axis], driven, turned(state, axis), at);
+    }
   }
 
-  // A slider's effort on a acts where b's centre is, as a point of a.
+  // A slider's effort on a acts where b's centre is, as a point of a. Returns the coordinate's rate.
   template <typename At>
-  void add_effort(const JointAxis<Real>& axis, Real driven, const At& at) const {
+  Real add_effort(const JointAxis<Real>& axis, Real driven, Real turned, const At& at) const {
     const Joint& joint = scene_.joints[axis.joint];
     Frame &a = at(joint.a), &b = at(joint.b);
     const Vector n = a.R * axis.direction_a, there = a.R.transpose() * (b.x - a.x);
     const Real rate = axis.is_hinge ? n.dot(b.w() - a.w()) : n.dot(b.dx - a.rate_of(there)),
-               coordinate = axis.coordinate(a.x, a.R, b.x, b.R) - static_cast<Real>(joint.rest),
+               coordinate = axis.coordinate(a.x, a.R, b.x, b.R, turned) - static_cast<Real>(joint.rest),
                effort =
                    driven - static_cast<Real>(joint.stiffness) * coordinate - static_cast<Real>(joint.damping) * rate;
     if (axis.is_hinge) {
@@ -188,12 +239,15 @@ class NaturalCoordinates {
     } else {
       b.push(effort * n, Vector::Zero()), a.push(-effort * n, there);
     }
+    return rate;
   }
 
   Scene scene_;
   std::vector<JointAxis<Real>> axes_;
-  std::vector<int> moving_, order_;  // as in JointedMotion
-  std::vector<Matrix> second_moment_;
+  std::vector<int> moving_, order_;    // as in JointedMotion
+  std::vector<Matrix> second_moment_;  // E, of all bodies
+  std::vector<InverseMass> masses_;    // of those that move, where they are constant
+  std::vector<int> singular_;          // bodies of which they are not
   std::optional<NaturalJoints<Real>> joints_;
   RowChoice choice_;
 };
@@ -201,34 +255,52 @@ class NaturalCoordinates {
 template <typename Real>
 class NaturalCoordinates<Real>::Interval {
  public:
-  Interval(const NaturalCoordinates& motion, double t)
-      : motion_(&motion), acting_(motion.scene_, motion.axes_, t), solver_(motion.choice_) {}
+  Interval(const NaturalCoordinates& motion, double t, AxisModes modes, RowChoice choice)
+      : motion_(&motion),
+        modes_(std::move(modes)),
+        acting_(motion.scene_, motion.axes_, t, modes_),
+        solver_(std::move(choice)) {}
 
   void operator()(const State& state, State& change, Real) {
     change.assign(state.size(), std::numeric_limits<Real>::quiet_NaN());
     std::vector<Frame> frames = motion_->frames_of(state);
-    motion_->add_loads(acting_, frames);
-    const std::vector<Row> rows = motion_->rows_at(frames);
+    motion_->add_loads(acting_, state, frames, change);
+    const std::vector<Row> rows = rows_at(state, frames);
     const auto mass = motion_->inverse_masses(frames);
     if (!solver_.factorise(rows, mass)) return;
-    std::vector<Block> free(mass.size());
-    for (const int i : motion_->moving_) free[motion_->order_[i]] = mass[motion_->order_[i]] * load_of(i, frames[i]);
-    const auto added = solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(free) + row.bias); });
+    accelerations_.resize(mass.size());
+    for (const int i : motion_->moving_) {
+      const int b = motion_->order_[i];
+      accelerations_[b].noalias() = mass[b] * frames[i].force;
+    }
+    for (const int i : motion_->singular_) {
+      const int b = motion_->order_[i];
+      accelerations_[b].noalias() = mass[b] * regularised_load(i, frames[i]);
+    }
+    const auto added =
+        solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(accelerations_) + row.bias); });
     for (std::size_t b = 0; b < mass.size(); ++b) {
+      accelerations_[b] += added[b];
       for (int k = 0; k < 12; ++k) {
         change[kNumbersPerBody * b + k] = state[kNumbersPerBody * b + 12 + k];
-        change[kNumbersPerBody * b + 12 + k] = free[b][k] + added[b][k];
+        change[kNumbersPerBody * b + 12 + k] = accelerations_[b][k];
       }
     }
   }
 
   // As JointedMotion's.
   bool project(State& state) {
-    return project_by([&](Residual what) { return correct(state, what); });
+    return project_by<Real>([&](Residual what) { return correct(state, what); });
+  }
+  bool project_rates(State& state) { return correct(state, Residual::rate).has_value(); }
+  std::vector<AxisMotion<Real>> axes_at(const State& state) const {
+    const std::vector<Frame> frames = motion_->frames_of(state);
+    return axis_motions<Real>(modes_, motion_->axes_.size(), solver_.multipliers(), rates_of(state), accelerations_,
+                              [&](std::size_t k) { return motion_->axis_row(k, state, frames); });
   }
 
  private:
-  Block load_of(int i, const Frame& frame) const {
+  Block regularised_load(int i, const Frame& frame) const {
     Block load = frame.force;
     std::vector<Row> own;
     add_own_rows(motion_->order_[i], frame, own);
@@ -236,24 +308,39 @@ class NaturalCoordinates<Real>::Interval {
     return load;
   }
 
-  bool correct(State& state, Residual what) {
+  std::vector<Row> rows_at(const State& state, const std::vector<Frame>& frames) const {
+    std::vector<Row> rows = motion_->rows_at(frames);
+    motion_->add_mode_rows(modes_, state, frames, rows);
+    return rows;
+  }
+
+  std::vector<Block> rates_of(const State& state) const {
+    std::vector<Block> rates(motion_->moving_.size());
+    for (std::size_t b = 0; b < rates.size(); ++b) rates[b] = Eigen::Map<const Block>(&state[kNumbersPerBody * b + 12]);
+    return rates;
+  }
+
+  std::optional<double> correct(State& state, Residual what) {
     const std::vector<Frame> frames = motion_->frames_of(state);
-    const std::vector<Row> rows = motion_->rows_at(frames);
+    const std::vector<Row> rows = rows_at(state, frames);
     const auto mass = motion_->inverse_masses(frames);
-    if (!solver_.factorise(rows, mass)) return false;
-    std::vector<Block> rates(mass.size());
-    for (std::size_t b = 0; b < mass.size(); ++b) rates[b] = Eigen::Map<const Block>(&state[kNumbersPerBody * b + 12]);
+    if (!solver_.factorise(rows, mass)) return std::nullopt;
+    const std::vector<Block> rates = rates_of(state);
     const auto moves = solver_.correction(rows, mass, [&](const Row& row) { return row.residual(what, rates); });
     const int first = what == Residual::gap ? 0 : 12;  // of the numbers of a body that are moved
+    double largest = 0;
     for (std::size_t b = 0; b < mass.size(); ++b) {
+      largest = std::max(largest, static_cast<double>(moves[b].template lpNorm<Eigen::Infinity>()));
       for (int k = 0; k < 12; ++k) state[kNumbersPerBody * b + first + k] += moves[b][k];
     }
-    return true;
+    return largest;
   }
 
   const NaturalCoordinates* motion_;
+  AxisModes modes_;
   ActingLoads<Real> acting_;
   Rows solver_;
+  std::vector<Block> accelerations_;
 };
 
 }  // namespace rigor

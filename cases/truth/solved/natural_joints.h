@@ -2,6 +2,7 @@
 // bodies' coordinates, kept at what they are at t = 0:
 //   shared point   p_b - p_a                  dot product   u_a . u_b
 //   dot offset     u_a . (x_b - x_a)          squared       (p_b - p_a)^2 / 2
+// and the rate of a joint's own coordinate, of a hinge n . (w_b - w_a) with w = 1/2 sum d_i x d_i'.
 #pragma once
 
 #include <array>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "cases/truth/solved/constraint_rows.h"
+#include "cases/truth/solved/joint_axis.h"
 #include "cases/truth/solved/natural_frame.h"
 #include "core/scene/scene.h"
 
@@ -67,6 +69,27 @@ class NaturalJoints {
     for (const DotProduct& dot : dots_) add_row(dot, frames, rows);
     for (const DotOffset& offset : offsets_) add_row(offset, frames, rows);
     for (const Squared& squared : squares_) add_row(squared, frames, rows);
+  }
+
+  // Of the rate of an axis; its gap is the coordinate, which is `turned` but for less than half a turn.
+  Row axis_row(const JointAxis<Real>& axis, const Joint& joint, const std::vector<Frame>& frames, Real turned) const {
+    const Frame &a = frame(frames, joint.a), &b = frame(frames, joint.b);
+    if (!axis.is_hinge) {
+      std::vector<Row> rows;
+      add_row(DotOffset{joint.a, joint.b, axis.direction_a, axis.way_start}, frames, rows);
+      return rows.front();
+    }
+    const Vector n = a.R * axis.direction_a;
+    Row row;
+    const auto turn = [&](int end, int body, const Frame& of, const Vector& by) {
+      if (body == kWorld || order_[body] < 0) return;
+      row.body[end] = order_[body];
+      for (int i = 0; i < 3; ++i) row.block[end].template segment<3>(3 + 3 * i) = by.cross(Vector(of.R.col(i))) / 2;
+    };
+    turn(0, joint.a, a, -n), turn(1, joint.b, b, n);
+    row.gap = axis.coordinate(a.x, a.R, b.x, b.R, turned);
+    row.bias = Vector(a.dR * axis.direction_a).dot(b.w() - a.w());
+    return row;
   }
 
  private:

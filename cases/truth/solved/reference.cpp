@@ -1,5 +1,5 @@
-// The motion of any smooth scene, solved twice in high precision (reference_solver.h): the first is the truth, and how
-// far the second is from it is its error. A solution is computed once and kept (solution_cache.h).
+// The motion of any scene without contacts, solved twice in high precision (reference_solver.h): the first is the
+// truth, and how far the second is from it is its error. A solution is computed once and kept (solution_cache.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ ReferenceSolution reference_solution(const Scene& scene, double duration) {
 class Reference final : public Truth {
  public:
   Reference(const Scene& scene, ReferenceSolution solution)
-      : motion_(reference_motion(scene)), solution_(std::move(solution)) {}
+      : motion_(reference_motion(scene, solution)), solution_(std::move(solution)) {}
 
   void at(double t, MutableBodyColumns out) const override {
     motion_->write(solving::state_at(solution_, *motion_, t).data(), out);
@@ -42,13 +42,12 @@ class Reference final : public Truth {
 
 std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
   static const Features solved = {"fixed-body",   "spring",       "timed-force", "joints-with-dampers",
-                                  "joint-spring", "joint-damper", "motor:effort"};
+                                  "joint-spring", "joint-damper", "joint-limit", "joint-limit:beyond-half-turn",
+                                  "motor:effort", "motor:speed"};
   for (const Need& need : needs_of(scene)) {
     if (solved.contains(need.feature) || need.feature.starts_with("joint:")) continue;
-    throw InputError(fmt::format(
-        "the truth 'reference' is for smooth scenes, without contacts, limits and motors of a given speed; this one "
-        "has {}: {}",
-        need.feature, need.because));
+    throw InputError(fmt::format("the truth 'reference' is for scenes without contacts; this one has {}: {}",
+                                 need.feature, need.because));
   }
   return std::make_unique<Reference>(scene, reference_solution(scene, duration));
 }
@@ -60,7 +59,8 @@ Provenance reference_provenance() {
 }
 
 TruthRow reference_truth() {
-  return {"reference", "any smooth scene, solved twice in high precision: the difference is its error", make_reference};
+  return {"reference", "any scene without contacts, solved twice in high precision: the difference is its error",
+          make_reference};
 }
 
 }  // namespace rigor

@@ -68,8 +68,9 @@ double quad_work(std::size_t steps, const Scene& scene) {
 
 }  // namespace
 
-std::unique_ptr<DoubleMotion> reference_motion(const Scene& scene) {
-  return scene.joints.empty() ? free_motion_in_double(scene, kReferenceForm) : jointed_motion_in_double(scene);
+std::unique_ptr<DoubleMotion> reference_motion(const Scene& scene, const ReferenceSolution& solution) {
+  return scene.joints.empty() ? free_motion_in_double(scene, kReferenceForm)
+                              : jointed_motion_in_double(scene, solution);
 }
 
 ReferenceSolution solve_reference(const Scene& scene, double duration) {

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMagic = "rigor reference solution 1\n";  // the layout of the file
+constexpr const char* kMagic = "rigor reference solution 2\n";  // the layout of the file
 constexpr std::size_t kMostBytes = 128'000'000;                 // larger ones are not kept
 
 class Writer {
@@ -135,7 +135,8 @@ std::string head_of(const std::string& content) {
 // Whether state_at and the error may rely on it.
 bool is_sound(const ReferenceSolution& s) {
   return !s.times.empty() && s.states.size() == s.times.size() * s.dimension && !s.errors.empty() &&
-         s.errors.size() == s.error_times.size();
+         s.errors.size() == s.error_times.size() &&
+         (s.phases.times.empty() ? s.phases.modes.empty() : s.phases.modes.size() % s.phases.times.size() == 0);
 }
 
 void add_shape(Writer& content, const Sphere& sphere) { content.add(sphere.radius); }
@@ -180,10 +181,12 @@ std::string motion_content(const Scene& scene, double duration) {
     content.add(joint.a), content.add(joint.b), content.add(joint.type.index());
     std::visit([&](const auto& type) { add_joint(content, type); }, joint.type);
     content.add(joint.stiffness), content.add(joint.damping), content.add(joint.rest);
+    content.add(joint.lower), content.add(joint.upper), content.add(joint.restitution);
   }
   content.add(scene.motors.size());
   for (const Motor& motor : scene.motors) {
     content.add(motor.joint), content.add(motor.effort), content.add(motor.from), content.add(motor.until);
+    content.add(motor.speed.has_value()), content.add(motor.speed.value_or(0)), content.add(motor.most);
   }
   content.add(scene.forces.size());
   for (const TimedForce& force : scene.forces) {
@@ -239,6 +242,7 @@ std::optional<ReferenceSolution> kept_solution(const std::string& content) {
   ReferenceSolution solution;
   solution.dimension = body.number(), solution.complete = body.number() != 0;
   body.read(solution.times), body.read(solution.states), body.read(solution.error_times), body.read(solution.errors);
+  body.read(solution.phases.times), body.read(solution.phases.modes);
   if (!body.at_end() || !is_sound(solution)) return std::nullopt;
   std::error_code ignored;
   fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // in use: see drop_unused
@@ -251,6 +255,7 @@ void keep_solution(const std::string& content, const ReferenceSolution& solution
   Writer body, seal;
   body.add(solution.dimension), body.add(solution.complete);
   body.add(solution.times), body.add(solution.states), body.add(solution.error_times), body.add(solution.errors);
+  body.add(solution.phases.times), body.add(solution.phases.modes);
   const std::string bytes = head_of(content) + body.bytes();
   seal.add(content_hash(bytes));
 

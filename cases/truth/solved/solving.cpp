@@ -26,6 +26,7 @@ Nodes filled_in(const Nodes& nodes, const DoubleMotion& motion) {
     filled.add(nodes.times[i], state);
     if (i + 1 == nodes.times.size()) break;
     const Extended begin = nodes.times[i], length = nodes.times[i + 1] - begin;
+    if (length == 0) continue;  // an impact
     auto system = motion.during(static_cast<double>(begin + length / 2));
     Nodes between;
     if (!solve_interval<double>(fehlberg, system, 0, static_cast<double>(length), state, between, kMostTries))
@@ -95,6 +96,7 @@ Judged::Judged(std::unique_ptr<DoubleMotion> motion, std::size_t bodies, const N
   solution_.dimension = filled.dimension;
   solution_.times = std::move(filled.times), solution_.states = std::move(filled.states);
   solution_.complete = filled.complete;
+  solution_.phases = first.phases;
 }
 
 void Judged::compare(const std::function<void(const double* state, MutableBodyColumns out)>& write,

@@ -25,6 +25,7 @@ struct Nodes {
   std::vector<Extended> times;  // s
   std::vector<double> states;   // `dimension` numbers each
   std::size_t dimension = 0;
+  Phases phases = {};
   bool complete = false;
 
   template <typename Real>
@@ -32,6 +33,7 @@ struct Nodes {
     times.push_back(t);
     for (const Real& number : state) states.push_back(static_cast<double>(number));
   }
+  bool is_full() const { return static_cast<double>(states.size()) * sizeof(double) > kMostBytes; }
 };
 
 // 0, the instants at which a timed force or a motor begins or ends, and the duration.
@@ -78,24 +80,32 @@ bool finite(const std::vector<Real>& state) {
   return std::all_of(state.begin(), state.end(), [](const Real& number) { return number - number == 0; });
 }
 
-// Steps from `begin` to `end`; false if it cannot get there.
+// One accepted step from t towards `end`, by h or what it is cut to; false if it cannot be made.
 template <typename Real, typename Stepper, typename System>
-bool solve_interval(Stepper stepper, System& system, Real begin, Real end, std::vector<Real>& state, Nodes& nodes,
-                    std::size_t most_tries) {
-  Real t = begin, h = std::min<Real>(kFirstStep, end - begin);
-  for (std::size_t tries = 0; t < end; ++tries) {
+bool step_towards(Stepper& stepper, System& system, Real& t, Real end, Real& h, std::vector<Real>& state,
+                  std::size_t& tries_left) {
+  while (true) {
     const bool is_last = h >= end - t;
     if (is_last) h = end - t;
-    if (t + h == t || tries == most_tries || static_cast<double>(nodes.states.size()) * sizeof(double) > kMostBytes)
-      return false;
+    if (t + h == t || tries_left-- == 0) return false;
     if (stepper.try_step(std::ref(system), state, t, h) == boost::numeric::odeint::fail) continue;
     if constexpr (std::is_same_v<System, DoubleMotion::RightHandSide>) {
       if (system.project && !system.project(state)) return false;
     } else if constexpr (requires { system.project(state); }) {
       if (!system.project(state)) return false;
     }
-    if (!finite(state)) return false;
     if (is_last) t = end;
+    return finite(state);
+  }
+}
+
+// Steps from `begin` to `end`; false if it cannot get there.
+template <typename Real, typename Stepper, typename System>
+bool solve_interval(Stepper stepper, System& system, Real begin, Real end, std::vector<Real>& state, Nodes& nodes,
+                    std::size_t tries_left) {
+  Real t = begin, h = std::min<Real>(kFirstStep, end - begin);
+  while (t < end) {
+    if (nodes.is_full() || !step_towards(stepper, system, t, end, h, state, tries_left)) return false;
     nodes.add(static_cast<Extended>(t), state);
   }
   return true;

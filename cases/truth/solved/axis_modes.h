@@ -1,0 +1,46 @@
+// What a limit and a motor of given speed make of a joint's coordinate x from one event to the next: between two events
+// the motion is smooth, with the same rows and the same efforts.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace rigor {
+
+struct AxisMode {
+  int limit = 0;             // x is kept at its lower (-1) or upper (1) one
+  int push = 0;              // its motor pushes x up (1) or down (-1) with all it has
+  bool keeps_speed = false;  // its motor keeps x' = speed
+  double speed = 0;          // rad/s, m/s: what its motor asks for
+  double most = 0;           // N m, N
+  long double bounce = 0;    // rad/s, m/s: that an impact at hand is to leave at the limit
+
+  bool has_row() const { return limit != 0 || keeps_speed; }
+};
+
+// Of each axis (joint_axis.h); empty: all are free.
+using AxisModes = std::vector<AxisMode>;
+
+// As plain numbers, to be kept; an impact is not among them.
+inline constexpr std::size_t kNumbersPerMode = 5;
+
+inline std::vector<double> numbers_of(const AxisModes& modes) {
+  std::vector<double> numbers;
+  for (const AxisMode& mode : modes) {
+    for (const double number : {double(mode.limit), double(mode.push), double(mode.keeps_speed), mode.speed, mode.most})
+      numbers.push_back(number);
+  }
+  return numbers;
+}
+
+inline AxisModes modes_of(const double* numbers, std::size_t axes) {
+  AxisModes modes(axes);
+  for (AxisMode& mode : modes) {
+    mode.limit = static_cast<int>(numbers[0]), mode.push = static_cast<int>(numbers[1]);
+    mode.keeps_speed = numbers[2] != 0, mode.speed = numbers[3], mode.most = numbers[4];
+    numbers += kNumbersPerMode;
+  }
+  return modes;
+}
+
+}  // namespace rigor

@@ -1,0 +1,58 @@
+// Rows of joints' coordinates, which limits and motors of a given speed keep, for any number type and coordinates of
+// bodies, and what the coordinates do at a state.
+#pragma once
+
+#include <vector>
+
+#include "cases/truth/solved/axis_modes.h"
+#include "cases/truth/solved/constraint_rows.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+template <typename Real>
+struct AxisMotion {
+  Real x = 0, rate = 0, acceleration = 0;  // rad or m, and per s, per s²
+  Real effort = 0;  // on b, of the row that keeps it: N m or N, or of an impact N m s or N s; 0 without a row
+};
+
+// `row` is of the coordinate's rate, and its gap the coordinate.
+template <typename Real, int N>
+ConstraintRow<Real, N> kept(ConstraintRow<Real, N> row, const AxisMode& mode, const Joint& joint) {
+  if (mode.limit != 0) {
+    row.gap -= static_cast<Real>(mode.limit > 0 ? joint.upper : joint.lower);
+    row.speed = static_cast<Real>(mode.bounce);
+  } else {
+    row.gap = 0, row.speed = static_cast<Real>(mode.speed);
+  }
+  return row;
+}
+
+// Rows of modes stand after those of the joints, in the order of the axes.
+template <typename Real, typename Multipliers, typename Blocks, typename AxisRow>
+std::vector<AxisMotion<Real>> axis_motions(const AxisModes& modes, std::size_t axes, const Multipliers& multipliers,
+                                           const Blocks& velocities, const Blocks& accelerations,
+                                           const AxisRow& axis_row) {
+  auto next = multipliers.size();
+  for (const AxisMode& mode : modes) next -= mode.has_row() && multipliers.size() > 0 ? 1 : 0;
+  std::vector<AxisMotion<Real>> all(axes);
+  for (std::size_t k = 0; k < axes; ++k) {
+    const auto row = axis_row(k);
+    all[k].x = row.gap, all[k].rate = row.rate(velocities);
+    if (!accelerations.empty()) all[k].acceleration = row.rate(accelerations) + row.bias;
+    if (!modes.empty() && modes[k].has_row() && multipliers.size() > 0) all[k].effort = multipliers[next++];
+  }
+  return all;
+}
+
+// All of them, or, where some repeat others, which.
+template <typename Rows, typename RowVector, typename Masses>
+RowChoice choose_rows(const RowVector& rows, const Masses& inverse_masses) {
+  Rows all(RowChoice::all(static_cast<int>(rows.size())));
+  if (all.factorise(rows, inverse_masses) && all.is_well_posed()) return all.choice();
+  Rows some;
+  some.factorise(rows, inverse_masses);
+  return some.choice();
+}
+
+}  // namespace rigor

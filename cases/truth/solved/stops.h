@@ -1,0 +1,209 @@
+// What happens at an instant to the limits of joints and to motors that keep a speed (core/scene/scene.h):
+//   a limit x <= upper   takes an effort of at most 0, and none where x < upper; what hits it leaves with x' = -e x'
+//   a motor              keeps x' = speed as long as |effort| <= most, and else pushes by `most` towards it
+// Several at once are a linear complementarity problem, of impulses at an impact and of efforts after it; both are
+// solved by changing the first that is violated until none is (Murty, Opsearch 11, 1974). Written apart from
+// core/dynamics on purpose. What comes to rest at a limit bounces without end before: a bounce that is back within
+// twice `rest_time` does not take place, by which a coordinate is off by a rest_time² / 2, with a the acceleration.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "cases/truth/solved/axis_rows.h"
+#include "cases/truth/solved/joint_axis.h"
+
+namespace rigor::solving {
+
+inline constexpr double kTouch = 1e-11;     // rad, m: an event's time is located to a thousandth of that
+inline constexpr double kSameSpeed = 1e-9;  // rad/s, m/s
+inline constexpr double kStill = 1e-11;     // rad/s, m/s: what roundings make of a coordinate that is kept
+inline constexpr double kNoShare = 1e-9;    // of the largest effort: what roundings make of none
+
+template <typename Motion>
+class Stops {
+ public:
+  using State = typename Motion::State;
+  using Real = typename State::value_type;
+  using Values = std::vector<AxisMotion<Real>>;
+
+  Stops(const Motion& motion, double rest_time)
+      : motion_(motion), rest_time_(rest_time), modes_(motion.axes().size()) {}
+
+  static bool are_in(const Scene& scene) {
+    return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.has_limits(); }) ||
+           std::any_of(scene.motors.begin(), scene.motors.end(), [](const Motor& m) { return m.speed.has_value(); });
+  }
+
+  const AxisModes& modes() const { return modes_; }
+  double no_effort() const { return no_effort_; }  // what roundings may make of none [N m, N]
+  const Joint& joint(std::size_t k) const { return motion_.scene().joints[motion_.axes()[k].joint]; }
+  // Positive by as much as x is beyond the limit of that side.
+  Real beyond(std::size_t k, int side, const Real& x) const {
+    return side > 0 ? Real(x - static_cast<Real>(joint(k).upper)) : Real(static_cast<Real>(joint(k).lower) - x);
+  }
+
+  // Impacts at t change the state's velocities; then modes() are those from t on, while loads are those of `during`.
+  // False if that cannot be decided.
+  bool settle(State& state, double t, double during) {
+    modes_.assign(modes_.size(), {});
+    touched_.assign(modes_.size(), 0);
+    const Values before = interval(state, during).axes_at(state);
+    bool is_hit = false;
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
+      for (const int side : {1, -1}) {
+        if (beyond(k, side, before[k].x) >= -kTouch) touched_[k] = side;
+      }
+      is_hit |= touched_[k] * before[k].rate > kStill;
+    }
+    if (is_hit && !strike(state, before, during)) return false;
+    guess_motors(interval(state, during).axes_at(state), during);
+    Interval free = interval(state, during);
+    guess_limits(look(free, state, t));
+    return find_modes(state, t, during);
+  }
+
+ private:
+  using Interval = typename Motion::Interval;
+
+  Interval interval(const State& state, double during) const {
+    return motion_.during(during, modes_, motion_.choice_at(state, modes_));
+  }
+  static Values look(Interval& interval, const State& state, double t) {
+    State change;
+    interval(state, change, static_cast<Real>(t));
+    return interval.axes_at(state);
+  }
+  std::size_t most_changes() const { return 16 * (1 + modes_.size()); }
+
+  // Impulses on what is hit: each keeps a limit's row, or its sign is wrong and it has none.
+  bool strike(State& state, const Values& before, double during) {
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
+      if (touched_[k] * before[k].rate > kStill) modes_[k].limit = touched_[k];
+    }
+    for (std::size_t n = 0; n < most_changes(); ++n) {
+      for (std::size_t k = 0; k < modes_.size(); ++k) {
+        const Real approach = touched_[k] * before[k].rate;
+        modes_[k].bounce = approach > 0 ? static_cast<long double>(-joint(k).restitution * before[k].rate) : 0;
+      }
+      State after = state;
+      Interval impact = interval(state, during);
+      if (!impact.project_rates(after)) return false;
+      const Values at = impact.axes_at(after);
+      const Real none = kNoShare * largest_effort(at);
+      const std::size_t wrong = first_wrong([&](std::size_t k) {
+        return modes_[k].limit != 0 ? modes_[k].limit * at[k].effort > none : touched_[k] * at[k].rate > kStill;
+      });
+      if (wrong == modes_.size()) {
+        state = after;
+        modes_.assign(modes_.size(), {});
+        return true;
+      }
+      modes_[wrong].limit = modes_[wrong].limit != 0 ? 0 : touched_[wrong];
+    }
+    return false;
+  }
+
+  // All that may hold does.
+  void guess_motors(const Values& at, double during) {
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
+      const Motor* const motor = motor_at(k, during);
+      if (!motor) continue;
+      AxisMode& mode = modes_[k];
+      mode.speed = *motor->speed, mode.most = motor->most;
+      const double behind = mode.speed - static_cast<double>(at[k].rate);
+      mode.keeps_speed = std::abs(behind) <= kSameSpeed;
+      if (!mode.keeps_speed) mode.push = behind > 0 ? 1 : -1;
+    }
+  }
+  void guess_limits(const Values& at) {
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
+      if (!rests(touched_[k], at[k])) continue;
+      modes_[k].limit = touched_[k];
+      stop_keeping(modes_[k]);
+    }
+  }
+  // A motor cannot keep its speed where a limit does: it pushes with all it has, or asks for what is there.
+  static void stop_keeping(AxisMode& mode) {
+    if (!mode.keeps_speed) return;
+    mode.keeps_speed = false;
+    mode.push = mode.speed > 0 ? 1 : mode.speed < 0 ? -1 : 0;
+  }
+  bool rests(int side, const AxisMotion<Real>& at) const {
+    const double speed = std::abs(static_cast<double>(at.rate)), back = static_cast<double>(side * at.acceleration);
+    return side != 0 && (speed <= kStill || speed <= rest_time_ * back);
+  }
+
+  // Of two that drive one joint the later in the scene counts, as everywhere.
+  const Motor* motor_at(std::size_t k, double t) const {
+    const Motor* found = nullptr;
+    for (const Motor& motor : motion_.scene().motors) {
+      const bool acts = motor.speed && t >= motor.from && t < motor.until;
+      if (acts && static_cast<std::size_t>(motor.joint) == motion_.axes()[k].joint) found = &motor;
+    }
+    return found;
+  }
+
+  bool find_modes(State& state, double t, double during) {
+    for (std::size_t n = 0; n < most_changes(); ++n) {
+      State held = state;
+      Interval here = interval(state, during);
+      if (!here.project_rates(held)) return false;
+      const Values at = look(here, held, t);
+      no_effort_ = kNoShare * static_cast<double>(largest_effort(at));
+      const std::size_t wrong = first_wrong([&](std::size_t k) { return is_wrong(modes_[k], touched_[k], at[k]); });
+      if (wrong == modes_.size()) {
+        state = held;
+        return true;
+      }
+      change_mode(modes_[wrong], touched_[wrong], at[wrong]);
+    }
+    return false;
+  }
+
+  bool is_wrong(const AxisMode& mode, int side, const AxisMotion<Real>& at) const {
+    if (mode.limit != 0) return mode.limit * at.effort > no_effort_;
+    if (mode.keeps_speed) return std::abs(static_cast<double>(at.effort)) > mode.most + no_effort_;
+    if (side * at.acceleration > kSameSpeed && rests(side, at)) return true;
+    return is_at_speed(mode, at) && mode.push * at.acceleration > kSameSpeed;
+  }
+  static bool is_at_speed(const AxisMode& mode, const AxisMotion<Real>& at) {
+    return mode.push != 0 && std::abs(static_cast<double>(at.rate) - mode.speed) <= kSameSpeed;
+  }
+
+  static void change_mode(AxisMode& mode, int side, const AxisMotion<Real>& at) {
+    if (mode.limit != 0) {
+      mode.limit = 0;
+    } else if (mode.keeps_speed) {
+      mode.keeps_speed = false, mode.push = at.effort > 0 ? 1 : -1;
+    } else if (is_at_speed(mode, at)) {
+      mode.push = 0, mode.keeps_speed = true;
+    } else {
+      mode.limit = side;
+    }
+  }
+
+  template <typename IsWrong>
+  std::size_t first_wrong(const IsWrong& is_wrong) const {
+    std::size_t k = 0;
+    while (k < modes_.size() && !is_wrong(k)) ++k;
+    return k;
+  }
+
+  static Real largest_effort(const Values& at) {
+    Real largest = 0;
+    for (const AxisMotion<Real>& axis : at)
+      largest = std::max<Real>(largest, axis.effort < 0 ? -axis.effort : axis.effort);
+    return largest;
+  }
+
+  const Motion& motion_;
+  double rest_time_;  // s
+  double no_effort_ = 0;
+  AxisModes modes_;
+  std::vector<int> touched_;  // of each axis: the limit at which it is, or 0
+};
+
+}  // namespace rigor::solving
