@@ -53,7 +53,7 @@ class JointedImpulseStepper : public ContactStepper {
     rows_.solve_with_bias();
     integrate_corrections(state);
     rows_.relax();
-    rows_.apply_restitution();
+    rows_.apply_restitution(state);
     store_velocities(state);
     joints_.project(state);
   }

@@ -12,6 +12,7 @@ constexpr double kStepsAhead = 12;           // and by its displacement in so ma
 constexpr double kFarthest = 1.5;            // but not by more than this
 constexpr double kSpeculativeMargin = 0.02;  // points closer than this are kept even if they do not approach
 constexpr double kMatchRadius = 0.1;         // a point this near to one of the last update is the same
+constexpr double kDeep = 0.1;                // an overlap of more was there from the start, or is a failure
 constexpr int kMostOfPair = 4;
 
 double smaller_inradius(const Collider& a, const Collider& b) { return std::min(a.inradius, b.inradius); }
@@ -160,7 +161,8 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
     // Between points that are apart `point` is midway; each body will be met on its own surface.
     const Vec3 to_surface = looks_ahead ? Vec3::Zero() : Vec3(0.5 * std::max(0.0, point.gap) * point.normal);
     constraints_.push_back({a.body, b.body, point.feature, point.normal, point.point + to_surface - motion_a.pose.p,
-                            point.point - to_surface - motion_b.pose.p, point.gap, law.friction, law.restitution, 0,
+                            point.point - to_surface - motion_b.pose.p, point.gap,
+                            point.gap < -kDeep * smaller_inradius(a, b), law.friction, law.restitution, 0,
                             Vec3::Zero()});
   }
 }

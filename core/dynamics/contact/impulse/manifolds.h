@@ -20,6 +20,7 @@ struct ContactConstraint {
   Vec3 normal;        // unit, in W, from b to a
   Vec3 arm_a, arm_b;  // m, in W, from each body's centre of mass to its point
   double gap;         // m
+  bool is_deep;       // an overlap that neither rest nor impacts make
   double friction, restitution;
   double normal_impulse = 0;             // N s
   Vec3 friction_impulse = Vec3::Zero();  // N s, in W
