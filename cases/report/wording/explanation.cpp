@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cases/report/wording/contact_explanation.h"
+#include "cases/report/wording/ensemble_explanation.h"
 #include "cases/report/wording/joint_explanation.h"
 
 namespace rigor {
@@ -222,6 +223,7 @@ std::vector<std::string> explanations(const Results& results, const CaseResult& 
   std::vector<std::string> sentences = Explainer(results, result).sentences();
   for (std::string& sentence : contact_explanations(results, result)) sentences.push_back(std::move(sentence));
   for (std::string& sentence : joint_explanations(results, result)) sentences.push_back(std::move(sentence));
+  for (std::string& sentence : ensemble_explanations(results, result)) sentences.push_back(std::move(sentence));
   return sentences;
 }
 

@@ -35,7 +35,10 @@ class JointedImpulseStepper : public ContactStepper {
     }
   }
 
-  std::string solver_warning() const override { return integrator_->solver_warning(); }
+  std::string solver_warning() const override {
+    const std::string warning = integrator_->solver_warning();
+    return warning.empty() ? manifolds_.failure() : warning;
+  }
 
   SettingsInForce settings_in_force() const override {
     SettingsInForce settings = sub_steps_.settings_in_force();
