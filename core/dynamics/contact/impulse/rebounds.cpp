@@ -43,7 +43,8 @@ double Rebounds::hit_of(const Row& row) const {
   const double at_hit2 = approach * approach + 2 * closing_acceleration(row) * gap;
   if (!(at_hit2 > threshold_ * threshold_)) return kNever;
   const double twice_mean = approach + std::sqrt(at_hit2);
-  if (!(2 * gap <= (h_ - from) * twice_mean)) return kNever;
+  // To just beyond the sub-step: a row of balls met at its very end must not stop half-way for roundings.
+  if (!(2 * gap <= ((1 + kSameInstant) * h_ - from) * twice_mean)) return kNever;
   return from + 2 * gap / twice_mean;
 }
 
