@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/engine/remote.h"
+#include "core/engine/simulation.h"
 
 namespace rigor {
 namespace {
@@ -37,9 +38,9 @@ Scene jittered(const Scene& scene, std::uint64_t seed) {
   return out;
 }
 
-std::optional<Sample> outcomes_of(const Engine& engine, const Settings& settings, const Case& definition, double dt,
+std::optional<Points> outcomes_of(const Engine& engine, const Settings& settings, const Case& definition, double dt,
                                   std::uint64_t first_seed, std::string& flaw) {
-  Sample outcomes;
+  Points outcomes;
   const long steps = steps_in(definition.duration, dt);
   Snapshot end;
   for (int k = 0; k < definition.ensemble; ++k) {
@@ -70,9 +71,9 @@ EnsembleReference::EnsembleReference(const EngineTable& engines, const Case& def
     return outcomes_of(engine, run.settings, definition, share * finest(definition), seed, flaw_);
   };
   flaw_ = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, finest(definition));
-  if (flaw_.empty()) outcomes_ = ensemble(0.25, kOfReference);
-  std::optional<Sample> finer;
-  if (outcomes_) finer = ensemble(0.125, kOfFiner);
+  if (flaw_.empty()) outcomes_ = ensemble(1, kOfReference);
+  std::optional<Points> finer;
+  if (outcomes_) finer = ensemble(0.5, kOfFiner);
   if (!flaw_.empty()) {
     flaw_ = "no reference: " + flaw_;
     return;

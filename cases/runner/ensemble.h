@@ -6,6 +6,7 @@
 #include "adapters/engines.h"
 #include "cases/case/case.h"
 #include "cases/metrics/measures/ensembles.h"
+#include "core/engine/run_name.h"
 
 namespace rigor {
 
@@ -17,18 +18,17 @@ Scene jittered(const Scene& scene, std::uint64_t seed);
 
 // Where the bodies that move end, one point a start. None, with the reason in `flaw`, if one run is not finite to the
 // end or does not do what its method promises.
-std::optional<Sample> outcomes_of(const Engine& engine, const Settings& settings, const Case& definition, double dt,
+std::optional<Points> outcomes_of(const Engine& engine, const Settings& settings, const Case& definition, double dt,
                                   std::uint64_t first_seed, std::string& flaw);
 
-// The core's own, at a quarter of the case's finest step. Held against another one at half of that: if these two
-// differ, outcomes depend on the step still, and there is nothing to hold a run against.
+// The core's own, at the case's finest step. Held against another one at half of that: if these two differ, outcomes depend on the step still, and there is nothing to hold a run against.
 class EnsembleReference {
  public:
   EnsembleReference(const EngineTable& engines, const Case& definition);
   Ensembles compare(const EngineTable& engines, const RunName& run, const Case& definition, double dt) const;
 
  private:
-  std::optional<Sample> outcomes_;
+  std::optional<Points> outcomes_;
   std::string flaw_;
 };
 

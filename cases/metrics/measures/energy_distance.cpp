@@ -21,7 +21,7 @@ struct Means {
 
 class Pooled {
  public:
-  Pooled(const Sample& x, const Sample& y) : of_x_(x.size()), size_(x.size() + y.size()), distances_(size_ * size_) {
+  Pooled(const Points& x, const Points& y) : of_x_(x.size()), size_(x.size() + y.size()), distances_(size_ * size_) {
     const auto point = [&](std::size_t i) -> const auto& { return i < of_x_ ? x[i] : y[i - of_x_]; };
     for (std::size_t i = 0; i < size_; ++i) {
       for (std::size_t j = 0; j < i; ++j)
@@ -54,7 +54,7 @@ void shuffle(std::vector<std::size_t>& order, std::mt19937_64& random) {
 
 }  // namespace
 
-EnergyTest energy_test(const Sample& x, const Sample& y, int permutations, std::uint64_t seed) {
+EnergyTest energy_test(const Points& x, const Points& y, int permutations, std::uint64_t seed) {
   const Pooled pooled(x, y);
   std::vector<std::size_t> order(pooled.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -10,7 +10,7 @@
 
 namespace rigor {
 
-using Sample = std::vector<std::vector<double>>;  // points of one dimension each
+using Points = std::vector<std::vector<double>>;  // points of one dimension each
 
 struct EnergyTest {
   double coefficient = 0;  // H; 0 where all points are one
@@ -18,6 +18,6 @@ struct EnergyTest {
 };
 
 // Each sample has two points or more, and each point the same dimension.
-EnergyTest energy_test(const Sample& x, const Sample& y, int permutations, std::uint64_t seed);
+EnergyTest energy_test(const Points& x, const Points& y, int permutations, std::uint64_t seed);
 
 }  // namespace rigor
