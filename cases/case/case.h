@@ -44,6 +44,7 @@ struct Case {
   Scene scene;
   double duration = 0;  // s
   std::vector<StepSize> dt;
+  int ensemble = 0;            // starts 1e-6 apart that each run is repeated from (runner/ensemble.h); 0: none
   std::string truth = "none";  // a row of truths.cpp, or "none"
   std::string truth_where;     // "file:line:column" of truth.kind
   std::vector<Gate> gates;

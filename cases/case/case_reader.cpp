@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cases/case/gate_reader.h"
 #include "cases/case/run_selector.h"
@@ -15,6 +16,16 @@
 namespace rigor {
 namespace {
 
+// Each start is another run, of joints that then do not fit.
+void read_ensemble(const TomlValue& value, Case& out) {
+  constexpr int kFewest = 16, kMost = 10000;  // fewer tell no distributions apart
+  const double count = value.number();
+  if (count != std::floor(count) || count < kFewest || count > kMost)
+    value.refuse(fmt::format("found {}; allowed: a whole number from {} to {}", count, kFewest, kMost));
+  out.ensemble = static_cast<int>(count);
+  if (!out.scene.joints.empty()) value.refuse("starts that are moved about would break the scene's joints");
+}
+
 void read_run(const TableReader& table, Case& out) {
   out.duration = read_seconds(table.at("duration")).seconds;
   for (const TomlValue& value : table.at("dt").items()) {
@@ -24,6 +35,7 @@ void read_run(const TableReader& table, Case& out) {
       value.refuse(fmt::format("the step {} s is given twice", dt.text));
     out.dt.push_back(dt);
   }
+  if (const auto ensemble = table.find("ensemble")) read_ensemble(*ensemble, out);
 }
 
 void read_truth(const TableReader& table, const Vocabulary& words, Case& out) {
@@ -73,7 +85,7 @@ Case read_case_text(const std::string& text, const std::string& path, const std:
   out.title = root.at("title").text();
   if (const auto source = root.find("source")) out.source = source->text();
   out.scene = read_scene(root.at("scene"));
-  read_run(root.at("run").table({"duration", "dt"}), out);
+  read_run(root.at("run").table({"duration", "dt", "ensemble"}), out);
   if (const auto truth = root.find("truth")) read_truth(truth->table({"kind"}), words, out);
   if (const auto gates = root.find("gate")) {
     for (const TableReader& table : gates->tables(gate_keys())) {

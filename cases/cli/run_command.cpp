@@ -6,12 +6,22 @@
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress.h"
+#include "cases/runner/ensemble.h"
 #include "cases/runner/shards/part.h"
 
 namespace rigor {
 namespace {
 
+std::size_t cells_to_run(const CaseResult& result) {
+  return static_cast<std::size_t>(std::count_if(result.cells.begin(), result.cells.end(),
+                                                [](const Cell& cell) { return cell.status != Status::unsupported; }));
+}
+
 void run_with_progress(Results& grid, const EngineTable& engines, const GridOptions& options) {
+  for (const CaseResult& result : grid.cases) {
+    const std::string cost = cost_of_ensemble(result.definition, cells_to_run(result));
+    if (!cost.empty()) say(cost);
+  }
   Progress progress;
   run_grid(grid, engines, options, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
 }

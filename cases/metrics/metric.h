@@ -37,6 +37,8 @@ struct EnergiesKnown {
   std::optional<std::vector<double>> of_truth = {};  // as far as the truth was sampled
 };
 
+struct Ensembles;  // measures/ensembles.h
+
 // A run, ready to be judged. The trajectory ends before the first sample that is not finite.
 struct JudgedRun {
   const Scene& scene;
@@ -47,6 +49,7 @@ struct JudgedRun {
   double cpu_seconds = std::numeric_limits<double>::quiet_NaN();  // s, of the run's steps
   double survived = std::numeric_limits<double>::quiet_NaN();     // s, until it blew up, or `duration`
   double duration = 0;                                            // s, of the case
+  const Ensembles* ensembles = nullptr;                           // null where the case asks for none
   mutable EnergiesKnown energies = {};                            // filled in by energies_of and energy_series
 };
 

@@ -11,6 +11,8 @@ MetricRow creep();
 MetricRow energy_drift();
 MetricRow energy_drift_synchronised();
 MetricRow energy_gain();
+MetricRow ensemble_distance();
+MetricRow ensemble_p_value();
 MetricRow friction_anisotropy();
 MetricRow impact_time_error();
 MetricRow joint_gap();
@@ -45,6 +47,8 @@ const std::vector<MetricRow>& metrics() {
       energy_drift(),
       energy_drift_synchronised(),
       energy_gain(),
+      ensemble_distance(),
+      ensemble_p_value(),
       friction_anisotropy(),
       impact_time_error(),
       joint_gap(),

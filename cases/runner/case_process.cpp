@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
+#include "cases/runner/ensemble.h"
 #include "cases/runner/executor.h"
 #include "cases/runner/shards/shard.h"
 #include "cases/runner/stable_step.h"
@@ -95,6 +97,8 @@ class CaseJobs {
       }
     }
     keep_truth_for(jobs);
+    if (planned_.definition.ensemble > 0 && std::any_of(jobs.begin(), jobs.end(), is_cell))
+      reference_.emplace(engines_, planned_.definition);
     std::map<std::size_t, std::string> flaws;  // by job; empty for one whose answer is good
     const auto on_message = [&](std::size_t index, const std::string& message) {
       const std::size_t job = left[index];
@@ -168,8 +172,8 @@ class CaseJobs {
 
   void do_cell(const JobSpec& job, const Channel& channel) const {
     const Cell& cell = planned_.cells[job.part];
-    const JudgedCell judged =
-        run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_, truth_on_steps_);
+    const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_,
+                                       truth_on_steps_, reference_ ? &*reference_ : nullptr);
     channel.send(joined({message_of_cell(job.part, judged.cell, planned_.definition.scene), packed(judged.path)}));
   }
 
@@ -220,6 +224,7 @@ class CaseJobs {
   const GridOptions& options_;
   const Truth* truth_;
   TruthOnSteps truth_on_steps_;
+  std::optional<EnsembleReference> reference_;
   TruthFacts facts_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<JobSpec> jobs_;

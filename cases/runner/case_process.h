@@ -11,18 +11,20 @@
 
 namespace rigor {
 
+class EnsembleReference;  // ensemble.h
+
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel);
 
-// Simulates, judges and records one cell: everything but its gates. `truth` may be null. The path is what the cell's
-// spread from others is found by.
+// Simulates, judges and records one cell: everything but its gates. `truth` and `reference` may be null. The path is
+// what the cell's spread from others is found by.
 struct JudgedCell {
   Cell cell;
   Path path;
 };
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, const TruthFacts& facts, const GridOptions& options,
-                    const TruthOnSteps& truth_on_steps = {});
+                    const TruthOnSteps& truth_on_steps = {}, const EnsembleReference* reference = nullptr);
 
 // `truth` may be null.
 TruthFacts facts_of(const Case& definition, const Truth* truth);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cases/runner/case_process.h"
+#include "cases/runner/ensemble.h"
 #include "cases/runner/simulate.h"
 #include "cases/runner/twin_run.h"
 
@@ -71,7 +72,7 @@ TruthFacts facts_of(const Case& definition, const Truth* truth) {
 
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, const TruthFacts& facts, const GridOptions& options,
-                    const TruthOnSteps& truth_on_steps) {
+                    const TruthOnSteps& truth_on_steps, const EnsembleReference* reference) {
   const auto begin = std::chrono::steady_clock::now();
   Cell cell = planned;
   const Scene& scene = definition.scene;
@@ -95,6 +96,9 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   judged.duration = definition.duration;
   cell.stability = judge_stability(judged, run.not_finite, facts.largest_kinetic_energy, facts.largest_energy_change);
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
+  std::optional<Ensembles> ensembles;
+  if (reference) ensembles = reference->compare(engines, run_name, definition, cell.dt.seconds);
+  if (ensembles) judged.ensembles = &*ensembles;
   std::vector<NamedSeries> series;
   cell.metrics = measured(judged, definition, options, series);
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);

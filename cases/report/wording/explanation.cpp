@@ -9,6 +9,7 @@
 #include "cases/analysis/energy_diagnosis.h"
 #include "cases/analysis/stiffest_frequency.h"
 #include "cases/report/wording/contact_explanation.h"
+#include "cases/report/wording/ensemble_explanation.h"
 #include "cases/report/wording/joint_explanation.h"
 
 namespace rigor {
@@ -194,6 +195,7 @@ std::vector<std::string> explanations(const Results& results, const CaseResult& 
   std::vector<std::string> sentences = Explainer(results, result).sentences();
   for (std::string& sentence : contact_explanations(results, result)) sentences.push_back(std::move(sentence));
   for (std::string& sentence : joint_explanations(results, result)) sentences.push_back(std::move(sentence));
+  for (std::string& sentence : ensemble_explanations(results, result)) sentences.push_back(std::move(sentence));
   return sentences;
 }
 

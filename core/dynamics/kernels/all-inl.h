@@ -60,9 +60,9 @@ const Kernels kTable = {
     .prepare_bias = prepare_bias,
     .warm_start = warm_start,
     .solve_with_bias = solve_with_bias,
-    .solve_impacts_with_bias = solve_impacts_with_bias,
+    .solve_some_with_bias = solve_some_with_bias,
     .relax = relax,
-    .apply_restitution = apply_restitution,
+    .relax_some = relax_some,
 };
 
 extern const BallKernels kBallTable;

@@ -192,22 +192,21 @@ void solve_with_bias(RowBlock* blocks, std::size_t count, const SolverBodies& bo
   });
 }
 
-// Sweeps over the impacts, calling solve(block, k), until none changes a velocity by more than the tolerance; from the
+// Sweeps over some rows, calling solve(block, k), until none changes a velocity by more than the tolerance; from the
 // second sweep on only for bodies that the sweep before, or this one, has changed.
 template <class F>
-RIGOR_INLINE void solve_impacts(RowBlock* blocks, const std::int32_t* impacts, std::size_t count,
-                                const SolverBodies& bodies, const SolverParameters& parameters, F solve) {
+RIGOR_INLINE void solve_until_they_agree(RowBlock* blocks, const std::int32_t* rows, std::size_t count,
+                                         const SolverBodies& bodies, const SolverParameters& parameters, F solve) {
   for (std::size_t i = 0; i < count; ++i) {
-    const RowBlock& block = blocks[impacts[i] / kRowsPerBlock];
-    bodies.last_active[block.a[impacts[i] % kRowsPerBlock]] = bodies.last_active[block.b[impacts[i] % kRowsPerBlock]] =
-        0;
+    const RowBlock& block = blocks[rows[i] / kRowsPerBlock];
+    bodies.last_active[block.a[rows[i] % kRowsPerBlock]] = bodies.last_active[block.b[rows[i] % kRowsPerBlock]] = 0;
   }
   bool has_converged = count == 0;
   for (int sweep = 0; sweep < parameters.max_sweeps && !has_converged; ++sweep) {
     has_converged = true;
     for (std::size_t i = 0; i < count; ++i) {
-      RowBlock& block = blocks[impacts[i] / kRowsPerBlock];
-      const std::size_t k = impacts[i] % kRowsPerBlock;
+      RowBlock& block = blocks[rows[i] / kRowsPerBlock];
+      const std::size_t k = rows[i] % kRowsPerBlock;
       if (bodies.last_active[block.a[k]] < sweep - 1 && bodies.last_active[block.b[k]] < sweep - 1) continue;
       const double change = solve(block, k);
       if (change * change <= parameters.tolerance * parameters.tolerance) continue;
@@ -218,41 +217,37 @@ RIGOR_INLINE void solve_impacts(RowBlock* blocks, const std::int32_t* impacts, s
   }
 }
 
-void solve_impacts_with_bias(RowBlock* blocks, const std::int32_t* impacts, std::size_t count,
-                             const SolverBodies& bodies, const SolverParameters& parameters) {
-  solve_impacts(blocks, impacts, count, bodies, parameters, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
+void solve_some_with_bias(RowBlock* blocks, const std::int32_t* rows, std::size_t count, const SolverBodies& bodies,
+                          const SolverParameters& parameters) {
+  solve_until_they_agree(blocks, rows, count, bodies, parameters, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
     return solve_row_with_bias(double(), block, k, bodies, parameters);
   });
 }
 
-void relax(RowBlock* blocks, std::size_t count, const SolverBodies& bodies) {
-  for_blocks(blocks, count, [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA {
-    using T = decltype(lane);
-    const T old = load(T(), block.columns[kImpulse] + k);
-    if (all_at_most(old, 0)) return;
-    RowLanes<T> row(T(), block, k, bodies.velocities);
-    const V3<T> n = row.get3(kNormal);
-    const T p_n = if_at_most(old, T{}, old, at_least_zero(old - dot(n, row.velocity()) * row.get(kNormalMass)));
-    row.apply_normal(n, p_n - old);
-    row.put(kImpulse, p_n);
-    solve_friction(row, n, p_n);
-    row.put_velocities(bodies.velocities);
-  });
+// Returns by how much the impulse changes the velocity along the normal.
+template <class T>
+RIGOR_INLINE T relax_row(T, RowBlock& block, std::size_t k, const SolverBodies& bodies) {
+  const T old = load(T(), block.columns[kImpulse] + k);
+  if (all_at_most(old, 0)) return T{};
+  RowLanes<T> row(T(), block, k, bodies.velocities);
+  const V3<T> n = row.get3(kNormal);
+  const T mass = row.get(kNormalMass),
+          p_n = if_at_most(old, T{}, old, at_least_zero(old - dot(n, row.velocity()) * mass));
+  row.apply_normal(n, p_n - old);
+  row.put(kImpulse, p_n);
+  solve_friction(row, n, p_n);
+  row.put_velocities(bodies.velocities);
+  return (p_n - old) / mass;
 }
 
-void apply_restitution(RowBlock* blocks, const std::int32_t* impacts, std::size_t count, const SolverBodies& bodies,
-                       const SolverParameters& parameters) {
-  solve_impacts(blocks, impacts, count, bodies, parameters, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
-    const double restitution = block.columns[kRestitution][k], old = block.columns[kImpulse][k];
-    if (restitution == 0 || old == 0) return 0.0;
-    RowLanes<double> row(double(), block, k, bodies.velocities);
-    const V3<double> n = row.get3(kNormal);
-    const double delta = (restitution * row.get(kApproachSpeed) - dot(n, row.velocity())) * row.get(kNormalMass);
-    const double p_n = at_least_zero(old + delta);
-    row.apply_normal(n, p_n - old);
-    row.put(kImpulse, p_n);
-    solve_friction(row, n, p_n);
-    row.put_velocities(bodies.velocities);
-    return (p_n - old) / row.get(kNormalMass);
+void relax(RowBlock* blocks, std::size_t count, const SolverBodies& bodies) {
+  for_blocks(blocks, count,
+             [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA { relax_row(lane, block, k, bodies); });
+}
+
+void relax_some(RowBlock* blocks, const std::int32_t* rows, std::size_t count, const SolverBodies& bodies,
+                const SolverParameters& parameters) {
+  solve_until_they_agree(blocks, rows, count, bodies, parameters, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
+    return relax_row(double(), block, k, bodies);
   });
 }

@@ -161,15 +161,15 @@ struct Kernels {
   void (*prepare_rows)(RowBlock*, std::size_t count, const SolverBodies&);
   std::size_t (*prepare_bias)(RowBlock*, std::size_t count, const SolverBodies&, const SolverParameters&,
                               std::int32_t* impacts);
-  // Each row's impulse as it is; the biased solve over all rows, and over impacts until they agree; the solve without
-  // bias over all rows; restitution of the impacts.
+  // Each row's impulse as it is; the biased solve over all rows, and over some until they agree; the solve without bias
+  // over all rows, and over some until they agree.
   void (*warm_start)(RowBlock*, std::size_t count, const SolverBodies&);
   void (*solve_with_bias)(RowBlock*, std::size_t count, const SolverBodies&, const SolverParameters&);
-  void (*solve_impacts_with_bias)(RowBlock*, const std::int32_t* impacts, std::size_t count, const SolverBodies&,
-                                  const SolverParameters&);
+  void (*solve_some_with_bias)(RowBlock*, const std::int32_t* rows, std::size_t count, const SolverBodies&,
+                               const SolverParameters&);
   void (*relax)(RowBlock*, std::size_t count, const SolverBodies&);
-  void (*apply_restitution)(RowBlock*, const std::int32_t* impacts, std::size_t count, const SolverBodies&,
-                            const SolverParameters&);
+  void (*relax_some)(RowBlock*, const std::int32_t* rows, std::size_t count, const SolverBodies&,
+                     const SolverParameters&);
 };
 
 // The table in use.

@@ -31,6 +31,7 @@ void ContactRowLayout::assign(const std::vector<ContactConstraint>& constraints,
   sort_pairs_in_levels(constraints);
   place_rows(constraints.size());
   has_restitution_ = false;
+  deep_rows_.clear();
   for (std::size_t i = 0; i < constraints.size(); ++i) fill_row(constraints[i], row_of_constraint_[i], impulse_scale);
 }
 
@@ -85,6 +86,7 @@ void ContactRowLayout::fill_row(const ContactConstraint& constraint, std::size_t
   block.columns[kFriction][k] = constraint.friction;
   block.columns[kRestitution][k] = constraint.restitution;
   has_restitution_ = has_restitution_ || constraint.restitution > 0;
+  if (constraint.is_deep) deep_rows_.push_back(static_cast<std::int32_t>(row));
 }
 
 void ContactRowLayout::store_impulses(std::vector<ContactConstraint>& constraints) const {

@@ -26,6 +26,8 @@ class ContactRowLayout {
   RowBlock* blocks() { return blocks_.data(); }
   std::size_t size() const { return blocks_.size(); }  // of blocks
   bool has_restitution() const { return has_restitution_; }
+  // Of constraints that overlap deeply.
+  const std::vector<std::int32_t>& deep_rows() const { return deep_rows_; }
 
  private:
   struct Pair {
@@ -42,6 +44,7 @@ class ContactRowLayout {
   std::vector<std::size_t> next_level_, pairs_of_level_;      // by body; then where a level's groups of eight begin
   std::vector<std::size_t> first_block_, row_of_constraint_;  // of eight pairs; of a constraint
   std::vector<RowBlock> blocks_;
+  std::vector<std::int32_t> deep_rows_;
   bool has_restitution_ = false;
 };
 

@@ -3,33 +3,39 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dynamics/kernels/kernels.h"
-
 namespace rigor {
+namespace {
 
-double ImpactEnergy::product(BodyColumns state, const AlignedDoubles& a, const AlignedDoubles& b) const {
+// a·M b
+double product(const System& system, BodyColumns pose, const std::vector<Vec6>& a, const std::vector<Vec6>& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < system_.size(); ++i) {
-    const Inertia& body = system_.bodies[i];
+  for (std::size_t i = 0; i < system.size(); ++i) {
+    const Inertia& body = system.bodies[i];
     if (body.fixed) continue;
-    const Eigen::Map<const Vec3> v(a.data() + kRecord * i), w(a.data() + kRecord * i + 3);
-    const Eigen::Map<const Vec3> v_of_b(b.data() + kRecord * i), w_of_b(b.data() + kRecord * i + 3);
-    sum += body.mass * v.dot(v_of_b) + w.dot(angular_momentum_of(body, state.rotation(i), w_of_b));
+    const Vec3 L = angular_momentum_of(body, pose.rotation(i), b[i].tail<3>());
+    sum += body.mass * a[i].head<3>().dot(b[i].head<3>()) + a[i].tail<3>().dot(L);
   }
   return sum;
 }
 
-void ImpactEnergy::limit(BodyColumns state, AlignedDoubles& velocities) {
-  if (product(state, velocities, velocities) <= before_) return;
-  change_ = velocities;
-  for (std::size_t k = 0; k < change_.size(); ++k) change_[k] -= without_[k];
-  // c + 2 b s + a s² = before_, in [0, 1].
-  const double a = product(state, change_, change_), b = product(state, without_, change_),
-               c = product(state, without_, without_) - before_;
+}  // namespace
+
+double twice_energy_of(const System& system, BodyColumns pose, const std::vector<Vec6>& velocities) {
+  return product(system, pose, velocities, velocities);
+}
+
+void limit_energy(const System& system, BodyColumns pose, double most, const std::vector<Vec6>& without,
+                  std::vector<Vec6>& with) {
+  if (twice_energy_of(system, pose, with) <= most) return;
+  std::vector<Vec6> change = with;
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] -= without[i];
+  // c + 2 b s + a s² = most, in [0, 1].
+  const double a = product(system, pose, change, change), b = product(system, pose, without, change),
+               c = product(system, pose, without, without) - most;
   double share = 0;
   if (c < 0) share = -c / (b + std::sqrt(b * b - a * c));
   share = std::clamp(share, 0.0, 1.0);
-  for (std::size_t k = 0; k < velocities.size(); ++k) velocities[k] = without_[k] + share * change_[k];
+  for (std::size_t i = 0; i < with.size(); ++i) with[i] = without[i] + share * change[i];
 }
 
 }  // namespace rigor

@@ -6,16 +6,16 @@
 //   p_t <- onto the disc of radius mu p_n (p_t - u_t / k_t),
 // where the bias lets a gap close within h, or pushes an overlap out as a damped spring of contact_hertz does; the
 // positions are integrated with that; then the constraints are relaxed, which is the same without bias, so that what
-// pushed bodies out leaves them no speed; and what came together fast gets its restitution,
-//   u_n' = -e u_n.
-// The row arithmetic is in kernels/contact_row_kernels-inl.h, several rows at a time.
+// pushed bodies out leaves them no speed. Where bodies bounce, what comes together fast has had its impacts before,
+// each at its own instant of the sub-step (rebounds.h). The row arithmetic is in kernels/contact_row_kernels-inl.h,
+// several rows at a time.
 #include <algorithm>
 
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
-#include "core/dynamics/contact/impulse/impact_energy.h"
 #include "core/dynamics/contact/impulse/jointed_impulse.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
+#include "core/dynamics/contact/impulse/rebounds.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
 
 namespace rigor {
@@ -37,7 +37,7 @@ class ImpulseStepper : public ContactStepper {
         sub_steps_(scene, parts),
         manifolds_(scene),
         rows_(parts.system),
-        impact_energy_(parts.system),
+        rebounds_(parts.system, SubSteps::takes_impacts_at_once(parts.settings)),
         positions_(kVelocity, parts.system.size()),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
     const std::size_t idle = rows_.idle_body();
@@ -57,24 +57,27 @@ class ImpulseStepper : public ContactStepper {
       prepare(state, constraints, h);
       for (; k < end; ++k) {
         prepare_sub_step(state);
-        integrator_->step(state, t + k * h, h);
+        move_freely(state, t + k * h);
         warm_start(state);
         solve_with_bias();
         integrate_corrections(state);
         relax();
-        apply_restitution(state);
         store_velocities(state);
       }
       rows_.store_impulses(constraints);
     }
   }
 
-  std::string solver_warning() const override { return integrator_->solver_warning(); }
+  std::string solver_warning() const override {
+    const std::string warning = integrator_->solver_warning();
+    return warning.empty() ? manifolds_.failure() : warning;
+  }
 
   SettingsInForce settings_in_force() const override {
     SettingsInForce settings = sub_steps_.settings_in_force();
     settings.insert(settings.begin(), {{"contact solver", "sequential impulses, two passes a sub-step, warm start"},
-                                       {"restitution", "no further than the energy before the impact allows"}});
+                                       {"restitution", "at each impact's instant, no further than its energy allows"},
+                                       {"several impacts at once", rebounds_.law()}});
     return settings;
   }
 
@@ -98,9 +101,16 @@ class ImpulseStepper : public ContactStepper {
     impact_count_ = kernels().prepare_bias(rows_.blocks(), rows_.size(), solver_bodies(), parameters_, impacts_.data());
   }
 
+  // And, where bodies bounce, as the impacts of the sub-step let them.
+  void move_freely(MutableBodyColumns state, double t) {
+    const bool are_rebounds = rows_.has_restitution() && impact_count_ > 0;
+    if (are_rebounds) rebounds_.begin(state);
+    integrator_->step(state, t, parameters_.h);
+    if (are_rebounds) rebounds_.resolve(rows_.blocks(), rows_.size(), parameters_, state);
+  }
+
   void warm_start(BodyColumns state) {
     kernels().gather_velocities(all_bodies(), state.column(0), velocities_.data());
-    if (has_rebounds()) impact_energy_.remember_before(state, velocities_);
     kernels().warm_start(rows_.blocks(), rows_.size(), solver_bodies());
   }
 
@@ -108,7 +118,7 @@ class ImpulseStepper : public ContactStepper {
   // agree.
   void solve_with_bias() {
     kernels().solve_with_bias(rows_.blocks(), rows_.size(), solver_bodies(), parameters_);
-    kernels().solve_impacts_with_bias(rows_.blocks(), impacts_.data(), impact_count_, solver_bodies(), parameters_);
+    kernels().solve_some_with_bias(rows_.blocks(), impacts_.data(), impact_count_, solver_bodies(), parameters_);
   }
 
   // The integrator has moved the bodies; what the impulses changed of the velocities moves them further.
@@ -118,15 +128,11 @@ class ImpulseStepper : public ContactStepper {
     kernels().integrate_corrections(all_bodies(), velocities_.data(), state.column(0), h);
   }
 
-  void relax() { kernels().relax(rows_.blocks(), rows_.size(), solver_bodies()); }
-
-  bool has_rebounds() const { return rows_.has_restitution() && impact_count_ > 0; }
-
-  void apply_restitution(BodyColumns state) {
-    if (!has_rebounds()) return;
-    impact_energy_.remember_without_restitution(velocities_);
-    kernels().apply_restitution(rows_.blocks(), impacts_.data(), impact_count_, solver_bodies(), parameters_);
-    impact_energy_.limit(state, velocities_);
+  // What is pushed out of a deep overlap must not keep what one pass leaves of that push.
+  void relax() {
+    kernels().relax(rows_.blocks(), rows_.size(), solver_bodies());
+    const std::vector<std::int32_t>& deep = rows_.deep_rows();
+    if (!deep.empty()) kernels().relax_some(rows_.blocks(), deep.data(), deep.size(), solver_bodies(), parameters_);
   }
 
   void store_velocities(MutableBodyColumns state) {
@@ -142,7 +148,7 @@ class ImpulseStepper : public ContactStepper {
   SubSteps sub_steps_;
   Manifolds manifolds_;
   ContactRowLayout rows_;
-  ImpactEnergy impact_energy_;
+  Rebounds rebounds_;
   SolverParameters parameters_{};
   AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies
   std::vector<std::int32_t> last_active_;
@@ -170,7 +176,12 @@ const ContactMethod kImpulseContact = {
                             "in steps over 1/50 s and where masses differ by more than 30 to 1",
                  .min = 1,
                  .max = 10000,
-                 .whole = true}},
+                 .whole = true},
+                {.name = "impacts",
+                 .meaning =
+                     "of contact=impulse, several at once: one after another, as a row of balls passes a blow on, "
+                     "or all that touch together (Moreau's law); default sequential",
+                 .choices = {"sequential", "simultaneous"}}},
     .make = make_impulse_stepper,
 };
 

@@ -35,7 +35,10 @@ class JointedImpulseStepper : public ContactStepper {
     }
   }
 
-  std::string solver_warning() const override { return integrator_->solver_warning(); }
+  std::string solver_warning() const override {
+    const std::string warning = integrator_->solver_warning();
+    return warning.empty() ? manifolds_.failure() : warning;
+  }
 
   SettingsInForce settings_in_force() const override {
     SettingsInForce settings = sub_steps_.settings_in_force();
@@ -53,7 +56,7 @@ class JointedImpulseStepper : public ContactStepper {
     rows_.solve_with_bias();
     integrate_corrections(state);
     rows_.relax();
-    rows_.apply_restitution();
+    rows_.apply_restitution(state);
     store_velocities(state);
     joints_.project(state);
   }

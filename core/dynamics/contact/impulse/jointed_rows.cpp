@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/contact/impulse/impact_energy.h"
+
 namespace rigor {
 namespace {
 
@@ -143,16 +145,19 @@ void JointedRows::find_masses(Row& row) const {
   };
   row.mass = inverse(K(0, 0), scale(0));
   if (row.directions == 1) return;
-  const double tt = K(1, 1), ss = K(2, 2), ts = K(1, 2), determinant = tt * ss - ts * ts, apart = 0.5 * (tt - ss);
-  const double size = scale(1) * scale(2), over = inverse(determinant, size);
-  row.slip_mass = inverse(0.5 * (tt + ss) + std::hypot(apart, ts), scale(1) + scale(2));
-  row.tangent_mass[0] = ss * over, row.tangent_mass[1] = tt * over, row.tangent_mass[2] = -ts * over;
-  if (over == 0) row.tangent_mass[0] = row.tangent_mass[1] = row.slip_mass;
+  const double tt = K(1, 1), ss = K(2, 2), ts = K(1, 2);
+  row.tangent_mass = tangent_mass_of(tt, ss, ts);
+  if (tt * ss - ts * ts > 1e-12 * scale(1) * scale(2)) return;
+  // The joints leave at most one direction to slip in: one mass for all.
+  const double larger = 0.5 * (tt + ss) + std::hypot(0.5 * (tt - ss), ts);
+  row.tangent_mass.slip = inverse(larger, scale(1) + scale(2));
+  row.tangent_mass.tt = row.tangent_mass.ss = row.tangent_mass.slip, row.tangent_mass.ts = 0;
 }
 
 void JointedRows::load_velocities(BodyColumns state) {
   for (std::size_t i = 0; i < state.size(); ++i) loaded_[i] = joined(state.velocity(i), state.angular_velocity(i));
   velocities_ = loaded_;
+  energy_before_ = twice_energy_of(system_, state, velocities_);
 }
 
 double JointedRows::speed(const Row& row, int direction) const {
@@ -220,20 +225,13 @@ void JointedRows::solve_normal(Row& row, double impulse) {
   row.impulse[0] += change;
 }
 
-// Onto Coulomb's disc of the normal impulse: sticking if that is within it, else against the slip, which only a step
-// with one mass for all directions converges to.
 void JointedRows::solve_friction(Row& row) {
   if (row.directions == 1 || (row.impulse[0] == 0 && row.impulse[1] == 0 && row.impulse[2] == 0)) return;
   const double radius = row.impulse[0] > 0 ? row.friction * row.impulse[0] : 0;
-  const double slip_t = speed(row, 1), slip_s = speed(row, 2), *const p = row.impulse, *const m = row.tangent_mass;
-  double p_t = p[1] - (m[0] * slip_t + m[2] * slip_s), p_s = p[2] - (m[2] * slip_t + m[1] * slip_s);
-  if (std::hypot(p_t, p_s) > radius) {
-    p_t = p[1] - row.slip_mass * slip_t, p_s = p[2] - row.slip_mass * slip_s;
-    const double size = std::hypot(p_t, p_s);
-    if (size > radius) p_t *= radius / size, p_s *= radius / size;
-  }
-  apply(row, 1, p_t - p[1]), apply(row, 2, p_s - p[2]);
-  row.impulse[1] = p_t, row.impulse[2] = p_s;
+  const Vec2 old(row.impulse[1], row.impulse[2]), slip(speed(row, 1), speed(row, 2));
+  const Vec2 p = onto_disc(old, slip, row.tangent_mass, radius);
+  apply(row, 1, p.x() - old.x()), apply(row, 2, p.y() - old.y());
+  row.impulse[1] = p.x(), row.impulse[2] = p.y();
 }
 
 void JointedRows::solve_biased(Row& row) {
@@ -280,12 +278,14 @@ void JointedRows::relax() {
   }
 }
 
-void JointedRows::apply_restitution() {
+void JointedRows::apply_restitution(BodyColumns state) {
+  const std::vector<Vec6> without = velocities_;
   sweep_impacts([&](Row& row) {
     if (row.restitution == 0 || row.impulse[0] == 0) return;
     solve_normal(row, row.impulse[0] + (row.restitution * row.approach - speed(row, 0)) * row.mass);
     solve_friction(row);
   });
+  limit_energy(system_, state, energy_before_, without, velocities_);
 }
 
 // Until no impact's velocity changes by more than the tolerance.

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "core/dynamics/contact/impulse/coulomb_disc.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/kernels/contact_rows.h"
@@ -26,7 +27,8 @@ class JointedRows {
   void warm_start();
   void solve_with_bias();
   void relax();
-  void apply_restitution();
+  // No further than the energy of the loaded velocities.
+  void apply_restitution(BodyColumns state);
   // The change of a body's velocity (v, w) since load_velocities().
   Vec6 change(std::size_t body) const { return velocities_[body] - loaded_[body]; }
 
@@ -46,7 +48,8 @@ class JointedRows {
          apart = Vec3::Zero();  // of a contact: unit; m, from b's point to a's when contacts were updated
     double initial_gap = 0, friction = 0, restitution = 0;
     std::size_t first_response = 0, last_response = 0;
-    double mass = 0, tangent_mass[3] = {}, slip_mass = 0;  // kg, as in contact_rows.h
+    double mass = 0;                // kg, along the normal
+    TangentMass tangent_mass = {};  // kg
     double gap = 0, approach = 0, bias = 0;
     double impulse[3] = {};
     bool is_impact = false;
@@ -92,6 +95,7 @@ class JointedRows {
   std::vector<Coordinate> coordinates_;
   std::vector<Vec6> velocities_, loaded_, change_;  // by body
   BodyColumns pose_;                                // that of assign(), while it runs
+  double energy_before_ = 0;                        // twice that of the loaded velocities, J
   SolverParameters parameters_{};
 };
 

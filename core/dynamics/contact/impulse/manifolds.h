@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "core/dynamics/collision/broad_phase.h"
@@ -20,6 +21,7 @@ struct ContactConstraint {
   Vec3 normal;        // unit, in W, from b to a
   Vec3 arm_a, arm_b;  // m, in W, from each body's centre of mass to its point
   double gap;         // m
+  bool is_deep;       // an overlap that neither rest nor impacts make
   double friction, restitution;
   double normal_impulse = 0;             // N s
   Vec3 friction_impulse = Vec3::Zero();  // N s, in W
@@ -32,16 +34,22 @@ class Manifolds {
         laws_(scene),
         poses_(colliders_.size()),
         boxes_(colliders_.size()),
-        bounding_radii_(colliders_.size()) {}
+        bounding_radii_(colliders_.size()),
+        overlaps_at_start_(scene.bodies.size()) {
+    for (const Body& body : scene.bodies) names_.push_back(body.name);
+  }
 
   // The constraints for the next dt, sorted by pair, with the impulses of those that persist from the last update.
   std::vector<ContactConstraint>& find(BodyColumns state, double dt);
+  // Of bodies that have come to lie in each other; empty if none have.
+  const std::string& failure() const { return failure_; }
 
  private:
   void place_bodies(BodyColumns state, double dt);
   bool stay_apart(int a, int b) const;
   void update_pairs(BodyColumns state, double dt);
   void add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b);
+  void watch(const Collider& a, const Collider& b, double gap);
   void match_impulses(std::size_t first, std::size_t& old);
 
   std::vector<Collider> colliders_;
@@ -54,6 +62,10 @@ class Manifolds {
   const std::vector<std::pair<int, int>>* pairs_ = nullptr;
   Manifold manifold_;
   double match_radius_ = 0;  // m
+  bool is_first_ = true;
+  std::vector<char> overlaps_at_start_;  // by body
+  std::vector<std::string> names_;
+  std::string failure_;
   std::vector<ContactConstraint> constraints_, old_constraints_;
 };
 

@@ -48,6 +48,10 @@ SubSteps::SubSteps(const Scene& scene, const ContactParts& parts)
       gravity_(scene.gravity.norm()),
       theta_(parts.integrator.leapfrog_stagger > 0 ? 1 : 0.5) {}
 
+bool SubSteps::takes_impacts_at_once(const Settings& settings) {
+  return word_option(settings, "impacts", "sequential") == "simultaneous";
+}
+
 int SubSteps::of(double dt) const {
   if (given_ > 0) return given_;
   return std::max(kFewestSubSteps, rounded_up(dt / (dt > kCoarse ? kShorterSubStep : longest_sub_step_)));

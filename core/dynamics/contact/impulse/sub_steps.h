@@ -16,6 +16,8 @@ class SubSteps {
  public:
   SubSteps(const Scene& scene, const ContactParts& parts);
 
+  // See the option `impacts`.
+  static bool takes_impacts_at_once(const Settings& settings);
   int of(double dt) const;
   // For sub-steps of h [s].
   SolverParameters parameters(double h) const;

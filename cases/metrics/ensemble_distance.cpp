@@ -1,0 +1,42 @@
+// Where bounces magnify errors beyond any truth, no trajectory is right: what can be is how outcomes are distributed.
+// A case with `ensemble = n` is run from n starts 1e-6 apart; what the run makes of them is held against what a
+// reference makes of n others, by their energy distance (measures/energy_distance.h).
+#include <fmt/format.h>
+
+#include "cases/metrics/measures/ensembles.h"
+#include "cases/metrics/metric.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measured(const JudgedRun& run, double EnergyTest::*what, const char* component) {
+  if (!run.ensembles) return {{}, "the case asks for no ensemble"};
+  const Ensembles& all = *run.ensembles;
+  if (!all.flaw.empty()) return {{}, all.flaw};
+  Measurement out;
+  out.value = all.test.*what;
+  out.worst = {run.duration, kWorld, component, out.value, what == &EnergyTest::p_value ? 1.0 : 0.0};
+  out.compared_until = run.duration;
+  return {out, ""};
+}
+
+MetricResult measure_distance(const JudgedRun& run) { return measured(run, &EnergyTest::coefficient, "final places"); }
+MetricResult measure_p_value(const JudgedRun& run) { return measured(run, &EnergyTest::p_value, "final places"); }
+
+}  // namespace
+
+MetricRow ensemble_distance() {
+  return {"ensemble_distance", "1",
+          "energy distance of where bodies end from where the reference's do, of many starts 1e-6 apart: 0 alike, 1 "
+          "apart",
+          measure_distance};
+}
+
+MetricRow ensemble_p_value() {
+  return {
+      "ensemble_p_value", "1",
+      "how often chance alone makes two ensembles of one distribution as far apart as the run's and the reference's",
+      measure_p_value, true};
+}
+
+}  // namespace rigor

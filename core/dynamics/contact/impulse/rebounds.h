@@ -1,0 +1,79 @@
+// Impacts of bodies that bounce, each at its own instant within a sub-step over which the integrator has moved the
+// bodies freely. By that motion, and by the impacts so far, the gap of a point closes as
+//   g(t) = g_0 - b t - a t²/2;
+// at its root the velocities change by Newton's and Coulomb's laws (impact_round.h), and at the sub-step's end the
+// bodies lie where the changed velocities take them from there. Impacts are taken in rounds: those that come first for
+// both of their bodies, then what these push into their neighbours, and so on, so that a row of balls passes a blow
+// on; points without restitution that touch are solved with the round that reaches them. Or, `simultaneous`, all that
+// touch are, whatever their restitution (Moreau's law).
+#pragma once
+
+#include <vector>
+
+#include "core/dynamics/contact/impulse/impact_round.h"
+#include "core/dynamics/kernels/contact_rows.h"
+#include "core/dynamics/model/system.h"
+
+namespace rigor {
+
+class Rebounds {
+ public:
+  // Of impacts of one body within a sub-step; what is left of them is taken without rebound.
+  static constexpr int kMostRounds = 200;
+
+  Rebounds(const System& system, bool simultaneous);
+
+  // Of several impacts at once.
+  const char* law() const { return simultaneous_ ? "simultaneous (Moreau)" : "one after another"; }
+  // The state before the integrator moves it.
+  void begin(BodyColumns state);
+  // The state after that, and the rows of the sub-step with their gaps: changes the state by the impacts, and the
+  // biases of the rows whose bodies it has changed.
+  void resolve(RowBlock* blocks, std::size_t count, const SolverParameters& parameters, MutableBodyColumns state);
+
+ private:
+  struct Row {
+    RowBlock* block;
+    std::size_t k;
+    ImpactEnd a, b;  // without `angular`
+    Vec3 normal;
+    double hit;  // s, the instant at which it does; infinite if it does not
+    double get(int column) const { return block->columns[column][k]; }
+    Vec3 get3(int column) const { return {get(column), get(column + 1), get(column + 2)}; }
+  };
+
+  bool moves(int body) const { return !system_.bodies[static_cast<std::size_t>(body)].fixed; }
+  double along(const Row& row, const std::vector<Motion>& motions) const {
+    return row.normal.dot(relative_velocity(row.a, row.b, motions));
+  }
+  double closing_acceleration(const Row& row) const;
+  double approach_at(const Row& row, double t) const;
+  double gap_at(const Row& row, double t) const;
+  double hit_of(const Row& row) const;
+  void load(BodyColumns state, std::vector<Motion>& out) const;
+  void find_rows(RowBlock* blocks, std::size_t count);
+  void find_hits(bool all);
+  void choose();
+  void add_resting();
+  void add(const Row& row, double instant, double wanted, double wanted_without);
+  void set_response(ImpactEnd& end, const Impact& impact) const;
+  void commit_round();
+  void move(MutableBodyColumns state);
+  double share_without_gain(BodyColumns moved, const std::vector<Vec3>& momentum) const;
+  void update_biases(const SolverParameters& parameters);
+
+  const System& system_;
+  bool simultaneous_;
+  double h_ = 0, motion_time_ = 0, threshold_ = 0;  // s; s: the instant that velocities belong to; m/s
+  // By body.
+  std::vector<Motion> start_, free_, now_;  // before the sub-step; after it without impacts, and with those so far
+  std::vector<Motion> delay_;               // m, rad: the sum of each impact's change of motion times its instant
+  std::vector<Vec3> angular_impulse_;       // kg m²/s
+  std::vector<double> last_, next_;         // s, instants of a body's last impact and of its next one
+  std::vector<char> is_changed_, is_new_;   // by an impact; by one of this round
+  std::vector<Row> rows_;
+  std::vector<Impact> impacts_;
+  BodyColumns state_;  // that of resolve(), while it runs
+};
+
+}  // namespace rigor
