@@ -90,9 +90,10 @@ std::string table_of(const RunName& run, const Json& outcomes, bool holds) {
   return text + fmt::format("{} {}\n", run.text, holds ? "conforms" : "does not conform");
 }
 
-// The run to try: the one that is named, else the one --plugin, else the one engine from outside.
+}  // namespace
+
 RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
-  if (line.engines.size() > 1) throw InputError("rigor conform: takes one --engine");
+  if (line.engines.size() > 1) throw InputError(fmt::format("rigor {}: takes one --engine", line.command));
   if (!line.engines.empty()) return parse_run_name(line.engines.front(), engines.infos());
   std::vector<std::string> outside;
   for (const EngineInfo& info : engines.infos()) {
@@ -101,11 +102,10 @@ RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
     if (!identity.empty() && is_meant) outside.push_back(info.name);
   }
   if (outside.size() != 1)
-    throw InputError("rigor conform: which engine? Give one --plugin P, or --engine E; see rigor list engines");
+    throw InputError(fmt::format("rigor {}: which engine? Give one --plugin P, or --engine E; see rigor list engines",
+                                 line.command));
   return parse_run_name(outside.front(), engines.infos());
 }
-
-}  // namespace
 
 int conform_command(const CommandLine& line, const EngineTable& engines) {
   const RunName run = run_asked_for(line, engines);
