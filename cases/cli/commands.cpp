@@ -85,7 +85,7 @@ const std::vector<CommandRow>& commands() {
        "say whether an engine, one from outside above all, does what the seam asks; exit 1 if not",
        "",
        "",
-       {"--engine", "--json", "--plugin", "--timeout"},
+       {"--engine", "--jobs", "--json", "--plugin", "--timeout"},
        conform_command},
       {"diagnose",
        "say which known mistake would explain an engine's error",

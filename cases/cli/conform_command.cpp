@@ -2,11 +2,15 @@
 // that dies costs the check it was at, and another goes on with the rest.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cases/analysis/conformance/conformance.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/report/json/mistakes_json.h"
+#include "cases/report/wording/mistakes.h"
 #include "cases/runner/process_pool.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
@@ -90,6 +94,12 @@ std::string table_of(const RunName& run, const Json& outcomes, bool holds) {
   return text + fmt::format("{} {}\n", run.text, holds ? "conforms" : "does not conform");
 }
 
+// Whether it answered whatever it was asked: one that does not has no motion to compare.
+bool answers(const Json& outcomes) {
+  return std::none_of(outcomes.begin(), outcomes.end(),
+                      [](const Json& row) { return row.at("answer") == "broken" && row.at("due") == "an answer"; });
+}
+
 }  // namespace
 
 RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
@@ -113,12 +123,14 @@ int conform_command(const CommandLine& line, const EngineTable& engines) {
   const Json outcomes = outcomes_of(trial, engines, line.limit);
   bool holds = true;
   for (const Json& row : outcomes) holds = holds && row.at("answer") != "broken";
+  std::optional<MistakeReport> report;
+  if (!holds && answers(outcomes)) report = diagnosed(line, engines, run);
   if (line.json) {
-    print(
-        Json{{"engine", run.text}, {"version", trial.info.version}, {"conforms", holds}, {"checks", outcomes}}.dump(2) +
-        "\n");
+    Json json = {{"engine", run.text}, {"version", trial.info.version}, {"conforms", holds}, {"checks", outcomes}};
+    if (report) json["diagnosis"] = mistakes_json(*report, run.text);
+    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } else {
-    print_table(table_of(run, outcomes, holds));
+    print_table(table_of(run, outcomes, holds) + (report ? "\n" + text_of(*report, run.text) : ""));
   }
   return holds ? kGood : kGateFailed;
 }

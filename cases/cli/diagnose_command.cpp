@@ -1,4 +1,5 @@
 // rigor diagnose: which known mistake an engine's error looks like.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cases/analysis/mistakes/finder.h"
@@ -14,7 +15,8 @@ MistakeReport diagnosed(const CommandLine& line, const EngineTable& engines, con
   const Vocabulary vocabulary = vocabulary_of(engines.infos());
   std::vector<Probe> probes = line.words.empty() ? probes_of_suite(vocabulary)
                                                  : probes_of(select_cases(line.words, line.suite_dir, vocabulary));
-  MistakeFinder finder(engines, run, std::move(probes), {line.jobs, line.limit});
+  constexpr double kMost = 10;  // s of CPU time for a run that takes milliseconds
+  MistakeFinder finder(engines, run, std::move(probes), {line.jobs, std::min(line.limit, kMost)});
   return finder.report(engines.find(run.engine));
 }
 

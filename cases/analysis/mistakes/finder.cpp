@@ -13,10 +13,13 @@ namespace rigor {
 namespace {
 
 // From here on a mistake is said to be what the error looks like; below, none is.
-constexpr double kNamed = 0.9;
-constexpr double kSure = 0.999;  // nothing better is looked for
-constexpr double kAlike = 1e-3;  // suspects that explain as much, to within this part of what is left of 1
+constexpr double kNamed = 0.85;
+constexpr double kSure = 0.999;        // nothing better is looked for
+constexpr double kSureEnough = 0.98;   // nor two mistakes at once, one of which would do
+constexpr double kWorthASecond = 0.5;  // of what one mistake leaves, two together have to leave less
+constexpr double kAlike = 1e-3;        // suspects that explain as much, to within this part of what is left of 1
 constexpr std::size_t kShown = 5;
+constexpr double kWorthSaying = 0.3;
 
 std::vector<Hypothesis> of_table() {
   std::vector<Hypothesis> all;
@@ -26,6 +29,18 @@ std::vector<Hypothesis> of_table() {
 
 Hypothesis pair_of(const Hypothesis& first, const Hypothesis& second) {
   return {std::make_shared<Fault>(combined(*first.fault, *second.fault)), {first.names[0], second.names[0]}, {}};
+}
+
+// Less the pairs of which one mistake does as well alone.
+std::vector<Suspect> without_idle_seconds(std::vector<Suspect> ranked, const std::vector<Hypothesis>& hypotheses) {
+  double alone = 1;
+  for (const Suspect& suspect : ranked) {
+    if (hypotheses[suspect.hypothesis].names.size() == 1) alone = std::min(alone, 1 - suspect.explains);
+  }
+  std::erase_if(ranked, [&](const Suspect& suspect) {
+    return hypotheses[suspect.hypothesis].names.size() > 1 && 1 - suspect.explains > kWorthASecond * alone;
+  });
+  return ranked;
 }
 
 }  // namespace
@@ -190,11 +205,11 @@ MistakeReport MistakeFinder::report(const Engine& engine) {
   };
   if (trace.probes_off(hypotheses).empty()) return report;
   if (best() < kSure) add_amounts(trace, table, hypotheses);
-  if (best() < kSure) add_pairs(trace, table, hypotheses);
+  if (best() < kSureEnough) add_pairs(trace, table, hypotheses);
   for (const std::size_t probe : trace.probes_off(hypotheses)) report.off.push_back(probes_[probe].id);
-  const std::vector<Suspect> ranked = trace.ranked(hypotheses, probes_);
+  const std::vector<Suspect> ranked = without_idle_seconds(trace.ranked(hypotheses, probes_), hypotheses);
   for (const Suspect& suspect : ranked) {
-    if (report.suspects.size() == kShown) break;
+    if (report.suspects.size() == kShown || suspect.explains < kWorthSaying) break;
     report.suspects.push_back(
         {hypotheses[suspect.hypothesis].names, suspect.explains, suspect.explained, suspect.cases});
   }

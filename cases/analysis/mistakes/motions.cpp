@@ -76,6 +76,8 @@ std::vector<Chain> dealt(const Chain& tasks, int hands) {
 
 std::vector<Motion> simulate_motions(const std::vector<MotionTask>& tasks, const EngineTable& engines, int at_once,
                                      double limit) {
+  constexpr int kMostDeaths = 4;  // an engine that dies of everything is not asked for the rest
+  int deaths = 0, answers = 0;
   std::vector<Motion> motions(tasks.size());
   Chain left(tasks.size());
   for (std::size_t n = 0; n < left.size(); ++n) left[n] = n;
@@ -92,16 +94,20 @@ std::vector<Motion> simulate_motions(const std::vector<MotionTask>& tasks, const
     }
     const auto on_message = [&](std::size_t job, const std::string& message) {
       motions[index_in(message)] = motion_in(message);
-      ++done[job];
+      ++done[job], ++answers;
     };
     const auto on_end = [&](std::size_t job, const JobEnd& end) {
       if (done[job] == chains[job].size()) return;
       motions[chains[job][done[job]++]].why = sentence_of(end, limit);  // the one that it was at
+      ++deaths;
     };
     run_jobs(jobs, at_once, on_message, on_end);
     left.clear();
     for (std::size_t job = 0; job < chains.size(); ++job)
       left.insert(left.end(), chains[job].begin() + static_cast<long>(done[job]), chains[job].end());
+    if (deaths < kMostDeaths || deaths < answers) continue;
+    for (const std::size_t n : left) motions[n].why = "not tried, for it died of others";
+    left.clear();
   }
   return motions;
 }

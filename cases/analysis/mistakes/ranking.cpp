@@ -44,9 +44,9 @@ double Trace::certain_error(std::size_t o) const {
   const View& view = views_[observations_[o].view_index()];
   if (observations_[o].is_loaded() || view.kind == View::Kind::twin) return tolerance(o);
   if (view.kind == View::Kind::same_method) return std::numeric_limits<double>::infinity();
-  // Three uncertainties of a smooth motion; of one beside the accurate core, a step's way at an impact, or a high
-  // order's error at 1/100 s.
-  constexpr double kFew = 10, kFarOff = 0.03;
+  // Some uncertainties of a smooth motion. Where bodies touch, engines' models of contact differ by so much without any
+  // mistake: ODE's box on a slope where it hardly slides by 0.045 of its way.
+  constexpr double kFew = 10, kFarOff = 0.1;
   return view.kind == View::Kind::extrapolated ? kFew * tolerance(o) : kFarOff;
 }
 
@@ -67,6 +67,17 @@ std::vector<double> Trace::nearest(const std::vector<Hypothesis>& hypotheses) co
 
 bool Trace::is_active(std::size_t o, double size, double error, double nearest) const {
   return size > std::max(tolerance(o), kClear * nearest) || error > certain_error(o);
+}
+
+// Where bodies touch, or a method of high order is off otherwise, what is left is of the engine's way with contacts as
+// well as of the mistake; and what is hardly seen beside what extrapolation leaves open says little.
+double Trace::weight_of(std::size_t o, double size) const {
+  constexpr double kOfAccurate = 0.25, kSeen = 0.03;
+  const Observation& observation = observations_[o];
+  if (observation.is_loaded()) return 1;
+  if (views_[observation.view_index()].kind == View::Kind::accurate) return kOfAccurate;
+  const double blur = observation.uncertainty(engine_[observation.view_index()]) / (kSeen * size);
+  return std::isfinite(blur) ? 1 / (1 + blur * blur) : 0;
 }
 
 std::vector<std::size_t> Trace::probes_off(const std::vector<Hypothesis>& hypotheses) const {
@@ -94,13 +105,14 @@ std::vector<Suspect> Trace::ranked(const std::vector<Hypothesis>& hypotheses, co
       const Distances d = observations_[o].distances(engine_[v], hypotheses[h].sights[v]);
       if (!is_active(o, std::max(d.error, d.predicted), d.error, least[o])) continue;
       const double left = share_left(d);
-      squares += left * left, ++count;
+      const double weight = weight_of(o, std::max(d.error, d.predicted));
+      squares += weight * left * left, count += weight;
       if (!is_active(o, d.error, d.error, least[o])) continue;
       CaseShare& share = cases[views_[v].probe];
       share.id = probes[views_[v].probe].id;
       share.error = std::max(share.error, d.error), share.rest = std::max(share.rest, left);
     }
-    if (cases.empty()) continue;
+    if (cases.empty() || !(count > 0)) continue;
     Suspect suspect{h, 1 - std::sqrt(squares / count), {}, 0};
     for (auto& [probe, share] : cases) {
       suspect.explained += share.rest < kExplained;

@@ -59,6 +59,8 @@ class Trace {
   bool is_seen(std::size_t observation) const;  // the engine has a sight there
   double tolerance(std::size_t observation) const;
   double certain_error(std::size_t observation) const;  // beyond it the engine is off whatever explains it
+  // Of what is left there, for an error of this size.
+  double weight_of(std::size_t observation, double size) const;
   // Of each observation, how near any hypothesis comes, the motion without mistakes included.
   std::vector<double> nearest(const std::vector<Hypothesis>& hypotheses) const;
   bool is_active(std::size_t observation, double size, double error, double nearest) const;

@@ -55,7 +55,7 @@ std::vector<View> views_of(const EngineTable& engines, const RunName& run, const
     } else if (anything_can_touch(*probe.scene) || method.order >= kHighOrder || method.adaptive) {
       views.push_back(view_on(View::Kind::accurate, i, probe, accurate, {probe.dt}));
     } else {
-      views.push_back(view_on(View::Kind::extrapolated, i, probe, accurate, {2 * probe.dt, probe.dt, probe.dt / 2}));
+      views.push_back(view_on(View::Kind::extrapolated, i, probe, accurate, {probe.dt, probe.dt / 2, probe.dt / 4}));
       views.back().order = method.order;
       if (of_points && probe.is_of_points)
         views.push_back(view_on(View::Kind::same_method, i, probe, *of_points, {probe.dt}));
