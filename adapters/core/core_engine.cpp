@@ -166,9 +166,10 @@ MethodInfo method_info(const Integrator& integrator) {
 
 CoreEngine::CoreEngine(std::vector<Integrator> twins) : integrators_(integrators()) {
   integrators_.insert(integrators_.end(), twins.begin(), twins.end());
+  info_ = made_info();
 }
 
-EngineInfo CoreEngine::info() const {
+EngineInfo CoreEngine::made_info() const {
   EngineInfo info{.name = "core", .version = kVersion, .precision = "double"};
   info.is_in_house = true;
   info.features = joined({"spring", "timed-force", "fixed-body"}, kJointFeatures);
@@ -183,7 +184,7 @@ EngineInfo CoreEngine::info() const {
 }
 
 std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& settings) const {
-  refuse_unsupported(info(), settings, scene);
+  refuse_unsupported(info_, settings, scene);
   const auto row = std::find_if(integrators_.begin(), integrators_.end(),
                                 [&](const Integrator& own) { return own.name == settings.method; });
   assert(row != integrators_.end() && "methods are checked when the run is named");

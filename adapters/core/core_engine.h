@@ -13,12 +13,15 @@ class CoreEngine : public Engine {
  public:
   // `twins`: methods beside the core's own, which repeat the schemes of other engines.
   explicit CoreEngine(std::vector<Integrator> twins = {});
-  EngineInfo info() const override;
+  EngineInfo info() const override { return info_; }
   std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override;
   std::string twin(const Settings&) const override { return ""; }
 
  private:
+  EngineInfo made_info() const;
+
   std::vector<Integrator> integrators_;
+  EngineInfo info_;  // made once: worlds are loaded by the thousand
 };
 
 }  // namespace rigor

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "adapters/plugin/in_quotes.h"
+#include "adapters/plugin/memory_limit.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 
@@ -100,8 +101,9 @@ void ChildProcess::become_the_child(int in, int out, int err, pid_t parent) cons
   dup2(in, STDIN_FILENO), dup2(out, STDOUT_FILENO), dup2(err, STDERR_FILENO);
   close_range(3, ~0u, 0);
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
-  const rlimit no_core_file{0, 0}, memory{kMostMemory, kMostMemory};
-  setrlimit(RLIMIT_CORE, &no_core_file), setrlimit(RLIMIT_DATA, &memory);
+  const rlimit no_core_file{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core_file);
+  limit_memory();
   const std::string line = "exec " + command_;
   execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));
   _exit(127);

@@ -12,10 +12,6 @@ namespace rigor {
 
 class ChildProcess {
  public:
-  // Bytes of data that a child may have in memory: RLIMIT_DATA, for address space alone is reserved by the gigabyte in
-  // WebAssembly.
-  static constexpr std::size_t kMostMemory = std::size_t{4} << 30;
-
   // `command` is a simple command, its words split and quoted as a shell does: /bin/sh -c "exec COMMAND". `limit`:
   // seconds that it may sleep over each request, and of CPU time for all of them together, so that no verdict depends
   // on what else the machine does; by the clock ten times that, for each request. `log`: a descriptor to which what

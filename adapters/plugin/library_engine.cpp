@@ -12,6 +12,7 @@
 #include "adapters/option_values.h"
 #include "adapters/plugin/answer.h"
 #include "adapters/plugin/in_quotes.h"
+#include "adapters/plugin/memory_limit.h"
 #include "adapters/plugin/rigor_loads.h"
 #include "adapters/plugin/shared_library.h"
 #include "core/engine/clock.h"
@@ -169,6 +170,7 @@ LibraryEngine::LibraryEngine(std::string path, double limit) : path_(std::move(p
 
 std::unique_ptr<World> LibraryEngine::load(const Scene& scene, const Settings& settings) const {
   refuse_unsupported(info_.engine, settings, scene);
+  limit_memory();  // of the cell's process, which is ours: what is loaded into it has no other
   return std::make_unique<LibraryWorld>(load_library(path_), fmt::format("plug-in '{}'", path_), info_, scene,
                                         settings);
 }

@@ -75,9 +75,10 @@ class InfoTable {
   [[noreturn]] void refuse(const char* key, const Json& found, const std::string& allowed) const {
     refuse(key, &found, allowed);
   }
+  // What is null is not there.
   const Json* find(const char* key) const {
     const auto found = json_.find(key);
-    return found == json_.end() ? nullptr : &*found;
+    return found == json_.end() || found->is_null() ? nullptr : &*found;
   }
 
  private:

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "adapters/plugin/in_quotes.h"
+#include "adapters/plugin/memory_limit.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -60,6 +61,7 @@ std::string asked_info(const rigor_engine_v1& engine, const std::string& path) {
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
   const rlimit no_core_file{0, 0};
   setrlimit(RLIMIT_CORE, &no_core_file);
+  limit_memory();
   dup2(STDERR_FILENO, STDOUT_FILENO);  // what it prints is no data of ours
   std::string answer;
   try {

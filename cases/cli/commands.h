@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adapters/engines.h"
+#include "cases/analysis/mistakes/finder.h"
 #include "cases/cli/command_line.h"
 
 namespace rigor {
@@ -37,6 +38,13 @@ int new_command(const CommandLine& line, const EngineTable& engines);
 int completion_command(const CommandLine& line, const EngineTable& engines);
 int settle_command(const CommandLine& line, const EngineTable& engines);
 int conform_command(const CommandLine& line, const EngineTable& engines);
+int diagnose_command(const CommandLine& line, const EngineTable& engines);
+
+// The run that --engine names, else the one engine of --plugin, else the one from outside. Throws InputError.
+RunName run_asked_for(const CommandLine& line, const EngineTable& engines);
+
+// What mistake the run's error looks like, on the cases that are named or else on Rigor's own choice.
+MistakeReport diagnosed(const CommandLine& line, const EngineTable& engines, const RunName& run);
 
 // The one case that the words of `trace` and `truth` name.
 Case the_case(const CommandLine& line, const EngineTable& engines);

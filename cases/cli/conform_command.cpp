@@ -2,11 +2,15 @@
 // that dies costs the check it was at, and another goes on with the rest.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cases/analysis/conformance/conformance.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/report/json/mistakes_json.h"
+#include "cases/report/wording/mistakes.h"
 #include "cases/runner/process_pool.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
@@ -92,9 +96,16 @@ std::string table_of(const RunName& run, const Json& results, bool holds) {
   return text + fmt::format("{} {}\n", run.text, holds ? "conforms" : "does not conform");
 }
 
-// The run to try: the one that is named, else the one --plugin, else the one engine from outside.
+// Whether it answered whatever it was asked: one that does not has no motion to compare.
+bool answers(const Json& outcomes) {
+  return std::none_of(outcomes.begin(), outcomes.end(),
+                      [](const Json& row) { return row.at("answer") == "broken" && row.at("due") == "an answer"; });
+}
+
+}  // namespace
+
 RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
-  if (line.engines.size() > 1) throw InputError("rigor conform: takes one --engine");
+  if (line.engines.size() > 1) throw InputError(fmt::format("rigor {}: takes one --engine", line.command));
   if (!line.engines.empty()) return parse_run_name(line.engines.front(), engines.infos());
   std::vector<std::string> outside;
   for (const EngineInfo& info : engines.infos()) {
@@ -103,11 +114,10 @@ RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
     if (!identity.empty() && is_meant) outside.push_back(info.name);
   }
   if (outside.size() != 1)
-    throw InputError("rigor conform: which engine? Give one --plugin P, or --engine E; see rigor list engines");
+    throw InputError(fmt::format("rigor {}: which engine? Give one --plugin P, or --engine E; see rigor list engines",
+                                 line.command));
   return parse_run_name(outside.front(), engines.infos());
 }
-
-}  // namespace
 
 int conform_command(const CommandLine& line, const EngineTable& engines) {
   const RunName run = run_asked_for(line, engines);
@@ -115,12 +125,14 @@ int conform_command(const CommandLine& line, const EngineTable& engines) {
   const Json results = results_of(trial, engines, line.limit);
   bool holds = true;
   for (const Json& row : results) holds = holds && row.at("answer") != "broken";
+  std::optional<MistakeReport> report;
+  if (!holds && answers(results)) report = diagnosed(line, engines, run);
   if (line.json) {
-    print(
-        Json{{"engine", run.text}, {"version", trial.info.version}, {"conforms", holds}, {"checks", results}}.dump(2) +
-        "\n");
+    Json json = {{"engine", run.text}, {"version", trial.info.version}, {"conforms", holds}, {"checks", results}};
+    if (report) json["diagnosis"] = mistakes_json(*report, run.text);
+    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } else {
-    print_table(table_of(run, results, holds));
+    print_table(table_of(run, results, holds) + (report ? "\n" + text_of(*report, run.text) : ""));
   }
   return holds ? kGood : kGateFailed;
 }

@@ -18,7 +18,8 @@ std::size_t cells_to_run(const CaseResult& result) {
 }
 
 void run_with_progress(Results& grid, const EngineTable& engines, const GridOptions& options) {
-  for (const CaseResult& result : grid.cases) {
+  const bool speaks = !options.executor || options.executor->leads();
+  for (const CaseResult& result : speaks ? grid.cases : std::vector<CaseResult>()) {
     const std::string cost = cost_of_ensemble(result.definition, cells_to_run(result));
     if (!cost.empty()) say(cost);
   }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "cases/case/selection.h"
+#include "cases/gates/single_precision.h"
 #include "cases/results/observed_order.h"
 #include "cases/truth/provenance.h"
 
@@ -65,6 +66,19 @@ class GateCheck {
   }
   const std::string& name_of(const Cell& cell) const { return grid_.runs[cell.run].text; }
 
+  bool is_single(std::size_t run) const {
+    return std::any_of(grid_.engines.begin(), grid_.engines.end(), [&](const EngineInfo& engine) {
+      return engine.name == grid_.runs[run].engine && engine.precision == "single";
+    });
+  }
+  // By how much the limits of a run are wider than the gate's, in the metric's unit.
+  double allowance(std::size_t run, const StepSize& dt) const {
+    return is_single(run) ? single_precision_allowance(result_, dt.seconds, unit_.empty() ? "1" : unit_.substr(1)) : 0;
+  }
+  std::string allowed(double allowance) const {
+    return allowance > 0 ? fmt::format(" (limit wider by {:.3g}{}, for single precision)", allowance, unit_) : "";
+  }
+
   void add(const std::string& engine, const std::string& dt, GateAnswer answer, const std::string& text,
            std::optional<double> value = {}, const std::optional<Instant>& worst = {}) {
     result_.gates.push_back({index_, engine, dt, answer, text, value, worst});
@@ -95,7 +109,8 @@ class GateCheck {
     const std::string fault = fault_of(cell, *metric);
     if (!fault.empty())
       return fail(cell, fmt::format("{} {}; {}{}", head, fault, worst_of(*metric), because()), *metric);
-    add(name_of(cell), cell.dt.text, GateAnswer::held, fmt::format("{} is {:.6g}{}", head, metric->value, unit_),
+    add(name_of(cell), cell.dt.text, GateAnswer::held,
+        fmt::format("{} is {:.6g}{}{}", head, metric->value, unit_, allowed(allowance(cell.run, cell.dt))),
         metric->value, metric->worst);
   }
 
@@ -147,22 +162,26 @@ class GateCheck {
   // What is wrong with a cell's value, or "". No value of a run that blew up is good, though a bad one may be asked
   // for.
   std::string fault_of(const Cell& cell, const MetricValue& metric) const {
-    const std::string fault = fault_of(metric.value);
+    const std::string fault = fault_of(metric.value, allowance(cell.run, cell.dt));
     const bool asks_for_good = is_higher_better(gate_.metric) ? gate_.min.has_value() : gate_.max.has_value();
     if (!fault.empty() || !asks_for_good || cell.status != Status::diverged) return fault;
     return "is of no meaning, for the run is " + cell.reason;
   }
 
   // Comparisons are written so that a value that is no number never holds.
-  std::string fault_of(double value) const {
-    if (gate_.max && !(value <= *gate_.max)) {
-      return fmt::format("is {:.6g}{}, above the limit of {:g}{}", value, unit_, *gate_.max, unit_);
+  std::string fault_of(double value, double allowance) const {
+    if (gate_.max && !(value <= *gate_.max + allowance)) {
+      return fmt::format("is {:.6g}{}, above the limit of {:g}{}{}", value, unit_, *gate_.max, unit_,
+                         allowed(allowance));
     }
-    if (gate_.min && !(value >= *gate_.min)) {
-      return fmt::format("is {:.6g}{}, below the limit of {:g}{}", value, unit_, *gate_.min, unit_);
+    if (gate_.min && !(value >= *gate_.min - allowance)) {
+      return fmt::format("is {:.6g}{}, below the limit of {:g}{}{}", value, unit_, *gate_.min, unit_,
+                         allowed(allowance));
     }
-    if (gate_.equals && !(std::abs(value - *gate_.equals) <= kRounding * std::max(1.0, std::abs(*gate_.equals)))) {
-      return fmt::format("is {:.17g}{}, not {:.17g}{} to within {:g}", value, unit_, *gate_.equals, unit_, kRounding);
+    if (gate_.equals &&
+        !(std::abs(value - *gate_.equals) <= allowance + kRounding * std::max(1.0, std::abs(*gate_.equals)))) {
+      return fmt::format("is {:.17g}{}, not {:.17g}{} to within {:g}{}", value, unit_, *gate_.equals, unit_, kRounding,
+                         allowed(allowance));
     }
     return "";
   }
@@ -174,8 +193,8 @@ class GateCheck {
   }
 
   void answer(const std::string& engine, const std::string& dt, const std::string& head, double value,
-              const std::string& detail) {
-    const std::string fault = fault_of(value);
+              const std::string& detail, double allowance = 0) {
+    const std::string fault = fault_of(value, allowance);
     if (fault.empty())
       return add(engine, dt, GateAnswer::held, fmt::format("{} is {:.6g}{}", head, value, unit_), value);
     add(engine, dt, GateAnswer::failed, fmt::format("{} {}; {}{}", head, fault, detail, because()), value);
@@ -216,7 +235,8 @@ class GateCheck {
     const std::string &one = grid_.runs[spread.first].text, &other = grid_.runs[spread.second].text;
     answer(one, spread.dt.text, fmt::format("{} of {} and {} at dt = {}", gate_.metric, one, other, spread.dt.text),
            worst.value,
-           fmt::format("worst at {:.6g} s: {}", worst.time, result_.definition.scene.body_name(worst.body)));
+           fmt::format("worst at {:.6g} s: {}", worst.time, result_.definition.scene.body_name(worst.body)),
+           std::max(allowance(spread.first, spread.dt), allowance(spread.second, spread.dt)));
   }
 
   // What an order has to be at least: the gate's own, or what the method declares. An adaptive one declares none.
@@ -233,9 +253,10 @@ class GateCheck {
 
   // A gate that speaks of every method has to leave aside the steps at which one is not yet near its limit, and those
   // at which only roundings are left.
-  bool shows_order(double error) const {
+  bool shows_order(double error, double of_precision) const {
     constexpr double kLarge = 0.03, kRoundings = 1e-10;  // m, rad: the second after thousands of steps
-    return !gate_.declares_order || (error < kLarge && error > std::max(kRoundings, 100 * error_floor(result_)));
+    return !gate_.declares_order ||
+           (error < kLarge && error > std::max({kRoundings, 100 * error_floor(result_), of_precision}));
   }
 
   void check_order(std::size_t run) {
@@ -256,7 +277,7 @@ class GateCheck {
                         grid_.runs[run].text, cell.dt.text, word_of(cell.status), cell.reason));
         return;
       }
-      if (!shows_order(found->second.value)) continue;
+      if (!shows_order(found->second.value, allowance(run, cell.dt))) continue;
       dt.push_back(cell.dt.seconds), values.push_back(found->second.value);
       table += fmt::format("{}{:.4g} at {}", table.empty() ? "" : ", ", found->second.value, cell.dt.text);
       if (!worst || found->second.value > worst->metrics.at(gate_.metric).value) worst = &cell;

@@ -285,14 +285,23 @@ std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& pa
 
 namespace {
 
-// Not believed: what cannot be read, and a cell whose trajectory is no longer there.
-void forget_what_is_wrong(Journal& journal, const CaseResult& planned, const GridOptions& options) {
+// Whether a cell came to nothing in an engine from outside: its files are not all known, nor what else was in its way,
+// so that another try may end otherwise. An engine of this program would do the same again.
+bool may_end_otherwise(const Cell& cell, const Results& grid, const EngineTable& engines) {
+  const bool came_to_nothing = cell.status == Status::crashed || cell.status == Status::timed_out;
+  return came_to_nothing && !engines.identity_of(grid.runs[cell.run].engine).empty();
+}
+
+// Not believed: what cannot be read, a cell whose trajectory is no longer there, and one that may end otherwise.
+void forget_what_is_wrong(Journal& journal, const Results& grid, const CaseResult& planned, const EngineTable& engines,
+                          const GridOptions& options) {
   CaseResult scratch = planned;
   journal.forget_if([&](const Journal::Record& record) {
     try {
       const MessageSubject subject = apply_message(scratch, record.message);
       if (subject.part != MessageSubject::Part::cell) return false;
       const Cell& cell = scratch.cells[subject.index];
+      if (may_end_otherwise(cell, grid, engines)) return true;
       return std::any_of(options.recorders.begin(), options.recorders.end(),
                          [&](const auto& recorder) { return !recorder->still_has(cell); });
     } catch (const std::exception&) {
@@ -307,7 +316,7 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
               const Channel& channel) {
   const Case& definition = planned.definition;
   Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, engines, options));
-  forget_what_is_wrong(journal, planned, options);
+  forget_what_is_wrong(journal, grid, planned, engines, options);
   const auto known_truth = journal.found().find(Journal::kTruth);
   const bool is_done = known_truth != journal.found().end() && journal.found().size() == 1 + jobs_in(planned);
   if (is_done) {

@@ -1,7 +1,7 @@
 // The mutation test: every engine is broken in one way after another, and the default gates must find each, in the case
 // that is about it and by a metric that points at it. The score is printed. First the controls: the wrapper alone, with
 // nothing broken, and with the world made anew before each step, must trip no gate.
-#include "tests/faults/faults.h"
+#include "adapters/faults/faults.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "adapters/faults/broken_engine.h"
 #include "cases/case/run_selector.h"
 #include "cases/case/suite.h"
 #include "cases/gates/deviations.h"
@@ -17,11 +18,10 @@
 #include "cases/runner/grid.h"
 #include "core/base/error.h"
 #include "tests/cases/vocabulary.h"
+#include "tests/faults/shown_by.h"
 
 using namespace rigor;
-using rigor::test::BrokenEngine;
-using rigor::test::Fault;
-using rigor::test::faults;
+using test::ShownBy;
 
 namespace {
 
@@ -87,10 +87,12 @@ Case case_called(const std::string& id, const std::string& engine) {
   return of_engine(select_cases({id}, default_suite_dir(), test::words()).front(), engine);
 }
 
+const ShownBy& shown_by_of(const Fault& fault) { return test::shown_by().at(fault.name); }
+
 // Empty if no gate finds the fault; else the message of the first that points at it. The quick gates are asked first.
 std::string finding(const Fault& fault, const std::string& engine) {
-  const Case whole = case_called(fault.shown_by, engine);
-  const std::regex pointing(fault.metrics);
+  const Case whole = case_called(shown_by_of(fault).of_case, engine);
+  const std::regex pointing(shown_by_of(fault).metrics);
   std::vector<Case> parts = {whole};
   try {
     parts.insert(parts.begin(), quick_selection({whole}, infos_of(engines())).front());
@@ -110,7 +112,7 @@ template <typename Wanted>
 std::set<std::string> cases_of_faults(const Wanted& wanted) {
   std::set<std::string> ids;
   for (const Fault& fault : faults()) {
-    if (wanted(fault)) ids.insert(fault.shown_by);
+    if (wanted(fault)) ids.insert(shown_by_of(fault).of_case);
   }
   return ids;
 }
@@ -123,11 +125,13 @@ BOOST_AUTO_TEST_CASE(the_table_is_long_enough_and_has_each_once) {
   std::set<std::string> names;
   for (const Fault& fault : faults()) BOOST_TEST(names.insert(fault.name).second, fault.name);
   BOOST_TEST(names.size() >= 50u);
+  for (const std::string& name : names) BOOST_TEST(test::shown_by().contains(name), name);
+  BOOST_TEST(test::shown_by().size() == names.size());
 }
 
 BOOST_AUTO_TEST_CASE(an_engine_that_is_only_wrapped_trips_no_gate) {
   Fault nothing, anew;
-  anew.step = [](test::Moment&) {};
+  anew.step = [](Moment&) {};
   for (const std::string engine : kEngines) {
     for (const auto& [name, fault, ids] :
          {std::tuple{"wrapped", &nothing, cases_of_faults([](const Fault&) { return true; })},
@@ -149,13 +153,13 @@ BOOST_AUTO_TEST_CASE(every_fault_is_found_by_a_gate_that_points_at_it) {
   for (const Fault& fault : faults()) {
     if (only && fault.name.find(only) == std::string::npos) continue;
     for (const std::string engine : kEngines) {
-      if (case_called(fault.shown_by, engine).gates.empty()) {
+      if (case_called(shown_by_of(fault).of_case, engine).gates.empty()) {
         BOOST_TEST_MESSAGE(fault.name << " in " << engine << ": not asked, for no gate of the case is on it");
         continue;
       }
       const std::string text = finding(fault, engine);
       ++all, found += !text.empty();
-      BOOST_TEST(!text.empty(), fault.name << " in " << engine << " is not found by " << fault.shown_by);
+      BOOST_TEST(!text.empty(), fault.name << " in " << engine << " is not found by " << shown_by_of(fault).of_case);
       BOOST_TEST_MESSAGE(fault.name << " in " << engine << ": " << text);
     }
   }

@@ -35,7 +35,7 @@ const MethodInfo& method_of(const RunName& run, const std::vector<EngineInfo>& e
 }
 
 // "ode,erp=0.2@stock": an option more.
-std::string with_option(std::string run, const std::string& name, const std::string& value) {
+std::string with_varied_option(std::string run, const std::string& name, const std::string& value) {
   return run.insert(std::min(run.find('@'), run.size()), fmt::format(",{}={}", name, value));
 }
 
@@ -128,7 +128,7 @@ void Sweep::check_options() {
     for (const RunName& run : input_.runs) {
       if (!find_option(method_of(run, vocabulary_.engines), axis.key)) continue;
       for (const std::string& value : axis.values)
-        parse_run_name(with_option(run.text, axis.key, value), vocabulary_.engines);
+        parse_run_name(with_varied_option(run.text, axis.key, value), vocabulary_.engines);
     }
   }
 }
@@ -236,7 +236,7 @@ std::vector<SweepRow> Sweep::rows_of(std::size_t job) const {
 RunName Sweep::run_of(const SweepRow& row) const {
   std::string text = input_.runs[row.run].text;
   for (std::size_t i = 0; i < input_.axes.size(); ++i) {
-    if (input_.axes[i].kind == Kind::option) text = with_option(text, input_.axes[i].key, row.values[i]);
+    if (input_.axes[i].kind == Kind::option) text = with_varied_option(text, input_.axes[i].key, row.values[i]);
   }
   return parse_run_name(text, vocabulary_.engines);
 }

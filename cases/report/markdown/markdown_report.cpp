@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "cases/report/console/console_table.h"
 #include "cases/report/json/leave_out_details.h"
@@ -63,6 +64,18 @@ std::string table(const TextTable& cells) {
 // Of many cases their tables would be more than one reads, or a forge shows: the matrix above has their numbers.
 bool has_tables(const Results& results) { return results.cases.size() <= kMostCasesInDetail; }
 
+// The command that says which known mistake a failed run's error looks like.
+std::string diagnosis_line(const CaseResult& result) {
+  std::set<std::string> runs;
+  for (const GateResult& gate : result.gates) {
+    if (gate.answer == GateAnswer::failed && !gate.engine.empty()) runs.insert(gate.engine);
+  }
+  std::string text;
+  for (const std::string& run : runs)
+    text += fmt::format("{} `rigor diagnose {} --engine '{}'`", text.empty() ? "" : ",", result.definition.id, run);
+  return text.empty() ? "" : "\nWhich known mistake the error looks like:" + text + "\n";
+}
+
 std::string headline(const Results& results, const CaseResult& result) {
   std::string text = fmt::format("## {}: {}\n\n{}\n\n", plain(result.definition.id), plain(result.definition.title),
                                  plain(truth_sentence(result)));
@@ -74,7 +87,7 @@ std::string headline(const Results& results, const CaseResult& result) {
     if (gate.answer != GateAnswer::held && gate.answer != GateAnswer::not_recorded)
       text += fmt::format("- {} {}: {}\n", kind, word_of(gate.answer), plain(gate.text));
   }
-  return text;
+  return text + diagnosis_line(result);
 }
 
 std::string finer_steps(const Results& results, const CaseResult& result) {
@@ -102,6 +115,13 @@ std::string tables(const Results& results) {
   return text;
 }
 
+std::string precision_after(const Results& results, std::size_t run) {
+  const auto engine = std::find_if(results.engines.begin(), results.engines.end(),
+                                   [&](const EngineInfo& info) { return info.name == results.runs[run].engine; });
+  return engine != results.engines.end() && engine->precision == "single" ? " (single precision, bounds wider by it)"
+                                                                          : "";
+}
+
 std::string settings(const Results& results) {
   std::string text;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
@@ -109,7 +129,7 @@ std::string settings(const Results& results) {
       const auto cell = std::find_if(result.cells.begin(), result.cells.end(),
                                      [&](const Cell& c) { return c.run == run && !c.settings.empty(); });
       if (cell == result.cells.end()) continue;
-      text += fmt::format("- {}:", plain(results.runs[run].text));
+      text += fmt::format("- {}{}:", plain(results.runs[run].text), precision_after(results, run));
       for (const auto& [name, value] : cell->settings) text += fmt::format(" {} = {};", plain(name), plain(value));
       text += "\n";
       break;

@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(every_line_of_it_works) {
       ++commands;
     }
   }
-  BOOST_TEST((pieces == 4 && commands == 3));
+  BOOST_TEST((pieces == 4 && commands == 4));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -137,6 +137,7 @@ BOOST_AUTO_TEST_CASE(whatever_it_does_costs_the_cell_in_one_sentence) {
       {"unsupported", "^unsupported: .*no such thing"},
       {"no-world", "^invalid: .*it set no world"},
       {"throws", "exception: out of cheese"},
+      {"memory", "exception: std::bad_alloc"},
       {"exits", "called exit\\(0\\) before"},
       {"segfaults", "killed by SIGSEGV"},
       {"fails", "^crashed: .*'step' failed: 'lost it'"},

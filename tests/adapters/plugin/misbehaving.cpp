@@ -8,6 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "adapters/plugin/rigor_engine.h"
 
@@ -43,6 +44,7 @@ rigor_status info(rigor_text text) {
 struct Still {
   double time = 0;
   int steps = 0;
+  std::vector<char> hoard;
 };
 
 rigor_status load(const char*, const char*, rigor_world** world, rigor_text text) {
@@ -58,6 +60,7 @@ rigor_status step(rigor_world* world, double dt, const double*, rigor_text text)
   if (++still->steps < 3) return RIGOR_OK;
   if (is("throws")) throw std::runtime_error("out of cheese");
   if (is("exits")) std::exit(0);
+  if (is("memory")) still->hoard.resize(std::size_t{5} << 30);
   if (is("segfaults")) std::raise(SIGSEGV);
   if (is("fails")) return say(text, RIGOR_FAILED, "lost it");
   if (is("diverges")) return say(text, RIGOR_DIVERGED, "too fast");

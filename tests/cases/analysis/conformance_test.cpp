@@ -4,14 +4,11 @@
 #include <map>
 
 #include "adapters/engines.h"
+#include "adapters/faults/broken_engine.h"
 #include "cases/analysis/conformance/conformance.h"
 #include "core/engine/run_name.h"
-#include "tests/faults/broken_engine.h"
 
 using namespace rigor;
-using test::BrokenEngine;
-using test::Fault;
-using test::Moment;
 
 namespace {
 

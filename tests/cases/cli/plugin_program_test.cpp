@@ -95,6 +95,74 @@ BOOST_AUTO_TEST_CASE(the_environment_adds_engines_too) {
   BOOST_TEST((std::abs(time - 1) < 1e-12 && std::abs(x - 1) < 1e-12 && std::abs(y + 5.5) < 1e-12));
 }
 
+BOOST_AUTO_TEST_CASE(one_that_says_things_otherwise_but_rightly_is_understood) {
+  for (const std::string mode : {"sparse", "rich"}) {
+    BOOST_TEST_CONTEXT(mode) {
+      const std::string plugin =
+          " --engine " + mode + " --plugin 'python3 " RIGOR_SOURCE_DIR "/tests/adapters/plugin/legal.py " + mode + "'";
+      const Answer answer = on_suite("gate --jobs 1" + plugin);
+      BOOST_TEST(answer.code == 0, answer.out << answer.err);
+      BOOST_TEST_REQUIRE(cells().size() == 1u);
+      BOOST_TEST(cells()[0].at("status") == "pass", answer.out);
+      // A step of 1 s, after which every number is whole.
+      const Answer traced = run("trace " + folder.path.string() + "/suite/air/stone.toml --dt 1" + plugin);
+      BOOST_TEST(traced.code == 0, traced.err);
+      BOOST_TEST(traced.out.find("\n1,stone,1,-10,0,1,0,0,0,1,-10,0,0,0,0\n") != std::string::npos, traced.out);
+    }
+  }
+}
+
+// Every command that runs engines takes them.
+BOOST_AUTO_TEST_CASE(sweep_and_tune_take_it_too) {
+  const std::string toy = " --engine toy-py --plugin '" + kToy + "'",
+                    stone = folder.path.string() + "/suite/air/stone.toml";
+  const Answer swept = run("sweep " + stone + " --vary dt=1/10,1/20 --jobs 1 --out " + out + toy);
+  BOOST_TEST(swept.code == 0, swept.err);
+  BOOST_TEST(content("out/sweep.csv").find("toy-py") != std::string::npos);
+  const Answer tuned = run("tune " + stone + " --within 1m --jobs 1" + toy);
+  BOOST_TEST(tuned.code == 0, tuned.out << tuned.err);
+}
+
+// The toy with its angular velocity told in the body's frame, as engines that keep it there are wont to.
+BOOST_AUTO_TEST_CASE(what_its_mistake_looks_like_is_said) {
+  std::ifstream file(RIGOR_SOURCE_DIR "/adapters/plugin/examples/toy.py");
+  std::string toy((std::istreambuf_iterator<char>(file)), {});
+  const std::string right = "body.x + body.q + body.v + body.w for",
+                    wrong = "body.x + body.q + body.v + turn([body.q[0]] + [-a for a in body.q[1:]], body.w) for";
+  BOOST_TEST_REQUIRE(toy.find(right) != std::string::npos);
+  toy.replace(toy.find(right), right.size(), wrong);
+  const std::string plugin = " --plugin 'python3 " + folder.write("broken.py", toy) + "'";
+  const std::string mistake = "angular velocity read in the body frame";
+
+  const Answer all = run("diagnose --json --jobs 2" + plugin);
+  BOOST_TEST(all.code == 0, all.err);
+  const auto told = nlohmann::json::parse(all.out);
+  BOOST_TEST(told.at("verdict") == "named", all.out);
+  BOOST_TEST(told.at("suspects").at(0).at("mistakes").at(0) == mistake);
+  BOOST_TEST(told.at("suspects").at(0).at("explains").get<double>() > 0.99);
+
+  const Answer one = run("diagnose ballistic/projectile --jobs 2" + plugin);
+  BOOST_TEST(one.code == 0, one.err);
+  BOOST_TEST(one.out.find("looks like: " + mistake) != std::string::npos, one.out);
+  const Answer conform = run("conform --jobs 2" + plugin);
+  BOOST_TEST(conform.code == 1);
+  BOOST_TEST(conform.out.find("looks like: " + mistake) != std::string::npos, conform.out);
+}
+
+BOOST_AUTO_TEST_CASE(a_diagnosis_of_what_is_right_or_is_not_there) {
+  const Answer right = run("diagnose springs/fixed-spring --engine ode --jobs 2");
+  BOOST_TEST(right.code == 0, right.err);
+  BOOST_TEST(right.out.find("no error beyond what its scheme makes") != std::string::npos, right.out);
+  BOOST_TEST(run("diagnose no/such/case --engine ode").code == 2);
+  BOOST_TEST(run("diagnose springs/fixed-spring").code == 2);
+  BOOST_TEST(run("diagnose springs/fixed-spring --engine odd").code == 2);
+  // One that dies of everything has no motion: that is said, and no mistake is named.
+  const Answer dead = run("diagnose --plugin '" + misbehaving("dies") + "'");
+  BOOST_TEST(dead.code == 0, dead.err);
+  BOOST_TEST(dead.out.find("looks like:") == std::string::npos, dead.out);
+  BOOST_TEST(dead.out.find("exit code 7") != std::string::npos, dead.out);
+}
+
 BOOST_AUTO_TEST_CASE(one_that_cannot_be_had_is_bad_input_before_the_grid) {
   for (const std::string& plugin :
        {misbehaving("info-garbage"), misbehaving("info-clash"), std::string("/no/such/engine.so"),

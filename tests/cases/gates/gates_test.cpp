@@ -333,4 +333,24 @@ BOOST_AUTO_TEST_CASE(a_familys_gate_says_nothing_of_a_case_that_it_does_not_meet
   BOOST_TEST(unmet_family_gates(run.grid).empty());
 }
 
+// The stone comes 0.5 m far at 1 m/s in 5 or 10 steps: 8 roundings of 2^-24 of 1 m a step make 1.1e-6 m.
+BOOST_AUTO_TEST_CASE(limits_are_wider_for_single_precision_by_its_roundings_and_no_more) {
+  Gate limit = gate("position_error");
+  limit.max = 1e-9;
+  const auto answers_of = [&](double error) {
+    Fixture run;
+    run.grid.engines[1].precision = "single";
+    for (std::size_t n = 0; n < 4; ++n) run.cell(n).metrics["position_error"].value = error;
+    return run.check(limit);
+  };
+  const auto answers = answers_of(0.9e-6);
+  BOOST_TEST(count(answers, GateAnswer::held) == 2);
+  for (const GateResult& answer : answers) {
+    BOOST_TEST((answer.answer == (answer.engine == "b" ? GateAnswer::held : GateAnswer::failed)), answer.text);
+    const bool says_so = answer.text.find("for single precision") != std::string::npos;
+    BOOST_TEST(says_so == (answer.engine == "b"), answer.text);
+  }
+  BOOST_TEST(count(answers_of(3e-6), GateAnswer::held) == 0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -119,6 +119,15 @@ export function limitText(gate, unit) {
   return parts.join(", ");
 }
 
+// The command that says which known mistake a run's error looks like, for each run that a gate failed on.
+function diagnosisLine(one, gates) {
+  const failed = gates.flatMap((gate) => gate.answers.filter((a) => a.answer === "failed" && a.engine));
+  const runs = [...new Set(failed.map((a) => a.engine))];
+  if (!runs.length) return [];
+  const commands = runs.map((run) => [el("code", {}, `rigor diagnose ${one.id} --engine '${run}'`), " "]);
+  return [el("p.fine", {}, "Which known mistake the error looks like: ", commands.flat())];
+}
+
 export function gatesTable({ results, one }) {
   // One of the family's that met no cell of this case says nothing about it.
   const gates = one.gates.filter((gate) => gate.answers.length);
@@ -127,6 +136,7 @@ export function gatesTable({ results, one }) {
   return el(
     "div.gates",
     {},
+    diagnosisLine(one, gates),
     gates.map((gate) => {
       const count = (answer) => gate.answers.filter((a) => a.answer === answer).length;
       const failed = count("failed"),

@@ -1,6 +1,9 @@
-#include "tests/faults/broken_engine.h"
+#include "adapters/faults/broken_engine.h"
 
-namespace rigor::test {
+#include "core/engine/clock.h"
+#include "core/engine/engine_failure.h"
+
+namespace rigor {
 namespace {
 
 // The scene with its bodies where they are at time t, and its clock set to zero there.
@@ -80,7 +83,9 @@ class BrokenWorld : public World {
 }  // namespace
 
 std::unique_ptr<World> BrokenEngine::load(const Scene& scene, const Settings& settings) const {
+  if (fault_.step && !scene.joints.empty())
+    throw EngineFailure(FailureKind::unsupported, "joints count from t = 0, and a step that is changed starts anew");
   return std::make_unique<BrokenWorld>(engine_, settings, fault_, scene);
 }
 
-}  // namespace rigor::test
+}  // namespace rigor

@@ -1,12 +1,14 @@
-#include "tests/faults/contact_faults.h"
-
+// Restitution, friction, and where surfaces are.
 #include <algorithm>
 #include <cmath>
 
-#include "tests/faults/scene_faults.h"
+#include "adapters/faults/changes.h"
+#include "adapters/faults/faults.h"
 
-namespace rigor::test {
+namespace rigor {
 namespace {
+
+using namespace faulty;
 
 template <typename F>
 std::function<void(Scene&)> each_law(F change) {
@@ -57,35 +59,39 @@ void friction_as_pyramid(Scene& scene) {
   scene.contact_pairs = pairs;
 }
 
+void shorten_capsule(Body& body) {
+  if (!body.shape) return;
+  if (auto* capsule = std::get_if<Capsule>(&*body.shape)) capsule->length *= 1e-3;
+}
+
+template <typename F>
+Fault law_fault(const std::string& name, F change) {
+  return on_loading(name, each_law(change));
+}
+
 }  // namespace
 
 std::vector<Fault> contact_faults() {
-  const std::string bounce = "restitution_error|position_error|energy_gain|impact_time_error",
-                    slide = "stop_distance_error|position_error|creep", place = "creep|penetration";
   return {
-      {"restitution squared", "contact/pair-impact-0.5", bounce,
-       each_law([](ContactLaw& l) { l.restitution *= l.restitution; })},
-      {"restitution left out", "contact/pair-impact-0.75", bounce, each_law([](ContactLaw& l) { l.restitution = 0; })},
-      {"every contact elastic", "contact/bounce-half", bounce, each_law([](ContactLaw& l) { l.restitution = 1; })},
-      {"friction halved", "contact/sliding-stop", slide, each_law([](ContactLaw& l) { l.friction *= 0.5; })},
-      {"friction left out", "contact/slide-to-roll", slide, each_law([](ContactLaw& l) { l.friction = 0; })},
-      {"friction doubled", "contact/slope-slides", slide, each_law([](ContactLaw& l) { l.friction *= 2; })},
-      {"a pair's own law ignored", "contact/sliding-stop", slide, [](Scene& s) { s.contact_pairs.clear(); }},
-      {"contact left out", "contact/collision", bounce, each_body([](Body& b) { b.collides = false; })},
-      {"friction as a pyramid", "contact/friction-fan", "friction_anisotropy", friction_as_pyramid},
-      {"contact offset by 1 mm", "contact/lying-still", place, each_body([](Body& b) { grow(b, 1e-3); })},
-      {"contact 1 mm too deep", "contact/lying-still", place, each_body([](Body& b) { grow(b, -1e-3); })},
-      {"ground 1 mm too high", "contact/lying-still", place, each_plane([](Plane& p) { p.offset += 1e-3; })},
-      {"contact normal flipped", "contact/collision", bounce, each_plane([](Plane& p) { p.normal *= -1; })},
-      {"capsule without its cylinder", "contact/capsules-end-on", bounce, each_body([](Body& b) {
-         if (b.shape) {
-           if (auto* c = std::get_if<Capsule>(&*b.shape)) c->length *= 1e-3;
-         }
-       })},
-      {"every mass the same in contact", "contact/capsules-end-on", bounce, equal_masses},
-      {"inertia of a rolling body off by half", "contact/slide-to-roll", slide,
-       each_body([](Body& b) { b.inertia *= 1.5; })},
+      law_fault("restitution squared", [](ContactLaw& l) { l.restitution *= l.restitution; }),
+      law_fault("restitution left out", [](ContactLaw& l) { l.restitution = 0; }),
+      law_fault("every contact elastic", [](ContactLaw& l) { l.restitution = 1; }),
+      law_fault("friction halved", [](ContactLaw& l) { l.friction *= 0.5; }),
+      law_fault("friction left out", [](ContactLaw& l) { l.friction = 0; }),
+      law_fault("friction doubled", [](ContactLaw& l) { l.friction *= 2; }),
+      on_loading("a pair's own law ignored", [](Scene& s) { s.contact_pairs.clear(); }),
+      on_loading("contact left out", each_body([](Body& b) { b.collides = false; })),
+      on_loading("friction as a pyramid", friction_as_pyramid),
+      by_amount("contact offset by {} mm", 1,
+                [](double mm) { return on_loading("", each_body([=](Body& b) { grow(b, 1e-3 * mm); })); }),
+      on_loading("contact 1 mm too deep", each_body([](Body& b) { grow(b, -1e-3); })),
+      by_amount("ground {} mm too high", 1,
+                [](double mm) { return on_loading("", each_plane([=](Plane& plane) { plane.offset += 1e-3 * mm; })); }),
+      on_loading("contact normal flipped", each_plane([](Plane& p) { p.normal *= -1; })),
+      on_loading("capsule without its cylinder", each_body(shorten_capsule)),
+      on_loading("every mass the same in contact", equal_masses),
+      on_loading("inertia of a rolling body off by half", each_body([](Body& b) { b.inertia *= 1.5; })),
   };
 }
 
-}  // namespace rigor::test
+}  // namespace rigor

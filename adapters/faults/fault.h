@@ -1,0 +1,37 @@
+// A mistake that engines and their adapters have been seen to make, as what it changes: the scene on loading, the state
+// before each step, or what is read.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/engine/body_table.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// A step that is about to be taken. The fault may change the bodies' state, the loads, dt and how often it is taken.
+struct Moment {
+  Scene& scene;           // the bodies as they are now; t = 0 is now
+  const Scene& original;  // as it was loaded
+  double& dt;             // s
+  int& times;             // that the step is taken
+  long step;              // counted from 0
+  double time;            // s
+};
+
+struct Fault {
+  std::string name = "";
+  std::function<void(Scene&)> scene = {};                           // on loading
+  std::function<void(Moment&)> step = {};                           // before each step, of scenes without joints
+  std::function<void(MutableBodyColumns, const Scene&)> read = {};  // on reading
+  bool reads_late = false;                                          // gives the state of the step before
+  // Where the fault is off by an amount: that of this one, in the unit of its name, and the same by another amount.
+  double amount = 0;
+  std::function<Fault(double)> by = {};
+};
+
+// Both of them, `first` first wherever they meet.
+Fault combined(const Fault& first, const Fault& second);
+
+}  // namespace rigor

@@ -1,0 +1,87 @@
+#include "cases/analysis/mistakes/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+constexpr std::size_t kTurn = 3, kSpeed = 12, kSpin = 15;  // where the groups begin
+constexpr double kOfLoading = 1e-12;                       // roundings of a few conversions
+
+// The largest of the columns from `first` to `last`, of their change since the start where `is_change`.
+double largest(const Sight& base, std::size_t bodies, std::size_t first, std::size_t last, bool is_change) {
+  const std::size_t row = kMotionColumns, sample = bodies * row;
+  double most = 0;
+  for (std::size_t at = 0; at + row <= base.states.size(); at += row) {
+    double square = 0;
+    for (std::size_t c = first; c < last; ++c) {
+      const double start = is_change ? base.states[at % sample + c] : 0;
+      square += std::pow(base.states[at + c] - start, 2);
+    }
+    most = std::max(most, square);
+  }
+  return std::sqrt(most);
+}
+
+}  // namespace
+
+Observation::Observation(const View& view, std::size_t view_index, bool is_loaded, const Sight& base,
+                         std::size_t bodies)
+    : view_(view_index), is_loaded_(is_loaded), base_(base) {
+  const std::size_t sample = bodies * kMotionColumns;
+  begin_ = is_loaded ? 0 : sample, end_ = is_loaded ? sample : base.states.size();
+  begin_ = std::min(begin_, base.states.size()), end_ = std::min(end_, base.states.size());
+  per_ = std::max<double>(1, static_cast<double>(end_ - begin_) / kMotionColumns);
+  tolerance_ = is_loaded ? kOfLoading : view.tolerance;
+  // What hardly moves is measured by a metre, and by its own time.
+  constexpr double kHardly = 1e-3;
+  const double time = view.dt.front() * static_cast<double>(view.steps);
+  const double way = largest(base, bodies, 0, kTurn, true), length = way > kHardly ? way : 1;
+  const double speed = std::max(largest(base, bodies, kSpeed, kSpin, false), length / time);
+  const double spin = std::max(largest(base, bodies, kSpin, kMotionColumns, false), 1 / time);
+  for (std::size_t c = 0; c < kMotionColumns; ++c)
+    weights_[c] = c < kTurn ? 1 / length : c < kSpeed ? 1 : c < kSpin ? 1 / speed : 1 / spin;
+}
+
+double Observation::weight(std::size_t i) const { return weights_[i % kMotionColumns]; }
+
+Distances Observation::distances(const Sight& engine, const Sight& mistake) const {
+  Distances sums;
+  const std::size_t shorter = std::min(engine.states.size(), mistake.states.size()), end = std::min(end_, shorter);
+  for (std::size_t i = begin_; i < end; ++i) {
+    const double e = weight(i) * (engine.states[i] - base_.states[i]),
+                 f = weight(i) * (mistake.states[i] - base_.states[i]);
+    sums.error += e * e, sums.predicted += f * f, sums.rest += (e - f) * (e - f), sums.together += e * f;
+  }
+  const bool is_cut = shorter < end_ && engine.states.size() != mistake.states.size();
+  return {std::sqrt(sums.error / per_), std::sqrt(sums.predicted / per_), std::sqrt(sums.rest / per_),
+          sums.together / per_, !is_cut};
+}
+
+double Observation::uncertainty(const Sight& sight) const {
+  double sum = 0;
+  for (std::size_t i = begin_; i < std::min(end_, sight.coarse.size()); ++i)
+    sum += std::pow(weight(i) * (sight.states[i] - sight.coarse[i]), 2);
+  return std::sqrt(sum / per_);
+}
+
+std::vector<double> Observation::difference(const Sight& sight) const {
+  std::vector<double> out(end_ - begin_, 0.0);
+  for (std::size_t i = begin_; i < std::min(end_, sight.states.size()); ++i)
+    out[i - begin_] = weight(i) * (sight.states[i] - base_.states[i]) / std::sqrt(per_);
+  return out;
+}
+
+std::vector<Observation> observations_of(const std::vector<View>& views, const std::vector<Sight>& bases,
+                                         const std::vector<Probe>& probes) {
+  std::vector<Observation> all;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    if (!bases[v].why.empty()) continue;
+    const std::size_t bodies = probes[views[v].probe].scene->bodies.size();
+    for (const bool is_loaded : {true, false}) all.emplace_back(views[v], v, is_loaded, bases[v], bodies);
+  }
+  return all;
+}
+
+}  // namespace rigor

@@ -1,0 +1,52 @@
+// How much of an engine's error a known mistake explains, observation by observation. An observation is a part of a
+// view: the state as loaded, before any step, in which no scheme has a share; or the motion after it.
+#pragma once
+
+#include <vector>
+
+#include "cases/analysis/mistakes/views.h"
+
+namespace rigor {
+
+// Distances as roots of mean squares over samples and bodies, each group of columns by the scale of the motion without
+// mistakes: the longest way, a whole turn, the highest speed and spin.
+struct Distances {
+  double error = 0;        // of the engine from the motion without mistakes
+  double predicted = 0;    // of the mistake from that
+  double rest = 0;         // of the engine from the mistake
+  double together = 0;     // the inner product of the two differences
+  bool ends_alike = true;  // both blow up, or neither
+};
+
+class Observation {
+ public:
+  // `is_loaded`: the part. `base`: without mistakes.
+  Observation(const View& view, std::size_t view_index, bool is_loaded, const Sight& base, std::size_t bodies);
+
+  Distances distances(const Sight& engine, const Sight& mistake) const;
+  // Distance of a sight from its own coarse one: what extrapolation leaves open.
+  double uncertainty(const Sight& sight) const;
+  // The scaled difference of a sight from the base.
+  std::vector<double> difference(const Sight& sight) const;
+
+  std::size_t view_index() const { return view_; }
+  bool is_loaded() const { return is_loaded_; }
+  double tolerance() const { return tolerance_; }  // below it nothing is seen
+
+ private:
+  double weight(std::size_t i) const;
+
+  std::size_t view_;
+  bool is_loaded_;
+  const Sight& base_;
+  std::size_t begin_, end_;  // of the states
+  double per_ = 1;           // samples times bodies
+  double tolerance_;
+  double weights_[kMotionColumns];
+};
+
+// Each of which has an engine's error in it, or a mistake's that the engine does not have.
+std::vector<Observation> observations_of(const std::vector<View>& views, const std::vector<Sight>& bases,
+                                         const std::vector<Probe>& probes);
+
+}  // namespace rigor

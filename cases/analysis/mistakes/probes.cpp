@@ -1,0 +1,79 @@
+#include "cases/analysis/mistakes/probes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/contact_laws.h"
+
+namespace rigor {
+namespace {
+
+struct Row {
+  const char* id;
+  double duration;  // s: until what it is there for has happened
+  bool is_of_points = false;
+};
+
+// Each mistake of the table moves bodies in some of these otherwise than they should, and no two in all of them alike.
+constexpr Row kRows[] = {
+    {"ballistic/fast-spin", 0.6, true},
+    {"ballistic/free-fall", 1.2, true},  // 5 m/s after 0.5 s, a hundred steps after 1 s
+    {"ballistic/projectile", 1, true},   // tilted, moving and spinning
+    {"contact/bounce-half", 0.7},        // its first impact at 0.45 s
+    {"contact/capsules-end-on", 0.8},
+    {"contact/collision", 0.8},  // at 0.53 s
+    {"contact/friction-fan", 0.6},
+    {"contact/lying-still", 0.3},
+    {"contact/pair-impact-0.5", 1.6},  // at 1 s
+    {"contact/slide-to-roll", 1.2},    // rolls from 0.97 s on
+    {"contact/sliding-stop", 1.2},     // stops at 1.02 s
+    {"contact/slope-slides", 0.6},
+    {"forces/compass-needle", 1.2},
+    {"forces/switches-inside-steps", 3, true},  // the last of its forces ends at 2.72 s
+    {"forces/torqued-top", 1.6},                // its torque begins at 1 s
+    {"joints/chrono-revolute", 1},
+    {"joints/pendulum-90", 1},
+    {"springs/body-springs", 1},
+    {"springs/fixed-spring", 1},
+    {"springs/hung-part", 1},
+    {"springs/mass-ratio", 1},
+    {"springs/oscillator", 1.2, true},
+    {"springs/oscillator-overdamped", 2, true},  // slower than 5 cm/s after 1.6 s
+    {"springs/oscillator-underdamped", 1.2, true},
+    {"springs/two-bodies", 1, true},
+    {"tops/asymmetric-top", 1},
+    {"tops/dzhanibekov-box", 1},
+    {"tops/off-diagonal-inertia", 1},
+};
+
+// 1/60 s is itself a mistake of the table. Where bodies touch, what is left of a step's length at each impact shows.
+double step_for(const Scene& scene) { return anything_can_touch(scene) ? 1.0 / 500 : 1.0 / 100; }
+
+Probe probe_of(const Case& definition, double duration) {
+  Probe probe{definition.id, std::make_shared<Scene>(definition.scene)};
+  probe.dt = step_for(definition.scene), probe.duration = std::min(duration, definition.duration);
+  return probe;
+}
+
+}  // namespace
+
+std::vector<Probe> probes_of_suite(const Vocabulary& vocabulary) {
+  std::vector<Probe> probes;
+  for (const Row& row : kRows) {
+    probes.push_back(probe_of(select_cases({row.id}, default_suite_dir(), vocabulary).front(), row.duration));
+    probes.back().is_of_points = row.is_of_points;
+  }
+  return probes;
+}
+
+std::vector<Probe> probes_of(const std::vector<Case>& cases) {
+  constexpr double kMostBodySteps = 600;  // some milliseconds of the core
+  std::vector<Probe> probes;
+  for (const Case& definition : cases) {
+    const double steps = std::max(20.0, kMostBodySteps / static_cast<double>(definition.scene.bodies.size()));
+    probes.push_back(probe_of(definition, steps * step_for(definition.scene)));
+  }
+  return probes;
+}
+
+}  // namespace rigor

@@ -1,0 +1,190 @@
+#include "cases/analysis/mistakes/ranking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace rigor {
+namespace {
+
+// Numbers of a few roundings in single precision, and of some hundred steps of them.
+constexpr double kSingleLoaded = 1e-6, kSingleMoved = 1e-4;
+
+// An observation counts where there is this many times more in it than the nearest of all mistakes leaves there: the
+// rest is taken for what the engine's scheme does otherwise than the base.
+constexpr double kClear = 20;
+
+constexpr double kExplained = 0.01;  // what may be left of an error that is explained
+
+double share_left(const Distances& d) {
+  const double size = std::max(d.error, d.predicted);
+  const double share = d.rest / size;
+  return d.ends_alike && std::isfinite(share) ? std::min(1.0, share) : 1;
+}
+
+}  // namespace
+
+Trace::Trace(const std::vector<View>& views, const std::vector<Observation>& observations, std::vector<Sight> engine,
+             bool is_single)
+    : views_(views), observations_(observations), engine_(std::move(engine)), is_single_(is_single) {}
+
+bool Trace::is_seen(std::size_t o) const { return engine_[observations_[o].view_index()].why.empty(); }
+
+double Trace::tolerance(std::size_t o) const {
+  const Observation& observation = observations_[o];
+  const double of_precision = !is_single_ ? 0 : observation.is_loaded() ? kSingleLoaded : kSingleMoved;
+  // The finest two of three steps leave more open than all three: some of it is a bound.
+  constexpr double kSome = 0.3;
+  const double of_steps = kSome * observation.uncertainty(engine_[observation.view_index()]);
+  return std::max({observation.tolerance(), of_precision, of_steps});
+}
+
+double Trace::certain_error(std::size_t o) const {
+  const View& view = views_[observations_[o].view_index()];
+  if (observations_[o].is_loaded() || view.kind == View::Kind::twin) return tolerance(o);
+  if (view.kind == View::Kind::same_method) return std::numeric_limits<double>::infinity();
+  // Some uncertainties of a smooth motion. Where bodies touch, engines' models of contact differ by so much without any
+  // mistake: ODE's box on a slope where it hardly slides by 0.045 of its way.
+  constexpr double kFew = 10, kFarOff = 0.1;
+  return view.kind == View::Kind::extrapolated ? kFew * tolerance(o) : kFarOff;
+}
+
+std::vector<double> Trace::nearest(const std::vector<Hypothesis>& hypotheses) const {
+  std::vector<double> least(observations_.size(), 0);
+  for (std::size_t o = 0; o < observations_.size(); ++o) {
+    if (!is_seen(o)) continue;
+    const std::size_t v = observations_[o].view_index();
+    least[o] = observations_[o].distances(engine_[v], engine_[v]).error;
+    for (const Hypothesis& hypothesis : hypotheses) {
+      if (!hypothesis.sights[v].why.empty()) continue;
+      const Distances d = observations_[o].distances(engine_[v], hypothesis.sights[v]);
+      if (d.ends_alike && d.rest < least[o]) least[o] = d.rest;
+    }
+  }
+  return least;
+}
+
+bool Trace::is_active(std::size_t o, double size, double error, double nearest) const {
+  return size > std::max(tolerance(o), kClear * nearest) || error > certain_error(o);
+}
+
+// Where bodies touch, or a method of high order is off otherwise, what is left is of the engine's way with contacts as
+// well as of the mistake; and what is hardly seen beside what extrapolation leaves open says little.
+double Trace::weight_of(std::size_t o, double size) const {
+  constexpr double kOfAccurate = 0.25, kSeen = 0.03;
+  const Observation& observation = observations_[o];
+  if (observation.is_loaded()) return 1;
+  if (views_[observation.view_index()].kind == View::Kind::accurate) return kOfAccurate;
+  const double blur = observation.uncertainty(engine_[observation.view_index()]) / (kSeen * size);
+  return std::isfinite(blur) ? 1 / (1 + blur * blur) : 0;
+}
+
+std::vector<std::size_t> Trace::probes_off(const std::vector<Hypothesis>& hypotheses) const {
+  const std::vector<double> least = nearest(hypotheses);
+  std::vector<std::size_t> off;
+  for (std::size_t o = 0; o < observations_.size(); ++o) {
+    if (!is_seen(o)) continue;
+    const Sight& engine = engine_[observations_[o].view_index()];
+    const double error = observations_[o].distances(engine, engine).error;
+    const std::size_t probe = views_[observations_[o].view_index()].probe;
+    if (is_active(o, error, error, least[o]) && (off.empty() || off.back() != probe)) off.push_back(probe);
+  }
+  return off;
+}
+
+std::vector<Suspect> Trace::ranked(const std::vector<Hypothesis>& hypotheses, const std::vector<Probe>& probes) const {
+  const std::vector<double> least = nearest(hypotheses);
+  std::vector<Suspect> suspects;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    double squares = 0, count = 0;
+    std::map<std::size_t, CaseShare> cases;  // by probe
+    for (std::size_t o = 0; o < observations_.size(); ++o) {
+      const std::size_t v = observations_[o].view_index();
+      if (!is_seen(o) || !hypotheses[h].sights[v].why.empty()) continue;
+      const Distances d = observations_[o].distances(engine_[v], hypotheses[h].sights[v]);
+      if (!is_active(o, std::max(d.error, d.predicted), d.error, least[o])) continue;
+      const double left = share_left(d);
+      const double weight = weight_of(o, std::max(d.error, d.predicted));
+      squares += weight * left * left, count += weight;
+      if (!is_active(o, d.error, d.error, least[o])) continue;
+      CaseShare& share = cases[views_[v].probe];
+      share.id = probes[views_[v].probe].id;
+      share.error = std::max(share.error, d.error), share.rest = std::max(share.rest, left);
+    }
+    if (cases.empty() || !(count > 0)) continue;
+    Suspect suspect{h, 1 - std::sqrt(squares / count), {}, 0};
+    for (auto& [probe, share] : cases) {
+      suspect.explained += share.rest < kExplained;
+      suspect.cases.push_back(share);
+    }
+    suspects.push_back(std::move(suspect));
+  }
+  std::stable_sort(suspects.begin(), suspects.end(),
+                   [](const Suspect& a, const Suspect& b) { return a.explains > b.explains; });
+  return suspects;
+}
+
+Trace::Fit Trace::fit(const Hypothesis& hypothesis) const {
+  double together = 0, predicted = 0, error = 0;
+  for (std::size_t o = 0; o < observations_.size(); ++o) {
+    const std::size_t v = observations_[o].view_index();
+    if (!is_seen(o) || !hypothesis.sights[v].why.empty()) continue;
+    const Distances d = observations_[o].distances(engine_[v], hypothesis.sights[v]);
+    if (std::max(d.error, d.predicted) < tolerance(o)) continue;
+    // Each observation counts alike.
+    const double weight = 1 / (d.error * d.error + d.predicted * d.predicted);
+    together += weight * d.together, predicted += weight * d.predicted * d.predicted;
+    error += weight * d.error * d.error;
+  }
+  const Fit fit{together / predicted, together / std::sqrt(predicted * error)};
+  return std::isfinite(fit.factor) && std::isfinite(fit.cosine) ? fit : Fit{};
+}
+
+std::vector<std::size_t> Trace::explained_by(const Hypothesis& hypothesis, const std::vector<Hypothesis>& all) const {
+  const std::vector<double> least = nearest(all);
+  std::vector<std::size_t> explained;
+  for (std::size_t o = 0; o < observations_.size(); ++o) {
+    const std::size_t v = observations_[o].view_index();
+    if (!is_seen(o) || !hypothesis.sights[v].why.empty()) continue;
+    const Distances d = observations_[o].distances(engine_[v], hypothesis.sights[v]);
+    if (is_active(o, d.error, d.error, least[o]) && share_left(d) < kExplained) explained.push_back(o);
+  }
+  return explained;
+}
+
+std::vector<Trace::Sum> Trace::sums(const std::vector<Hypothesis>& hypotheses) const {
+  const std::size_t n = hypotheses.size();
+  std::vector<double> rest(n * n, 0);
+  double count = 0;
+  for (std::size_t o = 0; o < observations_.size(); ++o) {
+    const std::size_t v = observations_[o].view_index();
+    if (!is_seen(o)) continue;
+    const double error = observations_[o].distances(engine_[v], engine_[v]).error;
+    if (!(error > certain_error(o)) || !std::isfinite(error)) continue;
+    ++count;
+    std::vector<std::vector<double>> moved(n);
+    std::vector<double> e = observations_[o].difference(engine_[v]), left(e.size());
+    for (std::size_t h = 0; h < n; ++h) {
+      if (hypotheses[h].sights[v].why.empty()) moved[h] = observations_[o].difference(hypotheses[h].sights[v]);
+      moved[h].resize(e.size(), 0.0);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < e.size(); ++k) left[k] = e[k] - moved[i][k];
+      for (std::size_t j = i + 1; j < n; ++j) {
+        double sum = 0;
+        for (std::size_t k = 0; k < e.size(); ++k) sum += (left[k] - moved[j][k]) * (left[k] - moved[j][k]);
+        const double share = std::sqrt(sum) / error;
+        rest[i * n + j] += std::isfinite(share) ? std::min(1.0, share * share) : 1;
+      }
+    }
+  }
+  std::vector<Sum> all;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) all.push_back({i, j, std::sqrt(rest[i * n + j] / std::max(1.0, count))});
+  }
+  std::sort(all.begin(), all.end(), [](const Sum& a, const Sum& b) { return a.rest < b.rest; });
+  return all;
+}
+
+}  // namespace rigor

@@ -1,0 +1,90 @@
+#include "cases/analysis/mistakes/views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/runner/twin_run.h"
+#include "core/scene/contact_laws.h"
+
+namespace rigor {
+namespace {
+
+constexpr long kSamples = 30;
+
+// What is left open, as a share of the motion's scale: roundings of a hundred steps, which joints solve for besides; a
+// step's way at each impact.
+constexpr double kOfRounding = 1e-10, kOfJoints = 1e-8, kOfContacts = 1e-4;
+
+View view_on(View::Kind kind, std::size_t index, const Probe& probe, const RunName& base, std::vector<double> dt) {
+  View view{kind, index, base, std::move(dt), 0, 1};
+  view.steps = std::max(1L, std::lround(probe.duration / view.dt.front()));
+  view.every = std::max(1L, view.steps / kSamples);
+  view.tolerance = anything_can_touch(*probe.scene) ? kOfContacts
+                   : probe.scene->joints.empty()    ? kOfRounding
+                                                    : kOfJoints;
+  return view;
+}
+
+// From x(h) = x + a hᵖ + b hᵖ⁺¹ + ..., at h, h/2, h/4. The finer two alone give `coarse`.
+Sight extrapolated(const std::vector<double>& one, const std::vector<double>& half, const std::vector<double>& quarter,
+                   int order) {
+  Sight sight;
+  const std::size_t size = std::min({one.size(), half.size(), quarter.size()});
+  const double p = std::pow(2.0, order), q = 2 * p;
+  for (std::size_t i = 0; i < size; ++i) {
+    const double first = (p * half[i] - one[i]) / (p - 1), second = (p * quarter[i] - half[i]) / (p - 1);
+    sight.states.push_back((q * second - first) / (q - 1)), sight.coarse.push_back(second);
+  }
+  return sight;
+}
+
+}  // namespace
+
+std::vector<View> views_of(const EngineTable& engines, const RunName& run, const std::vector<Probe>& probes,
+                           const RunName* of_points) {
+  const RunName accurate = parse_run_name("core", engines.infos());
+  const MethodInfo& method = method_of(engines.info_of(run.engine), run.settings);
+  constexpr int kHighOrder = 4;
+  std::vector<View> views;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const Probe& probe = probes[i];
+    if (!why_unsupported(engines.info_of(run.engine), run.settings, *probe.scene, probe.dt).empty()) continue;
+    const auto twin = twin_of(engines, run, *probe.scene);
+    if (twin) {
+      views.push_back(view_on(View::Kind::twin, i, probe, *twin, {probe.dt}));
+    } else if (anything_can_touch(*probe.scene) || method.order >= kHighOrder || method.adaptive) {
+      views.push_back(view_on(View::Kind::accurate, i, probe, accurate, {probe.dt}));
+    } else {
+      views.push_back(view_on(View::Kind::extrapolated, i, probe, accurate, {probe.dt, probe.dt / 2, probe.dt / 4}));
+      views.back().order = method.order;
+      if (of_points && probe.is_of_points)
+        views.push_back(view_on(View::Kind::same_method, i, probe, *of_points, {probe.dt}));
+    }
+  }
+  return views;
+}
+
+bool needs_same_method(const std::vector<View>& views) {
+  return std::any_of(views.begin(), views.end(), [](const View& v) { return v.kind == View::Kind::extrapolated; });
+}
+
+std::vector<MotionTask> tasks_of(const View& view, const Probe& probe, const Engine& engine, const Settings& settings,
+                                 std::shared_ptr<const Fault> fault) {
+  std::vector<MotionTask> tasks;
+  long times = 1;
+  for (const double dt : view.dt) {
+    tasks.push_back({&engine, settings, probe.scene, fault, dt, view.steps * times, view.every * times});
+    times *= 2;
+  }
+  return tasks;
+}
+
+Sight seen(const View& view, const std::vector<Motion>& motions, std::size_t first) {
+  for (std::size_t n = 0; n < view.dt.size(); ++n) {
+    if (!motions[first + n].why.empty()) return {{}, {}, motions[first + n].why};
+  }
+  if (view.dt.size() == 1) return {motions[first].states, {}, ""};
+  return extrapolated(motions[first].states, motions[first + 1].states, motions[first + 2].states, view.order);
+}
+
+}  // namespace rigor

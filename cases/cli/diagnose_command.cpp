@@ -1,0 +1,34 @@
+// rigor diagnose: which known mistake an engine's error looks like.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cases/analysis/mistakes/finder.h"
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "cases/cli/vocabulary.h"
+#include "cases/report/json/mistakes_json.h"
+#include "cases/report/wording/mistakes.h"
+#include "core/base/error.h"
+
+namespace rigor {
+MistakeReport diagnosed(const CommandLine& line, const EngineTable& engines, const RunName& run) {
+  const Vocabulary vocabulary = vocabulary_of(engines.infos());
+  std::vector<Probe> probes = line.words.empty() ? probes_of_suite(vocabulary)
+                                                 : probes_of(select_cases(line.words, line.suite_dir, vocabulary));
+  constexpr double kMost = 10;  // s of CPU time for a run that takes milliseconds
+  MistakeFinder finder(engines, run, std::move(probes), {line.jobs, std::min(line.limit, kMost)});
+  return finder.report(engines.find(run.engine));
+}
+
+int diagnose_command(const CommandLine& line, const EngineTable& engines) {
+  const RunName run = run_asked_for(line, engines);
+  const MistakeReport report = diagnosed(line, engines, run);
+  if (line.json) {
+    print(mistakes_json(report, run.text).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  } else {
+    print_table(text_of(report, run.text));
+  }
+  return kGood;
+}
+
+}  // namespace rigor

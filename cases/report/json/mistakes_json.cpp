@@ -1,0 +1,51 @@
+#include "cases/report/json/mistakes_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace rigor {
+namespace {
+
+const char* word_of_verdict(MistakeReport::Verdict verdict) {
+  using enum MistakeReport::Verdict;
+  switch (verdict) {
+    case right:
+      return "right";
+    case named:
+      return "named";
+    case alike:
+      return "alike";
+    case unnamed:
+      return "none";
+    case untried:
+      return "untried";
+  }
+  return "";
+}
+
+nlohmann::ordered_json json_of_suspect(const MistakeReport::Named& suspect) {
+  nlohmann::ordered_json cases = Json::array();
+  for (const CaseShare& share : suspect.cases)
+    cases.push_back({{"case", share.id}, {"error", share.error}, {"left", share.rest}});
+  return {{"mistakes", suspect.names},
+          {"explains", suspect.explains},
+          {"cases_explained", suspect.explained},
+          {"cases", cases}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json mistakes_json(const MistakeReport& report, const std::string& run) {
+  nlohmann::ordered_json suspects = Json::array();
+  for (const auto& suspect : report.suspects) suspects.push_back(json_of_suspect(suspect));
+  return {{"engine", run},
+          {"verdict", word_of_verdict(report.verdict)},
+          {"known_mistakes", report.known},
+          {"leaders", report.leaders},
+          {"suspects", suspects},
+          {"cases", report.seen},
+          {"cases_off", report.off},
+          {"not_seen", report.failures},
+          {"held_against", report.beside}};
+}
+
+}  // namespace rigor

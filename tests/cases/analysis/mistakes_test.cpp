@@ -1,0 +1,245 @@
+// rigor diagnose: each mistake of the table, put into an engine, is named first; what is not in the table is not named;
+// two at once are both named. The short form takes a few of each; RIGOR_DIAGNOSE=all takes all, and prints the score;
+// RIGOR_DIAGNOSE=PART those whose names have this part in them.
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cstdlib>
+#include <random>
+
+#include "adapters/faults/broken_engine.h"
+#include "adapters/faults/changes.h"
+#include "adapters/faults/faults.h"
+#include "adapters/plugin/plugins.h"
+#include "cases/analysis/mistakes/finder.h"
+#include "tests/cases/vocabulary.h"
+
+using namespace rigor;
+using Verdict = MistakeReport::Verdict;
+
+namespace {
+
+constexpr double kConfident = 0.99;
+
+std::string wanted() {
+  const char* said = std::getenv("RIGOR_DIAGNOSE");
+  return said ? said : "";
+}
+
+bool is_in(const std::string& name, const MistakeReport& report, std::size_t first) {
+  for (std::size_t n = 0; n < std::min(first, report.suspects.size()); ++n) {
+    const auto& names = report.suspects[n].names;
+    if (std::find(names.begin(), names.end(), name) != names.end()) return true;
+  }
+  return false;
+}
+
+// Among those that the verdict means.
+bool is_named(const std::string& name, const MistakeReport& report) {
+  return (report.verdict == Verdict::named || report.verdict == Verdict::alike) && is_in(name, report, report.leaders);
+}
+
+std::string first_line(const MistakeReport& report) {
+  static const char* const words[] = {"right", "named", "alike", "none", "untried"};
+  std::string text = words[static_cast<int>(report.verdict)];
+  for (const auto& suspect : report.suspects) {
+    text += "; ";
+    for (const std::string& name : suspect.names) text += "[" + name + "] ";
+    text += std::to_string(suspect.explains);
+  }
+  return text;
+}
+
+// Finders, which keep what does not hang on the engine, for each engine.
+class Finders {
+ public:
+  Finders() : engines_(built_in_engines()) {
+    add_plugin(engines_, "python3 " RIGOR_SOURCE_DIR "/adapters/plugin/examples/toy.py", 20);
+  }
+  MistakeReport of(const std::string& run, const Fault& fault) {
+    const RunName name = parse_run_name(run, engines_.infos());
+    auto [place, is_new] = finders_.try_emplace(run);
+    if (is_new)
+      place->second = std::make_unique<MistakeFinder>(engines_, name, probes_of_suite(test::words()),
+                                                      MistakeFinder::Options{2, 10});
+    return place->second->report(BrokenEngine(engines_.find(name.engine), fault));
+  }
+
+ private:
+  EngineTable engines_;
+  std::map<std::string, std::unique_ptr<MistakeFinder>> finders_;
+};
+
+Finders& finders() {
+  static Finders all;
+  return all;
+}
+
+struct Score {
+  int right = 0, asked = 0, unseen = 0, wrong_and_sure = 0;
+  double share() const { return asked ? double(right) / asked : 1; }
+  void say(const std::string& what) const {
+    BOOST_TEST_MESSAGE(what << ": " << right << " of " << asked << "; without effect " << unseen << "; wrong and sure "
+                            << wrong_and_sure);
+  }
+};
+
+// A mistake without effect on any scene that the engine takes is not asked for.
+void take(const std::string& engine, const Fault& fault, const std::vector<std::string>& names, Score& score) {
+  const MistakeReport report = finders().of(engine, fault);
+  if (report.verdict == Verdict::right) {
+    ++score.unseen;
+    BOOST_TEST_MESSAGE(engine << ", " << fault.name << ": without effect");
+    return;
+  }
+  ++score.asked;
+  const bool all_named = std::all_of(names.begin(), names.end(), [&](const auto& n) { return is_named(n, report); });
+  score.right += all_named;
+  const bool is_sure = report.verdict == Verdict::named && report.suspects.front().explains > kConfident;
+  score.wrong_and_sure += is_sure && !all_named;
+  if (!all_named || !wanted().empty()) BOOST_TEST_MESSAGE(engine << ", " << fault.name << ": " << first_line(report));
+}
+
+// Not in the table, nor one of its rows by another amount.
+std::vector<Fault> unknown_faults() {
+  using namespace faulty;
+  const auto moving = [](const char* name, auto change) { return on_stepping(name, each_moving(change)); };
+  return {
+      moving("drag by the square of the speed",
+             [](Body& b, double dt) { b.velocity *= 1 - 0.01 * dt * b.velocity.norm(); }),
+      moving("wind along x", [](Body& b, double dt) { b.velocity.x() += 0.02 * dt; }),
+      moving("spin decays about the body's z alone",
+             [](Body& b, double dt) {
+               Vec3 w = b.orientation.conjugate() * b.angular_velocity;
+               w.z() *= 1 - 0.05 * dt;
+               b.angular_velocity = b.orientation * w;
+             }),
+      moving("Coriolis force", [](Body& b, double dt) { b.velocity += dt * Vec3(0, 0, 0.05).cross(b.velocity); }),
+      moving("torque-free drift of the spin",
+             [](Body& b, double dt) { b.angular_velocity += dt * Vec3(0.03, 0.01, 0); }),
+      on_loading("mass added to light bodies", each_body([](Body& b) { b.mass += 0.05; })),
+      on_loading("inertia of a point added", each_body([](Body& b) { b.inertia += 0.02 * Mat3::Identity(); })),
+      on_loading("springs softer when long", each_spring([](Spring& s) { s.stiffness /= 1 + s.rest_length; })),
+      on_loading("gravity tilted", [](Scene& s) { s.gravity = rotation_by(Vec3(0.02, 0.03, 0)) * s.gravity; }),
+      on_loading("velocity reversed", each_body([](Body& b) { b.velocity *= -1; })),
+      on_loading("positions shifted", each_body([](Body& b) { b.position += Vec3(0.01, 0.02, 0); })),
+      on_loading("velocity along x lost", each_body([](Body& b) { b.velocity.x() = 0; })),
+      on_loading("restitution and friction swapped",
+                 [](Scene& s) {
+                   for (ContactPair& pair : s.contact_pairs) {
+                     const double friction = std::min(1.0, pair.law.friction);
+                     pair.law.friction = pair.law.restitution, pair.law.restitution = friction;
+                   }
+                 }),
+      on_loading("shapes 3 % larger", each_body([](Body& b) {
+                   if (!b.shape) return;
+                   if (auto* sphere = std::get_if<Sphere>(&*b.shape)) sphere->radius *= 1.03;
+                   if (auto* box = std::get_if<Box>(&*b.shape)) box->size *= 1.03;
+                 })),
+      on_stepping("every second step half as long", [](Moment& m) { m.dt *= m.step % 2 ? 1 : 0.5; }),
+      on_stepping("gravity that fades", [](Moment& m) { m.scene.gravity *= std::exp(-0.1 * m.time); }),
+      on_stepping("gravity switched on late",
+                  [](Moment& m) {
+                    if (m.time < 0.1) m.scene.gravity.setZero();
+                  }),
+      on_reading("angular velocity and velocity swapped",
+                 [](BodyState& s) { std::swap(s.velocity, s.angular_velocity); }),
+      on_reading("velocity read in the body frame",
+                 [](BodyState& s) { s.velocity = s.orientation.conjugate() * s.velocity; }),
+      on_reading("y and z swapped on reading", [](BodyState& s) { std::swap(s.position.y(), s.position.z()); }),
+      on_reading("angular velocity read in degrees", [](BodyState& s) { s.angular_velocity *= 57.29577951308232; }),
+      on_reading("positions read in centimetres", [](BodyState& s) { s.position *= 100; }),
+  };
+}
+
+bool is_taken(const std::string& name, std::size_t index, std::size_t each) {
+  if (wanted().empty()) return index % each == 0;
+  return wanted() == "all" || name.find(wanted()) != std::string::npos;
+}
+
+// Of the machine's own engines; a toy from outside, whose scheme no twin repeats.
+std::vector<std::string> engines_asked() {
+  std::vector<std::string> names = {"ode"};
+  if (const char* only = std::getenv("RIGOR_DIAGNOSE_ENGINE")) return {only};
+  if (wanted().empty()) return names;
+  names.insert(names.end(), {"bullet", "toy-py"});
+  for (const EngineInfo& info : engines().infos()) {
+    if (info.name == "mujoco") names.push_back(info.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_analysis_mistakes)
+
+BOOST_AUTO_TEST_CASE(an_engine_without_a_mistake_is_right_or_at_most_unnamed) {
+  for (const std::string& engine : engines_asked()) {
+    const MistakeReport report = finders().of(engine, Fault{"nothing"});
+    BOOST_TEST_MESSAGE(engine << ": " << first_line(report));
+    BOOST_TEST((report.verdict == Verdict::right), engine << ": " << first_line(report));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_mistake_of_the_table_is_named_first) {
+  constexpr std::size_t kEach = 6;
+  for (const std::string& engine : engines_asked()) {
+    Score score;
+    for (std::size_t n = 0; n < faults().size(); ++n) {
+      const Fault& fault = faults()[n];
+      if (is_taken(fault.name, n, kEach)) take(engine, fault, {fault.name}, score);
+    }
+    score.say(engine + ", named first");
+    BOOST_TEST(score.share() >= 0.95, engine);
+    BOOST_TEST(score.wrong_and_sure == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(one_that_is_not_in_the_table_is_not_named) {
+  constexpr std::size_t kEach = 4;
+  for (const std::string& engine : engines_asked()) {
+    Score score;
+    const std::vector<Fault> all = unknown_faults();
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      if (!is_taken(all[n].name, n, kEach)) continue;
+      const MistakeReport report = finders().of(engine, all[n]);
+      if (report.verdict == Verdict::right) {
+        ++score.unseen;
+        BOOST_TEST_MESSAGE(engine << ", " << all[n].name << ": without effect");
+        continue;
+      }
+      ++score.asked, score.right += report.verdict == Verdict::unnamed;
+      if (report.verdict != Verdict::unnamed)
+        BOOST_TEST_MESSAGE(engine << ", " << all[n].name << ": " << first_line(report));
+    }
+    score.say(engine + ", not in the table and not named");
+    BOOST_TEST(score.share() >= 0.95, engine);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_amount_of_a_mistake_is_found) {
+  for (const Fault& fault : faults()) {
+    if (fault.name != "gravity off by 0.1 %") continue;
+    const MistakeReport report = finders().of("ode", fault.by(0.5));
+    BOOST_TEST(is_named("gravity off by 0.5 %", report), first_line(report));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(two_mistakes_at_once_are_both_named) {
+  std::mt19937 random(1);
+  const std::size_t tried = wanted() == "all" ? 40 : wanted().empty() ? 3 : 0;
+  for (const std::string& engine : engines_asked()) {
+    Score score;
+    while (static_cast<std::size_t>(score.asked) < tried) {
+      const Fault &first = faults()[random() % faults().size()], &second = faults()[random() % faults().size()];
+      if (first.name == second.name) continue;
+      // Both have an effect by themselves.
+      if (finders().of(engine, first).verdict == Verdict::right) continue;
+      if (finders().of(engine, second).verdict == Verdict::right) continue;
+      take(engine, combined(first, second), {first.name, second.name}, score);
+    }
+    score.say(engine + ", both named");
+    BOOST_TEST(score.share() >= 0.7, engine);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

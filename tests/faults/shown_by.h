@@ -1,0 +1,16 @@
+// Of each fault of the table (adapters/faults/faults.h): the case whose gates must find it, and which gates of it.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace rigor::test {
+
+struct ShownBy {
+  std::string of_case;
+  std::string metrics;  // a regular expression: the metrics of the gates that point at it
+};
+
+const std::map<std::string, ShownBy>& shown_by();  // by the fault's name
+
+}  // namespace rigor::test
