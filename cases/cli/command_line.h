@@ -33,6 +33,7 @@ struct CommandLine {
   unsigned long seed = 1;
   std::vector<std::string> within;     // of tune: bounds, "1mm"
   std::string file = "history.jsonl";  // of history
+  std::string format;                  // of trace and export; empty: the default
   std::vector<std::string> arguments;  // as typed, without where to, how many at once, and which shard
   std::string printed;                 // --help or --version: what to print instead of doing anything
 };

@@ -35,6 +35,9 @@ int trace_command(const CommandLine& line, const EngineTable& engines);
 int truth_command(const CommandLine& line, const EngineTable& engines);
 int new_command(const CommandLine& line, const EngineTable& engines);
 int completion_command(const CommandLine& line, const EngineTable& engines);
+int import_command(const CommandLine& line, const EngineTable& engines);
+int export_command(const CommandLine& line, const EngineTable& engines);
+int open_command(const CommandLine& line, const EngineTable& engines);
 int settle_command(const CommandLine& line, const EngineTable& engines);
 int conform_command(const CommandLine& line, const EngineTable& engines);
 

@@ -6,6 +6,7 @@
 
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
+#include "cases/cli/plan_sentence.h"
 #include "cases/cli/progress.h"
 #include "cases/report/json/machine.h"
 #include "cases/runner/build_identity.h"
@@ -29,6 +30,7 @@ std::vector<std::string> all_files() {
 int run_whole(const CommandLine& line, const EngineTable& engines) {
   GridRun run = plan_run(line, engines);
   OutputFolder folder(line.out, all_files(), line.resume);
+  say(plan_sentence(run.grid, line));
   bool is_whole = false;
   try {
     run_with_progress(run.grid, engines, options_of(run, folder));
@@ -82,6 +84,7 @@ int run_shard(const CommandLine& line, const EngineTable& engines) {
   OutputFolder folder(line.out, all_files(), line.resume);
   const GridOptions options = options_of(run, folder);
   const Results planned = share_of(run.grid, line.shard);
+  say(plan_sentence(planned, line));
   Results share = planned;
   try {
     run_with_progress(share, engines, options);
