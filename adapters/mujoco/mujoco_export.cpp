@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <iterator>
 
 #include "adapters/mujoco/mujoco_model.h"
@@ -31,6 +32,15 @@ struct GeomForOthers {
                        numbers(p.normal));
   }
 };
+
+// By principal moments and axes: a full inertia MuJoCo would diagonalise to 2.5e-8 of itself only.
+std::string inertia_of_body(const Body& body) {
+  if (body.inertia.isDiagonal(0)) return fmt::format(R"(diaginertia="{}")", numbers(Vec3(body.inertia.diagonal())));
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(body.inertia);
+  Mat3 axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
+  return fmt::format(R"(quat="{}" diaginertia="{}")", numbers(Quat(axes)), numbers(Vec3(principal.eigenvalues())));
+}
 
 class Exporter {
  public:
@@ -84,11 +94,9 @@ class Exporter {
     const Body& body = scene_.bodies[index];
     const MujocoTree::Link& link = tree_.links[index];
     const BodyPose in_parent = inverse(scene_.pose(link.parent)) * scene_.pose(index);
-    const Mat3& I = body.inertia;
     add("{:{}}<body name=\"{}\" pos=\"{}\" quat=\"{}\">\n", "", indent, escaped(body.name), numbers(in_parent.position),
         numbers(in_parent.orientation));
-    add("{:{}}<inertial pos=\"0 0 0\" mass=\"{}\" fullinertia=\"{} {} {} {} {} {}\"/>\n", "", indent + 2, body.mass,
-        I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
+    add("{:{}}<inertial pos=\"0 0 0\" mass=\"{}\" {}/>\n", "", indent + 2, body.mass, inertia_of_body(body));
     if (link.joint < 0) {
       add("{:{}}<freejoint/>\n", "", indent + 2);
     } else {
