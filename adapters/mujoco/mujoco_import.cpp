@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <regex>
 
 #include "adapters/mujoco/mujoco_library.h"
 #include "core/base/error.h"
@@ -28,8 +28,11 @@ Quat turn_at(const mjtNum* numbers, int row) {
 
 // "XML Error: ... Element 'geom', line 5, column -1": the line goes where lines go.
 std::string refusal(const std::string& path, std::string text) {
-  std::smatch line;
-  const std::string number = std::regex_search(text, line, std::regex("line ([0-9]+)")) ? line[1].str() : "1";
+  constexpr const char* kLine = "line ";
+  const std::size_t at = text.find(kLine), first = at == std::string::npos ? at : at + std::string(kLine).size();
+  const std::size_t end =
+      first == std::string::npos ? first : std::min(text.find_first_not_of("0123456789", first), text.size());
+  const std::string number = end == std::string::npos || end == first ? "1" : text.substr(first, end - first);
   for (char& c : text) c = c == '\n' ? ' ' : c;
   return fmt::format("{}:{}: MuJoCo refuses the model: {}", path, number,
                      text.substr(0, text.find_last_not_of(' ') + 1));

@@ -26,7 +26,9 @@ fs::path folder_of(const std::string& model) {
 
 // What MuJoCo opens is named by `file`, or by one of the six faces of a texture.
 bool names_a_file(const std::string& attribute) { return attribute.starts_with("file"); }
-bool names_a_folder(const std::string& attribute) { return attribute.ends_with("dir"); }
+bool names_a_folder(const std::string& attribute) {
+  return attribute == "meshdir" || attribute == "texturedir" || attribute == "assetdir";
+}
 
 class MjcfFiles {
  public:

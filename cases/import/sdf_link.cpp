@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
+#include <set>
 
 #include "cases/import/model_elements.h"
 #include "cases/import/model_files.h"

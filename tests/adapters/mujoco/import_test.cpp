@@ -123,7 +123,8 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_exported_starts_and_moves_there_as_it_does_h
 BOOST_AUTO_TEST_CASE(the_compiled_model_comes_with_all_that_a_scene_can_say) {
   const Scene scene = scene_of_file(kModels + "mechanism.xml");
   BOOST_TEST(scene.bodies.size() == 7u);
-  BOOST_TEST(joint_named(scene, "shoulder").stiffness == 4), BOOST_TEST(joint_named(scene, "shoulder").rest == 0.3);
+  BOOST_TEST(joint_named(scene, "shoulder").stiffness == 4);
+  BOOST_TEST(joint_named(scene, "shoulder").rest == 0.3);
   // It counts from where it is at t = 0, which the file calls 0.2.
   BOOST_TEST(std::abs(joint_named(scene, "rail").rest - 0.3) < 1e-15);
   BOOST_TEST(std::holds_alternative<BallJoint>(joint_named(scene, "wrist").type));

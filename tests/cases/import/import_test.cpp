@@ -62,7 +62,9 @@ BOOST_AUTO_TEST_CASE(joints_bring_limits_and_damping_and_name_what_they_cannot) 
   const Scene scene = scene_of_text("r.urdf", urdf_of("prismatic", more));
   const Joint& joint = joint_named(scene, "j");
   BOOST_TEST(apart(std::get<SliderJoint>(joint.type).axis, Vec3::UnitY()) < 1e-15);
-  BOOST_TEST(joint.lower == -0.4), BOOST_TEST(joint.upper == 0.9), BOOST_TEST(joint.damping == 0.7);
+  BOOST_TEST(joint.lower == -0.4);
+  BOOST_TEST(joint.upper == 0.9);
+  BOOST_TEST(joint.damping == 0.7);
   const auto left_out = left_out_of_model("r.urdf", urdf_of("prismatic", more));
   for (const char* part : {":3: joint 'j': <limit>: attribute 'effort': bounds a drive", "attribute 'velocity'",
                            "attribute 'friction': is dry friction", "joint 'j': <mimic>: couples two joints",
@@ -76,7 +78,8 @@ BOOST_AUTO_TEST_CASE(a_joint_whose_zero_is_beyond_its_limits_starts_at_the_limit
   const std::string more = "<axis xyz='0 0 1'/><limit lower='0.5' upper='0.9'/>";
   const Scene scene = scene_of_text("r.urdf", urdf_of("revolute", more));
   const Joint& joint = joint_named(scene, "j");
-  BOOST_TEST(joint.lower == 0.0), BOOST_TEST(std::abs(joint.upper - 0.4) < 1e-15);
+  BOOST_TEST(joint.lower == 0.0);
+  BOOST_TEST(std::abs(joint.upper - 0.4) < 1e-15);
   // The mass stood at 0.5 m below the anchor; about W's x a turn by 0.5 takes it towards y.
   BOOST_TEST(apart(scene.bodies[0].position, {0, 0.5 * std::sin(0.5), 1 - 0.5 * std::cos(0.5)}) < 1e-15);
   BOOST_TEST(
@@ -88,8 +91,8 @@ BOOST_AUTO_TEST_CASE(an_arm_of_six_joints_is_held_by_its_base_and_ends_in_frames
   BOOST_TEST(scene.bodies.size() == 6u);
   BOOST_TEST(scene.joints.size() == 6u);
   for (const Joint& joint : scene.joints) BOOST_TEST((joint.has_limits() && joint.damping == 0.1));
-  // Stretched out along -x, as the tables of the arm have it: 0.425 + 0.39225 m to the first wrist.
-  BOOST_TEST(apart(body_named(scene, "wrist_1_link").position, {-0.81725, -0.10915, 0.089159}) < 1e-9);
+  // Stretched out along x, as the tables of the arm have it: 0.425 + 0.39225 m to the first wrist.
+  BOOST_TEST(apart(body_named(scene, "wrist_1_link").position, {0.81725, 0.10915, 0.089159}) < 1e-9);
   BOOST_TEST(some_has(import_model(kModels + "arm.urdf").left_out, "is a cylinder"));
 }
 
@@ -116,10 +119,12 @@ BOOST_AUTO_TEST_CASE(sdf_and_urdf_of_the_same_pendulum_are_the_same_scene) {
   }
   for (const Joint& a : urdf.joints) {
     const Joint& b = joint_named(sdf, a.name);
-    BOOST_TEST(urdf.body_name(a.a) == sdf.body_name(b.a)), BOOST_TEST(urdf.body_name(a.b) == sdf.body_name(b.b));
+    BOOST_TEST(urdf.body_name(a.a) == sdf.body_name(b.a));
+    BOOST_TEST(urdf.body_name(a.b) == sdf.body_name(b.b));
     BOOST_TEST(apart(std::get<HingeJoint>(a.type).anchor, std::get<HingeJoint>(b.type).anchor) < 1e-15);
     BOOST_TEST(apart(std::get<HingeJoint>(a.type).axis, std::get<HingeJoint>(b.type).axis) < 1e-15);
-    BOOST_TEST(a.damping == b.damping), BOOST_TEST(!b.has_limits());
+    BOOST_TEST(a.damping == b.damping);
+    BOOST_TEST(!b.has_limits());
   }
 }
 
@@ -184,7 +189,8 @@ BOOST_AUTO_TEST_CASE(links_that_overlap_and_the_file_keeps_apart_do_not_collide_
       "<model name='chain'>" +
       links + "</model>");
   const Scene scene = scene_of_text("w.sdf", text);
-  BOOST_TEST(body_named(scene, "chain::l0").collides), BOOST_TEST(!body_named(scene, "chain::l1").collides);
+  BOOST_TEST(body_named(scene, "chain::l0").collides);
+  BOOST_TEST(!body_named(scene, "chain::l1").collides);
   BOOST_TEST(body_named(scene, "chain::l2").collides);
   const auto left_out = left_out_of_model("w.sdf", text);
   BOOST_TEST(some_has(left_out, "collision of link 'l1': touching: it overlaps 'chain::l2'"));

@@ -77,8 +77,10 @@ BOOST_AUTO_TEST_CASE(sdf_comes_back_as_the_same_scene) {
   BOOST_TEST(apart(scene.gravity, again.gravity) == 0);
   for (const char* name : {"frame <a & b>", "arm", "hand"}) {
     const Body &a = body_named(scene, name), &b = body_named(again, std::string("bodies::") + name);
-    BOOST_TEST(apart(a.position, b.position) < 1e-15), BOOST_TEST(angle_between(a.orientation, b.orientation) < 1e-15);
-    BOOST_TEST((a.inertia - b.inertia).cwiseAbs().maxCoeff() < 1e-16), BOOST_TEST(a.mass == b.mass);
+    BOOST_TEST(apart(a.position, b.position) < 1e-15);
+    BOOST_TEST(angle_between(a.orientation, b.orientation) < 1e-15);
+    BOOST_TEST((a.inertia - b.inertia).cwiseAbs().maxCoeff() < 1e-16);
+    BOOST_TEST(a.mass == b.mass);
     BOOST_TEST(a.collides == b.collides);
   }
   const Joint &a = joint_named(scene, "hip"), &b = joint_named(again, "bodies::hip");

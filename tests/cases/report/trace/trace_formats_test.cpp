@@ -92,11 +92,15 @@ BOOST_AUTO_TEST_CASE(json_lines_have_the_numbers_of_the_csv) {
       BOOST_TEST_REQUIRE(static_cast<bool>(std::getline(csv, row)));
       std::istringstream cells(row);
       std::string cell;
-      std::getline(cells, cell, ','), BOOST_TEST(std::stod(cell) == instant.at("time").get<double>());
-      std::getline(cells, cell, ','), BOOST_TEST(cell == body.at("name").get<std::string>());
+      std::getline(cells, cell, ',');
+      BOOST_TEST(std::stod(cell) == instant.at("time").get<double>());
+      std::getline(cells, cell, ',');
+      BOOST_TEST(cell == body.at("name").get<std::string>());
       for (const char* key : {"position", "orientation_wxyz", "velocity", "angular_velocity"}) {
-        for (const Json& number : body.at(key))
-          std::getline(cells, cell, ','), BOOST_TEST(std::stod(cell) == number.get<double>());
+        for (const Json& number : body.at(key)) {
+          std::getline(cells, cell, ',');
+          BOOST_TEST(std::stod(cell) == number.get<double>());
+        }
       }
       ++count;
     }
@@ -112,7 +116,8 @@ BOOST_AUTO_TEST_CASE(foxgloves_reader_finds_every_frame_and_shape) {
   const Json found = node("mcap_check.mjs", "'" RIGOR_BUILD_DIR "/trace-npm' '" + path("trace.mcap") + "'");
   BOOST_TEST(found.at("schemas").at("foxglove.SceneUpdate") == "foxglove.SceneUpdate");
   BOOST_TEST(found.at("schemas").at("foxglove.FrameTransforms") == "foxglove.FrameTransforms");
-  BOOST_TEST(found.at("messages").at("/scene") == 1), BOOST_TEST(found.at("messages").at("/tf") == 11);
+  BOOST_TEST(found.at("messages").at("/scene") == 1);
+  BOOST_TEST(found.at("messages").at("/tf") == 11);
   BOOST_TEST(found.at("times").back() == 1.0);
   const Json& entities = found.at("first").at("/scene").at("entities");
   BOOST_TEST_REQUIRE(entities.size() == 4u);
