@@ -31,7 +31,7 @@ const std::vector<Chain> kChains = {
     {"", {"core", "adapters", "cases", "bench", "tests"}},
     {"core", {"base", "scene", "engine", "dynamics"}},
     {"core/dynamics", {"kernels", "model", "joints", "integrators", "collision", "contact"}},
-    {"cases", {"case", "truth", "metrics", "results", "runner", "gates", "analysis", "report", "cli"}},
+    {"cases", {"import", "case", "truth", "metrics", "results", "runner", "gates", "analysis", "report", "cli"}},
 };
 
 const fs::path kTop = RIGOR_SOURCE_DIR;

@@ -9,6 +9,7 @@
 
 #include "cases/case/case_reader.h"
 #include "cases/case/family.h"
+#include "cases/import/import.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 #include "core/base/program_home.h"
@@ -163,8 +164,9 @@ std::vector<Found> find_on_disk(const std::string& word, const Suite& suite) {
     return found;
   }
   if (fs::exists(status)) {
-    if (fs::path(word).extension() != kExtension)
-      throw InputError(fmt::format("{}: is not a {} file", word, kExtension));
+    if (fs::path(word).extension() != kExtension && !is_model_file(word))
+      throw InputError(
+          fmt::format("{}: is not a {} file, nor one of a robot: .urdf, .sdf, .mjcf, .xml", word, kExtension));
     if (fs::path(word).filename() == kFamilyFile)
       throw InputError(fmt::format("{}: states the gates of the cases beside it and is none itself", word));
     return {suite.found_at(word)};
@@ -204,7 +206,9 @@ std::vector<Case> select_cases(const std::vector<std::string>& words, const std:
   for (const Found& found : selected) {
     std::error_code error;
     if (!seen.insert(fs::weakly_canonical(found.path, error).string()).second) continue;
-    cases.push_back(read_case(found.path, found.id, vocabulary));
+    cases.push_back(is_model_file(found.path)
+                        ? read_case_text(import_model(found.path).case_text, found.path, found.id, vocabulary)
+                        : read_case(found.path, found.id, vocabulary));
     families.add_gates(found.path, cases.back());
     shorten_places(cases.back(), fs::path(found.path).parent_path().string(), suite_dir);
   }

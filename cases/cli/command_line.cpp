@@ -11,6 +11,7 @@
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/gates/deviations.h"
+#include "cases/report/json/commit.h"
 #include "cases/report/json/machine.h"
 #include "cases/results/changes.h"
 #include "core/base/error.h"
@@ -161,6 +162,12 @@ struct Options {
           ->type_name("ENGINE");
     }
     if (takes("--json")) command.add_flag("--json", line.json, "print JSON instead");
+    if (takes("--format")) {
+      command
+          .add_option("--format", line.format,
+                      row.name == "export" ? "mjcf or sdf" : "csv (the default), gltf, jsonl or mcap")
+          ->type_name("F");
+    }
     if (takes("--file"))
       command.add_option("--file", line.file, "the history's file")->type_name("FILE")->capture_default_str();
     if (takes("--page")) command.add_option("--page", line.page, "draw it there as a page too")->type_name("FILE.html");
@@ -219,7 +226,8 @@ std::vector<std::string> arguments_of(int argc, const char* const* argv) {
 // The compiler, and each engine with its precision.
 std::string versions_of_parts() {
   const Machine machine = this_machine();
-  std::string text = fmt::format("{}, {}\n", machine.compiler, machine.build_type);
+  std::string text = commit().empty() ? "" : fmt::format("commit {}\n", commit());
+  text += fmt::format("{}, {}\n", machine.compiler, machine.build_type);
   for (const EngineInfo& engine : engines().infos())
     text += fmt::format("{} {}, {} precision\n", engine.name, engine.version, engine.precision);
   return text;

@@ -9,7 +9,7 @@
 
 #include "cases/case/run_selector.h"
 #include "cases/case/selection.h"
-#include "cases/case/suite.h"
+#include "cases/cli/chosen_cases.h"
 #include "cases/cli/output.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/gates/failures.h"
@@ -28,7 +28,7 @@ namespace {
 bool is_gate(const CommandLine& line) { return line.command == "gate"; }
 
 Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
+  std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
   if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
   for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
   if (line.quick) cases = quick_selection(cases, engines.infos());

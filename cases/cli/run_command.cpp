@@ -5,6 +5,7 @@
 
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
+#include "cases/cli/plan_sentence.h"
 #include "cases/cli/progress.h"
 #include "cases/runner/ensemble.h"
 #include "cases/runner/shards/part.h"
@@ -30,6 +31,7 @@ void run_with_progress(Results& grid, const EngineTable& engines, const GridOpti
 int run_whole(const CommandLine& line, const EngineTable& engines) {
   GridRun run = plan_run(line, engines);
   OutputFolder folder = output_folder_of(line);
+  if (leads(line)) say(plan_sentence(run.grid, line));
   bool is_whole = false;
   try {
     run_with_progress(run.grid, engines, options_of(run, folder));
@@ -68,6 +70,7 @@ int run_shard(const CommandLine& line, const EngineTable& engines) {
   OutputFolder folder = output_folder_of(line);
   const GridOptions options = options_of(run, folder);
   const Results planned = share_of(run.grid, line.shard);
+  if (leads(line)) say(plan_sentence(planned, line));
   Results share = planned;
   try {
     run_with_progress(share, engines, options);

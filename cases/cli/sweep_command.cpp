@@ -6,7 +6,7 @@
 #include <map>
 
 #include "cases/analysis/sweep/sweep.h"
-#include "cases/case/suite.h"
+#include "cases/cli/chosen_cases.h"
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress.h"
@@ -30,7 +30,7 @@ SweepInput input_of(const CommandLine& line, const Vocabulary& words) {
         "rigor sweep: takes at least one --vary KEY=VALUES, as dt=1/1000..1/10:log:20, iterations=10,20,50 "
         "or scene.spring[0].stiffness=1e2..1e6:log:25");
   SweepInput input;
-  input.cases = select_cases(line.words, line.suite_dir, words);
+  input.cases = chosen_cases(line, words);
   for (Case& definition : input.cases) override_run(definition, {line.dt, line.duration});
   input.runs = runs_asked_for(line, words.engines);
   for (const std::string& text : line.vary) input.axes.push_back(parse_axis(text, line.samples > 0));

@@ -1,14 +1,15 @@
-// rigor trace and rigor truth: one run, or the truth, as CSV. Both work in a child process, for an engine may crash and
-// a truth may take too long.
+// rigor trace and rigor truth: one run in the format asked for, or the truth as CSV. Both work in a child process, for
+// an engine may crash and a truth may take too long.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "cases/case/suite.h"
+#include "cases/cli/chosen_cases.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/report/csv/trajectory_csv.h"
+#include "cases/report/trace/trace_formats.h"
 #include "cases/runner/grid.h"
 #include "cases/runner/process_pool.h"
 #include "cases/runner/simulate.h"
@@ -22,18 +23,14 @@ namespace {
 
 constexpr std::size_t kChunk = 1 << 20;  // bytes of rows sent at a time
 
-// A message that is a line for stderr begins with this byte, which no CSV does.
-constexpr char kNote = '\x01';
+// What a message begins with: whether it is a line for stderr, or data.
+constexpr char kNote = '\x01', kData = '\x02';
 
 // Runs it in a child and prints what it sends. Returns the exit code.
 int print_from_child(const std::string& what, double limit, const std::function<void(const Channel&)>& work) {
   int code = kGood;
   const auto on_message = [](std::size_t, const std::string& message) {
-    if (message.starts_with(kNote)) {
-      say(message.substr(1));
-    } else {
-      print(message);
-    }
+    message.starts_with(kNote) ? say(message.substr(1)) : print(message.substr(1));
   };
   const auto on_end = [&](std::size_t, const JobEnd& end) {
     if (end.how == Ending::finished) return;
@@ -45,13 +42,16 @@ int print_from_child(const std::string& what, double limit, const std::function<
   return code;
 }
 
-void send_trajectory(const Simulation& run, const Scene& scene, int every, const Channel& channel) {
-  std::string rows = csv_header() + "\n";
+void send_trajectory(const Simulation& run, const Scene& scene, int every, const TraceFormat& format,
+                     const Channel& channel) {
+  const auto writer = format.writer(scene);
+  const std::string start(1, kData);
+  std::string data = start + writer->begin();
   for (std::size_t i = 0; i < run.trajectory.samples.size(); i += every) {
-    append_csv_rows(rows, scene, run.trajectory.samples[i].time, run.trajectory.samples[i].bodies.columns());
-    if (rows.size() > kChunk) channel.send(rows), rows.clear();
+    data += writer->add(run.trajectory.samples[i]);
+    if (data.size() > kChunk) channel.send(data), data = start;
   }
-  channel.send(rows);
+  channel.send(data + writer->end());
   if (run.not_finite) {
     channel.send(fmt::format("{}blown up: from {:.6g} s on the state of '{}' is not finite", kNote,
                              run.not_finite->time, scene.body_name(run.not_finite->body)));
@@ -63,12 +63,13 @@ void send_trajectory(const Simulation& run, const Scene& scene, int every, const
 }
 
 void send_truth(const Truth& truth, const Scene& scene, const std::vector<double>& times, const Channel& channel) {
-  std::string rows = csv_header() + ",error\n";
+  const std::string start(1, kData);
+  std::string rows = start + csv_header() + ",error\n";
   BodyTable bodies(scene.bodies.size());
   for (const double time : times) {
     truth.at(time, bodies.columns());
     append_csv_rows(rows, scene, time, bodies.columns(), fmt::format(",{:.17g}", truth.error(time)));
-    if (rows.size() > kChunk) channel.send(rows), rows.clear();
+    if (rows.size() > kChunk) channel.send(rows), rows = start;
   }
   channel.send(rows);
 }
@@ -86,7 +87,7 @@ std::vector<double> times_of_run(const Case& definition) {
 
 Case the_case(const CommandLine& line, const EngineTable& engines) {
   if (line.words.empty()) throw InputError(fmt::format("rigor {}: which case? see rigor list cases", line.command));
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
+  std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
   if (cases.size() == 1) return cases.front();
   throw InputError(
       fmt::format("rigor {}: takes one case, and {} names {} of them", line.command, line.words.front(), cases.size()));
@@ -96,6 +97,7 @@ int trace_command(const CommandLine& line, const EngineTable& engines) {
   Case definition = the_case(line, engines);
   if (line.engines.size() != 1) throw InputError("rigor trace: takes exactly one --engine; see rigor list engines");
   if (line.dt.size() != 1) throw InputError("rigor trace: takes exactly one --dt");
+  const TraceFormat& format = line.format.empty() ? trace_formats().front() : find_trace_format(line.format);
   override_run(definition, {line.dt, line.duration});
   const RunName run = parse_run_name(line.engines.front(), engines.infos());
   const Engine& engine = engines.find(run.engine);
@@ -105,7 +107,7 @@ int trace_command(const CommandLine& line, const EngineTable& engines) {
   return print_from_child(run.text, line.limit, [&](const Channel& channel) {
     try {
       send_trajectory(simulate(engine, run.settings, definition.scene, dt, definition.duration), definition.scene,
-                      line.every, channel);
+                      line.every, format, channel);
     } catch (const EngineFailure& failure) {
       if (failure.kind() != FailureKind::unsupported) throw;
       throw InputError(fmt::format("{}: unsupported: {}", run.text, failure.what()));

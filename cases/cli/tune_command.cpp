@@ -6,7 +6,7 @@
 
 #include "adapters/calls.h"
 #include "cases/analysis/tuning/tuning.h"
-#include "cases/case/suite.h"
+#include "cases/cli/chosen_cases.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/cli/vocabulary.h"
@@ -23,7 +23,7 @@ std::vector<Case> cases_of(const CommandLine& line, const EngineTable& engines) 
   if (line.engines.size() != 1) throw InputError("rigor tune: takes exactly one --engine; see rigor list engines");
   if (line.within.empty())
     throw InputError("rigor tune: takes at least one --within BOUND, as 1mm, 1mrad, '2% energy' or METRIC=VALUE");
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir, vocabulary_of(engines.infos()));
+  std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
   for (Case& definition : cases) override_run(definition, {{}, line.duration});
   return cases;
 }

@@ -89,6 +89,15 @@ std::string head(const Results& results, const std::vector<std::size_t>& runs) {
   return text;
 }
 
+bool none_supports(const CaseResult& result, const std::vector<std::size_t>& runs, const StepSize& dt) {
+  const auto is_shown = [&](const Cell& cell) {
+    return cell.dt == dt && std::find(runs.begin(), runs.end(), cell.run) != runs.end();
+  };
+  const auto is_possible = [&](const Cell& cell) { return is_shown(cell) && cell.status != Status::unsupported; };
+  return std::any_of(result.cells.begin(), result.cells.end(), is_shown) &&
+         std::none_of(result.cells.begin(), result.cells.end(), is_possible);
+}
+
 std::string panel(const Results& results, const std::vector<std::size_t>& runs) {
   const StepSize headline = headline_dt(results);
   std::string text = head(results, runs), family;
@@ -102,6 +111,10 @@ std::string panel(const Results& results, const std::vector<std::size_t>& runs) 
                              (dt == headline ? "" : fmt::format(" {}", dt.text));
     std::string row = fmt::format("{:<{}}", shortened(name, kCaseColumn), kCaseColumn);
     const std::string metric = main_error(result);
+    if (none_supports(result, runs, dt)) {
+      text += fmt::format("{} – unsupported by all of these\n", row);
+      continue;
+    }
     for (const std::size_t run : runs) {
       const auto cell = std::find_if(result.cells.begin(), result.cells.end(),
                                      [&](const Cell& c) { return c.run == run && c.dt == dt; });

@@ -112,13 +112,41 @@ std::string what_is_wrong(const CaseResult& result) {
   return error + gate_lines(result, false);
 }
 
+// What several runs cannot do for the same reason is one sentence.
+std::string unsupported_lines(const Results& results, const CaseResult& result, const StepSize& dt) {
+  std::vector<std::pair<std::string, std::vector<const Cell*>>> groups;  // by reason, as they come
+  for (const Cell& cell : result.cells) {
+    if (!(cell.dt == dt) || cell.status != Status::unsupported) continue;
+    const auto known =
+        std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.first == cell.reason; });
+    if (known == groups.end()) {
+      groups.push_back({cell.reason, {&cell}});
+    } else {
+      known->second.push_back(&cell);
+    }
+  }
+  std::string text;
+  for (const auto& [reason, cells] : groups) {
+    if (cells.size() == 1) {
+      text += row_line(row_text(results, result, *cells.front()));
+      continue;
+    }
+    std::vector<std::string> runs;
+    for (const Cell* cell : cells) runs.push_back(results.runs[cell->run].text);
+    text += "  " + wrapped(fmt::format("{} runs unsupported: {}: {}", runs.size(), reason, fmt::join(runs, ", ")), 4) +
+            "\n";
+  }
+  return text;
+}
+
 std::string block(const Results& results, const CaseResult& result) {
   const StepSize dt = coarsest_dt(result);
   std::string text = wrapped(fmt::format("{}: {}", result.definition.id, result.definition.title), 2) + "\n";
   text += "  " + wrapped(truth_sentence(result), 2) + "\n" + header(dt);
   for (const Cell& cell : result.cells) {
-    if (cell.dt == dt) text += row_line(row_text(results, result, cell));
+    if (cell.dt == dt && cell.status != Status::unsupported) text += row_line(row_text(results, result, cell));
   }
+  text += unsupported_lines(results, result, dt);
   text += explained_text(explained_rows(results, result, dt));
   for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
   for (const std::string& sentence : work_precision_sentences(results, result))

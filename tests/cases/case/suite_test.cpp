@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(a_name_that_several_cases_have_is_refused_with_their_ids) {
 BOOST_AUTO_TEST_CASE(a_folder_or_file_without_a_case_is_refused) {
   const std::string empty = (path / "empty").string(), notes = suite + "/springs/notes.md";
   BOOST_TEST(refusal(empty) == empty + ": there is no case, no .toml file, in this folder");
-  BOOST_TEST(refusal(notes) == notes + ": is not a .toml file");
+  BOOST_TEST(refusal(notes) == notes + ": is not a .toml file, nor one of a robot: .urdf, .sdf, .mjcf, .xml");
   BOOST_TEST(refusal_of([&] { select_cases({}, empty, test::words()); }) ==
              empty + ": there is no case in the suite's folder");
   BOOST_TEST(refusal_of([&] { select_cases({}, empty + "/none", test::words()); }) ==

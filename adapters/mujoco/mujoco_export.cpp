@@ -1,0 +1,260 @@
+#include "adapters/mujoco/mujoco_export.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <iterator>
+
+#include "adapters/mujoco/mujoco_model.h"
+
+namespace rigor {
+namespace {
+
+std::string numbers(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
+std::string numbers(const Quat& q) { return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z()); }
+
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return text;
+}
+
+struct GeomForOthers {
+  std::string operator()(const Sphere& s) const { return fmt::format(R"(type="sphere" size="{}")", s.radius); }
+  std::string operator()(const Box& b) const {
+    return fmt::format(R"(type="box" size="{}")", numbers(Vec3(b.size / 2)));
+  }
+  std::string operator()(const Capsule& c) const {
+    return fmt::format(R"(type="capsule" size="{} {}")", c.radius, c.length / 2);
+  }
+  std::string operator()(const Plane& p) const {
+    return fmt::format(R"(type="plane" size="0 0 1" pos="{}" zaxis="{}")", numbers(Vec3(p.normal * p.offset)),
+                       numbers(p.normal));
+  }
+};
+
+// By principal moments and axes: a full inertia MuJoCo would diagonalise to 2.5e-8 of itself only.
+std::string inertia_of_body(const Body& body) {
+  if (body.inertia.isDiagonal(0)) return fmt::format(R"(diaginertia="{}")", numbers(Vec3(body.inertia.diagonal())));
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(body.inertia);
+  Mat3 axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
+  return fmt::format(R"(quat="{}" diaginertia="{}")", numbers(Quat(axes)), numbers(Vec3(principal.eigenvalues())));
+}
+
+class Exporter {
+ public:
+  Exporter(const Scene& scene, LeftOut& left_out) : scene_(scene), left_out_(left_out), tree_(mujoco_tree(scene)) {}
+
+  std::string text() {
+    std::string text = body_of_file();
+    return text + keyframe(text + "</mujoco>\n") + "</mujoco>\n";
+  }
+
+ private:
+  template <typename... Values>
+  void add(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Values>(values)...);
+  }
+  void leave_out(const std::string& of, const std::string& why) { left_out_.add(of, "it", why); }
+
+  std::string body_of_file() {
+    add("<mujoco>\n  <compiler angle=\"radian\" balanceinertia=\"false\" autolimits=\"false\"/>\n");
+    add("  <option gravity=\"{}\" cone=\"elliptic\"/>\n  <worldbody>\n", numbers(scene_.gravity));
+    add_sites(kWorld, 4);
+    for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
+      if (scene_.bodies[i].fixed) add_fixed(i);
+    }
+    for (const int root : tree_.roots) add_body(root, 4);
+    add("  </worldbody>\n");
+    add_springs();
+    add_loops();
+    add_motors();
+    for (const ContactPair& pair : scene_.contact_pairs)
+      leave_out(fmt::format("the contact of '{}' and '{}'", scene_.body_name(pair.a), scene_.body_name(pair.b)),
+                "has a friction of its own; that of the rest is written");
+    if (scene_.contact_default.restitution > 0) leave_out("restitution", "MuJoCo has none");
+    for (const TimedForce& force : scene_.forces)
+      leave_out(fmt::format("a force on '{}'", scene_.body_name(force.body)), "MuJoCo's files have no timed forces");
+    return std::move(out_);
+  }
+
+  void add_fixed(int index) {
+    const Body& body = scene_.bodies[index];
+    const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
+    if (is_plane) add_geom(body, 4);
+    add("    <body name=\"{}\" pos=\"{}\" quat=\"{}\">\n", escaped(body.name), numbers(body.position),
+        numbers(body.orientation));
+    if (!is_plane) add_geom(body, 6);
+    add_sites(index, 6);
+    add("    </body>\n");
+  }
+
+  void add_body(int index, int indent) {
+    const Body& body = scene_.bodies[index];
+    const MujocoTree::Link& link = tree_.links[index];
+    const BodyPose in_parent = inverse(scene_.pose(link.parent)) * scene_.pose(index);
+    add("{:{}}<body name=\"{}\" pos=\"{}\" quat=\"{}\">\n", "", indent, escaped(body.name), numbers(in_parent.position),
+        numbers(in_parent.orientation));
+    add("{:{}}<inertial pos=\"0 0 0\" mass=\"{}\" {}/>\n", "", indent + 2, body.mass, inertia_of_body(body));
+    if (link.joint < 0) {
+      add("{:{}}<freejoint/>\n", "", indent + 2);
+    } else {
+      add_joint(index, link.joint, indent + 2);
+    }
+    add_geom(body, indent + 2);
+    add_sites(index, indent + 2);
+    for (const int below : tree_.below[index]) add_body(below, indent + 2);
+    add("{:{}}</body>\n", "", indent);
+  }
+
+  // A shape that nothing touches is there to be seen.
+  void add_geom(const Body& body, int indent) {
+    if (!body.shape) return;
+    const double mu = scene_.contact_default.friction;
+    const std::string touch = !body.collides ? R"( contype="0" conaffinity="0")"
+                              : mu == 0      ? R"( condim="1")"
+                                        : fmt::format(R"( condim="3" friction="{} 0.005 0.0001")", std::min(mu, 1e6));
+    add("{:{}}<geom name=\"{}\" {}{}/>\n", "", indent, escaped(body.name), std::visit(GeomForOthers{}, *body.shape),
+        touch);
+  }
+
+  // The points of springs and distance joints.
+  void add_sites(int body, int indent) {
+    const auto site = [&](const std::string& name, int of, const Vec3& point) {
+      if (of == body) add("{:{}}<site name=\"{}\" pos=\"{}\"/>\n", "", indent, name, numbers(point));
+    };
+    for (std::size_t k = 0; k < scene_.springs.size(); ++k) {
+      site(fmt::format("spring{}a", k), scene_.springs[k].a, scene_.springs[k].point_a);
+      site(fmt::format("spring{}b", k), scene_.springs[k].b, scene_.springs[k].point_b);
+    }
+    for (std::size_t k = 0; k < scene_.joints.size(); ++k) {
+      const auto* distance = std::get_if<DistanceJoint>(&scene_.joints[k].type);
+      if (!distance) continue;
+      site(fmt::format("distance{}a", k), scene_.joints[k].a, distance->point_a);
+      site(fmt::format("distance{}b", k), scene_.joints[k].b, distance->point_b);
+    }
+  }
+
+  std::string joint_name(int index) const {
+    const std::string& own = scene_.joints[index].name;
+    return own.empty() ? fmt::format("joint{}", index) : escaped(own);
+  }
+  Vec3 point_in(int body, const Vec3& in_W) const { return (inverse(scene_.pose(body)) * BodyPose{in_W}).position; }
+  Vec3 direction_in(int body, const Vec3& in_W) const { return scene_.pose(body).orientation.conjugate() * in_W; }
+
+  void add_joint(int body, int index, int indent) {
+    const Joint& joint = scene_.joints[index];
+    const bool is_b = joint.b == body;  // MuJoCo counts from the parent to what hangs on it
+    const auto row = [&](const std::string& name, const char* type, const Vec3& anchor, const Vec3* axis,
+                         const std::string& more = "") {
+      add("{:{}}<joint name=\"{}\" type=\"{}\" pos=\"{}\"", "", indent, name, type, numbers(anchor));
+      if (axis) add(" axis=\"{}\"", numbers(direction_in(body, *axis)));
+      add("{}/>\n", more);
+    };
+    if (const auto* ball = std::get_if<BallJoint>(&joint.type))
+      return row(joint_name(index), "ball", point_in(body, ball->anchor), nullptr);
+    if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
+      // Of several joints of a body the first moves with the parent: that is the axis which is fixed in it.
+      row(joint_name(index), "hinge", point_in(body, universal->anchor), is_b ? &universal->axis : &universal->axis2);
+      return row(joint_name(index) + "/2", "hinge", point_in(body, universal->anchor),
+                 is_b ? &universal->axis2 : &universal->axis);
+    }
+    const Vec3* axis = free_axis(joint);
+    if (!axis) return;  // a fixed one has no element
+    const Vec3 along = is_b ? *axis : Vec3(-*axis);
+    std::string more =
+        fmt::format(R"( stiffness="{}" springref="{}" damping="{}")", joint.stiffness, joint.rest, joint.damping);
+    constexpr double kFar = 1e6;  // MuJoCo bounds a joint on both sides or on none
+    if (joint.has_limits())
+      more +=
+          fmt::format(R"( limited="true" range="{} {}")", std::max(joint.lower, -kFar), std::min(joint.upper, kFar));
+    const auto* hinge = std::get_if<HingeJoint>(&joint.type);
+    row(joint_name(index), hinge ? "hinge" : "slide", hinge ? point_in(body, hinge->anchor) : Vec3::Zero().eval(),
+        &along, more);
+  }
+
+  void add_springs() {
+    add("  <tendon>\n");
+    for (std::size_t k = 0; k < scene_.springs.size(); ++k) {
+      const Spring& spring = scene_.springs[k];
+      add("    <spatial stiffness=\"{}\" damping=\"{}\" springlength=\"{}\"><site site=\"spring{}a\"/><site "
+          "site=\"spring{}b\"/></spatial>\n",
+          spring.stiffness, spring.damping, spring.rest_length, k, k);
+    }
+    for (const int k : tree_.loops) {
+      if (std::holds_alternative<DistanceJoint>(scene_.joints[k].type))
+        add("    <spatial name=\"distance{0}\"><site site=\"distance{0}a\"/><site site=\"distance{0}b\"/></spatial>\n",
+            k);
+    }
+    add("  </tendon>\n");
+  }
+
+  void add_loops() {
+    add("  <equality>\n");
+    for (const int k : tree_.loops) {
+      const Joint& joint = scene_.joints[k];
+      const int first = joint.a != kWorld ? joint.a : joint.b, second = joint.a != kWorld ? joint.b : kWorld;
+      const std::string bodies =
+          fmt::format(R"(body1="{}"{})", escaped(scene_.body_name(first)),
+                      second == kWorld ? "" : fmt::format(R"( body2="{}")", escaped(scene_.body_name(second))));
+      const auto* hinge = std::get_if<HingeJoint>(&joint.type);
+      if (std::holds_alternative<DistanceJoint>(joint.type)) {
+        add("    <tendon tendon1=\"distance{}\"/>\n", k);
+      } else if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
+        add("    <connect {} anchor=\"{}\"/>\n", bodies, numbers(point_in(first, ball->anchor)));
+      } else if (hinge && joint.stiffness == 0 && joint.damping == 0 && !joint.has_limits()) {
+        for (const Vec3& point : {hinge->anchor, Vec3(hinge->anchor + hinge->axis)})
+          add("    <connect {} anchor=\"{}\"/>\n", bodies, numbers(point_in(first, point)));
+      } else if (std::holds_alternative<FixedJoint>(joint.type)) {
+        add("    <weld {}/>\n", bodies);
+      } else {
+        leave_out(
+            scene_.joint_name(static_cast<std::size_t>(k)),
+            "closes a loop of joints, which MuJoCo closes by balls, plain hinges, fixed and distance joints alone");
+      }
+    }
+    add("  </equality>\n");
+  }
+
+  void add_motors() {
+    for (const Motor& motor : scene_.motors)
+      leave_out(fmt::format("a motor on {}", scene_.joint_name(static_cast<std::size_t>(motor.joint))),
+                "MuJoCo's files have no efforts that last for a time");
+  }
+
+  // The velocities at t = 0, in MuJoCo's coordinates; its poses are those of the file.
+  std::string keyframe(const std::string& text) const {
+    const bool at_rest = std::all_of(scene_.bodies.begin(), scene_.bodies.end(), [](const Body& body) {
+      return body.velocity.isZero(0) && body.angular_velocity.isZero(0);
+    });
+    if (at_rest) return "";
+    MujocoModel made;
+    made.model = mujoco_library::compile(text);
+    for (const Body& body : scene_.bodies)
+      made.body.push_back(mj_name2id(made.model.get(), mjOBJ_BODY, body.name.c_str()));
+    std::vector<double> velocities = mujoco_velocities(scene_, tree_, made);
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {  // an axis that was turned round counts the other way
+      const int joint = tree_.links[i].joint;
+      if (!scene_.bodies[i].fixed && joint >= 0 && free_axis(scene_.joints[joint]) &&
+          scene_.joints[joint].b != static_cast<int>(i))
+        velocities[static_cast<std::size_t>(made.model->body_dofadr[made.body[i]])] *= -1;
+    }
+    return fmt::format("  <keyframe>\n    <key name=\"start\" qvel=\"{}\"/>\n  </keyframe>\n",
+                       fmt::join(velocities, " "));
+  }
+
+  const Scene& scene_;
+  LeftOut& left_out_;
+  MujocoTree tree_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string mjcf_for_others(const Scene& scene, LeftOut& left_out) {
+  mujoco_library::start();
+  return Exporter(scene, left_out).text();
+}
+
+}  // namespace rigor

@@ -1,0 +1,14 @@
+// A model as MuJoCo compiles it, back as links, joints and shapes: what is read is the compiled model, with all its
+// digits, and not the text.
+#pragma once
+
+#include <string>
+
+#include "core/scene/link_model.h"
+
+namespace rigor {
+
+// An MJCF file, by MuJoCo's own parser. The caller has seen to it that the file names no other that may not be read.
+LinkModel read_with_mujoco(const std::string& path);
+
+}  // namespace rigor

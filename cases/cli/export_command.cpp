@@ -1,0 +1,21 @@
+// rigor export: a case's scene in the format of another program.
+#include <fmt/format.h>
+
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "cases/report/scene/scene_formats.h"
+#include "core/base/error.h"
+
+namespace rigor {
+
+int export_command(const CommandLine& line, const EngineTable& engines) {
+  if (line.format.empty()) throw InputError("rigor export: takes --format mjcf or --format sdf");
+  const SceneFormat& format = find_scene_format(line.format);
+  LeftOut left_out;
+  const std::string text = format.text(the_case(line, engines).scene, left_out);
+  for (const std::string& sentence : left_out.sentences()) say(harmless("left out: " + sentence));
+  print(text);
+  return kGood;
+}
+
+}  // namespace rigor

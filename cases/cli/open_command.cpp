@@ -1,0 +1,46 @@
+// rigor open: the report of the last run in the browser, by the desktop's own xdg-open.
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+
+#include "cases/cli/commands.h"
+#include "cases/cli/output.h"
+#include "core/base/error.h"
+
+extern char** environ;
+
+namespace rigor {
+namespace {
+
+// Empty where it did, else why not.
+std::string why_not_shown(const std::string& file) {
+  std::string program = "xdg-open", argument = file;
+  const std::array<char*, 3> words = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  if (const int error = posix_spawnp(&child, program.c_str(), nullptr, nullptr, words.data(), environ))
+    return fmt::format("xdg-open cannot be started: {}", std::strerror(error));
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) return "xdg-open went away";
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
+  return "xdg-open found no browser";
+}
+
+}  // namespace
+
+int open_command(const CommandLine& line, const EngineTable&) {
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::absolute(std::filesystem::path(line.out) / "report.html", error);
+  if (error || !std::filesystem::is_regular_file(file, error))
+    throw InputError(
+        fmt::format("rigor open: there is no {}; 'rigor run' makes it, or --out says where it is", file.string()));
+  const std::string why = why_not_shown(file.string());
+  if (why.empty()) return kGood;
+  say(fmt::format("{}; the report is one file, to be opened in any browser: {}", why, file.string()));
+  return kBroken;
+}
+
+}  // namespace rigor

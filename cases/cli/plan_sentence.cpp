@@ -1,0 +1,67 @@
+#include "cases/cli/plan_sentence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+// Measured over the suite, a step of all its metrics included: what differs is engines, by ten and more, and cases.
+constexpr double kPerBodyStep = 3e-6, kPerJointedStep = 12e-6;          // s
+constexpr double kPerCell = 0.03, kPerStableStep = 0.5, kPerTruth = 1;  // s
+constexpr double kTimingAndTwin = 2;                                    // a run of everything runs each cell again
+
+bool is_run(const Cell& cell) { return cell.status != Status::unsupported; }
+
+double seconds_of(const Case& definition, const Cell& cell) {
+  const double steps = definition.duration / cell.dt.seconds,
+               bodies = static_cast<double>(definition.scene.bodies.size());
+  return kPerCell + steps * bodies * (definition.scene.joints.empty() ? kPerBodyStep : kPerJointedStep);
+}
+
+std::string in_words(double seconds) {
+  if (seconds < 2) return "a moment";
+  if (seconds < 90)
+    return fmt::format("about {:.0f} s", seconds < 10 ? std::ceil(seconds) : 10 * std::ceil(seconds / 10));
+  return fmt::format("about {:.0f} minutes", std::ceil(seconds / 60));
+}
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+double estimated_seconds(const Results& planned, const CommandLine& line) {
+  const bool is_everything = line.command == "run";
+  double all = 0;
+  for (const CaseResult& result : planned.cases) {
+    all += result.definition.truth == "none" ? 0 : kPerTruth;
+    for (const Cell& cell : result.cells) {
+      if (is_run(cell))
+        all += std::min(seconds_of(result.definition, cell) * (is_everything ? kTimingAndTwin : 1), line.limit);
+    }
+    if (!is_everything) continue;
+    all += kPerStableStep * static_cast<double>(std::count_if(
+                                result.stable_steps.begin(), result.stable_steps.end(),
+                                [](const StableStepResult& stable) { return stable.status != Status::unsupported; }));
+  }
+  return all / line.jobs;
+}
+
+std::string plan_sentence(const Results& planned, const CommandLine& line) {
+  std::size_t cells = 0, unsupported = 0;
+  for (const CaseResult& result : planned.cases) {
+    for (const Cell& cell : result.cells) ++(is_run(cell) ? cells : unsupported);
+  }
+  const std::string rest =
+      unsupported > 0 ? fmt::format(", {} more unsupported", unsupported) : "";
+  return fmt::format("{} by {}: {}{}; {} with {}; the reports will be in {}", counted(planned.cases.size(), "case"),
+                     counted(planned.runs.size(), "run"), counted(cells, "cell"), rest,
+                     in_words(estimated_seconds(planned, line)), counted(static_cast<std::size_t>(line.jobs), "job"),
+                     line.out);
+}
+
+}  // namespace rigor

@@ -1,0 +1,103 @@
+#include "cases/import/import.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "adapters/models.h"
+#include "cases/import/assembly.h"
+#include "cases/import/memory_limit.h"
+#include "cases/import/model_files.h"
+#include "cases/import/sdf_reader.h"
+#include "cases/import/urdf_reader.h"
+#include "core/base/near_match.h"
+#include "core/scene/toml/scene_writer.h"
+
+namespace rigor {
+namespace {
+
+constexpr const char* kLeftOut = "# left out: ";
+constexpr std::size_t kMostMemory = std::size_t{900} << 20;  // bytes, beside what the program has already
+
+LinkModel read_mjcf(const XmlFile& file) {
+  check_files_of_mjcf(file);
+  return mujoco_link_model(file.path());
+}
+
+struct Format {
+  std::string root, name;
+  LinkModel (*read)(const XmlFile& file);
+};
+const std::vector<Format> kFormats = {
+    {"mujoco", "MJCF", read_mjcf}, {"robot", "URDF", read_urdf}, {"sdf", "SDF", read_sdf}};
+
+const Format& format_of(const XmlElement& root) {
+  std::vector<std::string> names;
+  for (const Format& format : kFormats) {
+    if (format.root == root.name()) return format;
+    names.push_back("<" + format.root + ">");
+  }
+  root.refuse(fmt::format("found this at the top; allowed: {}", listed(names)));
+}
+
+// Limits, contacts and motors that keep a speed are events, which no truth of joints reaches beyond.
+bool is_smooth(const Scene& scene) {
+  return std::none_of(scene.joints.begin(), scene.joints.end(),
+                      [](const Joint& joint) { return joint.has_limits(); }) &&
+         std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.collides; }) &&
+         std::none_of(scene.motors.begin(), scene.motors.end(),
+                      [](const Motor& motor) { return motor.speed.has_value(); });
+}
+
+// What stands in a comment must not end it.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, ' ');
+  return text;
+}
+
+std::string case_text_of(const LinkModel& model, const Scene& scene, const std::string& format,
+                         const std::string& path) {
+  // TOML's texts are JSON's.
+  const auto quoted = [](const std::string& text) { return nlohmann::json(one_line(text)).dump(); };
+  std::string text;
+  for (const std::string& sentence : model.left_out.sentences()) text += kLeftOut + one_line(sentence) + "\n";
+  text += fmt::format("title = {}\nsource = {}\n\n", quoted(model.name + ", as its " + format + " file has it"),
+                      quoted("imported from " + std::filesystem::path(path).filename().string()));
+  text += scene_toml(scene);
+  return text + fmt::format("\n[run]\nduration = 2\ndt = [\"1/30\", \"1/240\", \"1/1000\"]\n\n[truth]\nkind = \"{}\"\n",
+                            is_smooth(scene) ? "reference" : "none");
+}
+
+}  // namespace
+
+bool is_model_file(const std::string& path) {
+  static const std::vector<std::string> endings = {".urdf", ".sdf", ".mjcf", ".xml"};
+  return std::find(endings.begin(), endings.end(), std::filesystem::path(path).extension().string()) != endings.end();
+}
+
+Import import_model(const std::string& path) {
+  return within_memory(kMostMemory, path, [&] {
+    const XmlFile file(path);
+    const Format& format = format_of(file.root());
+    LinkModel model = format.read(file);
+    const Scene scene = scene_of(model);
+    return Import{case_text_of(model, scene, format.name, path), model.left_out.sentences()};
+  });
+}
+
+std::vector<std::string> left_out_of(const std::string& case_text) {
+  const std::string start = kLeftOut;
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; case_text.compare(at, start.size(), start) == 0;) {
+    const std::size_t end = case_text.find('\n', at);
+    lines.push_back(case_text.substr(at + start.size(), end - at - start.size()));
+    at = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace rigor

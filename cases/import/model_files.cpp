@@ -1,0 +1,119 @@
+#include "cases/import/model_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "core/base/error.h"
+
+namespace rigor {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_inside(const fs::path& path, const fs::path& folder) {
+  const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return end == folder.end();
+}
+
+fs::path folder_of(const std::string& model) {
+  std::error_code error;
+  const fs::path folder = fs::path(model).parent_path();
+  return fs::weakly_canonical(folder.empty() ? "." : folder, error);
+}
+
+// What MuJoCo opens is named by `file`, or by one of the six faces of a texture.
+bool names_a_file(const std::string& attribute) { return attribute.starts_with("file"); }
+bool names_a_folder(const std::string& attribute) {
+  return attribute == "meshdir" || attribute == "texturedir" || attribute == "assetdir";
+}
+
+class MjcfFiles {
+ public:
+  explicit MjcfFiles(const std::string& model) : model_(model) {}
+
+  void read(const XmlFile& file) {
+    size_ += file.size();
+    if (size_ > kLargestModel)
+      throw InputError(fmt::format("{}:1: with it the model is larger than {} MiB, the largest that is read",
+                                   file.path(), kLargestModel >> 20));
+    collect(file);
+  }
+
+  // Once every folder that a file may be in is known.
+  void check_assets() const {
+    for (const auto& [where, element, path] : assets_) {
+      for (const std::string& folder : folders_) check(where, element, folder.empty() ? path : folder + "/" + path);
+    }
+  }
+
+ private:
+  struct Asset {
+    std::string where, element, path;
+  };
+
+  void collect(const XmlFile& file) {
+    std::vector<XmlElement> waiting = {file.root()};
+    while (!waiting.empty()) {
+      const XmlElement element = waiting.back();
+      waiting.pop_back();
+      for (const auto& [attribute, value] : element.attributes()) {
+        if (names_a_file(attribute) || names_a_folder(attribute)) check_stays_in_folder(value, element, model_);
+        if (names_a_folder(attribute)) folders_.insert(value);
+        if (names_a_file(attribute)) assets_.push_back({element.where(), element.name(), value});
+        if (names_a_file(attribute) && element.name() == "include") include(value, element);
+      }
+      for (const XmlElement& child : element.children()) waiting.push_back(child);
+    }
+  }
+
+  // MuJoCo itself refuses a file that is included twice.
+  void include(const std::string& path, const XmlElement& element) {
+    const fs::path file = folder_of(model_) / path;
+    if (!included_.insert(file.lexically_normal().string()).second)
+      element.refuse(fmt::format("'{}' is included twice", path));
+    read(XmlFile(file.string()));
+  }
+
+  void check(const std::string& where, const std::string& element, const std::string& path) const {
+    std::error_code error;
+    const fs::path folder = folder_of(model_), file = fs::weakly_canonical(folder / path, error);
+    if (error || !is_inside(file, folder))
+      throw InputError(fmt::format("{}: <{}>: '{}' leaves the folder of the model", where, element, path));
+    const auto status = fs::status(file, error);
+    if (!fs::exists(status)) return;  // MuJoCo says so
+    if (!fs::is_regular_file(status) || fs::file_size(file, error) > kLargestModel)
+      throw InputError(fmt::format("{}: <{}>: '{}' is no regular file of at most {} MiB", where, element, path,
+                                   kLargestModel >> 20));
+  }
+
+  std::string model_;
+  std::size_t size_ = 0;
+  std::vector<Asset> assets_;
+  std::set<std::string> folders_ = {""}, included_;
+};
+
+}  // namespace
+
+void check_stays_in_folder(const std::string& path, const XmlElement& element, const std::string& model) {
+  for (const char* of_packages : {"package://", "model://"}) {
+    if (path.starts_with(of_packages)) return;
+  }
+  const fs::path folder = folder_of(model), given = path;
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(folder / given, error);
+  if (given.is_absolute() || path.find("://") != std::string::npos || path.find('\\') != std::string::npos || error ||
+      !is_inside(whole, folder))
+    element.refuse(
+        fmt::format("'{}' leaves the folder of the model; allowed: a path inside it, package:// or model://", path));
+}
+
+void check_files_of_mjcf(const XmlFile& model) {
+  MjcfFiles files(model.path());
+  files.read(model);
+  files.check_assets();
+}
+
+}  // namespace rigor

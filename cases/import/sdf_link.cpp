@@ -1,0 +1,207 @@
+#include "cases/import/sdf_link.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+#include "cases/import/model_elements.h"
+#include "cases/import/model_files.h"
+#include "core/base/near_match.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kFrictionOfFormat = 1;
+constexpr const char* kSaysNothing = "says nothing of motion";
+constexpr const char* kOfASolver = "is a setting of one solver";
+
+class SdfLinkReader {
+ public:
+  SdfLinkReader(const XmlElement& element, const std::string& file, LeftOut& left_out)
+      : element_(element), file_(file), left_out_(left_out) {}
+
+  Link read() {
+    element_.check({{"name"},
+                    {"inertial", "collision", "pose"},
+                    {{"visual", kIsSeen},
+                     {"light", kIsSeen},
+                     {"projector", kIsSeen},
+                     {"particle_emitter", kIsSeen},
+                     {"sensor", "is a sensor"},
+                     {"audio_source", kSaysNothing},
+                     {"audio_sink", kSaysNothing},
+                     {"battery", kSaysNothing},
+                     {"plugin", "is a program"},
+                     {"gravity", "says whether this link is drawn by gravity, which in a scene all are"},
+                     {"kinematic", "says whether this link is moved by forces, which in a scene all are"},
+                     {"self_collide", "is read of models alone"},
+                     {"velocity_decay", "is damping by the world, which a scene does not have"},
+                     {"enable_wind", "is wind, which a scene does not have"},
+                     {"must_be_base_link", kSaysNothing}}},
+                   left_out_);
+    Link link{element_.name_attribute(), element_.place(), {}};
+    link.inertial.push_back(inertial());
+    for (const XmlElement& visual : element_.children("visual")) check_mesh(visual);
+    for (const XmlElement& collision : element_.children("collision")) read_collision(collision, link);
+    return link;
+  }
+
+ private:
+  LinkInertial inertial() {
+    const auto inertial = element_.child("inertial");
+    if (!inertial) {
+      left_out_.add(element_.place(), "its inertia",
+                    "there is no <inertial>, which is 1 kg and 1 kg m² in this format");
+      return {1, {}, Mat3::Identity()};
+    }
+    if (inertial->find("auto").value_or("false") != "false")
+      inertial->refuse("is to be worked out from shapes; allowed: numbers");
+    inertial->check({{"auto"},
+                     {"mass", "inertia", "pose"},
+                     {{"density", "is for an inertia that is worked out"}, {"fluid_added_mass", "is of a fluid"}}},
+                    left_out_);
+    const auto mass = inertial->child("mass"), inertia = inertial->child("inertia");
+    LinkInertial out{mass ? mass->number_of_text() : 1, sdf_pose(inertial->child("pose"), left_out_), Mat3::Identity()};
+    check_mass(out.mass, mass.value_or(*inertial));
+    if (!inertia) return out;
+    inertia->check({{}, {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}}, left_out_);
+    const auto moment = [&](const char* name, double otherwise) {
+      const auto found = inertia->child(name);
+      return found ? found->number_of_text() : otherwise;
+    };
+    out.inertia = symmetric(moment("ixx", 1), moment("iyy", 1), moment("izz", 1), moment("ixy", 0), moment("ixz", 0),
+                            moment("iyz", 0));
+    check_inertia(out.inertia, *inertia);
+    return out;
+  }
+
+  void check_mesh(const XmlElement& of) {
+    const auto geometry = of.child("geometry");
+    const auto mesh = geometry ? geometry->child("mesh") : std::nullopt;
+    if (mesh) check_stays_in_folder(mesh->only("uri").text(), *mesh, file_);
+  }
+
+  void read_collision(const XmlElement& element, Link& link) {
+    element.check({{"name"},
+                   {"geometry", "pose", "surface"},
+                   {{"laser_retro", kSaysNothing},
+                    {"max_contacts", kOfASolver},
+                    {"density", "is for an inertia that is worked out"}}},
+                  left_out_);
+    if (!names_.insert(element.name_attribute()).second)
+      element.refuse("another collision of this link has this name, too");
+    check_mesh(element);
+    const XmlElement geometry = element.only("geometry");
+    geometry.check({{},
+                    {"box", "sphere", "capsule", "plane", "empty"},
+                    {{"cylinder", kCylinder},
+                     {"mesh", kMesh},
+                     {"cone", "is a cone, which a scene does not have: nothing touches it"},
+                     {"ellipsoid", "is an ellipsoid, which a scene does not have: nothing touches it"},
+                     {"heightmap", "is a height map, which a scene does not have: nothing touches it"},
+                     {"polyline", "is a prism, which a scene does not have: nothing touches it"},
+                     {"image", "is an image, which a scene does not have: nothing touches it"}}},
+                   left_out_);
+    const auto shape = shape_of(geometry);
+    if (!shape) return;
+    const std::string where = fmt::format("{}: collision of link '{}'", element.where(), link.name);
+    link.shapes.push_back(
+        {*shape, sdf_pose(element.child("pose"), left_out_), surface_of(element.child("surface")), 1, 1, where});
+  }
+
+  std::optional<Shape> shape_of(const XmlElement& geometry) {
+    std::optional<Shape> shape;
+    for (const XmlElement& element : geometry.children()) {
+      if (shape) element.refuse("is a second shape; allowed: one");
+      const auto length = [&](const char* name) {
+        const XmlElement value = element.only(name);
+        return positive(value.number_of_text(), "it", value);
+      };
+      if (element.name() == "box") {
+        element.check({{}, {"size"}}, left_out_);
+        const XmlElement size = element.only("size");
+        shape = Box{vector_of(size.numbers_of_text(3))};
+        positive(std::get<Box>(*shape).size.minCoeff(), "its least edge", size);
+      } else if (element.name() == "sphere") {
+        element.check({{}, {"radius"}}, left_out_);
+        shape = Sphere{length("radius")};
+      } else if (element.name() == "capsule") {
+        element.check({{}, {"radius", "length"}}, left_out_);
+        shape = Capsule{length("radius"), length("length")};
+      } else if (element.name() == "plane") {
+        element.check({{}, {"normal", "size"}}, left_out_);
+        const auto normal = element.child("normal");
+        shape = Plane{normal ? direction_of(vector_of(normal->numbers_of_text(3)), *normal) : Vec3::UnitZ().eval(), 0};
+      }
+    }
+    return shape;
+  }
+
+  ContactLaw surface_of(const std::optional<XmlElement>& surface) {
+    ContactLaw law{0, kFrictionOfFormat};
+    if (!surface) return law;
+    surface->check({{}, {"friction", "bounce"}, {{"contact", kOfASolver}, {"soft_contact", kOfASolver}}}, left_out_);
+    if (const auto bounce = surface->child("bounce")) {
+      bounce->check({{}, {"restitution_coefficient"}, {{"threshold", kOfASolver}}}, left_out_);
+      const auto value = bounce->child("restitution_coefficient");
+      if (value) law.restitution = not_negative(value->number_of_text(), "it", *value);
+      if (value && law.restitution > 1) value->refuse("is greater than 1");
+    }
+    const auto friction = surface->child("friction");
+    if (!friction) return law;
+    friction->check({{},
+                     {"ode"},
+                     {{"bullet", "is of one engine; that of <ode> is taken"},
+                      {"torsional", "is friction against spinning, which a scene does not have"}}},
+                    left_out_);
+    const auto ode = friction->child("ode");
+    if (!ode) return law;
+    ode->check({{},
+                {"mu", "mu2"},
+                {{"fdir1", "is a direction of friction, which in a scene is the same in all"},
+                 {"slip1", kOfASolver},
+                 {"slip2", kOfASolver}}},
+               left_out_);
+    const auto mu = ode->child("mu"), mu2 = ode->child("mu2");
+    if (mu) law.friction = not_negative(mu->number_of_text(), "it", *mu);
+    if (mu2 && mu2->number_of_text() != law.friction)
+      left_out_.add(mu2->place(), "<mu2>", "differs from <mu>, and in a scene friction is the same in all directions");
+    return law;
+  }
+
+  XmlElement element_;
+  const std::string& file_;
+  LeftOut& left_out_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+BodyPose sdf_pose(const std::optional<XmlElement>& pose, LeftOut& left_out) {
+  if (!pose) return {};
+  pose->check({{"relative_to", "frame", "degrees", "rotation_format"}, {}}, left_out);
+  const std::string format = pose->find("rotation_format").value_or("euler_rpy");
+  const std::vector<std::string> formats = {"euler_rpy", "quat_xyzw"};
+  if (std::find(formats.begin(), formats.end(), format) == formats.end())
+    pose->refuse(fmt::format("rotation_format: found '{}'{}; allowed: {}", format, did_you_mean(format, formats),
+                             listed(formats)));
+  if (pose->text().empty()) return {};
+  if (format == "quat_xyzw") {
+    const auto v = pose->numbers_of_text(7);
+    const Quat q(v[6], v[3], v[4], v[5]);
+    if (!(q.norm() > 1e-6)) pose->refuse("its quaternion has no length");
+    return {{v[0], v[1], v[2]}, q.normalized()};
+  }
+  const auto v = pose->numbers_of_text(6);
+  const std::string degrees = pose->find("degrees").value_or("false");
+  const double unit = degrees == "true" || degrees == "1" ? std::numbers::pi / 180 : 1;
+  return {{v[0], v[1], v[2]}, turn_of(unit * v[3], unit * v[4], unit * v[5])};
+}
+
+Link read_sdf_link(const XmlElement& element, const std::string& file, LeftOut& left_out) {
+  return SdfLinkReader(element, file, left_out).read();
+}
+
+}  // namespace rigor

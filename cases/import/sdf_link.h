@@ -1,0 +1,14 @@
+// A link of an SDF file: its inertia and its shapes, in its own frame.
+#pragma once
+
+#include "cases/import/xml.h"
+
+namespace rigor {
+
+// A <pose>: x y z roll pitch yaw, or as its attributes say. What it is relative to is the caller's to ask.
+BodyPose sdf_pose(const std::optional<XmlElement>& pose, LeftOut& left_out);
+
+// Poses are in the link's frame, as is a plane's. `file`: for paths of meshes.
+Link read_sdf_link(const XmlElement& element, const std::string& file, LeftOut& left_out);
+
+}  // namespace rigor

@@ -1,0 +1,366 @@
+#include "cases/import/sdf_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <limits>
+
+#include "cases/import/model_elements.h"
+#include "cases/import/model_files.h"
+#include "cases/import/sdf_frames.h"
+#include "cases/import/sdf_link.h"
+#include "core/base/error.h"
+#include "core/base/near_match.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kSdfGravity = 9.8;     // m/s², along -z: the format's own default
+constexpr double kUnlimited = 1e16;  // of a joint's limits, as the format has it
+constexpr int kDeepest = 16;         // models in models and files in files
+const std::vector<std::string> kSdfJointTypes = {"revolute",  "continuous", "prismatic", "ball",   "universal",
+                                              "revolute2", "fixed",      "screw",     "gearbox"};
+constexpr const char* kOfWorld = "is of the world around, of which a scene knows gravity alone";
+constexpr const char* kProgram = "is a program";
+
+class SdfReader {
+ public:
+  explicit SdfReader(const XmlFile& file) : path_(file.path()) { model_.combine = least_of; }
+
+  LinkModel read(const XmlFile& file) {
+    const XmlElement root = file.root();
+    model_.gravity = {0, 0, -kSdfGravity}, size_ = file.size();
+    read_file(root, "", "", 0);
+    if (model_.links.empty()) root.refuse("there is no <link> in it");
+    for (Later& later : later_) later.finish(*this);
+    if (models_ == 1) shorten_names();
+    return std::move(model_);
+  }
+
+ private:
+  // Poses and joints may name what comes further down in the file.
+  struct Later {
+    std::function<void(SdfReader&)> finish;
+  };
+
+  struct Scope {
+    std::string name;  // "outer::inner::"
+    int model;         // which one its links are of
+    bool is_static, touches_itself;
+    int depth;
+  };
+
+  void read_file(const XmlElement& root, const std::string& scope, const std::string& rename, int depth) {
+    if (root.name() != "sdf") root.refuse("found this at the top; allowed: <sdf>");
+    version_ = version_of(root);
+    root.check({{"version"}, {"world", "model"}, {{"actor", "moves by a script"}, {"light", kIsSeen}}},
+               model_.left_out);
+    const auto worlds = root.children("world"), models = root.children("model");
+    if (worlds.size() + models.size() != 1)
+      root.refuse(
+          fmt::format("holds {} worlds and models; allowed: one world or one model", worlds.size() + models.size()));
+    if (worlds.empty()) {
+      if (model_.name.empty()) model_.name = models.front().name_attribute();
+      return read_model(models.front(), {scope, -1, false, false, depth}, rename);
+    }
+    if (depth > 0) worlds.front().refuse("is a world in a world; allowed: a model");
+    read_world(worlds.front());
+  }
+
+  int version_of(const XmlElement& root) const {
+    const std::string text = root.at("version");
+    for (int minor = 4; minor <= 11; ++minor) {
+      if (text == fmt::format("1.{}", minor)) return minor;
+    }
+    root.refuse(fmt::format("version: found '{}'; allowed: 1.4 to 1.11", text));
+  }
+
+  void read_world(const XmlElement& world) {
+    world.check({{"name"},
+                 {"gravity", "model", "include", "joint", "frame"},
+                 {{"physics", "is how an engine steps; a case says its own steps"},
+                  {"light", kIsSeen},
+                  {"scene", kIsSeen},
+                  {"gui", kIsSeen},
+                  {"road", kIsSeen},
+                  {"plugin", kProgram},
+                  {"actor", "moves by a script"},
+                  {"state", "is a state in the middle of a run; the models' own poses are taken"},
+                  {"atmosphere", kOfWorld},
+                  {"wind", kOfWorld},
+                  {"magnetic_field", kOfWorld},
+                  {"spherical_coordinates", kOfWorld},
+                  {"audio", kOfWorld},
+                  {"population", "is models drawn by lot"}}},
+                model_.left_out);
+    model_.name = world.find("name").value_or("world");
+    if (const auto gravity = world.child("gravity")) model_.gravity = vector_of(gravity->numbers_of_text(3));
+    for (const XmlElement& frame : world.children("frame")) read_frame(frame, "");
+    for (const XmlElement& model : world.children("model")) read_model(model, {"", -1, false, false, 1}, "");
+    for (const XmlElement& include : world.children("include")) read_include(include, {"", -1, false, false, 1});
+    for (const XmlElement& joint : world.children("joint")) read_joint(joint, "");
+  }
+
+  // `outer`: where the model stands; its links are of the outer model if there is one.
+  void read_model(const XmlElement& element, const Scope& outer, const std::string& rename,
+                  const std::optional<XmlElement>& pose_of_include = {}) {
+    if (outer.depth > kDeepest) element.refuse(fmt::format("models in models go deeper than {}", kDeepest));
+    element.check({{"name", "canonical_link"},
+                   {"link", "joint", "frame", "model", "include", "pose", "static", "self_collide"},
+                   {{"plugin", kProgram},
+                    {"gripper", "is for a controller"},
+                    {"allow_auto_disable", "says that bodies may sleep, which they never do here"},
+                    {"enable_wind", kOfWorld}}},
+                  model_.left_out);
+    if (element.find("placement_frame"))
+      element.refuse("placement_frame: is not read; allowed: a pose of the model's own frame");
+    const std::string name = rename.empty() ? element.name_attribute() : rename;
+    const auto flag = [&](const char* word) {
+      const auto child = element.child(word);
+      return child && child->flag_of_text();
+    };
+    Scope scope = outer;
+    scope.name = outer.name + name + "::", scope.depth = outer.depth + 1;
+    scope.model = outer.model < 0 ? models_++ : outer.model;
+    scope.is_static = outer.is_static || flag("static");
+    scope.touches_itself = outer.touches_itself || flag("self_collide");
+    const auto pose = pose_of_include ? pose_of_include : element.child("pose");
+    const std::string base = pose ? pose->find("relative_to").value_or("") : "";
+    const std::string of_outer = outer.name.empty() ? "" : "__model__";
+    frames_.add(scope.name, "__model__", sdf_pose(pose, model_.left_out), outer.name, base.empty() ? of_outer : base,
+                element);
+    // From outside a model goes by its name.
+    frames_.add(outer.name, name, BodyPose(), scope.name, "__model__", element);
+    for (const XmlElement& link : element.children("link")) read_link(link, scope);
+    for (const XmlElement& frame : element.children("frame")) read_frame(frame, scope.name);
+    for (const XmlElement& model : element.children("model")) read_model(model, scope, "");
+    for (const XmlElement& include : element.children("include")) read_include(include, scope);
+    for (const XmlElement& joint : element.children("joint")) read_joint(joint, scope.name);
+  }
+
+  void read_include(const XmlElement& element, const Scope& outer) {
+    element.check(
+        {{"merge"},
+         {"uri", "name", "pose"},
+         {{"plugin", kProgram}, {"static", "is read of the model itself"}, {"placement_frame", "is not read"}}},
+        model_.left_out);
+    for (const char* word : {"static", "placement_frame"}) {
+      if (const auto child = element.child(word))
+        child->refuse("changes what is included, which is not read; allowed: to say it in the model itself");
+    }
+    if (element.find("merge").value_or("false") != "false") element.refuse("merge: is not read; allowed: false");
+    const XmlElement uri = element.only("uri");
+    const std::string path = uri.text();
+    if (path.find("://") != std::string::npos)
+      uri.refuse(fmt::format(
+          "'{}' is looked for in folders of this machine; allowed: the path of an .sdf file in the folder of the model",
+          path));
+    check_stays_in_folder(path, uri, path_);
+    const std::string file = (std::filesystem::path(path_).parent_path() / path).string();
+    if (outer.depth > kDeepest) uri.refuse(fmt::format("files include files deeper than {}", kDeepest));
+    included_.push_back(std::make_unique<XmlFile>(file));
+    size_ += included_.back()->size();
+    if (size_ > kLargestModel)
+      uri.refuse(fmt::format("with it the model is larger than {} MiB, the largest that is read", kLargestModel >> 20));
+    const XmlElement root = included_.back()->root();
+    const int version = version_;
+    const auto name = element.child("name");
+    if (root.name() != "sdf") root.refuse("found this at the top; allowed: <sdf>");
+    version_ = version_of(root);
+    read_model(root.only("model"), outer, name ? name->text() : "", element.child("pose"));
+    version_ = version;
+  }
+
+  void read_link(const XmlElement& element, const Scope& scope) {
+    Link link = read_sdf_link(element, path_, model_.left_out);
+    const auto pose = element.child("pose");
+    frames_.add(scope.name, link.name, sdf_pose(pose, model_.left_out), scope.name, base_of(pose, "__model__"),
+                element);
+    const std::string own = link.name;
+    links_[scope.name + own] = static_cast<int>(model_.links.size());
+    link.name = scope.name + own;
+    link.is_static = scope.is_static, link.model = scope.model, link.touches_own_model = scope.touches_itself;
+    const std::size_t index = model_.links.size();
+    model_.links.push_back(std::move(link));
+    later_.push_back({[=, name = scope.name](SdfReader& reader) { reader.place_link(index, name, own, element); }});
+  }
+
+  // The outermost model's name says nothing where it is the only one.
+  void shorten_names() {
+    const auto shorten = [&](std::string& name) { name = name.substr(name.find("::") + 2); };
+    for (Link& link : model_.links) shorten(link.name);
+    for (LinkJoint& row : model_.joints) {
+      if (row.joint.name.find("::") != std::string::npos) shorten(row.joint.name);
+    }
+  }
+
+  // From 1.7 on; before that `frame` meant nothing.
+  std::string base_of(const std::optional<XmlElement>& pose, const std::string& otherwise) const {
+    const std::string base = pose && version_ >= 7 ? pose->find("relative_to").value_or("") : "";
+    return base.empty() ? otherwise : base;
+  }
+
+  void place_link(std::size_t index, const std::string& scope, const std::string& name, const XmlElement& element) {
+    Link& link = model_.links[index];
+    link.pose = frames_.pose(scope, name, element);
+    for (LinkInertial& inertial : link.inertial) inertial.pose = link.pose * inertial.pose;
+    for (LinkShape& shape : link.shapes) {
+      shape.pose = link.pose * shape.pose;
+      if (auto* plane = std::get_if<Plane>(&shape.shape)) {
+        plane->normal = (shape.pose.orientation * plane->normal).normalized();
+        plane->offset = plane->normal.dot(shape.pose.position);
+      }
+    }
+  }
+
+  void read_frame(const XmlElement& element, const std::string& scope) {
+    element.check({{"name", "attached_to"}, {"pose"}}, model_.left_out);
+    const std::string to = element.find("attached_to").value_or(""), own = scope.empty() ? "" : "__model__";
+    const auto pose = element.child("pose");
+    frames_.add(scope, element.name_attribute(), sdf_pose(pose, model_.left_out), scope,
+                base_of(pose, to.empty() ? own : to), element);
+    if (!to.empty()) frames_.attach(scope, element.name_attribute(), to);
+  }
+
+  void read_joint(const XmlElement& element, const std::string& scope) {
+    element.check({{"name", "type"},
+                   {"parent", "child", "pose", "axis", "axis2"},
+                   {{"physics", "is a setting of one solver"},
+                    {"sensor", "is a sensor"},
+                    {"gearbox_ratio", "is of a joint that a scene does not have"},
+                    {"gearbox_reference_body", "is of a joint that a scene does not have"},
+                    {"thread_pitch", "is of a joint that a scene does not have"},
+                    {"screw_thread_pitch", "is of a joint that a scene does not have"}}},
+                  model_.left_out);
+    const std::string type = element.at("type");
+    if (std::find(kSdfJointTypes.begin(), kSdfJointTypes.end(), type) == kSdfJointTypes.end())
+      element.refuse(
+          fmt::format("type: found '{}'{}; allowed: {}", type, did_you_mean(type, kSdfJointTypes), listed(kSdfJointTypes)));
+    const auto pose = element.child("pose");
+    const std::string child = element.only("child").text(), name = element.name_attribute();
+    frames_.add(scope, name, sdf_pose(pose, model_.left_out), scope, base_of(pose, child), element);
+    frames_.attach(scope, name, child);
+    const int version = version_;
+    later_.push_back({[=](SdfReader& reader) { reader.finish_joint(element, scope, name, type, version); }});
+  }
+
+  int link_of(const XmlElement& element, const std::string& scope) {
+    const std::string name = element.text();
+    if (name == "world") return kWorld;
+    const auto found = links_.find(frames_.carrier(scope, name, element));
+    if (found != links_.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [whole, index] : links_)
+      names.push_back(whole.starts_with(scope) ? whole.substr(scope.size()) : whole);
+    element.refuse(fmt::format("there is no link '{}'{}", name, did_you_mean(name, names)));
+  }
+
+  Vec3 axis_of(const XmlElement& joint, const char* which, const std::string& scope, const std::string& name,
+               int version) {
+    const XmlElement axis = joint.only(which);
+    axis.check({{}, {"xyz", "limit", "dynamics", "use_parent_model_frame", "initial_position"}}, model_.left_out);
+    if (const auto initial = axis.child("initial_position"); initial && initial->number_of_text() != 0)
+      initial->refuse("is of a draft of the format, in which it was never defined; allowed: 0, or poses of the links");
+    const auto xyz = axis.child("xyz");
+    Vec3 along = Vec3::UnitZ();
+    std::string in = name;
+    if (xyz) {
+      xyz->check({{"expressed_in"}, {}}, model_.left_out);
+      along = direction_of(vector_of(xyz->numbers_of_text(3)), *xyz);
+      if (const auto frame = xyz->find("expressed_in"); frame && !frame->empty()) in = *frame;
+    }
+    const auto parent_frame = axis.child("use_parent_model_frame");
+    if (version <= 4 || (parent_frame && parent_frame->flag_of_text())) in = scope.empty() ? "world" : "__model__";
+    return (frames_.pose(scope, in, joint).orientation * along).normalized();
+  }
+
+  void finish_joint(const XmlElement& element, const std::string& scope, const std::string& name,
+                    const std::string& type, int version) {
+    LinkJoint row;
+    row.where = element.place();
+    row.joint.name = scope + name;
+    row.joint.a = link_of(element.only("parent"), scope), row.joint.b = link_of(element.only("child"), scope);
+    if (row.joint.a == row.joint.b) element.refuse("holds a link to itself");
+    if (row.joint.b == kWorld) element.refuse("the world hangs on nothing; allowed: as the parent");
+    const Vec3 anchor = frames_.pose(scope, name, element).position;
+    if (type == "screw" || type == "gearbox")
+      return model_.left_out.add(row.where, fmt::format("its type {}", type),
+                                 "a scene has no such joint: the two links are not held together");
+    if (type == "fixed") row.joint.type = FixedJoint{};
+    if (type == "ball") row.joint.type = BallJoint{anchor};
+    if (type == "universal" || type == "revolute2") {
+      row.joint.type = UniversalJoint{anchor, axis_of(element, "axis", scope, name, version),
+                                      axis_of(element, "axis2", scope, name, version)};
+      for (const char* which : {"axis", "axis2"}) leave_out_coordinate(element.only(which));
+    }
+    if (type == "revolute" || type == "continuous")
+      row.joint.type = HingeJoint{anchor, axis_of(element, "axis", scope, name, version)};
+    if (type == "prismatic") row.joint.type = SliderJoint{axis_of(element, "axis", scope, name, version)};
+    if (free_axis(row.joint)) read_coordinate(element.only("axis"), type, row.joint);
+    model_.joints.push_back(std::move(row));
+  }
+
+  void leave_out_coordinate(const XmlElement& axis) {
+    for (const char* word : {"limit", "dynamics"}) {
+      if (axis.child(word))
+        model_.left_out.add(axis.place(), fmt::format("<{}>", word),
+                            "of two axes a scene's joint has neither limits nor springs nor dampers");
+    }
+  }
+
+  void read_coordinate(const XmlElement& axis, const std::string& type, Joint& joint) {
+    if (const auto limit = axis.child("limit")) {
+      limit->check({{},
+                    {"lower", "upper"},
+                    {{"effort", kBoundsADrive},
+                     {"velocity", kBoundsADrive},
+                     {"stiffness", "is how soft a limit is, which in a scene is hard"},
+                     {"dissipation", "is how soft a limit is, which in a scene is hard"}}},
+                   model_.left_out);
+      const auto bound = [&](const char* word, double otherwise) {
+        const auto found = limit->child(word);
+        if (!found) return otherwise;
+        for (const char* infinite : {"inf", "-inf", "+inf", "infinity", "-infinity"}) {
+          if (found->text() == infinite) return otherwise;
+        }
+        const double value = found->number_of_text();
+        return std::abs(value) >= kUnlimited ? otherwise : value;
+      };
+      if (type != "continuous") joint.lower = bound("lower", joint.lower), joint.upper = bound("upper", joint.upper);
+      if (!(joint.lower < joint.upper))
+        limit->refuse(fmt::format("lower is {} and upper {}; allowed: limits of which the upper is greater",
+                                  joint.lower, joint.upper));
+    }
+    const auto dynamics = axis.child("dynamics");
+    if (!dynamics) return;
+    dynamics->check({{}, {"damping", "friction", "spring_reference", "spring_stiffness"}}, model_.left_out);
+    const auto value = [&](const char* word) {
+      const auto found = dynamics->child(word);
+      return found ? found->number_of_text() : 0;
+    };
+    joint.damping = not_negative(value("damping"), "damping", *dynamics);
+    joint.stiffness = not_negative(value("spring_stiffness"), "spring_stiffness", *dynamics);
+    joint.rest = value("spring_reference");
+    if (value("friction") != 0) model_.left_out.add(dynamics->place(), "<friction>", kDryFriction);
+  }
+
+  std::string path_;
+  LinkModel model_;
+  SdfFrames frames_;
+  std::map<std::string, int> links_;
+  std::vector<Later> later_;
+  std::vector<std::unique_ptr<XmlFile>> included_;
+  std::size_t size_ = 0;
+  int version_ = 0, models_ = 0;
+};
+
+}  // namespace
+
+LinkModel read_sdf(const XmlFile& file) { return SdfReader(file).read(file); }
+
+}  // namespace rigor

@@ -1,0 +1,278 @@
+#include "cases/import/urdf_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "cases/import/model_elements.h"
+#include "cases/import/model_files.h"
+#include "core/base/near_match.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kGravity = 9.81;  // m/s²: the format states none
+const std::vector<std::string> kJointTypes = {"revolute", "continuous", "prismatic", "fixed", "floating", "planar"};
+
+class UrdfReader {
+ public:
+  explicit UrdfReader(const XmlFile& file) : file_(file), root_(file.root()) {}
+
+  LinkModel read() {
+    if (root_.name() != "robot") root_.refuse("found this at the top; allowed: <robot>");
+    model_.name = root_.find("name").value_or("robot");
+    model_.combine = least_of;
+    model_.gravity = {0, 0, -kGravity};
+    model_.left_out.add(root_.place(), "gravity",
+                        fmt::format("the format states none; {} m/s² along -z are taken", kGravity));
+    root_.check({{"name", "version"},
+                 {"link", "joint"},
+                 {{"material", kIsSeen},
+                  {"transmission", "is about a drive, and a scene's motors are given as efforts or speeds"},
+                  {"gazebo", "is for Gazebo alone"},
+                  {"ros2_control", "is for a controller"},
+                  {"sensor", "is a sensor"},
+                  {"mujoco", "is for MuJoCo alone"}}},
+                model_.left_out);
+    for (const XmlElement& element : root_.children("link")) read_link(element);
+    if (model_.links.empty()) root_.refuse("there is no <link>");
+    for (const XmlElement& element : root_.children("joint")) read_joint(element);
+    place_links();
+    return std::move(model_);
+  }
+
+ private:
+  struct Held {  // a link by a joint
+    XmlElement element;
+    int parent, child;
+    BodyPose in_parent;
+  };
+
+  BodyPose origin_of(const XmlElement& of) {
+    const auto origin = of.child("origin");
+    if (!origin) return {};
+    origin->check({{"xyz", "rpy"}, {}}, model_.left_out);
+    const Vec3 rpy = vector_of(origin->find_numbers("rpy", 3));
+    return {vector_of(origin->find_numbers("xyz", 3)), turn_of(rpy.x(), rpy.y(), rpy.z())};
+  }
+
+  void read_link(const XmlElement& element) {
+    element.check({{"name"},
+                   {"inertial", "collision"},
+                   {{"visual", kIsSeen}, {"type", "says nothing of motion"}, {"sensor", "is a sensor"}}},
+                  model_.left_out);
+    for (const XmlElement& visual : element.children("visual")) check_mesh(visual);
+    Link link{element.name_attribute(), element.place(), {}};
+    if (!links_.emplace(link.name, model_.links.size()).second) element.refuse("another link has this name, too");
+    if (const auto inertial = element.child("inertial")) link.inertial.push_back(inertial_of(*inertial));
+    for (const XmlElement& collision : element.children("collision")) read_collision(collision, link);
+    model_.links.push_back(std::move(link));
+  }
+
+  LinkInertial inertial_of(const XmlElement& element) {
+    element.check({{}, {"origin", "mass", "inertia"}}, model_.left_out);
+    const XmlElement mass = element.only("mass"), inertia = element.only("inertia");
+    mass.check({{"value"}, {}}, model_.left_out);
+    inertia.check({{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}, {}}, model_.left_out);
+    LinkInertial out{mass.number("value"), origin_of(element),
+                     symmetric(inertia.number("ixx"), inertia.number("iyy"), inertia.number("izz"),
+                               inertia.number("ixy"), inertia.number("ixz"), inertia.number("iyz"))};
+    check_mass(out.mass, mass);
+    check_inertia(out.inertia, inertia);
+    return out;
+  }
+
+  // A mesh is left out, but what it names is looked at: whoever reads it next may open it.
+  void check_mesh(const XmlElement& of) {
+    const auto geometry = of.child("geometry");
+    const auto mesh = geometry ? geometry->child("mesh") : std::nullopt;
+    if (mesh) check_stays_in_folder(mesh->at("filename"), *mesh, file_.path());
+  }
+
+  void read_collision(const XmlElement& element, Link& link) {
+    element.check({{"name"},
+                   {"origin", "geometry"},
+                   {{"verbose", "says nothing of motion"}, {"contact_coefficients", "is not of the format any more"}}},
+                  model_.left_out);
+    check_mesh(element);
+    const XmlElement geometry = element.only("geometry");
+    geometry.check({{}, {"box", "sphere", "capsule"}, {{"cylinder", kCylinder}, {"mesh", kMesh}}}, model_.left_out);
+    const auto shape = shape_of(geometry);
+    if (shape)
+      link.shapes.push_back(
+          {*shape, origin_of(element), {0, 1}, 1, 1, element.where() + ": collision of link '" + link.name + "'"});
+  }
+
+  std::optional<Shape> shape_of(const XmlElement& geometry) {
+    std::optional<Shape> shape;
+    for (const XmlElement& element : geometry.children()) {
+      if (shape) element.refuse("is a second shape; allowed: one");
+      if (element.name() == "box") {
+        element.check({{"size"}, {}}, model_.left_out);
+        const Vec3 size = vector_of(element.find_numbers("size", 3));
+        positive(size.minCoeff(), "its least edge", element);
+        shape = Box{size};
+      } else if (element.name() == "sphere") {
+        element.check({{"radius"}, {}}, model_.left_out);
+        shape = Sphere{positive(element.number("radius"), "its radius", element)};
+      } else if (element.name() == "capsule") {
+        element.check({{"radius", "length"}, {}}, model_.left_out);
+        shape = Capsule{positive(element.number("radius"), "its radius", element),
+                        positive(element.number("length"), "its length", element)};
+      }
+    }
+    return shape;
+  }
+
+  int link_of(const XmlElement& joint, const char* which) {
+    const XmlElement element = joint.only(which);
+    element.check({{"link"}, {}}, model_.left_out);
+    const std::string name = element.at("link");
+    const auto found = links_.find(name);
+    if (found != links_.end()) return static_cast<int>(found->second);
+    if (name == "world") return kWorld;
+    std::vector<std::string> names;
+    for (const Link& link : model_.links) names.push_back(link.name);
+    element.refuse(fmt::format("there is no link '{}'{}", name, did_you_mean(name, names)));
+  }
+
+  void read_joint(const XmlElement& element) {
+    element.check({{"name", "type"},
+                   {"origin", "parent", "child", "axis", "limit", "dynamics"},
+                   {{"mimic", "couples two joints, which a scene does not: each moves by itself"},
+                    {"calibration", "is for a controller"},
+                    {"safety_controller", "is for a controller"},
+                    {"hardwareInterface", "is for a controller"}}},
+                  model_.left_out);
+    LinkJoint row;
+    row.where = element.place();
+    row.joint.name = element.name_attribute();
+    if (!joints_.insert(row.joint.name).second) element.refuse("another joint has this name, too");
+    row.joint.a = link_of(element, "parent"), row.joint.b = link_of(element, "child");
+    if (row.joint.a == row.joint.b) element.refuse("holds a link to itself");
+    if (row.joint.b == kWorld) element.refuse("the world hangs on nothing; allowed: as the parent");
+    const std::string type = element.at("type");
+    if (std::find(kJointTypes.begin(), kJointTypes.end(), type) == kJointTypes.end())
+      element.refuse(
+          fmt::format("type: found '{}'{}; allowed: {}", type, did_you_mean(type, kJointTypes), listed(kJointTypes)));
+    held_.push_back({element, row.joint.a, row.joint.b, origin_of(element)});
+    rows_.push_back(std::move(row));
+    types_.push_back(type);
+    read_coordinate(element, type, rows_.back());
+  }
+
+  void read_coordinate(const XmlElement& element, const std::string& type, LinkJoint& row) {
+    const auto limit = element.child("limit"), dynamics = element.child("dynamics"), axis = element.child("axis");
+    Vec3 along = Vec3::UnitX();  // the format's default
+    if (axis) {
+      axis->check({{"xyz"}, {}}, model_.left_out);
+      along = direction_of(vector_of(axis->find_numbers("xyz", 3)), *axis);
+    }
+    const bool slides = type == "prismatic", turns = type == "revolute" || type == "continuous";
+    if (slides) row.joint.type = SliderJoint{along};
+    if (turns) row.joint.type = HingeJoint{Vec3::Zero(), along};
+    if (type == "fixed") row.joint.type = FixedJoint{};
+    if (!slides && !turns) return;
+    if (dynamics) {
+      dynamics->check({{"damping", "friction"}, {}}, model_.left_out);
+      row.joint.damping = not_negative(dynamics->find_number("damping").value_or(0), "damping", *dynamics);
+      if (dynamics->find_number("friction").value_or(0) != 0)
+        model_.left_out.add(dynamics->place(), "attribute 'friction'", kDryFriction);
+    }
+    if (limit)
+      limit->check({{"lower", "upper"}, {}, {{"effort", kBoundsADrive}, {"velocity", kBoundsADrive}}}, model_.left_out);
+    if (type == "continuous") return;
+    if (!limit) element.refuse(fmt::format("there is no <limit>, which a {} joint must have", type));
+    row.joint.lower = limit->find_number("lower").value_or(0),
+    row.joint.upper = limit->find_number("upper").value_or(0);
+    if (!(row.joint.lower < row.joint.upper))
+      limit->refuse(fmt::format("lower is {} and upper {}; allowed: limits of which the upper is greater",
+                                row.joint.lower, row.joint.upper));
+  }
+
+  // From the root outwards; what is not reached hangs on itself.
+  void place_links() {
+    std::vector<std::vector<std::size_t>> below(model_.links.size() + 1);
+    std::vector<int> holder(model_.links.size(), -1);
+    for (std::size_t k = 0; k < held_.size(); ++k) {
+      if (holder[held_[k].child] >= 0)
+        held_[k].element.refuse(fmt::format("link '{}' hangs on two joints; allowed: one, for links make a tree",
+                                            model_.links[held_[k].child].name));
+      holder[held_[k].child] = static_cast<int>(k);
+      below[held_[k].parent + 1].push_back(k);
+    }
+    std::vector<int> waiting = {kWorld};
+    for (std::size_t i = 0; i < model_.links.size(); ++i) {
+      if (holder[i] >= 0) continue;
+      waiting.push_back(static_cast<int>(i));
+      place_root(model_.links[i]);
+    }
+    std::size_t placed = 0;
+    while (!waiting.empty()) {
+      const int parent = waiting.back();
+      waiting.pop_back();
+      placed += parent != kWorld;
+      for (const std::size_t k : below[parent + 1]) {
+        const BodyPose from = parent == kWorld ? BodyPose() : model_.links[parent].pose;
+        place(model_.links[held_[k].child], from * held_[k].in_parent, rows_[k]);
+        waiting.push_back(held_[k].child);
+      }
+    }
+    for (std::size_t i = 0; i < model_.links.size() && placed < model_.links.size(); ++i) {
+      if (!reached_[&model_.links[i]])
+        held_[holder[i]].element.refuse("its links hang on each other in a circle; allowed: a tree");
+    }
+    for (std::size_t k = 0; k < rows_.size(); ++k) keep(rows_[k], types_[k]);
+  }
+
+  // Without mass a root is what robots are bolted down by.
+  void place_root(Link& root) {
+    root.is_static = root.name == "world" || root.inertial.empty();
+    place_at(root, BodyPose());
+    if (root.is_static) return;
+    model_.left_out.add(
+        root.where, "a base",
+        "the root has mass, and nothing holds it to the world: it is free. A link without mass, or called 'world', "
+        "to which a fixed joint holds it would hold it down");
+  }
+
+  void place_at(Link& link, const BodyPose& pose) {
+    link.pose = pose, reached_[&link] = true;
+    for (LinkInertial& inertial : link.inertial) inertial.pose = pose * inertial.pose;
+    for (LinkShape& shape : link.shapes) shape.pose = pose * shape.pose;
+  }
+
+  void place(Link& link, const BodyPose& pose, LinkJoint& row) {
+    place_at(link, pose);
+    if (auto* hinge = std::get_if<HingeJoint>(&row.joint.type))
+      hinge->anchor = pose.position, hinge->axis = (pose.orientation * hinge->axis).normalized();
+    if (auto* slider = std::get_if<SliderJoint>(&row.joint.type))
+      slider->axis = (pose.orientation * slider->axis).normalized();
+  }
+
+  void keep(const LinkJoint& row, const std::string& type) {
+    if (type == "floating") return;  // which is what a body is without a joint
+    if (type == "planar")
+      return model_.left_out.add(row.where, "its planar type",
+                                 "a scene has no such joint: the two links are not held together");
+    model_.joints.push_back(row);
+  }
+
+  const XmlFile& file_;
+  XmlElement root_;
+  LinkModel model_;
+  std::map<std::string, std::size_t> links_;
+  std::map<const Link*, bool> reached_;
+  std::set<std::string> joints_;
+  std::vector<Held> held_;
+  std::vector<LinkJoint> rows_;
+  std::vector<std::string> types_;
+};
+
+}  // namespace
+
+LinkModel read_urdf(const XmlFile& file) { return UrdfReader(file).read(); }
+
+}  // namespace rigor

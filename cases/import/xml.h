@@ -1,0 +1,88 @@
+// XML as files of robots are written in it: every element knows its line, what is not asked for is named, and what has
+// no place in such a file (document types and with them entities, names given twice) is refused.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/scene/link_model.h"
+
+namespace tinyxml2 {
+class XMLDocument;
+class XMLElement;
+}  // namespace tinyxml2
+
+namespace rigor {
+
+// What an element may hold. `left_out`: elements and attributes of the format that no scene can say, and why.
+struct XmlKnown {
+  std::vector<std::string> attributes, elements;
+  std::vector<std::pair<std::string, std::string>> left_out = {};
+};
+
+class XmlElement {
+ public:
+  XmlElement(const tinyxml2::XMLElement* element, const std::string* file) : element_(element), file_(file) {}
+
+  std::string name() const;
+  std::string where() const;                                // "file:line"
+  std::string place() const;                                // "file:line: link 'arm'", for what is left out
+  [[noreturn]] void refuse(const std::string& what) const;  // InputError: "file:line: <link>: what"
+
+  std::optional<std::string> find(const std::string& attribute) const;
+  std::string at(const std::string& attribute) const;
+  std::string name_attribute() const;  // `name`, without control characters
+  std::optional<double> find_number(const std::string& attribute) const;
+  double number(const std::string& attribute) const;
+  std::vector<double> find_numbers(const std::string& attribute, std::size_t count) const;  // empty if not there
+
+  std::string text() const;  // without the white space around it
+  double number_of_text() const;
+  bool flag_of_text() const;
+  std::vector<double> numbers_of_text(std::size_t count) const;
+
+  std::vector<XmlElement> children() const;
+  std::vector<XmlElement> children(const std::string& name) const;
+  std::optional<XmlElement> child(const std::string& name) const;  // refuses a second one
+  XmlElement only(const std::string& name) const;
+
+  std::vector<std::pair<std::string, std::string>> attributes() const;
+
+  // Names what is left out; refuses a word that is near one of the known, for it was meant to be one.
+  void check(const XmlKnown& known, LeftOut& left_out) const;
+
+ private:
+  double one_number(const std::string& text, const std::string& what) const;
+  std::vector<double> numbers(const std::string& text, std::size_t count, const std::string& what) const;
+  std::string described() const;  // "link 'arm'", or of what has no name "link 'arm': <limit>"
+  void check_word(const std::string& word, const std::string& place, const std::string& what,
+                  const std::vector<std::string>& words, const XmlKnown& known, LeftOut& left_out) const;
+
+  const tinyxml2::XMLElement* element_;
+  const std::string* file_;
+};
+
+inline constexpr std::size_t kLargestModel = std::size_t{16} << 20;  // bytes; in memory it is thirty times as large
+
+class XmlFile {
+ public:
+  // Throws InputError with file and line.
+  explicit XmlFile(const std::string& path);
+  ~XmlFile();
+  XmlFile(const XmlFile&) = delete;
+  XmlFile& operator=(const XmlFile&) = delete;
+
+  XmlElement root() const;
+  std::size_t size() const { return size_; }  // bytes
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  std::size_t size_ = 0;
+  std::unique_ptr<tinyxml2::XMLDocument> document_;
+};
+
+}  // namespace rigor

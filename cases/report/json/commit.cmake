@@ -1,0 +1,16 @@
+# Writes a header with the commit that the sources are of; leaves the file alone where it says so already.
+# cmake -DROOT=... -DOUTPUT=... -P commit.cmake
+set(commit "")
+execute_process(COMMAND git -C ${ROOT} describe --always --dirty --abbrev=10 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE
+  ERROR_QUIET RESULT_VARIABLE failed)
+if(failed)
+  set(commit "")
+endif()
+set(text "// Made by commit.cmake.\n#define RIGOR_COMMIT \"${commit}\"\n")
+set(old "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} old)
+endif()
+if(NOT old STREQUAL text)
+  file(WRITE ${OUTPUT} "${text}")
+endif()

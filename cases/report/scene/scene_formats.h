@@ -1,0 +1,21 @@
+// A case's scene in the formats of other programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/link_model.h"
+
+namespace rigor {
+
+struct SceneFormat {
+  std::string name;
+  std::string (*text)(const Scene& scene, LeftOut& left_out);  // says what the format cannot
+};
+
+const std::vector<SceneFormat>& scene_formats();
+const SceneFormat& find_scene_format(const std::string& name);  // throws InputError
+
+std::string sdf_scene(const Scene& scene, LeftOut& left_out);
+
+}  // namespace rigor

@@ -1,0 +1,188 @@
+// SDF 1.9: what moves is one model, whose links' frames are the bodies', and each fixed body a static model of its own.
+// Joints stand in the model's frame, which is W.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "cases/report/scene/scene_formats.h"
+
+namespace rigor {
+namespace {
+
+std::string sdf_numbers(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
+
+// With a quaternion, for turns about three axes would lose digits.
+std::string sdf_pose_of(const BodyPose& pose) {
+  const Quat& q = pose.orientation;
+  return fmt::format("<pose rotation_format=\"quat_xyzw\">{} {} {} {} {}</pose>", sdf_numbers(pose.position), q.x(),
+                     q.y(), q.z(), q.w());
+}
+
+std::string sdf_escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return text;
+}
+
+struct SdfGeometry {
+  std::string operator()(const Sphere& s) const {
+    return fmt::format("<sphere><radius>{}</radius></sphere>", s.radius);
+  }
+  std::string operator()(const Box& b) const { return fmt::format("<box><size>{}</size></box>", sdf_numbers(b.size)); }
+  std::string operator()(const Capsule& c) const {
+    return fmt::format("<capsule><radius>{}</radius><length>{}</length></capsule>", c.radius, c.length);
+  }
+  std::string operator()(const Plane& p) const {
+    return fmt::format("<plane><normal>{}</normal></plane>", sdf_numbers(p.normal));
+  }
+};
+
+class SdfWriter {
+ public:
+  SdfWriter(const Scene& scene, LeftOut& left_out) : scene_(scene), left_out_(left_out) {}
+
+  std::string text() {
+    add("<?xml version=\"1.0\"?>\n<sdf version=\"1.9\">\n  <world name=\"rigor\">\n    <gravity>{}</gravity>\n",
+        sdf_numbers(scene_.gravity));
+    bool some_move = false;
+    for (const Body& body : scene_.bodies) {
+      some_move |= !body.fixed;
+      if (body.fixed) add_static(body);
+    }
+    if (some_move) add_moving();
+    add("  </world>\n</sdf>\n");
+    name_the_rest();
+    return std::move(out_);
+  }
+
+ private:
+  template <typename... Values>
+  void add(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Values>(values)...);
+  }
+
+  void add_shape(const Body& body, const char* indent) {
+    if (!body.shape) return;
+    const double mu = scene_.contact_default.friction;
+    const auto* plane = std::get_if<Plane>(&*body.shape);
+    const std::string pose =
+        plane ? fmt::format("<pose>{} 0 0 0</pose>", sdf_numbers(Vec3(plane->normal * plane->offset))) : "";
+    const std::string geometry = fmt::format("{}<geometry>{}</geometry>", pose, std::visit(SdfGeometry(), *body.shape));
+    add("{}<visual name=\"shape\">{}</visual>\n", indent, geometry);
+    if (!body.collides) return;
+    add("{}<collision name=\"shape\">{}<surface><friction><ode><mu>{}</mu><mu2>{}</mu2></ode></friction>", indent,
+        geometry, std::min(mu, 1e6), std::min(mu, 1e6));
+    add("<bounce><restitution_coefficient>{}</restitution_coefficient></bounce></surface></collision>\n",
+        scene_.contact_default.restitution);
+  }
+
+  void add_static(const Body& body) {
+    const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
+    add("    <model name=\"{}\">\n      <static>true</static>\n      {}\n      <link name=\"link\">\n",
+        sdf_escaped(body.name), sdf_pose_of(is_plane ? BodyPose() : BodyPose{body.position, body.orientation}));
+    add_shape(body, "        ");
+    add("      </link>\n    </model>\n");
+  }
+
+  // All bodies may touch each other here, and there only if the model says so.
+  void add_moving() {
+    add("    <model name=\"{}\">\n      <self_collide>true</self_collide>\n", kModel);
+    for (const Body& body : scene_.bodies) {
+      if (!body.fixed) add_link(body);
+    }
+    for (std::size_t k = 0; k < scene_.joints.size(); ++k) add_joint(k);
+    add("    </model>\n");
+  }
+
+  void add_link(const Body& body) {
+    const Mat3& I = body.inertia;
+    add("      <link name=\"{}\">\n        {}\n        <inertial><mass>{}</mass><inertia>", sdf_escaped(body.name),
+        sdf_pose_of({body.position, body.orientation}), body.mass);
+    add("<ixx>{}</ixx><iyy>{}</iyy><izz>{}</izz><ixy>{}</ixy><ixz>{}</ixz><iyz>{}</iyz></inertia></inertial>\n",
+        I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2));
+    add_shape(body, "        ");
+    add("      </link>\n");
+    if (!body.velocity.isZero(0) || !body.angular_velocity.isZero(0))
+      leave_out(fmt::format("body '{}'", body.name), "its velocity", "a model of SDF is at rest");
+  }
+
+  std::string end_of(int body) const {
+    if (body == kWorld || scene_.bodies[body].fixed) return "world";
+    return sdf_escaped(scene_.bodies[body].name);
+  }
+
+  void add_joint(std::size_t index) {
+    const Joint& joint = scene_.joints[index];
+    if (std::holds_alternative<DistanceJoint>(joint.type))
+      return leave_out(scene_.joint_name(index), "the joint", "SDF has no joint of a distance");
+    static const std::map<std::string, std::string> kTypes = {{"ball", "ball"},
+                                                              {"fixed", "fixed"},
+                                                              {"hinge", "revolute"},
+                                                              {"slider", "prismatic"},
+                                                              {"universal", "universal"}};
+    // The world hangs on nothing: a joint from a body to it is one from it to the body, the other way round.
+    const bool is_swapped = end_of(joint.b) == "world";
+    const double sign = is_swapped ? -1 : 1;
+    const std::string name = joint.name.empty() ? fmt::format("joint{}", index) : sdf_escaped(joint.name);
+    add("      <joint name=\"{}\" type=\"{}\">\n        <parent>{}</parent>\n        <child>{}</child>\n", name,
+        kTypes.at(joint_type_name(joint)), end_of(is_swapped ? joint.b : joint.a),
+        end_of(is_swapped ? joint.a : joint.b));
+    Vec3 anchor = Vec3::Zero();
+    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) anchor = ball->anchor;
+    if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) anchor = hinge->anchor;
+    if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) anchor = universal->anchor;
+    add("        <pose relative_to=\"__model__\">{} 0 0 0</pose>\n", sdf_numbers(anchor));
+    if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
+      add_axis("axis", is_swapped ? universal->axis2 : universal->axis, "");
+      add_axis("axis2", is_swapped ? universal->axis : universal->axis2, "");
+    } else if (const Vec3* axis = free_axis(joint)) {
+      add_axis("axis", sign * *axis, coordinate_of(joint));
+    }
+    add("      </joint>\n");
+  }
+
+  void add_axis(const char* which, const Vec3& axis, const std::string& more) {
+    add("        <{0}><xyz expressed_in=\"__model__\">{1}</xyz>{2}</{0}>\n", which, sdf_numbers(axis), more);
+  }
+
+  // Turned round at both ends it is the same coordinate.
+  static std::string coordinate_of(const Joint& joint) {
+    std::string text = "<limit>";
+    if (std::isfinite(joint.lower)) text += fmt::format("<lower>{}</lower>", joint.lower);
+    if (std::isfinite(joint.upper)) text += fmt::format("<upper>{}</upper>", joint.upper);
+    return text + fmt::format(
+                      "</limit><dynamics><damping>{}</damping><friction>0</friction><spring_reference>{}</"
+                      "spring_reference><spring_stiffness>{}</spring_stiffness></dynamics>",
+                      joint.damping, joint.rest, joint.stiffness);
+  }
+
+  void leave_out(const std::string& of, const std::string& what, const std::string& why) {
+    left_out_.add(of, what, why);
+  }
+
+  void name_the_rest() {
+    for (const Spring& spring : scene_.springs)
+      leave_out(fmt::format("a spring between '{}' and '{}'", scene_.body_name(spring.a), scene_.body_name(spring.b)),
+                "it", "SDF has no springs between points");
+    for (const Motor& motor : scene_.motors)
+      leave_out(fmt::format("a motor on {}", scene_.joint_name(static_cast<std::size_t>(motor.joint))), "it",
+                "SDF has no motors");
+    for (const TimedForce& force : scene_.forces)
+      leave_out(fmt::format("a force on '{}'", scene_.body_name(force.body)), "it", "SDF has no timed forces");
+    for (const ContactPair& pair : scene_.contact_pairs)
+      leave_out(fmt::format("the contact of '{}' and '{}'", scene_.body_name(pair.a), scene_.body_name(pair.b)),
+                "its values", "SDF has surfaces and no pairs; those of the rest are written");
+  }
+
+  static constexpr const char* kModel = "bodies";
+  const Scene& scene_;
+  LeftOut& left_out_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string sdf_scene(const Scene& scene, LeftOut& left_out) { return SdfWriter(scene, left_out).text(); }
+
+}  // namespace rigor

@@ -1,0 +1,264 @@
+// glTF 2.0 (registry.khronos.org/glTF): one file, its numbers as base64. A node a body, moved by an animation; below it
+// its shape, of a few meshes of size one that are scaled. Up is +y there: the node of the world turns the scene's up,
+// against gravity, to it.
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "cases/report/html/packing.h"
+#include "cases/report/trace/trace_formats.h"
+
+namespace rigor {
+namespace {
+
+using GltfJson = nlohmann::ordered_json;
+
+enum Component { kUnsignedShort = 5123, kFloat = 5126 };
+enum Target { kVertices = 34962, kIndices = 34963 };
+
+struct TriangleMesh {
+  std::vector<Vec3> points, normals;
+  std::vector<int> corners;  // three a triangle, anticlockwise as seen from outside
+};
+
+// Edges of 1.
+TriangleMesh cube() {
+  TriangleMesh mesh;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-0.5, 0.5}) {
+      const Vec3 normal = 2 * side * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
+      const int first = static_cast<int>(mesh.points.size());
+      for (const auto& [a, b] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
+        mesh.points.push_back(normal / 2 + a * u + b * v), mesh.normals.push_back(normal);
+      }
+      for (const int corner : {0, 1, 2, 0, 2, 3}) mesh.corners.push_back(first + corner);
+    }
+  }
+  return mesh;
+}
+
+constexpr int kRound = 24;  // points round a circle
+
+// A surface of rings about z, each of kRound + 1 points, from below upwards.
+TriangleMesh rings(const std::vector<std::array<double, 4>>& profile) {  // radius, height, and the normal's two parts
+  TriangleMesh mesh;
+  for (const auto& [radius, height, outwards, upwards] : profile) {
+    for (int k = 0; k <= kRound; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kRound;
+      const Vec3 out(std::cos(angle), std::sin(angle), 0);
+      mesh.points.push_back(radius * out + height * Vec3::UnitZ());
+      mesh.normals.push_back((outwards * out + upwards * Vec3::UnitZ()).normalized());
+    }
+  }
+  for (int ring = 0; ring + 1 < static_cast<int>(profile.size()); ++ring) {
+    for (int k = 0; k < kRound; ++k) {
+      const int low = ring * (kRound + 1) + k, high = low + kRound + 1;
+      for (const int corner : {low, low + 1, high + 1, low, high + 1, high}) mesh.corners.push_back(corner);
+    }
+  }
+  return mesh;
+}
+
+// Diameter and length 1, open at its ends.
+TriangleMesh tube() { return rings({{0.5, -0.5, 1, 0}, {0.5, 0.5, 1, 0}}); }
+
+// Diameter 1.
+TriangleMesh ball() {
+  std::vector<std::array<double, 4>> profile;
+  for (int k = 0; k <= kRound / 2; ++k) {
+    const double latitude = std::numbers::pi * (2.0 * k / kRound - 0.5), c = std::max(0.0, std::cos(latitude)),
+                 s = std::sin(latitude);
+    profile.push_back({c / 2, s / 2, c, s});
+  }
+  return rings(profile);
+}
+
+// A square of edge 1 that looks along z.
+TriangleMesh square() {
+  return {{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}},
+          std::vector<Vec3>(4, Vec3::UnitZ()),
+          {0, 1, 2, 0, 2, 3}};
+}
+
+enum MeshIndex { kCube, kTube, kBall, kSquare };
+
+class GltfFile {
+ public:
+  GltfFile() {
+    json_ = {{"asset", {{"version", "2.0"}, {"generator", "rigor"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
+    json_["nodes"] = GltfJson::array();
+    json_["materials"] = {material(0.25, 0.5, 0.85), material(0.6, 0.6, 0.6)};
+    for (const int material : {0, 1}) {
+      for (const TriangleMesh& mesh : {cube(), tube(), ball(), square()}) add_mesh(mesh, material);
+    }
+  }
+
+  int add_node(const GltfJson& node) {
+    json_["nodes"].push_back(node);
+    return static_cast<int>(json_["nodes"].size()) - 1;
+  }
+  GltfJson& node(int index) { return json_["nodes"][static_cast<std::size_t>(index)]; }
+
+  // Floats, `width` to each of `count`.
+  int add_floats(const std::vector<float>& values, int width, const GltfJson& bounds = {}, int target = 0) {
+    static const char* kTypes[] = {"", "SCALAR", "", "VEC3", "VEC4"};
+    GltfJson accessor = {{"bufferView", add_view(values.data(), values.size() * sizeof(float), target)},
+                         {"componentType", kFloat},
+                         {"count", values.size() / static_cast<std::size_t>(width)},
+                         {"type", kTypes[width]}};
+    accessor.update(bounds.is_null() ? GltfJson::object() : bounds);
+    return add_accessor(accessor);
+  }
+
+  void set_animation(const GltfJson& channels, const GltfJson& samplers) {
+    json_["animations"] = {{{"name", "motion"}, {"channels", channels}, {"samplers", samplers}}};
+  }
+
+  std::string text() {
+    json_["buffers"] = {
+        {{"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes_)}}};
+    return json_.dump() + "\n";
+  }
+
+ private:
+  static GltfJson material(double r, double g, double b) {
+    return {
+        {"pbrMetallicRoughness", {{"baseColorFactor", {r, g, b, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.7}}},
+        {"doubleSided", true}};
+  }
+
+  int add_view(const void* data, std::size_t size, int target) {
+    while (bytes_.size() % 4 != 0) bytes_ += '\0';
+    GltfJson view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
+    if (target != 0) view["target"] = target;
+    bytes_.append(static_cast<const char*>(data), size);
+    json_["bufferViews"].push_back(view);
+    return static_cast<int>(json_["bufferViews"].size()) - 1;
+  }
+  int add_accessor(const GltfJson& accessor) {
+    json_["accessors"].push_back(accessor);
+    return static_cast<int>(json_["accessors"].size()) - 1;
+  }
+
+  void add_mesh(const TriangleMesh& mesh, int material) {
+    std::vector<float> points, normals;
+    Vec3 low = mesh.points.front(), high = low;
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      low = low.cwiseMin(mesh.points[i]), high = high.cwiseMax(mesh.points[i]);
+      for (int k = 0; k < 3; ++k)
+        points.push_back(static_cast<float>(mesh.points[i][k])),
+            normals.push_back(static_cast<float>(mesh.normals[i][k]));
+    }
+    const auto floats = [](const Vec3& v) {
+      return GltfJson{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+    };
+    const int position = add_floats(points, 3, {{"min", floats(low)}, {"max", floats(high)}}, kVertices),
+              normal = add_floats(normals, 3, {}, kVertices);
+    const std::vector<std::uint16_t> corners(mesh.corners.begin(), mesh.corners.end());
+    const int indices = add_accessor({{"bufferView", add_view(corners.data(), 2 * corners.size(), kIndices)},
+                                      {"componentType", kUnsignedShort},
+                                      {"count", corners.size()},
+                                      {"type", "SCALAR"}});
+    json_["meshes"].push_back({{"primitives",
+                                {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
+                                  {"indices", indices},
+                                  {"material", material}}}}});
+  }
+
+  GltfJson json_;
+  std::string bytes_;
+};
+
+GltfJson gltf_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+GltfJson gltf_turn(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+
+// The nodes of a shape, below that of its body.
+struct ShapeNodes {
+  GltfFile& file;
+  int meshes;  // the first of those in its colour
+  std::vector<int> nodes = {};
+
+  void add(MeshIndex mesh, const Vec3& scale, const Vec3& at = Vec3::Zero(), const Quat& turn = Quat::Identity()) {
+    nodes.push_back(file.add_node({{"mesh", meshes + mesh},
+                                   {"scale", gltf_vector(scale)},
+                                   {"translation", gltf_vector(at)},
+                                   {"rotation", gltf_turn(turn)}}));
+  }
+  void operator()(const Sphere& sphere) { add(kBall, Vec3::Constant(2 * sphere.radius)); }
+  void operator()(const Box& box) { add(kCube, box.size); }
+  void operator()(const Capsule& capsule) {
+    const double width = 2 * capsule.radius;
+    add(kTube, {width, width, capsule.length});
+    for (const double side : {-0.5, 0.5}) add(kBall, Vec3::Constant(width), side * capsule.length * Vec3::UnitZ());
+  }
+  void operator()(const Plane& plane) {
+    const BodyPose pose = pose_of_plane(plane);
+    add(kSquare, Vec3::Constant(2 * kDrawnPlane), pose.position, pose.orientation);
+  }
+};
+
+class GltfTrace : public TraceWriter {
+ public:
+  explicit GltfTrace(const Scene& scene)
+      : scene_(scene), positions_(scene.bodies.size()), turns_(scene.bodies.size()) {}
+
+  std::string add(const Sample& sample) override {
+    times_.push_back(static_cast<float>(sample.time));
+    const BodyColumns bodies = sample.bodies.columns();
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const Vec3 p = bodies.position(i);
+      Quat q = bodies.orientation(i).normalized();
+      // The shorter way from one to the next is the one that is meant.
+      if (!turns_[i].empty() &&
+          q.coeffs().cast<float>().dot(Eigen::Map<const Eigen::Vector4f>(&turns_[i][turns_[i].size() - 4])) < 0)
+        q.coeffs() = -q.coeffs();
+      for (int k = 0; k < 3; ++k) positions_[i].push_back(static_cast<float>(p[k]));
+      for (int k = 0; k < 4; ++k) turns_[i].push_back(static_cast<float>(q.coeffs()[k]));
+    }
+    return "";
+  }
+
+  std::string end() override {
+    GltfFile file;
+    const Vec3 up = scene_.gravity.isZero(0) ? Vec3::UnitY().eval() : Vec3(-scene_.gravity.normalized());
+    const int world =
+        file.add_node({{"name", "world"}, {"rotation", gltf_turn(Quat::FromTwoVectors(up, Vec3::UnitY()))}});
+    GltfJson channels = GltfJson::array(), samplers = GltfJson::array(), children = GltfJson::array();
+    const int input =
+        times_.empty() ? -1 : file.add_floats(times_, 1, {{"min", {times_.front()}}, {"max", {times_.back()}}});
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const Body& body = scene_.bodies[i];
+      constexpr int kMeshes = 4;  // in each colour
+      ShapeNodes shape{file, body.fixed ? kMeshes : 0};
+      std::visit(shape, drawn_shape(body));
+      const int node = file.add_node({{"name", body.name},
+                                      {"translation", gltf_vector(body.position)},
+                                      {"rotation", gltf_turn(body.orientation)},
+                                      {"children", shape.nodes}});
+      children.push_back(node);
+      if (body.fixed || input < 0) continue;
+      const auto animate = [&](const char* path, int output) {
+        channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+        samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+      };
+      animate("translation", file.add_floats(positions_[i], 3));
+      animate("rotation", file.add_floats(turns_[i], 4));
+    }
+    file.node(world)["children"] = children;
+    if (!channels.empty()) file.set_animation(channels, samplers);
+    return file.text();
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<float> times_;                           // s
+  std::vector<std::vector<float>> positions_, turns_;  // by body: m; x, y, z, w
+};
+
+}  // namespace
+
+std::unique_ptr<TraceWriter> gltf_trace(const Scene& scene) { return std::make_unique<GltfTrace>(scene); }
+
+}  // namespace rigor

@@ -1,0 +1,153 @@
+// A run as Foxglove shows it: each body a frame, moved by FrameTransforms, and once its shape, by SceneUpdate
+// (docs.foxglove.dev/docs/visualization/message-schemas). Quaternions there are x, y, z, w by name.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cases/report/trace/mcap_file.h"
+#include "cases/report/trace/trace_formats.h"
+
+namespace rigor {
+namespace {
+
+using McapJson = nlohmann::ordered_json;
+
+constexpr const char* kRoot = "world";
+
+McapJson xyz(const Vec3& v) { return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}}; }
+McapJson xyzw(const Quat& q) { return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}}; }
+McapJson pose_json(const BodyPose& pose) {
+  return {{"position", xyz(pose.position)}, {"orientation", xyzw(pose.orientation)}};
+}
+
+std::uint64_t nanoseconds_of(double seconds) { return static_cast<std::uint64_t>(std::llround(seconds * 1e9)); }
+McapJson stamp(std::uint64_t nanoseconds) {
+  return {{"sec", nanoseconds / 1000000000}, {"nsec", nanoseconds % 1000000000}};
+}
+
+McapJson object_of(const McapJson& properties) { return {{"type", "object"}, {"properties", properties}}; }
+McapJson list_of(const McapJson& items) { return {{"type", "array"}, {"items", items}}; }
+
+// Foxglove's schemas, as far as what is written goes.
+struct Schemas {
+  McapJson number = {{"type", "number"}}, text = {{"type", "string"}}, flag = {{"type", "boolean"}};
+  McapJson time = object_of({{"sec", {{"type", "integer"}}}, {"nsec", {{"type", "integer"}}}});
+  McapJson vector = object_of({{"x", number}, {"y", number}, {"z", number}});
+  McapJson quaternion = object_of({{"x", number}, {"y", number}, {"z", number}, {"w", number}});
+  McapJson pose = object_of({{"position", vector}, {"orientation", quaternion}});
+  McapJson colour = object_of({{"r", number}, {"g", number}, {"b", number}, {"a", number}});
+
+  McapJson transforms() const {
+    McapJson schema = object_of({{"transforms", list_of(object_of({{"timestamp", time},
+                                                                   {"parent_frame_id", text},
+                                                                   {"child_frame_id", text},
+                                                                   {"translation", vector},
+                                                                   {"rotation", quaternion}}))}});
+    schema["title"] = "foxglove.FrameTransforms";
+    return schema;
+  }
+  McapJson scene() const {
+    const McapJson solid = object_of({{"pose", pose}, {"size", vector}, {"color", colour}});
+    const McapJson cylinder = object_of(
+        {{"pose", pose}, {"size", vector}, {"bottom_scale", number}, {"top_scale", number}, {"color", colour}});
+    const McapJson nothing = list_of(object_of(McapJson::object()));
+    McapJson entity = object_of({{"timestamp", time},
+                                 {"frame_id", text},
+                                 {"id", text},
+                                 {"lifetime", time},
+                                 {"frame_locked", flag},
+                                 {"metadata", nothing},
+                                 {"arrows", nothing},
+                                 {"cubes", list_of(solid)},
+                                 {"spheres", list_of(solid)},
+                                 {"cylinders", list_of(cylinder)},
+                                 {"lines", nothing},
+                                 {"triangles", nothing},
+                                 {"texts", nothing},
+                                 {"models", nothing}});
+    McapJson schema = object_of({{"deletions", nothing}, {"entities", list_of(entity)}});
+    schema["title"] = "foxglove.SceneUpdate";
+    return schema;
+  }
+};
+
+class Entity {
+ public:
+  explicit Entity(const Body& body) {
+    json_ = {{"timestamp", stamp(0)},
+             {"frame_id", body.name},
+             {"id", body.name},
+             {"lifetime", stamp(0)},
+             {"frame_locked", true}};
+    for (const char* kind :
+         {"metadata", "arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"})
+      json_[kind] = McapJson::array();
+    colour_ = body.fixed ? McapJson{{"r", 0.6}, {"g", 0.6}, {"b", 0.6}, {"a", 0.5}}
+                         : McapJson{{"r", 0.25}, {"g", 0.5}, {"b", 0.85}, {"a", 1}};
+    std::visit(*this, drawn_shape(body));
+  }
+  void operator()(const Sphere& sphere) { add("spheres", BodyPose(), Vec3::Constant(2 * sphere.radius)); }
+  void operator()(const Box& box) { add("cubes", BodyPose(), box.size); }
+  void operator()(const Capsule& capsule) {
+    add("cylinders", BodyPose(), {2 * capsule.radius, 2 * capsule.radius, capsule.length});
+    json_["cylinders"].back()["bottom_scale"] = json_["cylinders"].back()["top_scale"] = 1;
+    for (const double side : {-0.5, 0.5})
+      add("spheres", {side * capsule.length * Vec3::UnitZ()}, Vec3::Constant(2 * capsule.radius));
+  }
+  // The frame of a plane's body is W itself.
+  void operator()(const Plane& plane) {
+    constexpr double kThin = 0.01;  // m
+    BodyPose pose = pose_of_plane(plane);
+    pose.position -= kThin / 2 * plane.normal;
+    add("cubes", pose, {2 * kDrawnPlane, 2 * kDrawnPlane, kThin});
+  }
+  const McapJson& json() const { return json_; }
+
+ private:
+  void add(const char* kind, const BodyPose& pose, const Vec3& size) {
+    json_[kind].push_back({{"pose", pose_json(pose)}, {"size", xyz(size)}, {"color", colour_}});
+  }
+  McapJson json_, colour_;
+};
+
+class McapTrace : public TraceWriter {
+ public:
+  explicit McapTrace(const Scene& scene) : scene_(scene) {
+    const Schemas schemas;
+    shapes_ = file_.add_channel("/scene", "foxglove.SceneUpdate", schemas.scene().dump());
+    frames_ = file_.add_channel("/tf", "foxglove.FrameTransforms", schemas.transforms().dump());
+  }
+
+  std::string begin() override {
+    McapJson entities = McapJson::array();
+    for (const Body& body : scene_.bodies) entities.push_back(Entity(body).json());
+    const std::string start = file_.begin();
+    return start + file_.add(shapes_, 0, McapJson{{"deletions", McapJson::array()}, {"entities", entities}}.dump());
+  }
+
+  std::string add(const Sample& sample) override {
+    const std::uint64_t time = nanoseconds_of(sample.time);
+    McapJson transforms = McapJson::array();
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const BodyColumns bodies = sample.bodies.columns();
+      transforms.push_back({{"timestamp", stamp(time)},
+                            {"parent_frame_id", kRoot},
+                            {"child_frame_id", scene_.bodies[i].name},
+                            {"translation", xyz(bodies.position(i))},
+                            {"rotation", xyzw(bodies.orientation(i))}});
+    }
+    return file_.add(frames_, time, McapJson{{"transforms", transforms}}.dump());
+  }
+
+  std::string end() override { return file_.end(); }
+
+ private:
+  const Scene& scene_;
+  McapFile file_;
+  std::uint16_t shapes_ = 0, frames_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<TraceWriter> mcap_trace(const Scene& scene) { return std::make_unique<McapTrace>(scene); }
+
+}  // namespace rigor

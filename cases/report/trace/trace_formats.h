@@ -1,0 +1,42 @@
+// One run's motion in the formats that other programs read. A row of the table each; a writer gets the samples one by
+// one and returns what is to be written next.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/engine/trajectory.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+class TraceWriter {
+ public:
+  virtual ~TraceWriter() = default;
+  virtual std::string begin() { return ""; }
+  virtual std::string add(const Sample& sample) = 0;
+  virtual std::string end() { return ""; }
+};
+
+struct TraceFormat {
+  std::string name, summary;
+  std::unique_ptr<TraceWriter> (*writer)(const Scene& scene);  // the scene must live on
+};
+
+const std::vector<TraceFormat>& trace_formats();                // "csv" first, which is the default
+const TraceFormat& find_trace_format(const std::string& name);  // throws InputError
+
+std::unique_ptr<TraceWriter> csv_trace(const Scene& scene);
+std::unique_ptr<TraceWriter> gltf_trace(const Scene& scene);
+std::unique_ptr<TraceWriter> jsonl_trace(const Scene& scene);
+std::unique_ptr<TraceWriter> mcap_trace(const Scene& scene);
+
+// What a body is drawn as: its shape, or the ball of its mean inertia where it has none.
+Shape drawn_shape(const Body& body);
+
+// Half the edge of the square that a plane is drawn as [m], about the foot of the world's origin on it.
+inline constexpr double kDrawnPlane = 10;
+BodyPose pose_of_plane(const Plane& plane);  // its z is the normal
+
+}  // namespace rigor

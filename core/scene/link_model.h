@@ -1,0 +1,80 @@
+// A mechanism as the formats of robots describe it: links with any number of shapes anywhere on them, and joints. What
+// a reader of such a format makes; cases/import makes a scene of it. SI units; poses, anchors and axes are those in
+// which every joint is at its zero.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// The elements of a file that no scene can say. A kind is what was left out and why; beyond the first places of a kind
+// its others are counted.
+class LeftOut {
+ public:
+  static constexpr std::size_t kPlaces = 20, kMostKinds = 1000;
+
+  // `where`: "file:line: link 'arm'". Throws InputError beyond kMostKinds.
+  void add(const std::string& where, const std::string& what, const std::string& why);
+  std::vector<std::string> sentences() const;  // in the order in which the kinds were met
+
+ private:
+  struct Kind {
+    std::string what, why;
+    std::vector<std::string> places;
+    std::size_t count = 0;
+  };
+  std::vector<Kind> kinds_;
+  std::map<std::pair<std::string, std::string>, std::size_t> index_;
+};
+
+struct LinkInertial {
+  double mass = 0;              // kg
+  BodyPose pose;                // in W: its origin the centre of mass, its axes those of the inertia
+  Mat3 inertia = Mat3::Zero();  // kg m², about the centre of mass, in the pose's axes
+};
+
+struct LinkShape {
+  Shape shape;                      // a plane as the scene has it, in W: `pose` is of no meaning
+  BodyPose pose;                    // in W
+  ContactLaw surface;               // of this shape; LinkModel::combine makes a pair's
+  unsigned type = 1, affinity = 1;  // two shapes may touch if a bit of one's type is in the other's affinity
+  std::string where;                // for messages: "file:line: collision 'foot'"
+};
+
+struct Link {
+  std::string name, where;                  // where: "file:line: link 'arm'"
+  BodyPose pose;                            // in W
+  std::vector<LinkInertial> inertial = {};  // one, or none
+  std::vector<LinkShape> shapes = {};
+  bool is_static = false;          // part of the world
+  int model = 0;                   // links of one model
+  bool touches_own_model = false;  // may touch other links of it, but those it is joined to
+};
+
+struct LinkJoint {
+  Joint joint;       // a and b: links, or kWorld; anchor and axes in W
+  double start = 0;  // rad, m: where it is at t = 0; a scene's joint counts from there
+  std::string where = "";
+};
+
+struct LinkModel {
+  std::string name;
+  Vec3 gravity = Vec3::Zero();  // m/s²
+  std::vector<Link> links;
+  std::vector<LinkJoint> joints;
+  std::vector<Spring> springs;                  // a and b: links; points in their frames
+  std::vector<Motor> motors;                    // joint: of `joints`
+  std::vector<std::pair<int, int>> kept_apart;  // links that never touch, beside those that a joint holds together
+  double (*combine)(double, double) = nullptr;  // of two surfaces' friction, and of their restitution
+  LeftOut left_out;
+};
+
+BodyPose operator*(const BodyPose& a, const BodyPose& b);  // b, given in a's frame, in the frame that a is given in
+BodyPose inverse(const BodyPose& pose);
+
+}  // namespace rigor

@@ -1,0 +1,171 @@
+// MuJoCo's own loader against our import of the same file: both step by the same scheme, so that what differs is the
+// import.
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <boost/test/unit_test.hpp>
+#include <ctime>
+
+#include "adapters/models.h"
+#include "adapters/mujoco/mujoco_library.h"
+#include "tests/adapters/free_body_measures.h"
+#include "tests/cases/import/imported.h"
+
+using namespace rigor;
+using namespace rigor::test;
+
+namespace {
+
+const std::string kModels = RIGOR_SOURCE_DIR "/tests/cases/import/models/";
+constexpr double kStep = 1e-3;  // s
+
+// As its loader reads the file, without what a scene is not compared in: limits, which are soft there, and contacts.
+struct Own {
+  mujoco_library::Model model;
+  mujoco_library::Data data;
+
+  explicit Own(const std::string& path) {
+    mujoco_library::start();
+    char error[1000] = "";
+    model.reset(mj_loadXML(path.c_str(), nullptr, error, sizeof error));
+    BOOST_TEST_REQUIRE((model != nullptr), error);
+    model->opt.timestep = kStep, model->opt.integrator = mjINT_EULER;
+    model->opt.disableflags |= mjDSBL_LIMIT | mjDSBL_CONTACT;
+    data.reset(mj_makeData(model.get()));
+    mj_forward(model.get(), data.get());
+  }
+  int body(const std::string& name) const { return mj_name2id(model.get(), mjOBJ_BODY, name.c_str()); }
+  Vec3 centre(int id) const { return Eigen::Map<const Vec3>(data->xipos + 3 * id); }
+  Quat turn(int id) const {
+    const mjtNum* q = data->xquat + 4 * id;
+    return {q[0], q[1], q[2], q[3]};
+  }
+};
+
+Scene without_limits(Scene scene) {
+  for (Joint& joint : scene.joints) {
+    joint.lower = -std::numeric_limits<double>::infinity(), joint.upper = -joint.lower, joint.restitution = 0;
+  }
+  return scene;
+}
+
+struct Apart {
+  double position = 0, turn = 0, path = 0;  // m, rad; how far the body that moved most has come
+};
+
+// Its own world against a run of ours on the scene, body by body of the same name.
+Apart apart_after(Own& own, const Scene& scene, double duration) {
+  const auto world = load_run("mujoco", scene);
+  std::vector<Quat> own_start;
+  for (const Body& body : scene.bodies) own_start.push_back(own.turn(own.body(body.name)));
+  for (int i = 0; i < std::lround(duration / kStep); ++i) mj_step(own.model.get(), own.data.get()), world->step(kStep);
+  mj_kinematics(own.model.get(), own.data.get());
+  Snapshot found;
+  world->read(found);
+  Apart apart;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const int id = own.body(scene.bodies[i].name);
+    BOOST_TEST_REQUIRE(id > 0);
+    const BodyState ours = found.bodies().body(i);
+    apart.position = std::max(apart.position, (ours.position - own.centre(id)).norm());
+    apart.path = std::max(apart.path, (ours.position - scene.bodies[i].position).norm());
+    const Quat of_own = own.turn(id) * own_start[i].conjugate();
+    const Quat of_ours = ours.orientation * scene.bodies[i].orientation.conjugate();
+    apart.turn = std::max(apart.turn, angle_between(of_own, of_ours));
+  }
+  return apart;
+}
+
+void check_alike(const std::string& what, const Apart& apart) {
+  BOOST_TEST_MESSAGE(fmt::format("{}: {:.2g} m and {:.2g} rad apart after 1 s, in which a body moved by {:.2g} m", what,
+                                 apart.position, apart.turn, apart.path));
+  BOOST_TEST(apart.path > 0.1, what);
+  BOOST_TEST(apart.position < 1e-9, what << " " << apart.position);
+  BOOST_TEST(apart.turn < 1e-9, what << " " << apart.turn);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(adapters_mujoco_import)
+
+// 1e-9 is what an import has to keep to at 1/1000; a moment that was turned the wrong way is seen at once.
+BOOST_AUTO_TEST_CASE(its_own_loader_and_our_import_move_alike) {
+  for (const char* file : {"mechanism.xml", "arm.urdf", "double_pendulum.urdf"}) {
+    Own own(kModels + file);
+    check_alike(file, apart_after(own, without_limits(scene_of_file(kModels + file)), 1));
+  }
+}
+
+// Its Newton solver and ours are not asked: nothing touches and no loop is closed.
+BOOST_AUTO_TEST_CASE(a_case_that_is_exported_starts_and_moves_there_as_it_does_here) {
+  const std::string suite = RIGOR_SOURCE_DIR "/cases/suite/";
+  for (const char* id : {"joints/double-pendulum", "joints/cart-pendulum", "joints/slider-oscillator",
+                         "springs/body-springs", "ballistic/fast-spin"}) {
+    const Scene scene = read_case(suite + id + ".toml", id, words()).scene;
+    LeftOut left_out;
+    const Folder folder;
+    const std::string path = folder.write("case.xml", mjcf_of(scene, left_out));
+    BOOST_TEST(left_out.sentences().empty(), id);
+    Own own(path);
+    if (own.model->nkey > 0) mj_resetDataKeyframe(own.model.get(), own.data.get(), 0);
+    mj_forward(own.model.get(), own.data.get());
+    for (const Body& body : scene.bodies) {
+      BOOST_TEST((own.centre(own.body(body.name)) - body.position).norm() < 1e-14, id);
+      mjtNum velocity[6];  // angular, then linear
+      mj_objectVelocity(own.model.get(), own.data.get(), mjOBJ_BODY, own.body(body.name), velocity, 0);
+      BOOST_TEST((Eigen::Map<Vec3>(velocity) - body.angular_velocity).norm() < 1e-12, id);
+      BOOST_TEST((Eigen::Map<Vec3>(velocity + 3) - body.velocity).norm() < 1e-12, id);
+    }
+    check_alike(id, apart_after(own, scene, 1));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_compiled_model_comes_with_all_that_a_scene_can_say) {
+  const Scene scene = scene_of_file(kModels + "mechanism.xml");
+  BOOST_TEST(scene.bodies.size() == 7u);
+  BOOST_TEST(joint_named(scene, "shoulder").stiffness == 4);
+  BOOST_TEST(joint_named(scene, "shoulder").rest == 0.3);
+  // It counts from where it is at t = 0, which the file calls 0.2.
+  BOOST_TEST(std::abs(joint_named(scene, "rail").rest - 0.3) < 1e-15);
+  BOOST_TEST(std::holds_alternative<BallJoint>(joint_named(scene, "wrist").type));
+  BOOST_TEST(std::holds_alternative<UniversalJoint>(joint_named(scene, "tilt").type));
+  BOOST_TEST(joint_named(scene, "knob").stiffness == 3);  // kp times the square of the gear
+  BOOST_TEST_REQUIRE(scene.springs.size() == 1u);
+  BOOST_TEST((scene.springs[0].stiffness == 50 && scene.springs[0].rest_length == 1.5));
+  BOOST_TEST((scene.gravity - Vec3(0.3, -0.2, -9.7)).norm() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(what_it_says_and_a_scene_does_not_is_named) {
+  const std::string text =
+      R"(<mujoco><compiler angle="radian"/><worldbody><geom name="floor" type="plane" size="1 1 1"/><body name="b" pos="0 0 1">
+    <joint name="j" type="hinge" axis="0 1 0" armature="0.1" frictionloss="0.2" range="-0.5 0.7" limited="true"/>
+    <geom name="c" type="cylinder" size="0.1 0.2"/></body></worldbody><actuator><motor name="m" joint="j"/></actuator></mujoco>)";
+  const auto left_out = left_out_of_model("m.xml", text);
+  for (const char* part : {"joint 'j': armature", "joint 'j': frictionloss", "geom 'c': its shape: is a cylinder",
+                           "actuator 'm': it: is a drive"})
+    BOOST_TEST(some_has(left_out, part), part);
+  const Joint joint = joint_named(scene_of_text("m.xml", text), "j");
+  BOOST_TEST((joint.lower == -0.5 && joint.upper == 0.7));
+  BOOST_TEST(refusal_of("m.xml", "<mujoco>\n<worldbody>\n<boddy/></worldbody></mujoco>")
+                 .starts_with("m.xml:3: MuJoCo refuses the model: "));
+}
+
+BOOST_AUTO_TEST_CASE(a_thousand_bodies_take_less_than_a_second) {
+  std::string text = "<mujoco><option gravity='0 0 -9.81'/><worldbody>";
+  for (int k = 0; k < 1000; ++k) {
+    text += fmt::format(
+        "<body name='b{0}' pos='{1} {2} 1'><{3}/><geom type='capsule' size='0.1 0.2' contype='0' "
+        "conaffinity='0'/></body>",
+        k, k % 40, k / 40, k % 2 ? "freejoint" : "joint type='hinge' axis='0 1 0'");
+  }
+  const Folder folder;
+  const std::string path = folder.write("many.xml", text + "</worldbody></mujoco>");
+  const std::clock_t start = std::clock();
+  const Import made = import_model(path);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  BOOST_TEST_MESSAGE(fmt::format("a model of 1000 bodies is imported in {:.2f} s of CPU time", seconds));
+  BOOST_TEST(seconds < 1);
+  BOOST_TEST(scene_of_file(path).bodies.size() == 1000u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,176 @@
+// What nobody vouches for: each is refused with its file and line, and nothing outside the model's folder is opened.
+#include <sys/resource.h>
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/cases/cli/program.h"
+#include "tests/cases/import/imported.h"
+
+using namespace rigor;
+using namespace rigor::test;
+
+namespace {
+
+struct Bad {
+  std::string name, text, says;
+};
+
+std::string robot(const std::string& inside) { return "<robot name='r'>\n" + inside + "\n</robot>"; }
+std::string link(const std::string& name) {
+  return "<link name='" + name +
+         "'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>";
+}
+std::string joint(const std::string& name, const std::string& parent, const std::string& child,
+                  const std::string& more = "") {
+  return "<joint name='" + name + "' type='continuous'><parent link='" + parent + "'/><child link='" + child + "'/>" +
+         more + "</joint>";
+}
+std::string sdf(const std::string& inside) {
+  return "<sdf version='1.7'>\n<model name='m'>" + inside + "</model></sdf>";
+}
+
+std::string repeated(const std::string& part, std::size_t size) {
+  std::string text;
+  while (text.size() + part.size() <= size) text += part;
+  return text;
+}
+
+const std::string kBomb = "<!DOCTYPE lolz [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;&a;&a;&a;&a;&a;'>]>\n";
+
+std::vector<Bad> bad_files() {
+  return {
+      {"a.urdf", "", "a.urdf:1: "},
+      {"a.urdf", "<robot name='r'>\n<link name='a'>\n</robot>", "a.urdf:2: is not XML: mismatched element"},
+      {"a.urdf", kBomb + robot(link("&b;")), "a.urdf:1: found a document type"},
+      {"a.xml", kBomb + "<mujoco/>", "a.xml:1: found a document type"},
+      {"a.urdf", robot("") + robot(""), "a second element at the top"},
+      {"a.urdf", robot(link("a\xff")), "a.urdf:2: found bytes that are not UTF-8"},
+      {"a.urdf", robot(link("a&#7;")), "a.urdf:2: link 'a\a': its name is empty or holds a control character"},
+      {"a.xml", "<html/>", "a.xml:1: <html>: found this at the top; allowed: <mujoco>, <robot>, <sdf>"},
+      {"a.urdf", robot("<link name='a'><inertial><mas value='1'/></inertial></link>"),
+       "<mas> is not of the format (did you mean 'mass'?)"},
+      {"a.urdf", robot(link("a") + link("a")), "a.urdf:2: link 'a': another link has this name, too"},
+      {"a.urdf", robot(link("a") + link("b") + joint("j", "a", "b") + joint("j", "a", "b")),
+       "another joint has this name, too"},
+      {"a.urdf", robot(link("a") + link("b") + joint("j", "a", "b") + joint("k", "b", "a")),
+       "hang on each other in a circle"},
+      {"a.urdf", robot(link("a") + link("b") + joint("j", "a", "b") + joint("k", "a", "b")),
+       "link 'b' hangs on two joints"},
+      {"a.urdf", robot(link("arm") + joint("j", "armm", "arm")), "there is no link 'armm' (did you mean 'arm'?)"},
+      {"a.urdf",
+       robot("<link name='a'><inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+             "iyz='0'/></inertial></link>"),
+       "a.urdf:2: link 'a': <mass>: the mass is -1"},
+      {"a.urdf",
+       robot("<link name='a'><inertial><mass value='1'/><inertia ixx='-1' iyy='1' izz='1' ixy='0' ixz='0' "
+             "iyz='0'/></inertial></link>"),
+       "no body has this inertia"},
+      {"a.urdf",
+       robot("<link name='a'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='3' ixy='0' ixz='0' "
+             "iyz='0'/></inertial></link>"),
+       "none may be greater than the sum of the other two"},
+      {"a.urdf",
+       robot("<link name='a'><inertial><mass value='nan'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+             "iyz='0'/></inertial></link>"),
+       "value: found 'nan'; allowed: a finite number"},
+      {"a.urdf", robot("<link name='a'><inertial><mass value='1' value='2'/></inertial></link>"), "a.urdf:2: "},
+      {"a.urdf", robot(link("a") + link("b") + joint("j", "a", "b", "<axis xyz='0 0 0'/>")), "the axis has no length"},
+      {"a.urdf", robot(link("a") + link("b") + joint("j", "a", "b", "<axis xyz='0 0'/>")),
+       "xyz: found 2 numbers; allowed: 3"},
+      {"a.urdf", robot(link("a") + "<link name='b'/>" + link("c") + joint("j", "a", "b") + joint("k", "b", "c")),
+       "link 'b': there is no <inertial>, and it moves"},
+      {"a.urdf", robot("<link name='a'/>"), "nothing in it has mass or a shape"},
+      {"a.urdf", robot("<xacro:property name='x'/>"), "is a macro of xacro"},
+      {"a.urdf",
+       robot("<link name='a'><visual><geometry><mesh filename='../../etc/passwd'/></geometry></visual></link>"),
+       "leaves the folder of the model"},
+      {"a.urdf",
+       robot("<link name='a'><collision><geometry><mesh filename='file:///etc/passwd'/></geometry></collision></link>"),
+       "leaves the folder of the model"},
+      {"a.sdf", sdf("<link name='a'/>\n<include><uri>/etc/passwd</uri></include>"),
+       "a.sdf:3: <uri>: '/etc/passwd' leaves the folder"},
+      {"a.sdf", sdf("<include><uri>model://sun</uri></include>"), "is looked for in folders of this machine"},
+      {"a.sdf", sdf("<include><uri>a.sdf</uri></include>"), "deeper than 16"},
+      {"a.sdf", sdf("<link name='a'><pose relative_to='b'/></link><link name='b'><pose relative_to='a'/></link>"),
+       "in a circle"},
+      {"a.sdf", sdf("<link name='a'/><link name='a'/>"), "another one has the name 'a'"},
+      {"a.sdf", sdf("<link name='a'><pose relative_to='c'/></link>"), "there is no frame 'm::c'"},
+      {"a.sdf", sdf("<link name='a'><pose>1 2 3</pose></link>"), "found 3 numbers; allowed: 6"},
+      {"a.sdf", "<sdf version='3'><model name='m'/></sdf>", "version: found '3'; allowed: 1.4 to 1.11"},
+      {"a.sdf", sdf("<link name='a'/><joint name='j' type='revolt'><parent>world</parent><child>a</child></joint>"),
+       "did you mean 'revolute'?"},
+      {"a.xml", "<mujoco>\n<include file='/etc/passwd'/></mujoco>",
+       "a.xml:2: <include>: '/etc/passwd' leaves the folder"},
+      {"a.xml", "<mujoco>\n<include file='a.xml'/></mujoco>", "a.xml"},
+      {"a.xml", "<mujoco><asset>\n<mesh name='m' file='../secret.stl'/></asset></mujoco>",
+       "a.xml:2: mesh 'm': '../secret.stl' leaves the folder"},
+      {"a.xml", "<mujoco><compiler meshdir='/etc'/><asset><mesh file='passwd'/></asset></mujoco>",
+       "'/etc' leaves the folder"},
+  };
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(cases_import_bad_input, Program)
+
+BOOST_AUTO_TEST_CASE(each_bad_file_is_refused_with_its_line) {
+  for (const Bad& bad : bad_files()) {
+    const std::string says = refusal_of(bad.name, bad.text);
+    BOOST_TEST(says.find(bad.says) != std::string::npos, bad.text.substr(0, 200) << " -> " << says);
+    BOOST_TEST((says.empty() || says.starts_with(bad.name + ":") || says.find("nothing in it") != std::string::npos ||
+                says.find("deeper") != std::string::npos),
+               says);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_link_of_the_disk_that_leads_out_of_the_folder_is_not_followed) {
+  const Folder other;
+  other.write("secret.sdf", "<sdf version='1.7'><model name='secret'><link name='l'/></model></sdf>");
+  folder.write("w.sdf", sdf("<include><uri>inside.sdf</uri></include>"));
+  std::filesystem::create_symlink(other.path / "secret.sdf", folder.path / "inside.sdf");
+  const Answer answer = run({"import", "w.sdf"});
+  BOOST_TEST(answer.code == 2);
+  BOOST_TEST(answer.err.find("'inside.sdf' leaves the folder") != std::string::npos, answer.err);
+  BOOST_TEST(answer.out == "");
+}
+
+BOOST_AUTO_TEST_CASE(the_program_imports_runs_and_refuses) {
+  folder.write("arm.urdf", robot("<link name='base'/>" + link("arm") +
+                                 joint("j", "base", "arm", "<origin xyz='0 0 1'/><mimic joint='k'/>")));
+  const Answer made = run({"import", "arm.urdf"});
+  BOOST_TEST(made.code == 0, made.err);
+  BOOST_TEST(made.err.find("rigor: left out: arm.urdf:2: joint 'j': <mimic>") != std::string::npos, made.err);
+  folder.write("arm.toml", made.out);
+  for (const char* file : {"arm.toml", "arm.urdf"}) {
+    const Answer ran = run({"run", file, "--engine", "core:rk4", "--dt", "1/30", "--duration", "0.5", "--out", "out"});
+    BOOST_TEST(ran.code == 0, ran.err);
+  }
+  const Answer trace = run({"trace", "arm.urdf", "--engine", "core:rk4", "--dt", "1/10", "--duration", "0.5"});
+  BOOST_TEST(trace.code == 0, trace.err);
+  BOOST_TEST(trace.err.find("<mimic>") != std::string::npos, trace.err);
+  BOOST_TEST(run({"import"}).code == 2);
+  BOOST_TEST(run({"import", "none.urdf"}).code == 2);
+  BOOST_TEST(run({"run", "none.urdf"}).code == 2);
+}
+
+// In a process that may have a gigabyte in all.
+BOOST_AUTO_TEST_CASE(what_is_huge_is_refused_within_a_gigabyte) {
+  std::string links = "<robot name='r'>\n";
+  for (int k = 0; k < 1000000; ++k) links += "<link name='l" + std::to_string(k) + "'/>\n";
+  folder.write("links.urdf", links + "</robot>");
+  folder.write("frames.urdf", links.substr(0, links.rfind('\n', 16'000'000)) + "</robot>");
+  folder.write("deep.urdf", "<robot name='r'>" + repeated("<a>", 3'000'000));
+  folder.write("wide.urdf", "<robot name='r'>" + repeated("<a/>", 16'000'000) + "</robot>");
+  folder.write("grid.xml",
+               "<mujoco><worldbody><body><freejoint/><composite type='grid' count='3000 3000 1' "
+               "spacing='0.1'/></body></worldbody></mujoco>");
+  for (const char* file : {"links.urdf", "frames.urdf", "deep.urdf", "wide.urdf", "grid.xml"}) {
+    const std::string command = "cd '" + folder.path.string() +
+                                "' && ulimit -v 1200000 && '" RIGOR_PROGRAM "' import " + file + " >stdout 2>stderr";
+    const int status = std::system(command.c_str());
+    BOOST_TEST((WIFEXITED(status) && WEXITSTATUS(status) == 2), file << " " << content("stderr").substr(0, 300));
+    BOOST_TEST(content("stderr").find(std::string(file) + ":") != std::string::npos, content("stderr").substr(0, 300));
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,247 @@
+// Robots' files as scenes: inertias in their frames, joints with what acts on them, shapes, and what was left out.
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <numbers>
+
+#include "core/scene/validate.h"
+#include "tests/cases/import/imported.h"
+
+using namespace rigor;
+using namespace rigor::test;
+
+namespace {
+
+const std::string kModels = RIGOR_SOURCE_DIR "/tests/cases/import/models/";
+
+double apart(const Vec3& a, const Vec3& b) { return (a - b).norm(); }
+
+// A base that the world holds, and a link on a joint of `type` whose elements are `more`.
+std::string urdf_of(const std::string& type, const std::string& more, const std::string& of_link = "") {
+  return R"(<robot name="r"><link name="base"/><link name="arm"><inertial><origin xyz="0.5 0 0" rpy="0 0 1.5707963267948966"/>
+<mass value="2"/><inertia ixx="1" iyy="2" izz="2.5" ixy="0.1" ixz="0" iyz="0"/></inertial>)" +
+         of_link + R"(</link><joint name="j" type=")" + type +
+         R"("><parent link="base"/><child link="arm"/><origin xyz="0 0 1" rpy="0 1.5707963267948966 0"/>)" + more +
+         "</joint></robot>";
+}
+
+std::string sdf_of(const std::string& inside) {
+  return R"(<sdf version="1.9"><world name="w">)" + inside + "</world></sdf>";
+}
+
+// 2 kg of 0.4 m edges, as a link.
+const std::string kBoxInertial =
+    "<inertial><mass>2</mass><inertia><ixx>0.05333333333333333</ixx><iyy>0.05333333333333333</iyy>"
+    "<izz>0.05333333333333333</izz></inertia></inertial>";
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_import_import)
+
+// The link's frame stands at the joint, turned by a quarter about y: its x points down, its z along W's x. The mass is
+// half a metre along the link's x, and its inertia's axes are turned by a quarter about the link's z.
+BOOST_AUTO_TEST_CASE(an_inertia_is_turned_into_the_frame_of_its_link_and_the_origin_is_the_centre_of_mass) {
+  const Scene scene = scene_of_text("r.urdf", urdf_of("continuous", "<axis xyz='0 0 1'/>"));
+  BOOST_TEST_REQUIRE(scene.bodies.size() == 1u);
+  const Body& arm = scene.bodies[0];
+  BOOST_TEST(apart(arm.position, {0, 0, 0.5}) < 1e-15);
+  BOOST_TEST(apart(arm.orientation * Vec3::UnitX(), -Vec3::UnitZ()) < 1e-15);
+  Mat3 expected;  // x of the inertia is the link's y, and y its -x
+  expected << 2, -0.1, 0, -0.1, 1, 0, 0, 0, 2.5;
+  BOOST_TEST((arm.inertia - expected).cwiseAbs().maxCoeff() < 1e-15);
+  BOOST_TEST(apart(scene.gravity, {0, 0, -9.81}) == 0);
+  const auto& hinge = std::get<HingeJoint>(joint_named(scene, "j").type);
+  BOOST_TEST(joint_named(scene, "j").a == kWorld);
+  BOOST_TEST(apart(hinge.anchor, {0, 0, 1}) < 1e-15);
+  BOOST_TEST(apart(hinge.axis, Vec3::UnitX()) < 1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(joints_bring_limits_and_damping_and_name_what_they_cannot) {
+  const std::string more =
+      "<axis xyz='0 2 0'/><limit lower='-0.4' upper='0.9' effort='10' velocity='3'/><dynamics damping='0.7' "
+      "friction='0.2'/><mimic joint='k'/>";
+  const Scene scene = scene_of_text("r.urdf", urdf_of("prismatic", more));
+  const Joint& joint = joint_named(scene, "j");
+  BOOST_TEST(apart(std::get<SliderJoint>(joint.type).axis, Vec3::UnitY()) < 1e-15);
+  BOOST_TEST(joint.lower == -0.4);
+  BOOST_TEST(joint.upper == 0.9);
+  BOOST_TEST(joint.damping == 0.7);
+  const auto left_out = left_out_of_model("r.urdf", urdf_of("prismatic", more));
+  for (const char* part : {":3: joint 'j': <limit>: attribute 'effort': bounds a drive", "attribute 'velocity'",
+                           "attribute 'friction': is dry friction", "joint 'j': <mimic>: couples two joints",
+                           "gravity: the format states none"})
+    BOOST_TEST(some_has(left_out, part), part);
+  BOOST_TEST(!some_has(left_out_of_model("r.urdf", urdf_of("continuous", "")), "friction"));
+}
+
+// Zero is below the limits: the joint starts at the nearer one, and everything beyond it with it.
+BOOST_AUTO_TEST_CASE(a_joint_whose_zero_is_beyond_its_limits_starts_at_the_limit) {
+  const std::string more = "<axis xyz='0 0 1'/><limit lower='0.5' upper='0.9'/>";
+  const Scene scene = scene_of_text("r.urdf", urdf_of("revolute", more));
+  const Joint& joint = joint_named(scene, "j");
+  BOOST_TEST(joint.lower == 0.0);
+  BOOST_TEST(std::abs(joint.upper - 0.4) < 1e-15);
+  // The mass stood at 0.5 m below the anchor; about W's x a turn by 0.5 takes it towards y.
+  BOOST_TEST(apart(scene.bodies[0].position, {0, 0.5 * std::sin(0.5), 1 - 0.5 * std::cos(0.5)}) < 1e-15);
+  BOOST_TEST(
+      some_has(left_out_of_model("r.urdf", urdf_of("revolute", more)), "is beyond its limits: it starts at 0.5"));
+}
+
+BOOST_AUTO_TEST_CASE(an_arm_of_six_joints_is_held_by_its_base_and_ends_in_frames_without_mass) {
+  const Scene scene = scene_of_file(kModels + "arm.urdf");
+  BOOST_TEST(scene.bodies.size() == 6u);
+  BOOST_TEST(scene.joints.size() == 6u);
+  for (const Joint& joint : scene.joints) BOOST_TEST((joint.has_limits() && joint.damping == 0.1));
+  // Stretched out along x, as the tables of the arm have it: 0.425 + 0.39225 m to the first wrist.
+  BOOST_TEST(apart(body_named(scene, "wrist_1_link").position, {0.81725, 0.10915, 0.089159}) < 1e-9);
+  BOOST_TEST(some_has(import_model(kModels + "arm.urdf").left_out, "is a cylinder"));
+}
+
+BOOST_AUTO_TEST_CASE(a_quadruped_is_free_and_has_thirteen_bodies) {
+  const Scene scene = scene_of_file(kModels + "quadruped.urdf");
+  BOOST_TEST(scene.bodies.size() == 13u);
+  BOOST_TEST(scene.joints.size() == 12u);
+  const auto left_out = import_model(kModels + "quadruped.urdf").left_out;
+  BOOST_TEST(some_has(left_out, "it is free"));
+  BOOST_TEST(some_has(left_out, "joint 'FR_calf_joint': its position 0: is beyond its limits: it starts at -0.916298"));
+}
+
+BOOST_AUTO_TEST_CASE(sdf_and_urdf_of_the_same_pendulum_are_the_same_scene) {
+  const Scene urdf = scene_of_file(kModels + "double_pendulum.urdf"),
+              sdf = scene_of_file(kModels + "double_pendulum.sdf");
+  BOOST_TEST_REQUIRE(urdf.bodies.size() == 2u);
+  BOOST_TEST_REQUIRE(sdf.bodies.size() == 2u);
+  for (const Body& a : urdf.bodies) {
+    const Body& b = body_named(sdf, a.name);
+    BOOST_TEST(apart(a.position, b.position) < 1e-15);
+    BOOST_TEST(angle_between(a.orientation, b.orientation) < 1e-15);
+    BOOST_TEST((a.inertia - b.inertia).cwiseAbs().maxCoeff() < 1e-16);
+    BOOST_TEST(a.mass == b.mass);
+  }
+  for (const Joint& a : urdf.joints) {
+    const Joint& b = joint_named(sdf, a.name);
+    BOOST_TEST(urdf.body_name(a.a) == sdf.body_name(b.a));
+    BOOST_TEST(urdf.body_name(a.b) == sdf.body_name(b.b));
+    BOOST_TEST(apart(std::get<HingeJoint>(a.type).anchor, std::get<HingeJoint>(b.type).anchor) < 1e-15);
+    BOOST_TEST(apart(std::get<HingeJoint>(a.type).axis, std::get<HingeJoint>(b.type).axis) < 1e-15);
+    BOOST_TEST(a.damping == b.damping);
+    BOOST_TEST(!b.has_limits());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(shapes_touch_a_floor_where_they_are_and_the_whole_keeps_its_mass_and_inertia) {
+  const std::string ball =
+      "<collision name='ball'><pose>0 0 -0.3 0 0 "
+      "0</pose><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>";
+  const std::string box =
+      "<collision name='box'><geometry><box><size>0.4 0.4 0.4</size></box></geometry>"
+      "<surface><friction><ode><mu>0.5</mu></ode></friction></surface></collision>";
+  const Scene scene = scene_of_text(
+      "w.sdf",
+      sdf_of("<model name='floor'><static>1</static><link name='l'><collision name='c'><pose>0 0 0.1 0 0 "
+             "0</pose><geometry><plane/>"
+             "</geometry></collision></link></model><model name='thing'><pose>0 0 2 0.3 0 0</pose><link name='l'>" +
+             kBoxInertial + ball + box + "</link></model>"));
+  BOOST_TEST_REQUIRE(scene.bodies.size() == 4u);
+  const Body& floor = body_named(scene, "floor::l");
+  BOOST_TEST(std::get<Plane>(*floor.shape).offset == 0.1);
+  BOOST_TEST((floor.fixed && floor.collides));
+  double mass = 0;
+  Vec3 moment = Vec3::Zero();
+  for (const Body& body : scene.bodies) {
+    if (!body.fixed) mass += body.mass, moment += body.mass * body.position;
+  }
+  BOOST_TEST(std::abs(mass - 2) < 1e-15);
+  BOOST_TEST(apart(moment / mass, {0, 0, 2}) < 1e-15);
+  Mat3 inertia = Mat3::Zero();  // about the centre of mass, in W: that of a cube is the same in every frame
+  for (const Body& body : scene.bodies) {
+    if (body.fixed) continue;
+    const Mat3 turn = matrix_of(body.orientation);
+    const Vec3 arm = body.position - Vec3(0, 0, 2);
+    inertia += turn * body.inertia * turn.transpose() +
+               body.mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  }
+  BOOST_TEST((inertia - 2 * 0.16 / 6 * Mat3::Identity()).cwiseAbs().maxCoeff() < 1e-14);
+  const Body& sphere = body_named(scene, "thing::l/2");
+  BOOST_TEST(std::holds_alternative<Sphere>(*sphere.shape));
+  BOOST_TEST(apart(sphere.position, Vec3(0, 0, 2) + rotation_by(Vec3(0.3, 0, 0)) * Vec3(0, 0, -0.3)) < 1e-15);
+  BOOST_TEST(std::holds_alternative<FixedJoint>(scene.joints[0].type));
+  // 0.5 for the box, and for the rest 1, which the format takes where nothing is said.
+  int with_half = 0;
+  for (const ContactPair& pair : scene.contact_pairs) with_half += pair.law.friction == 0.5;
+  BOOST_TEST((scene.contact_default.friction == 1.0 && with_half > 0));
+}
+
+// A chain of boxes that reach into each other, as links of robots do: on the floor every second one touches.
+BOOST_AUTO_TEST_CASE(links_that_overlap_and_the_file_keeps_apart_do_not_collide_and_it_is_said) {
+  std::string links;
+  for (int k = 0; k < 3; ++k) {
+    links += "<link name='l" + std::to_string(k) + "'><pose>" + std::to_string(0.3 * k) + " 0 1 0 0 0</pose>" +
+             kBoxInertial +
+             "<collision name='c'><geometry><box><size>0.4 0.4 0.4</size></box></geometry></collision></link>";
+    if (k > 0) {
+      links += "<joint name='j" + std::to_string(k) + "' type='revolute'><parent>l" + std::to_string(k - 1) +
+               "</parent><child>l" + std::to_string(k) + "</child><axis><xyz>0 1 0</xyz></axis></joint>";
+    }
+  }
+  const std::string text = sdf_of(
+      "<model name='floor'><static>true</static><link name='l'><collision "
+      "name='c'><geometry><plane/></geometry></collision></link></model>"
+      "<model name='chain'>" +
+      links + "</model>");
+  const Scene scene = scene_of_text("w.sdf", text);
+  BOOST_TEST(body_named(scene, "chain::l0").collides);
+  BOOST_TEST(!body_named(scene, "chain::l1").collides);
+  BOOST_TEST(body_named(scene, "chain::l2").collides);
+  const auto left_out = left_out_of_model("w.sdf", text);
+  BOOST_TEST(some_has(left_out, "collision of link 'l1': touching: it overlaps 'chain::l2'"));
+  BOOST_TEST(some_has(left_out, "links of one model too"));
+}
+
+BOOST_AUTO_TEST_CASE(sdf_takes_universal_ball_and_spring_and_models_in_models) {
+  const std::string link = "<link name='b'><pose>0 0 1 0 0 0</pose>" + kBoxInertial + "</link>";
+  const Scene scene = scene_of_text(
+      "w.sdf", sdf_of("<gravity>0 -3 0</gravity><model name='m'><link name='a'>" + kBoxInertial +
+                      "</link><model name='in'><pose relative_to='a'>1 0 0 0 0 0</pose>" + link +
+                      "</model><joint name='u' type='universal'><parent>a</parent><child>in::b</child><axis><xyz>1 0 "
+                      "0</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint>"
+                      "<joint name='s' type='prismatic'><parent>world</parent><child>a</child><axis><xyz "
+                      "expressed_in='__model__'>0 0 1</xyz><dynamics><spring_stiffness>7</spring_stiffness>"
+                      "<spring_reference>-0.2</spring_reference></dynamics></axis></joint></model>"));
+  BOOST_TEST(apart(scene.gravity, {0, -3, 0}) == 0);
+  BOOST_TEST(apart(body_named(scene, "in::b").position, {1, 0, 1}) < 1e-15);
+  const auto& universal = std::get<UniversalJoint>(joint_named(scene, "u").type);
+  BOOST_TEST(apart(universal.anchor, {1, 0, 1}) < 1e-15);
+  BOOST_TEST((joint_named(scene, "s").stiffness == 7 && joint_named(scene, "s").rest == -0.2));
+}
+
+BOOST_AUTO_TEST_CASE(a_file_may_include_another_one_of_its_folder) {
+  const Folder folder;
+  folder.write("parts/leg.sdf",
+               "<sdf version='1.7'><model name='leg'><link name='l'>" + kBoxInertial + "</link></model></sdf>");
+  const std::string path = folder.write(
+      "w.sdf", sdf_of("<include><uri>parts/leg.sdf</uri><name>left</name><pose>0 1 0 0 0 0</pose></include>"
+                      "<include><uri>parts/leg.sdf</uri><name>right</name></include>"));
+  const Scene scene = scene_of_file(path);
+  BOOST_TEST(apart(body_named(scene, "left::l").position, {0, 1, 0}) == 0);
+  BOOST_TEST(apart(body_named(scene, "right::l").position, {0, 0, 0}) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(twenty_thousand_links_take_seconds) {
+  std::string text = "<robot name='r'><link name='l0'/>";
+  for (int k = 1; k <= 20000; ++k) {
+    const std::string n = std::to_string(k);
+    text += "<link name='l" + n +
+            "'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+            "iyz='0'/></inertial></link><joint name='j" +
+            n + "' type='continuous'><parent link='l" + std::to_string(k - 1) + "'/><child link='l" + n +
+            "'/><origin xyz='0 0 1'/></joint>";
+  }
+  const Folder folder;
+  const std::string path = folder.write("long.urdf", text + "</robot>");
+  const std::clock_t start = std::clock();
+  BOOST_TEST(import_model(path).case_text.size() > 1000000u);
+  // Time that grew with the square of the links would be minutes.
+  BOOST_TEST(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 10);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,38 @@
+# What is installed works from wherever it is put: the program finds its files, and another project finds the core.
+# cmake -DBUILD=... -DFOLDER=... -DCOMPILER=... -P package_test.cmake
+cmake_minimum_required(VERSION 3.25)
+
+function(run out)
+  execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE said ERROR_VARIABLE why RESULT_VARIABLE code)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${ARGN}: ${code}\n${said}\n${why}")
+  endif()
+  set(${out} "${said}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${FOLDER})
+run(said ${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/first)
+file(RENAME ${FOLDER}/first ${FOLDER}/moved)
+set(ENV{RIGOR_HOME} "")
+set(rigor ${FOLDER}/moved/bin/rigor)
+
+run(said ${rigor} list cases)
+if(NOT said MATCHES "springs/fixed-spring")
+  message(FATAL_ERROR "the suite is not found beside the program:\n${said}")
+endif()
+foreach(file bin/rigor share/man/man1/rigor.1 share/bash-completion/completions/rigor share/zsh/vendor-completions/_rigor
+    include/rigor_engine.h share/rigor/scene.schema.json share/rigor/adapters/ode/known_deviations.toml)
+  if(NOT EXISTS ${FOLDER}/moved/${file})
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
+
+run(said ${CMAKE_COMMAND} -S ${FOLDER}/moved/share/rigor/examples/embedding -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${FOLDER}/moved
+  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug)
+run(said ${CMAKE_COMMAND} --build ${FOLDER}/build)
+# A stone that is thrown: x = 1 m after 1 s, y = -5 m.
+file(WRITE ${FOLDER}/thrown.toml "[scene]\ngravity = [0, -10, 0]\n[[scene.body]]\nname = \"stone\"\nmass = 2\ninertia = [1, 1, 1]\nvelocity = [1, 0, 0]\n")
+run(said ${FOLDER}/build/embedding ${FOLDER}/thrown.toml)
+if(NOT said MATCHES "^stone 1.000000 -5.000000 0.000000\n")
+  message(FATAL_ERROR "the embedded core says: ${said}")
+endif()
