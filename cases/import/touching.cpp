@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "cases/import/rigid_groups.h"
-#include "core/dynamics/collision/aabb_broad_phase.h"
+#include "core/dynamics/collision/broad_phase.h"
 #include "core/dynamics/collision/narrow_phase.h"
 
 namespace rigor {
@@ -33,7 +33,7 @@ std::vector<std::pair<int, int>> overlapping(const std::vector<ShapeSource>& sou
     boxes.push_back(aabb_of(*body.shape, pose_of(body), 0));
   }
   std::vector<std::pair<int, int>> found;
-  AabbBroadPhase search;
+  BroadPhase search;
   for (const auto& [a, b] : search.overlaps(boxes)) {
     const Body &first = scene.bodies[sources[a].body], &second = scene.bodies[sources[b].body];
     if (!(first.fixed && second.fixed) && gap_of(first, second) < 0) found.emplace_back(a, b);

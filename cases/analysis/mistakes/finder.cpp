@@ -19,7 +19,7 @@ constexpr double kSureEnough = 0.98;   // nor two mistakes at once, one of which
 constexpr double kWorthASecond = 0.5;  // of what one mistake leaves, two together have to leave less
 constexpr double kAlike = 1e-3;        // suspects that explain as much, to within this part of what is left of 1
 constexpr std::size_t kShown = 5;
-constexpr double kWorthSaying = 0.3;
+constexpr double kNotable = 0.3;
 
 std::vector<Hypothesis> of_table() {
   std::vector<Hypothesis> all;
@@ -209,7 +209,7 @@ MistakeReport MistakeFinder::report(const Engine& engine) {
   for (const std::size_t probe : trace.probes_off(hypotheses)) report.off.push_back(probes_[probe].id);
   const std::vector<Suspect> ranked = without_idle_seconds(trace.ranked(hypotheses, probes_), hypotheses);
   for (const Suspect& suspect : ranked) {
-    if (report.suspects.size() == kShown || suspect.explains < kWorthSaying) break;
+    if (report.suspects.size() == kShown || suspect.explains < kNotable) break;
     report.suspects.push_back(
         {hypotheses[suspect.hypothesis].names, suspect.explains, suspect.explained, suspect.cases});
   }

@@ -258,7 +258,7 @@ std::string failures_text(const std::vector<Failure>& rows) {
     if (!row.where.empty()) line += fmt::format(" [{}]", row.where);
     text += "  " + wrapped(line, 4) + "\n";
   }
-  const auto of_run = std::find_if(rows.begin(), rows.end(), [](const Shortfall& row) { return !row.engine.empty(); });
+  const auto of_run = std::find_if(rows.begin(), rows.end(), [](const Failure& row) { return !row.engine.empty(); });
   if (of_run == rows.end()) return text;
   return text + fmt::format("  which known mistake it looks like: rigor diagnose {} --engine '{}'\n", of_run->case_id,
                             of_run->engine);

@@ -113,7 +113,7 @@ void JointReactions::find_rows(BodyColumns bodies) {
 
 // The multipliers of the rows in use, as what each puts on its joint: in the place of bodies stand the joints, each of
 // unit mass.
-std::vector<JointReaction> JointReactions::carried(const std::vector<double>& residuals) const {
+std::vector<JointReaction> JointReactions::carried(const std::vector<double>& residuals) {
   std::vector<Row> of_joints(rows_.size());
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     of_joints[r].body[0] = static_cast<int>(held_[r].joint);

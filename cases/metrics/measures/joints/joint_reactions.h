@@ -59,7 +59,7 @@ class JointReactions {
                double bias);
   void add_point_row(std::size_t joint, const EndMotion& a, const EndMotion& b, const Vec3& direction);
   void add_angle_row(std::size_t joint, const EndMotion& a, const EndMotion& b, const Vec3& of_a, const Vec3& of_b);
-  std::vector<JointReaction> carried(const std::vector<double>& residuals) const;
+  std::vector<JointReaction> carried(const std::vector<double>& residuals);
 
   const Scene& scene_;
   System system_;
