@@ -5,6 +5,8 @@
 // is not symplectic. With joints the velocities also get the impulses that close all joints at the step's end (SHAKE);
 // where bodies turn by so much in a step that there are none, those that the velocities need at its start, and the
 // least motion back at its end.
+#include <optional>
+
 #include "core/dynamics/integrators/euler_passes.h"
 #include "core/dynamics/joints/ball_joints.h"
 #include "core/dynamics/joints/joints.h"

@@ -1,7 +1,7 @@
 #include "core/dynamics/joints/ball_joints.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 #include <set>
 
 namespace rigor {
@@ -103,48 +103,36 @@ void BallJoints::list_couplings(const Scene& scene) {
 
 // From what does not move, else from each component's heaviest body, outwards.
 void BallJoints::list_closings(const Scene& scene) {
-  const auto is_rooted = [&](int body) { return body == kWorld || scene.bodies[body].fixed; };
-  std::vector<int> by_mass(scene.bodies.size());
-  for (std::size_t i = 0; i < by_mass.size(); ++i) by_mass[i] = static_cast<int>(i);
-  std::stable_sort(by_mass.begin(), by_mass.end(),
+  const auto bodies = static_cast<int>(scene.bodies.size());
+  const auto node = [&](int body) { return body == kWorld || scene.bodies[body].fixed ? bodies : body; };
+  std::vector<std::vector<std::size_t>> joints_of(scene.bodies.size() + 1);
+  for (std::size_t p = 0; p < order_.size(); ++p) {
+    const Joint& joint = scene.joints[order_.joint[p]];
+    joints_of[node(joint.a)].push_back(p), joints_of[node(joint.b)].push_back(p);
+  }
+  std::vector<int> roots(scene.bodies.size());
+  std::iota(roots.begin(), roots.end(), 0);
+  std::stable_sort(roots.begin(), roots.end(),
                    [&](int i, int k) { return scene.bodies[i].mass > scene.bodies[k].mass; });
-  std::vector<std::vector<std::pair<std::size_t, int>>> joints_of(scene.bodies.size());  // and the body beyond
-  std::vector<bool> reached(scene.bodies.size());
-  std::vector<int> front;
-  const auto reach = [&](std::size_t p, int from, int to) {
-    closings_.push_back({p, from, to, from == scene.joints[order_.joint[p]].a ? 1.0 : -1.0});
-    reached[to] = true, front.push_back(to);
-  };
-  std::size_t joints = 0;
-  const auto go_on = [&] {
-    for (; !front.empty();) {
+  roots.insert(roots.begin(), bodies);
+  std::vector<bool> reached(roots.size());
+  for (const int root : roots) {
+    std::vector<int> front;
+    if (!reached[root]) reached[root] = true, front.push_back(root);
+    while (!front.empty()) {
       const int from = front.back();
       front.pop_back();
-      for (const auto& [p, to] : joints_of[from]) {
-        if (!reached[to]) reach(p, from, to);
+      for (const std::size_t p : joints_of[from]) {
+        const Joint& joint = scene.joints[order_.joint[p]];
+        const bool is_forward = node(joint.a) == from;
+        const int stays = is_forward ? joint.a : joint.b, moves = is_forward ? joint.b : joint.a;
+        if (reached[node(moves)]) continue;
+        closings_.push_back({p, stays, moves, is_forward ? 1.0 : -1.0});
+        reached[moves] = true, front.push_back(moves);
       }
     }
-  };
-  for (std::size_t p = 0; p < order_.size(); ++p) {
-    const Joint& joint = scene.joints[order_.joint[p]];
-    if (is_rooted(joint.a) && is_rooted(joint.b)) continue;
-    ++joints;
-    if (is_rooted(joint.a) || is_rooted(joint.b)) continue;
-    joints_of[joint.a].emplace_back(p, joint.b), joints_of[joint.b].emplace_back(p, joint.a);
   }
-  for (std::size_t p = 0; p < order_.size(); ++p) {
-    const Joint& joint = scene.joints[order_.joint[p]];
-    if (is_rooted(joint.a) == is_rooted(joint.b)) continue;
-    const int to = is_rooted(joint.a) ? joint.b : joint.a;
-    if (!reached[to]) reach(p, is_rooted(joint.a) ? joint.a : joint.b, to);
-  }
-  go_on();
-  for (const int body : by_mass) {
-    if (is_rooted(body) || reached[body] || joints_of[body].empty()) continue;
-    reached[body] = true, front.push_back(body);
-    go_on();
-  }
-  if (closings_.size() < joints) closings_.clear();  // a joint that closes a loop
+  if (closings_.size() < order_.size()) closings_.clear();  // some joint closes a loop
 }
 
 BallRows BallJoints::rows() {

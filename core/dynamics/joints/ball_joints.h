@@ -5,7 +5,6 @@
 // nothing but the rounding of positions.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/dynamics/joints/elimination_order.h"
@@ -29,7 +28,7 @@ class BallJoints {
  private:
   // The last one is that of the world.
   using Records = AlignedDoubles;
-  struct Closing {  // a joint, and the ends that stays and that is moved
+  struct Closing {  // a joint, and the end that stays, the end that is moved
     std::size_t row;
     int stays, moves;
     double sign;  // of the joint's reach
