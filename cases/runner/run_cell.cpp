@@ -32,6 +32,8 @@ void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
 const std::set<std::string> kOfTwins = {"unexplained_error", "unexplained_rotation", "unexplained_spin",
                                         "unexplained_velocity"};
 
+const std::set<std::string> kOfEnsembles = {"ensemble_distance", "ensemble_p_value"};
+
 bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
   return std::any_of(definition.gates.begin(), definition.gates.end(),
                      [&](const Gate& gate) { return metrics.contains(gate.metric); });
@@ -97,7 +99,8 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   cell.stability = judge_stability(judged, run.not_finite, facts.largest_kinetic_energy, facts.largest_energy_change);
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   std::optional<Ensembles> ensembles;
-  if (reference) ensembles = reference->compare(engines, run_name, definition, cell.dt.seconds);
+  const bool wants_ensembles = options.only_metrics.empty() || is_asked_for(kOfEnsembles, definition, options);
+  if (reference && wants_ensembles) ensembles = reference->compare(engines, run_name, definition, cell.dt.seconds);
   if (ensembles) judged.ensembles = &*ensembles;
   std::vector<NamedSeries> series;
   cell.metrics = measured(judged, definition, options, series);

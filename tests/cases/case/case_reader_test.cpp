@@ -42,6 +42,8 @@ const std::vector<Refusal> kBadRuns = {
     {"duration = inf\ndt = 1", "4:12: run.duration: ", {"found inf"}},
     {"duration = 'long'\ndt = 1", "4:12: run.duration: ", {"found 'long'"}},
     {"duration = true\ndt = 1", "4:12: run.duration: ", {"found a boolean"}},
+    {"duration = 1\ndt = 0.1\nensemble = 3", "6:12: run.ensemble: ", {"found 3", "from 16 to 10000"}},
+    {"duration = 1\ndt = 0.1\nensemble = 20.5", "6:12: run.ensemble: ", {"found 20.5", "whole number"}},
     {"duration = 1\ndt = 0", "5:6: run.dt: ", {"found 0"}},
     {"duration = 1\ndt = -1", "5:6: run.dt: ", {"found -1"}},
     {"duration = 1\ndt = nan", "5:6: run.dt: ", {"found nan"}},

@@ -27,6 +27,7 @@ BOOST_AUTO_TEST_CASE(the_metrics_across_cells_are_alphabetical_and_have_names_of
 bool is_of_contact_or_joints(const std::string& metric) {
   const std::vector<std::string> names = {"collapse_time",     "creep",
                                           "energy_gain",       "friction_anisotropy",
+                                          "ensemble_distance", "ensemble_p_value",
                                           "impact_time_error", "penetration",
                                           "restitution_error", "stop_distance_error",
                                           "joint_gap",         "joint_gap_rate",
