@@ -30,7 +30,7 @@ class Assembler {
     add_joints();
     add_springs();
     settle_contacts(model_, *touching_, sources_, scene_);
-    if (scene_.bodies.empty()) throw InputError(fmt::format("{}: nothing in it has mass or a shape", model_.name));
+    if (scene_.bodies.empty()) throw InputError("nothing in it has mass or a shape");
     validate(scene_);
     return std::move(scene_);
   }
