@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(sdf_and_urdf_of_the_same_pendulum_are_the_same_scene) {
 
 BOOST_AUTO_TEST_CASE(shapes_touch_a_floor_where_they_are_and_the_whole_keeps_its_mass_and_inertia) {
   const std::string ball =
-      "<collision name='ball'><pose>0 0 -0.3 0 0 "
+      "<collision name='ball'><pose>0 0 -0.35 0 0 "
       "0</pose><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>";
   const std::string box =
       "<collision name='box'><geometry><box><size>0.4 0.4 0.4</size></box></geometry>"
