@@ -30,7 +30,7 @@ class Assembler {
     add_joints();
     add_springs();
     settle_contacts(model_, *touching_, sources_, scene_);
-    if (scene_.bodies.empty()) throw InputError(fmt::format("{}: nothing in it has mass or a shape", model_.name));
+    if (scene_.bodies.empty()) throw InputError("nothing in it has mass or a shape");
     validate(scene_);
     return std::move(scene_);
   }
@@ -108,11 +108,10 @@ class Assembler {
     const auto share = take_share(inertial, shape.shape, shape.pose, 1.0 / static_cast<double>(count));
     if (!share)
       return model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
-                                 "is not centred on the mass, and no part of the mass can be put there");
+                                 "no part of the link's mass can be put there for a body of its own");
     model_.left_out.add(
         shape.where, "its " + shape_name(shape.shape),
-        fmt::format("is not centred on the mass: it is a body of its own, fixed to the link's, with {:g} kg of it",
-                    share->mass));
+        fmt::format("is a body of its own, fixed to the link's, with {:g} kg of its mass", share->mass));
     Body part;
     part.mass = share->mass, part.inertia = inertia_of(shape.shape, share->mass);
     part.position = shape.pose.position, part.orientation = shape.pose.orientation, part.shape = shape.shape;

@@ -13,6 +13,7 @@
 #include "cases/import/model_files.h"
 #include "cases/import/sdf_reader.h"
 #include "cases/import/urdf_reader.h"
+#include "core/base/error.h"
 #include "core/base/near_match.h"
 #include "core/scene/toml/scene_writer.h"
 
@@ -72,6 +73,16 @@ std::string case_text_of(const LinkModel& model, const Scene& scene, const std::
                             is_smooth(scene) ? "reference" : "none");
 }
 
+// What only the whole shows is of no line.
+Scene scene_of_file(LinkModel& model, const std::string& path) {
+  try {
+    return scene_of(model);
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    throw InputError(what.starts_with(path) ? what : path + ":1: " + what);
+  }
+}
+
 }  // namespace
 
 bool is_model_file(const std::string& path) {
@@ -84,7 +95,7 @@ Import import_model(const std::string& path) {
     const XmlFile file(path);
     const Format& format = format_of(file.root());
     LinkModel model = format.read(file);
-    const Scene scene = scene_of(model);
+    const Scene scene = scene_of_file(model, path);
     return Import{case_text_of(model, scene, format.name, path), model.left_out.sentences()};
   });
 }

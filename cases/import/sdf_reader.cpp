@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
-#include <limits>
 
 #include "cases/import/model_elements.h"
 #include "cases/import/model_files.h"
@@ -20,11 +20,11 @@
 namespace rigor {
 namespace {
 
-constexpr double kSdfGravity = 9.8;     // m/s², along -z: the format's own default
+constexpr double kSdfGravity = 9.8;  // m/s², along -z: the format's own default
 constexpr double kUnlimited = 1e16;  // of a joint's limits, as the format has it
 constexpr int kDeepest = 16;         // models in models and files in files
 const std::vector<std::string> kSdfJointTypes = {"revolute",  "continuous", "prismatic", "ball",   "universal",
-                                              "revolute2", "fixed",      "screw",     "gearbox"};
+                                                 "revolute2", "fixed",      "screw",     "gearbox"};
 constexpr const char* kOfWorld = "is of the world around, of which a scene knows gravity alone";
 constexpr const char* kProgram = "is a program";
 
@@ -239,8 +239,8 @@ class SdfReader {
                   model_.left_out);
     const std::string type = element.at("type");
     if (std::find(kSdfJointTypes.begin(), kSdfJointTypes.end(), type) == kSdfJointTypes.end())
-      element.refuse(
-          fmt::format("type: found '{}'{}; allowed: {}", type, did_you_mean(type, kSdfJointTypes), listed(kSdfJointTypes)));
+      element.refuse(fmt::format("type: found '{}'{}; allowed: {}", type, did_you_mean(type, kSdfJointTypes),
+                                 listed(kSdfJointTypes)));
     const auto pose = element.child("pose");
     const std::string child = element.only("child").text(), name = element.name_attribute();
     frames_.add(scope, name, sdf_pose(pose, model_.left_out), scope, base_of(pose, child), element);

@@ -16,6 +16,7 @@ namespace rigor {
 namespace {
 
 constexpr const char* kWhite = " \t\r\n";
+constexpr const char* kNotOfFormat = "is not of the format";
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(kWhite);
@@ -194,20 +195,21 @@ std::vector<std::pair<std::string, std::string>> XmlElement::attributes() const 
   return all;
 }
 
-// `place`: of the attribute or element itself.
-void XmlElement::check_word(const std::string& word, const std::string& place, const std::string& what,
+// `place`: of the attribute or element itself. False if nothing is known of it.
+bool XmlElement::check_word(const std::string& word, const std::string& place, const std::string& what,
                             const std::vector<std::string>& words, const XmlKnown& known, LeftOut& left_out) const {
-  if (const std::string* why = why_left_out(known, word)) return left_out.add(place, what, *why);
+  if (const std::string* why = why_left_out(known, word)) return left_out.add(place, what, *why), true;
   if (word.starts_with("xacro:"))
     throw InputError(
         fmt::format("{}: <{}> is a macro of xacro; allowed: the file that `xacro` makes of it", place, word));
-  if (word.starts_with("xmlns")) return;
-  if (word.find(':') != std::string::npos) return left_out.add(place, what, "is of an extension of the format");
+  if (word.starts_with("xmlns")) return true;
+  if (word.find(':') != std::string::npos) return left_out.add(place, what, "is of an extension of the format"), true;
   std::vector<std::string> all = words;
   for (const auto& row : known.left_out) all.push_back(row.first);
   const std::string meant = did_you_mean(word, all);
   if (!meant.empty()) throw InputError(fmt::format("{}: {} is not of the format{}", place, what, meant));
-  left_out.add(place, what, "is not of the format");
+  left_out.add(place, what, kNotOfFormat);
+  return false;
 }
 
 void XmlElement::check(const XmlKnown& known, LeftOut& left_out) const {
@@ -218,10 +220,16 @@ void XmlElement::check(const XmlKnown& known, LeftOut& left_out) const {
     if (!is_one_of(known.attributes, word))
       check_word(word, place(), "attribute '" + word + "'", known.attributes, known, left_out);
   }
+  std::string unknown;  // the last element of which nothing is known: a million of them are not looked for one by one
   for (const XmlElement& child : children()) {
     const std::string word = child.name();
-    if (!is_one_of(known.elements, word))
-      check_word(word, child.where() + ": " + described(), "<" + word + ">", known.elements, known, left_out);
+    if (is_one_of(known.elements, word)) continue;
+    const std::string of = child.where() + ": " + described(), what = "<" + word + ">";
+    if (word == unknown) {
+      left_out.add(of, what, kNotOfFormat);
+    } else if (!check_word(word, of, what, known.elements, known, left_out)) {
+      unknown = word;
+    }
   }
 }
 

@@ -58,7 +58,7 @@ class XmlElement {
   double one_number(const std::string& text, const std::string& what) const;
   std::vector<double> numbers(const std::string& text, std::size_t count, const std::string& what) const;
   std::string described() const;  // "link 'arm'", or of what has no name "link 'arm': <limit>"
-  void check_word(const std::string& word, const std::string& place, const std::string& what,
+  bool check_word(const std::string& word, const std::string& place, const std::string& what,
                   const std::vector<std::string>& words, const XmlKnown& known, LeftOut& left_out) const;
 
   const tinyxml2::XMLElement* element_;

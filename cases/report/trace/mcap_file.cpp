@@ -84,7 +84,8 @@ std::string McapFile::close_chunk() {
 }
 
 std::string McapFile::end() {
-  std::string text = close_chunk() + written(record(kDataEnd, bytes_of(std::uint32_t{0})));
+  std::string text = close_chunk();
+  text += written(record(kDataEnd, bytes_of(std::uint32_t{0})));
   const std::uint64_t summary_at = at_;
   std::string summary;
   for (const Channel& channel : channels_) summary += channel.schema + channel.definition;

@@ -45,11 +45,34 @@ BOOST_AUTO_TEST_CASE(a_new_case_runs_and_its_gate_holds_and_it_is_never_written_
 BOOST_AUTO_TEST_CASE(the_version_names_the_compiler_and_each_engine) {
   const Answer answer = run({"--version"});
   BOOST_TEST(answer.code == 0);
-  for (const char* part : {"rigor ", "ode ", "bullet ", "core ", "double precision"})
+  for (const char* part : {"rigor ", "commit ", "ode ", "bullet ", "core ", "double precision"})
     BOOST_TEST(answer.out.find(part) != std::string::npos, part);
   const bool has_compiler =
       answer.out.find("g++ ") != std::string::npos || answer.out.find("clang ") != std::string::npos;
   BOOST_TEST(has_compiler);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_first_says_what_it_will_do_and_about_how_long_that_takes) {
+  folder.write("thrown.toml", kThrown);
+  const Answer answer = run({"run", "thrown.toml", "--engine", "ode", "--engine", "core:rk4", "--jobs", "1"});
+  BOOST_TEST(answer.err.starts_with("rigor: 1 case by 2 runs: 2 cells; about "), answer.err);
+  BOOST_TEST(answer.err.find(" with 1 job; the reports will be in out\n") != std::string::npos, answer.err);
+}
+
+BOOST_AUTO_TEST_CASE(the_report_is_opened_by_the_desktop_or_it_says_where_it_is) {
+  BOOST_TEST(run({"open"}).code == 2);
+  folder.write("out/report.html", "<html/>");
+  const std::string path_before = std::getenv("PATH");
+  setenv("PATH", folder.path.c_str(), 1);  // with no xdg-open in it, and then with one
+  const Answer none = run({"open"});
+  const std::string opener = folder.write("xdg-open", "#!/bin/sh\necho \"$1\" > asked\n");
+  std::filesystem::permissions(opener, std::filesystem::perms::owner_all);
+  const Answer shown = run({"open"});
+  setenv("PATH", path_before.c_str(), 1);
+  BOOST_TEST(none.code == 3);
+  BOOST_TEST(none.err.find(path("out/report.html")) != std::string::npos, none.err);
+  BOOST_TEST(shown.code == 0, shown.err);
+  BOOST_TEST(content("asked") == path("out/report.html") + "\n");
 }
 
 // A shell reads what it is given, and completes each command and option of the table.

@@ -173,7 +173,9 @@ BOOST_AUTO_TEST_CASE(run_writes_its_reports_and_prints_the_table) {
   const Answer answer =
       run({"run", "stone", "--engine", "core:rk4", "--engine", "ode", "--engine", "ode", "--out", out});
   BOOST_TEST(answer.code == 0);
-  BOOST_TEST(answer.err == "");  // no progress bar where there is no terminal
+  // What it will do, a line; and no progress bar where there is no terminal.
+  BOOST_TEST(answer.err.starts_with("rigor: 1 case by 2 runs: 4 cells; "), answer.err);
+  BOOST_TEST(std::count(answer.err.begin(), answer.err.end(), '\n') == 1, answer.err);
   BOOST_TEST(answer.out.find("core:rk4") != std::string::npos);
   BOOST_TEST(answer.out.find("\x1b") == std::string::npos);
   const auto json = nlohmann::json::parse(content(fs::path(out) / "results.json"));

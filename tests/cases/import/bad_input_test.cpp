@@ -79,7 +79,7 @@ std::vector<Bad> bad_files() {
        "xyz: found 2 numbers; allowed: 3"},
       {"a.urdf", robot(link("a") + "<link name='b'/>" + link("c") + joint("j", "a", "b") + joint("k", "b", "c")),
        "link 'b': there is no <inertial>, and it moves"},
-      {"a.urdf", robot("<link name='a'/>"), "nothing in it has mass or a shape"},
+      {"a.urdf", robot("<link name='a'/>"), "a.urdf:1: nothing in it has mass or a shape"},
       {"a.urdf", robot("<xacro:property name='x'/>"), "is a macro of xacro"},
       {"a.urdf",
        robot("<link name='a'><visual><geometry><mesh filename='../../etc/passwd'/></geometry></visual></link>"),
@@ -88,7 +88,7 @@ std::vector<Bad> bad_files() {
        robot("<link name='a'><collision><geometry><mesh filename='file:///etc/passwd'/></geometry></collision></link>"),
        "leaves the folder of the model"},
       {"a.sdf", sdf("<link name='a'/>\n<include><uri>/etc/passwd</uri></include>"),
-       "a.sdf:3: <uri>: '/etc/passwd' leaves the folder"},
+       "a.sdf:3: model 'm': <uri>: '/etc/passwd' leaves the folder"},
       {"a.sdf", sdf("<include><uri>model://sun</uri></include>"), "is looked for in folders of this machine"},
       {"a.sdf", sdf("<include><uri>a.sdf</uri></include>"), "deeper than 16"},
       {"a.sdf", sdf("<link name='a'><pose relative_to='b'/></link><link name='b'><pose relative_to='a'/></link>"),
@@ -117,9 +117,7 @@ BOOST_AUTO_TEST_CASE(each_bad_file_is_refused_with_its_line) {
   for (const Bad& bad : bad_files()) {
     const std::string says = refusal_of(bad.name, bad.text);
     BOOST_TEST(says.find(bad.says) != std::string::npos, bad.text.substr(0, 200) << " -> " << says);
-    BOOST_TEST((says.empty() || says.starts_with(bad.name + ":") || says.find("nothing in it") != std::string::npos ||
-                says.find("deeper") != std::string::npos),
-               says);
+    BOOST_TEST((says.empty() || says.starts_with(bad.name + ":")), says);
   }
 }
 

@@ -42,6 +42,17 @@ BOOST_AUTO_TEST_CASE(a_cell_without_numbers_says_why) {
   BOOST_TEST(line.find("crashed: killed by SIGSEGV") != std::string::npos, line);
 }
 
+BOOST_AUTO_TEST_CASE(what_several_runs_cannot_do_for_one_reason_is_one_sentence) {
+  Results results = sample_results();
+  std::vector<Cell>& cells = results.cases.front().cells;
+  for (Cell& cell : cells) cell.status = Status::unsupported, cell.metrics.clear(), cell.reason = "it has no springs";
+  const std::string text = console_table(results);
+  BOOST_TEST(text.find("2 runs unsupported: it has no springs: good, wild") != std::string::npos, text);
+  BOOST_TEST(text.find("it has no springs") == text.rfind("it has no springs"), text);
+  cells[0].reason = "it has no joints";  // of one's own
+  BOOST_TEST(line_with(console_table(results), "  good ").find("unsupported: it has no joints") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(a_verdict_stands_with_its_amount_and_a_sentence_says_what_it_stands_on) {
   Results results = sample_results();
   results.cases.front().cells[0].stability = {Verdict::gaining, 0.3, kWorld, "it rose by 13 %", 0.13};
