@@ -162,7 +162,7 @@ bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstrai
   int steps = kMostNewtonSteps;
   for (int turn = 0; turn < accuracy_.most_turns; ++turn) {
     // Sliding points may pass an impulse to and fro for ever, unless each gives way.
-    const double share = accuracy_.by_newton || turn < 2 ? 1 : 0.5;
+    const double share = accuracy_.by_newton || turn == 0 ? 1 : 0.5;
     for (int k = 0; k < kSweepsAtATime; ++k) {
       const double change = sweep(state, points, share);
       if (k == 0) size = std::max(size, size_of(state, points));

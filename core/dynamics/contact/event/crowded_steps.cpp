@@ -11,14 +11,14 @@
 namespace rigor {
 namespace {
 
-constexpr double kLongest = 1.0 / 240;  // s
-constexpr double kShare = 1.0 / 8;      // of a step: shorter steps are to be nearer to the truth here too
+constexpr double kLongest = 1.0 / 120;  // s
+constexpr double kShare = 1.0 / 4;      // of a step: shorter steps are to be nearer to the truth here too
 constexpr double kOverlap = 1e-10;      // m: a gap this small is closed; see event.cpp
 constexpr double kNewEnergy = 1e-12;    // of the energy before: rounding
 
 // A step errs by its own length squared; impulses that are nearer to the laws than that are not worth their time.
 // Sweeps never add energy, finished or not.
-constexpr ConeAccuracy kAccuracy{.at_rest = 1e-4, .near_rest = 5e-2, .most_turns = 3, .by_newton = false};
+constexpr ConeAccuracy kAccuracy{.at_rest = 1e-4, .near_rest = 5e-2, .most_turns = 2, .by_newton = false};
 
 const char* const kNotSettled = "the impulses between touching bodies did not settle";
 
@@ -40,7 +40,7 @@ CrowdedSteps::CrowdedSteps(const ContactParts& parts, ContactPoints& contact_poi
 double CrowdedSteps::longest(double dt) { return std::min(kLongest, kShare * dt); }
 
 std::string CrowdedSteps::wording() const {
-  const std::string rule = "inelastic steps of 1/240 s or an eighth of the run's";
+  const std::string rule = "inelastic steps of 1/120 s or a quarter of the run's";
   return steps_ == 0 ? rule + ": none so far" : fmt::format("{}: {} so far, {:.3g} s", rule, steps_, seconds_);
 }
 

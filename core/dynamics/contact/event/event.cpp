@@ -36,6 +36,8 @@ constexpr int kMostInstants = 100;   // in a step
 // Steps of the integrator, times the bodies that move: saved up at most, and for each step of the run. What an impact
 // costs is some ten of them; a ball that bounces with e = 0.9 comes to rest within 1700.
 constexpr double kMostSaved = 6000, kForEachStep = 200;
+constexpr double kForEachPart = 3;  // of such steps: what it costs to find what touches, and how
+
 constexpr int kMostPieces = 200;  // of the time to the next event, while bodies are not seen to stay apart
 
 bool is_finite(BodyColumns state) {
@@ -66,7 +68,7 @@ class EventStepper : public ContactStepper {
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
     instants_ = 0;
-    saved_ = std::min(saved_ + kForEachStep / moving_, kMostSaved / moving_);
+    saved_ = std::min(saved_ + kForEachPart + kForEachStep / moving_, kMostSaved / moving_);
     crowded_step_ = CrowdedSteps::longest(dt);
     for (double done = 0; done < dt;) {
       if (!is_finite(state)) return note("the state of a body is no longer finite");
@@ -75,7 +77,7 @@ class EventStepper : public ContactStepper {
       part_ = {t, done, end == t + dt ? dt : end - t};
       const long work_before = work_so_far();
       done = saved_ > 0 ? take_part(state) : take_crowded_step(state, crowded_step_);
-      saved_ -= static_cast<double>(work_so_far() - work_before);
+      saved_ -= kForEachPart + static_cast<double>(work_so_far() - work_before);
     }
     note(persistent_contact_.take_projection_warning());
   }
