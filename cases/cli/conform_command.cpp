@@ -97,8 +97,8 @@ std::string table_of(const RunName& run, const Json& results, bool holds) {
 }
 
 // Whether it answered whatever it was asked: one that does not has no motion to compare.
-bool answers(const Json& outcomes) {
-  return std::none_of(outcomes.begin(), outcomes.end(),
+bool answers(const Json& results) {
+  return std::none_of(results.begin(), results.end(),
                       [](const Json& row) { return row.at("answer") == "broken" && row.at("due") == "an answer"; });
 }
 

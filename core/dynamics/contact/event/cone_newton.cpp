@@ -132,17 +132,17 @@ ConeNewton::Fit ConeNewton::take_step(const std::vector<ConeConstraint>& points)
   }
 }
 
-bool ConeNewton::solve(BodyColumns state, std::vector<ConeConstraint>& points, double tolerance) {
+bool ConeNewton::solve(BodyColumns state, std::vector<ConeConstraint>& points, double tolerance, int& steps) {
   if (!set_up(state, points)) return false;
   const double near = kNear / 1e-13 * tolerance;
   double moved = std::numeric_limits<double>::infinity();
   steepness_ = kFirstSteepness;
-  for (int round = 0; round < kMostRounds && moved > tolerance; ++round) {
+  for (int round = 0; round < kMostRounds && moved > tolerance && steps > 0; ++round) {
     is_coupled_ = moved < near;
     if (is_coupled_) steepness_ = kLastSteepness;
     Fit fit = assess(points, change_);
     const double enough = std::max(tolerance, kRoundTolerance * fit.residual);
-    for (int k = 0; k < kMostSteps && fit.residual > enough; ++k) {
+    for (int k = 0; k < kMostSteps && fit.residual > enough && steps > 0; ++k, --steps) {
       const Fit now = take_step(points);
       if (now.residual == fit.residual) break;
       fit = now;

@@ -20,8 +20,9 @@ class ConeNewton {
       : system_(system), inverse_inertia_W_(inverse_inertia_W) {}
 
   // Changes the points' impulses until none would change a velocity by more than `tolerance` [m/s], or it gets no
-  // further. The velocities are the caller's to change. False if the bodies are too many.
-  bool solve(BodyColumns state, std::vector<ConeConstraint>& points, double tolerance);
+  // further, or `steps`, which it counts down, are spent. The velocities are the caller's to change. False if the
+  // bodies are too many.
+  bool solve(BodyColumns state, std::vector<ConeConstraint>& points, double tolerance, int& steps);
 
  private:
   using Side = Eigen::Matrix<double, 3, 6>;  // of a point's velocity, to one body's six speeds

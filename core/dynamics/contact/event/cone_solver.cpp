@@ -5,17 +5,16 @@
 #include <cmath>
 
 #include "core/dynamics/contact/event/cone_newton.h"
+#include "core/dynamics/contact/event/islands.h"
 
 namespace rigor {
 namespace {
 
 constexpr int kSweepsAtATime = 30;
-constexpr int kMostTurns = 12;  // of sweeps and Newton's method
-// Of the bodies' own speeds at the points and of what the impulses make of them: roundings can move for ever.
-constexpr double kAtRest = 1e-13, kNearRest = 1e-9;
-constexpr double kCreeping = 0.99;  // of a sequence whose ratio is not known yet
-constexpr double kSlow = 0.9;       // from here on Newton's method is quicker
-constexpr int kFewestSweeps = 5;    // before that is judged
+constexpr int kMostNewtonSteps = 400;  // of an island; what settles takes some 50
+constexpr double kCreeping = 0.99;     // of a sequence whose ratio is not known yet
+constexpr double kSlow = 0.9;          // from here on Newton's method is quicker
+constexpr int kFewestSweeps = 5;       // before that is judged
 
 double disc(double friction, double normal) {
   if (!(normal > 0)) return 0;
@@ -105,24 +104,27 @@ void ConeSolver::push(const ConeConstraint& point, const Vec3& impulse, MutableB
   change(point.b, point.arm_b, -1);
 }
 
-// Returns the largest change of a point's velocity.
-double ConeSolver::sweep(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
+// By a share of what each point asks for. Returns the largest change of a point's velocity.
+double ConeSolver::sweep(MutableBodyColumns state, std::vector<ConeConstraint>& points, double share) const {
   double largest = 0;
   for (ConeConstraint& point : points) {
-    const Vec3 impulse = impulse_at(point, velocity_at(point, state) + point.offset);
-    const Vec3 change = impulse - point.impulse;
+    const Vec3 asked = impulse_at(point, velocity_at(point, state) + point.offset);
+    const Vec3 change = share * (asked - point.impulse);
     if (change.isZero(0)) continue;
     push(point, change, state);
-    point.impulse = impulse;
+    point.impulse += change;
     largest = std::max(largest, (point.inverse_mass * change).norm());
   }
   return largest;
 }
 
-bool ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points,
-                                   double tolerance) const {
+bool ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points, double tolerance,
+                                   int& steps) const {
   const std::vector<ConeConstraint> before = points;
-  if (!ConeNewton(system_, inverse_inertia_W_).solve(state, points, tolerance)) return false;
+  const int before_steps = steps;
+  const bool are_few = ConeNewton(system_, inverse_inertia_W_).solve(state, points, tolerance, steps);
+  work_ += before_steps - steps;
+  if (!are_few) return false;
   for (std::size_t i = 0; i < points.size(); ++i) push(points[i], points[i].impulse - before[i].impulse, state);
   return true;
 }
@@ -142,22 +144,39 @@ double ConeSolver::size_of(BodyColumns state, const std::vector<ConeConstraint>&
 }
 
 bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
+  std::vector<std::pair<int, int>> pairs;
+  for (const ConeConstraint& point : points) pairs.emplace_back(point.a, point.b);
+  bool have_settled = true;
+  std::vector<ConeConstraint> of_island;
+  for (const Island& island : islands_of(system_, pairs)) {
+    of_island.clear();
+    for (const std::size_t i : island.points) of_island.push_back(points[i]);
+    have_settled = solve_island(state, of_island) && have_settled;
+    for (std::size_t k = 0; k < island.points.size(); ++k) points[island.points[k]] = of_island[k];
+  }
+  return have_settled;
+}
+
+bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
   double size = 0, last = 0, ratio = kCreeping;
-  for (int turn = 0; turn < kMostTurns; ++turn) {
+  int steps = kMostNewtonSteps;
+  for (int turn = 0; turn < accuracy_.most_turns; ++turn) {
+    // Sliding points may pass an impulse to and fro for ever, unless each gives way.
+    const double share = accuracy_.by_newton || turn == 0 ? 1 : 0.5;
     for (int k = 0; k < kSweepsAtATime; ++k) {
-      const double change = sweep(state, points);
+      const double change = sweep(state, points, share);
       if (k == 0) size = std::max(size, size_of(state, points));
       if (!std::isfinite(change)) return false;
       // Of a creeping sequence, what is still to come counts.
       if (k > 0) ratio = std::min(change / last, kCreeping);
       last = change;
-      if (change * ratio <= kAtRest * size * (1 - ratio)) return true;
-      if (k >= kFewestSweeps && ratio > kSlow) break;
+      if (change * ratio <= accuracy_.at_rest * size * (1 - ratio)) return true;
+      if (accuracy_.by_newton && k >= kFewestSweeps && ratio > kSlow) break;
     }
-    if (!take_newton_steps(state, points, kAtRest * size)) continue;
+    if (!accuracy_.by_newton || !take_newton_steps(state, points, accuracy_.at_rest * size, steps)) continue;
     ratio = 0.5;  // what Newton's method leaves is no sequence: it counts as it is
   }
-  return last <= kNearRest * size;  // a set of points on the verge of sliding may never come closer
+  return last <= accuracy_.near_rest * size;
 }
 
 }  // namespace rigor

@@ -3,9 +3,13 @@
 // resolved (impacts.h), and between them what touches is persistent (persistent_contact.h). A sequence of bounces ends
 // by the rule of kRestitutionThreshold. Bodies that overlap at the start are moved apart at once, without velocity.
 // Where no forces between touching bodies obey the laws (Painlevé's paradox: a rod that slides at a steep angle), an
-// impact without collision, of a step of kInstant, leads on. After kMostEvents in one step its rest is taken in
-// inelastic steps, and the run says so. Where bodies are not sure to stay apart (conservative_advancement.h,
-// acceleration_bounds.h) the time is halved, so that nothing passes through and no graze is missed.
+// impact without collision, of a step of kInstant, leads on. Where bodies are not sure to stay apart
+// (conservative_advancement.h, acceleration_bounds.h) the time is halved, so that nothing passes through and no graze
+// is missed.
+//
+// Where events crowd, as in the infinitely many small impacts with which a row of dominoes comes to lie, a run has a
+// budget: once it has spent it, the rest of a step is taken in steps that do not look for events (crowded_steps.h), and
+// the settings in force say for how long.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +21,7 @@
 
 #include "core/dynamics/collision/conservative_advancement.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/dynamics/contact/event/crowded_steps.h"
 #include "core/dynamics/contact/event/persistent_contact.h"
 #include "core/engine/option_values.h"
 
@@ -24,14 +29,16 @@ namespace rigor {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTouching = 1e-10;      // m: gaps this small are closed; at 1 m/s it is 1e-10 s
-constexpr double kRounding = 1e-15;      // m: of the gap of bodies that touched at the start
-constexpr double kInstant = 1e-6;        // s
-constexpr int kMostInstants = 100;       // in a step
-constexpr double kInelasticStep = 1e-3;  // s
-constexpr int kMostEvents = 1000, kMostPlanned = 10000;
-constexpr long kMostSubSteps = 20000;  // of the integrator in a step, to find its events
-constexpr int kMostPieces = 10000;     // of the time to the next event, while bodies are not seen to stay apart
+constexpr double kTouching = 1e-10;  // m: gaps this small are closed; at 1 m/s it is 1e-10 s
+constexpr double kRounding = 1e-15;  // m: of the gap of bodies that touched at the start
+constexpr double kInstant = 1e-6;    // s
+constexpr int kMostInstants = 100;   // in a step
+// Steps of the integrator, times the bodies that move: saved up at most, and for each step of the run. What an impact
+// costs is some ten of them; a ball that bounces with e = 0.9 comes to rest within 1700.
+constexpr double kMostSaved = 6000, kForEachStep = 200;
+constexpr double kForEachPart = 3;  // of such steps: what it costs to find what touches, and how
+
+constexpr int kMostPieces = 200;  // of the time to the next event, while bodies are not seen to stay apart
 
 bool is_finite(BodyColumns state) {
   for (std::size_t i = 0; i < state.size(); ++i) {
@@ -48,7 +55,11 @@ class EventStepper : public ContactStepper {
         loads_(parts.system.loads),
         persistent_contact_(parts, contact_points_),
         impacts_(parts.system, number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
-        bounds_(parts.system) {}
+        crowded_(parts, contact_points_),
+        bounds_(parts.system),
+        moving_(std::max<double>(
+            1, static_cast<double>(std::count_if(parts.system.bodies.begin(), parts.system.bodies.end(),
+                                                 [](const Inertia& body) { return !body.fixed; })))) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     solver_warning_.clear();
@@ -56,20 +67,17 @@ class EventStepper : public ContactStepper {
     if (!(dt > 0)) return step_without_contact(state, t, dt);
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
-    double done = 0;
-    int planned = 0;
-    const long passes_before = persistent_contact_.passes();
     instants_ = 0;
-    for (int events = 0; done < dt; ++events) {
+    saved_ = std::min(saved_ + kForEachPart + kForEachStep / moving_, kMostSaved / moving_);
+    crowded_step_ = CrowdedSteps::longest(dt);
+    for (double done = 0; done < dt;) {
       if (!is_finite(state)) return note("the state of a body is no longer finite");
       const double end = loads_.next_switch(t + done, t + dt);
       is_smooth_ = is_smooth_ && end == t + dt;
       part_ = {t, done, end == t + dt ? dt : end - t};
-      const double before = done;
-      const bool is_too_long = persistent_contact_.passes() - passes_before > kMostSubSteps;
-      done = events < kMostEvents && !is_too_long ? take_part(state) : finish(state);
-      // Parts that end as planned are no events.
-      if (done == part_.to && done > before && events > 0 && ++planned < kMostPlanned) --events;
+      const long work_before = work_so_far();
+      done = saved_ > 0 ? take_part(state) : take_crowded_step(state, crowded_step_);
+      saved_ -= kForEachPart + static_cast<double>(work_so_far() - work_before);
     }
     note(persistent_contact_.take_projection_warning());
   }
@@ -83,7 +91,7 @@ class EventStepper : public ContactStepper {
         {"impacts", "at their own instants, simultaneous ones together"},
         {"persistent contact", "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
         {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.restitution_threshold())},
-        {"most events in a step", fmt::format("{}", kMostEvents)}};
+        {"where events crowd", crowded_.wording()}};
   }
 
  private:
@@ -92,6 +100,10 @@ class EventStepper : public ContactStepper {
     double t = 0, from = 0, to = 0;  // s
     double length() const { return to - from; }
   };
+
+  long work_so_far() const {
+    return persistent_contact_.passes() + persistent_contact_.work_of_choices() + impacts_.work();
+  }
 
   void note(const std::string& solver_warning) {
     if (solver_warning_.empty()) solver_warning_ = solver_warning;
@@ -108,8 +120,12 @@ class EventStepper : public ContactStepper {
     pairs_ = contact_points_.candidates(state);
     touching_.clear();
     contact_points_.find(state, pairs_, kTouching, touching_);
-    if (impacts_.resolve(state, touching_, false)) is_smooth_ = false;
-    note(impacts_.solver_warning());
+    start_ = BodyColumns(state);
+    if (impacts_.resolve(state, touching_)) is_smooth_ = false;
+    if (!impacts_.solver_warning().empty()) {
+      copy_columns(std::as_const(start_).columns(), state);
+      return take_crowded_step(state, crowded_step_);
+    }
     if (!persistent_contact_.select(state, touching_, part_.t + part_.from, part_.length())) return skip_instant(state);
     return advance(state);
   }
@@ -131,8 +147,8 @@ class EventStepper : public ContactStepper {
     for (int pieces = 0; !ahead_.empty(); ++pieces) {
       const double h = ahead_.back(), distance = pieces == 0 ? distance_from_event() : attempt(h);
       if (distance < 0) return locate(state, clear, h, distance);
-      if (pieces > kMostPieces) note("two bodies passed too near each other to tell whether they touched");
-      if (pieces <= kMostPieces && !all_stay_apart(clear, h - clear)) {
+      if (pieces > kMostPieces) return go_past_neighbours(state, clear);
+      if (!all_stay_apart(clear, h - clear)) {
         ahead_.push_back(0.5 * (clear + h));
         continue;
       }
@@ -140,6 +156,13 @@ class EventStepper : public ContactStepper {
       ahead_.pop_back();
     }
     return commit(state, part_.to);
+  }
+
+  // Of bodies that go on too near each other to tell whether they touch; up to `clear` it is known that they do not.
+  double go_past_neighbours(MutableBodyColumns state, double clear) {
+    if (clear == 0) return take_crowded_step(state, crowded_step_);
+    attempt(clear);
+    return commit(state, part_.from + clear);
   }
 
   // Whether no pair can have touched between clear_, the state after `clear`, and end_, h after it. Points that are
@@ -205,45 +228,24 @@ class EventStepper : public ContactStepper {
     is_smooth_ = false;
     if (++instants_ > kMostInstants)
       note("no forces between the touching bodies obey the laws of contact and friction (Painlevé's paradox)");
-    return take_inelastic_step(state, instants_ > kMostInstants ? kInelasticStep : kInstant);
+    return take_crowded_step(state, instants_ > kMostInstants ? crowded_step_ : kInstant);
   }
 
-  double take_inelastic_step(MutableBodyColumns state, double longest) {
-    const double h = std::min(part_.length(), longest);
-    persistent_contact_.take_inelastic_step(state, touching_, part_.t + part_.from, h);
+  double take_crowded_step(MutableBodyColumns state, double longest) {
+    is_smooth_ = false;
+    const double h = crowded_.take(state, part_.t + part_.from, std::min(part_.length(), longest));
+    persistent_contact_.forget_points();
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
+    note(crowded_.solver_warning());
     return h == part_.length() ? part_.to : part_.from + h;
-  }
-
-  // Without looking for events.
-  double finish(MutableBodyColumns state) {
-    note(
-        fmt::format("more than {} events or {} sub-steps in a step: its rest was taken in steps without "
-                    "rebounds",
-                    kMostEvents, kMostSubSteps));
-    pairs_ = contact_points_.candidates(state);
-    touching_.clear();
-    contact_points_.find(state, pairs_, kTouching, touching_);
-    return take_inelastic_step(state, kInelasticStep);
   }
 
   // The first event lies between `low`, where all is clear, and `high`.
   double locate(MutableBodyColumns state, double low, double high, double distance_high) {
     double distance_low = 1;
     if (low == 0) {
-      // Bodies that have just parted have no gap at the start yet: halved until it is seen.
-      constexpr int kMostHalvings = 60;
-      int halvings = 0;
-      for (; halvings < kMostHalvings; ++halvings) {
-        const double middle = 0.5 * high, distance = attempt(middle);
-        if (distance >= 0) {
-          low = middle, distance_low = distance;
-          break;
-        }
-        high = middle, distance_high = distance;
-      }
-      if (halvings == kMostHalvings) return skip_instant(state);
+      if (!narrow_from_start(low, high, distance_low, distance_high)) return skip_instant(state);
     } else {
       distance_low = attempt(low);
     }
@@ -253,6 +255,27 @@ class EventStepper : public ContactStepper {
     const bool is_change = (attempt(high), persistent_contact_.distance_from_change() < 0) && least_free_gap() >= 0;
     if (!is_change) attempt(low), high = low;
     return commit(state, part_.from + high);
+  }
+
+  // Bodies that have just parted have no gap at the start yet, and a bounce may be far shorter than the part: looks for
+  // an instant before the event, just before the root of d(h)/h, which is straight where d is a parabola. False if
+  // there is none.
+  bool narrow_from_start(double& low, double& high, double& distance_low, double& distance_high) {
+    constexpr int kMostTrials = 60;
+    constexpr double kBefore = 0.95, kLeastShare = 1.0 / 64;
+    double share = 0.5;
+    for (int k = 0; k < kMostTrials; ++k) {
+      const double middle = share * high, distance = attempt(middle);
+      if (distance >= 0) {
+        low = middle, distance_low = distance;
+        return true;
+      }
+      const double rate = distance / middle, rate_high = distance_high / high;
+      const double guess = kBefore * (middle - rate * (high - middle) / (rate_high - rate)) / middle;
+      share = guess > kLeastShare ? std::min(guess, kBefore) : (guess > 0 ? kLeastShare : 0.5);
+      high = middle, distance_high = distance;
+    }
+    return false;
   }
 
   std::pair<double, double> root(double low, double high, double distance_low, double distance_high) {
@@ -291,7 +314,11 @@ class EventStepper : public ContactStepper {
   const Loads& loads_;
   PersistentContact persistent_contact_;
   Impacts impacts_;
+  CrowdedSteps crowded_;
   AccelerationBounds bounds_;
+  double moving_;              // bodies
+  double saved_ = kMostSaved;  // of the budget, in steps of the integrator
+  double crowded_step_ = 0;    // s
   Part part_;
   double longest_ = kInfinity;  // s, of the next part
   int instants_ = 0;            // skipped in this step

@@ -23,7 +23,7 @@ void copy_velocities(BodyColumns from, MutableBodyColumns to) {
 
 }  // namespace
 
-bool Impacts::resolve(MutableBodyColumns state, std::vector<ContactPoint>& contact_points, bool inelastic) {
+bool Impacts::resolve(MutableBodyColumns state, std::vector<ContactPoint>& contact_points) {
   solver_warning_.clear();
   rebound_ = false;
   points_.clear();
@@ -32,7 +32,7 @@ bool Impacts::resolve(MutableBodyColumns state, std::vector<ContactPoint>& conta
   solver_.prepare(state, points_);
   for (int round = 0;; ++round) {
     if (round == kRoundsOfInfinity) let_infinite_friction_grip();
-    if (!choose(state, contact_points, inelastic, round >= kMostImpactRounds)) break;
+    if (!choose(state, contact_points, round >= kMostImpactRounds)) break;
     solve_round(state);
     if (round <= kMostImpactRounds) continue;
     solver_warning_ = "an impact of several bodies did not come to an end; what was left of it was dropped";
@@ -48,7 +48,7 @@ void Impacts::let_infinite_friction_grip() {
 }
 
 // Fills chosen_ with this round's points; false if none approaches.
-bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool inelastic, bool all) {
+bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool all) {
   chosen_.clear();
   bool any_impact = false;
   for (std::size_t i = 0; i < contact_points.size(); ++i) {
@@ -58,7 +58,7 @@ bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact
     const bool jams = std::isinf(point.friction) && approach > -kStillSpeed && u.tail<2>().norm() > kJamming;
     const bool is_impact = approach > kStillSpeed || jams;
     any_impact = any_impact || is_impact;
-    const bool rebounds = approach > restitution_threshold_ && !inelastic && !all && contact_points[i].restitution > 0;
+    const bool rebounds = approach > restitution_threshold_ && !all && contact_points[i].restitution > 0;
     rebound_ = rebound_ || (is_impact && approach > restitution_threshold_) || jams;
     point.target_velocity = rebounds ? contact_points[i].restitution * approach : 0;
     if (jams) point.target_velocity = std::max(point.target_velocity, kJammed);
@@ -69,13 +69,13 @@ bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact
 
 void Impacts::solve_round(MutableBodyColumns state) {
   before_ = BodyColumns(state);
-  const double energy = kinetic_energy(state);
+  const double energy = kinetic_energy(system_, state);
   const auto attempt = [&](double share) {
     copy_velocities(std::as_const(before_).columns(), state);
     std::vector<ConeConstraint> points = chosen_;
     for (ConeConstraint& point : points) point.target_velocity *= share;
     if (!solver_.solve(state, points)) solver_warning_ = "the impulses of an impact did not settle";
-    return kinetic_energy(state) <= energy * (1 + kNewEnergy);
+    return kinetic_energy(system_, state) <= energy * (1 + kNewEnergy);
   };
   const bool rebounds =
       std::any_of(chosen_.begin(), chosen_.end(), [](const auto& p) { return p.target_velocity > 0; });
@@ -88,10 +88,10 @@ void Impacts::solve_round(MutableBodyColumns state) {
   attempt(low);
 }
 
-double Impacts::kinetic_energy(BodyColumns state) const {
+double kinetic_energy(const System& system, BodyColumns state) {
   double energy = 0;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const Inertia& body = system_.bodies[i];
+    const Inertia& body = system.bodies[i];
     const Vec3 w = state.angular_velocity(i);
     energy += 0.5 * body.mass * state.velocity(i).squaredNorm() +
               0.5 * w.dot(angular_momentum_of(body, state.rotation(i), w));

@@ -16,6 +16,8 @@ inline constexpr double kRestitutionThreshold = 1e-7;  // m/s, unless a run name
 // What the roundings of an impact leave of a velocity that should be zero.
 inline constexpr double kStillSpeed = 1e-10;  // m/s
 
+double kinetic_energy(const System& system, BodyColumns state);  // J
+
 class Impacts {
  public:
   Impacts(const System& system, double restitution_threshold)
@@ -24,16 +26,16 @@ class Impacts {
   double restitution_threshold() const { return restitution_threshold_; }  // m/s
 
   // Changes the velocities so that no touching points approach. Returns whether there were impacts above the
-  // restitution threshold. `inelastic`: no rebounds.
-  bool resolve(MutableBodyColumns state, std::vector<ContactPoint>& contact_points, bool inelastic);
+  // restitution threshold.
+  bool resolve(MutableBodyColumns state, std::vector<ContactPoint>& contact_points);
+  long work() const { return solver_.work(); }
   // Empty if every round came to its end.
   const std::string& solver_warning() const { return solver_warning_; }
 
  private:
-  bool choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool inelastic, bool all);
+  bool choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool all);
   void let_infinite_friction_grip();
   void solve_round(MutableBodyColumns state);
-  double kinetic_energy(BodyColumns state) const;
 
   const System& system_;
   ConeSolver solver_;

@@ -48,7 +48,6 @@ PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& c
       contact_stepper_(
           in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, nullptr, &persistent_})),
       loads_(system_),
-      solver_(system_),
       projection_(system_),
       restitution_threshold_(number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)) {}
 
@@ -144,21 +143,6 @@ double PersistentContact::distance_from_change() {
   if (least < 0 || margin() >= 0) return least;
   const double violation = modes_.violation(end_, wrench_at_end_);
   return violation > 0 ? -violation : least;
-}
-
-void PersistentContact::take_inelastic_step(MutableBodyColumns state, std::vector<ContactPoint>& touching, double t,
-                                            double dt) {
-  free_stepper_->step(state, t, dt);
-  ++passes_;
-  cones_.clear();
-  for (ContactPoint& contact : touching) {
-    if (!contact_points_.follow(state, contact)) continue;
-    cones_.push_back(contact.cone);
-    cones_.back().grips = std::isinf(contact.cone.friction);
-  }
-  solver_.prepare(state, cones_);
-  solver_.solve(state, cones_);
-  persistent_.points().clear();
 }
 
 bool PersistentContact::carries(const ContactPoint& contact) const {

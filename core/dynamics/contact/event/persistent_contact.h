@@ -30,9 +30,7 @@ class PersistentContact {
   bool is_at_rest(BodyColumns state) const;
   // How far the end of the last advance is from a change of what sticks, slides or touches there: negative beyond it.
   double distance_from_change();
-  // By a step that leaves velocities which obey the laws of an impact without rebound, to first order, whatever forces
-  // it takes.
-  void take_inelastic_step(MutableBodyColumns state, std::vector<ContactPoint>& touching, double t, double dt);
+  void forget_points() { persistent_.points().clear(); }
   // Moves bodies so that nothing overlaps and, of `all`, what carries a force has no gap; velocities stay. Returns
   // whether any body had to move.
   enum class Closing { overlaps, all };
@@ -43,6 +41,7 @@ class PersistentContact {
   const std::vector<Loading>& largest_loads() const { return persistent_.largest_loads(); }
   const std::string& integrator_in_contact() const { return in_contact_.name; }
   long passes() const { return passes_; }  // steps of the integrator so far
+  long work_of_choices() const { return modes_.work(); }
   // What went wrong in closing gaps and stopping points since the last call; empty if nothing did.
   std::string take_projection_warning() { return projection_.take_solver_warning(); }
   // Of the last advance; empty if nothing went wrong.
@@ -61,13 +60,11 @@ class PersistentContact {
   ContactModes modes_;
   std::unique_ptr<Stepper> free_stepper_, contact_stepper_;
   WrenchColumns loads_;
-  ConeSolver solver_;
   MassWeightedProjection projection_;
   double restitution_threshold_;  // m/s
   BodyColumns end_;
   const double* wrench_at_end_ = nullptr;
   std::vector<PersistentPoint> old_points_;
-  std::vector<ConeConstraint> cones_;
   std::vector<ContactPoint> open_;
   std::vector<ProjectionTarget> targets_;
   long passes_ = 0;

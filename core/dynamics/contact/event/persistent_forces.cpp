@@ -14,7 +14,7 @@ namespace {
 constexpr double kPenalty = 1e6;
 constexpr int kMostForceRounds = 6;
 constexpr double kSettled = 1e-15;  // of the accelerations without forces
-constexpr double kNoSlip = 1e-9;    // m/s: a slip that has no direction of its own
+constexpr double kNoSlip = 1e-9;     // m/s: a slip that has no direction of its own
 
 }  // namespace
 
@@ -30,18 +30,18 @@ PersistentForces::PersistentForces(const System& system, const std::vector<Colli
 void PersistentForces::begin_attempt() {
   largest_.assign(system_.size(), {});
   for (PersistentPoint& point : points_) point.least_slip = point.largest_slip = 0;
-  list_bodies();
+  find_islands();
 }
 
-void PersistentForces::list_bodies() {
-  for (const int body : bodies_) place_[body] = -1;
-  bodies_.clear();
-  for (const PersistentPoint& point : points_) {
-    for (const int body : {point.contact.cone.a, point.contact.cone.b}) {
-      if (system_.bodies[body].fixed || place_[body] >= 0) continue;
-      place_[body] = static_cast<int>(bodies_.size());
-      bodies_.push_back(body);
-    }
+void PersistentForces::find_islands() {
+  for (const Island& island : islands_) {
+    for (const int body : island.bodies) place_[body] = -1;
+  }
+  std::vector<std::pair<int, int>> pairs;
+  for (const PersistentPoint& point : points_) pairs.emplace_back(point.contact.cone.a, point.contact.cone.b);
+  islands_ = islands_of(system_, pairs);
+  for (const Island& island : islands_) {
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) place_[island.bodies[k]] = static_cast<int>(k);
   }
 }
 
@@ -90,10 +90,10 @@ void PersistentForces::add_row(std::size_t point, int axis, const Vec3& directio
   rows_.push_back(row);
 }
 
-void PersistentForces::list_rows() {
+void PersistentForces::list_rows(const Island& island) {
   rows_.clear();
   is_symmetric_ = true;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+  for (const std::size_t i : island.points) {
     const PersistentPoint& point = points_[i];
     const Vec3 n = point.kinematics.normal;
     if (point.mode == PersistentPoint::Mode::sticks) {
@@ -242,11 +242,11 @@ void PersistentForces::find_multipliers(const Eigen::VectorXd& free) {
   is_symmetric_ ? solve_in_accelerations(matrix_.llt(), free) : solve_in_accelerations(matrix_.partialPivLu(), free);
 }
 
-void PersistentForces::solve(BodyColumns state, const double* wrench) {
-  root_W_.resize(bodies_.size());
-  Eigen::VectorXd free(6 * bodies_.size());
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    const int body = bodies_[k];
+void PersistentForces::solve(const Island& island, BodyColumns state, const double* wrench) {
+  root_W_.resize(island.bodies.size());
+  Eigen::VectorXd free(6 * island.bodies.size());
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+    const int body = island.bodies[k];
     const Mat3 R = state.has_rotation() ? state.rotation(body) : matrix_of(state.orientation(body).normalized());
     root_W_[k] = R * inertia_root_B_[body];
     const auto [linear, angular] = free_acceleration(state, wrench, body);
@@ -255,12 +255,13 @@ void PersistentForces::solve(BodyColumns state, const double* wrench) {
     free.segment<3>(6 * static_cast<Eigen::Index>(k) + 3) =
         inertia_root_B_[body].transpose() * (system_.bodies[body].inertia_B * (R.transpose() * angular));
   }
-  list_rows();
+  list_rows(island);
   find_multipliers(free);
+  for (const std::size_t i : island.points) points_[i].force.setZero();
+  set_forces();
 }
 
 void PersistentForces::set_forces() {
-  for (PersistentPoint& point : points_) point.force.setZero();
   for (const Row& row : rows_) {
     PersistentPoint& point = points_[row.point];
     point.force[row.axis] += row.multiplier;
@@ -279,7 +280,7 @@ const double* PersistentForces::as_wrench(const double* wrench) {
     else
       std::fill_n(to, system_.size(), 0.0);
   }
-  std::vector<Loading> now(bodies_.size());
+  now_.assign(system_.size(), {});
   for (const PersistentPoint& point : points_) {
     const Vec3 force = point.frame * point.force;
     for (int end = 0; end < 2; ++end) {
@@ -290,20 +291,19 @@ const double* PersistentForces::as_wrench(const double* wrench) {
         wrench_.column(static_cast<std::size_t>(kForce + k))[body] += push[k];
         wrench_.column(static_cast<std::size_t>(kTorque + k))[body] += turn[k];
       }
-      now[place_[body]].force += push.norm(), now[place_[body]].torque += turn.norm();
+      now_[body].force += push.norm(), now_[body].torque += turn.norm();
     }
   }
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    Loading& most = largest_[bodies_[k]];
-    most.force = std::max(most.force, now[k].force), most.torque = std::max(most.torque, now[k].torque);
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    Loading& most = largest_[i];
+    most.force = std::max(most.force, now_[i].force), most.torque = std::max(most.torque, now_[i].torque);
   }
   return wrench_.data();
 }
 
 const double* PersistentForces::hold(BodyColumns state, const double* wrench, Rows) {
   place(state);
-  solve(state, wrench);
-  set_forces();
+  for (const Island& island : islands_) solve(island, state, wrench);
   return as_wrench(wrench);
 }
 

@@ -6,7 +6,8 @@
 // direction of its slip: Coulomb's force. Points may be more than the motion can tell apart; then, of all l that do it,
 // nearly the least is taken, by rounds of
 //   (J M⁻¹ Pᵀ + 1/rho) dl = -J'V - J V',
-// each solved in forces or, where points are many, in the bodies' accelerations, of which there are six a body.
+// each solved in forces or, where points are many, in the bodies' accelerations, of which there are six a body; each
+// island by itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,6 +15,7 @@
 
 #include "core/dynamics/contact/event/contact_features.h"
 #include "core/dynamics/contact/event/contact_points.h"
+#include "core/dynamics/contact/event/islands.h"
 #include "core/dynamics/model/constraint_forces.h"
 #include "core/engine/columns.h"
 
@@ -77,10 +79,10 @@ class PersistentForces : public ConstraintForces {
     double multiplier = 0;        // N
   };
 
-  void list_bodies();
-  void list_rows();
+  void find_islands();
+  void list_rows(const Island& island);
   void add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force);
-  void solve(BodyColumns state, const double* wrench);
+  void solve(const Island& island, BodyColumns state, const double* wrench);
   void find_multipliers(const Eigen::VectorXd& free);
   void assemble_in_accelerations(Eigen::Index size);
   void assemble_in_forces();
@@ -96,14 +98,15 @@ class PersistentForces : public ConstraintForces {
   const std::vector<Collider>& colliders_;
   std::vector<Mat3> inertia_root_B_;  // G with G Gᵀ the inverse inertia, of each body
   std::vector<PersistentPoint> points_;
-  std::vector<int> place_, bodies_;  // by body; the moving bodies at points
-  std::vector<Mat3> root_W_;         // R G, by place
+  std::vector<Island> islands_;
+  std::vector<int> place_;    // of each body in its island, or -1
+  std::vector<Mat3> root_W_;  // R G, by place
   std::vector<Row> rows_;
   bool is_symmetric_ = true;
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd acceleration_, residual_, change_;
   Columns wrench_;
-  std::vector<Loading> largest_;
+  std::vector<Loading> now_, largest_;  // by body
 };
 
 }  // namespace rigor

@@ -1,0 +1,124 @@
+#include "core/dynamics/contact/event/crowded_steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/dynamics/contact/event/impacts.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kLongest = 1.0 / 120;  // s
+constexpr double kShare = 1.0 / 4;      // of a step: shorter steps are to be nearer to the truth here too
+constexpr double kOverlap = 1e-10;      // m: a gap this small is closed; see event.cpp
+constexpr double kNewEnergy = 1e-12;    // of the energy before: rounding
+
+// A step errs by its own length squared; impulses that are nearer to the laws than that are not worth their time.
+// Sweeps never add energy, finished or not.
+constexpr ConeAccuracy kAccuracy{.at_rest = 1e-4, .near_rest = 5e-2, .most_turns = 2, .by_newton = false};
+
+const char* const kNotSettled = "the impulses between touching bodies did not settle";
+
+void turn_and_move(MutableBodyColumns state, std::size_t i, const Vec3& way, const Vec3& turn) {
+  state.set_position(i, state.position(i) + way);
+  const Quat rotation = rotation_by(turn);
+  state.set_orientation(i, (rotation * state.orientation(i)).normalized());
+  if (state.has_rotation()) state.set_rotation(i, rotation.toRotationMatrix() * state.rotation(i));
+}
+
+}  // namespace
+
+CrowdedSteps::CrowdedSteps(const ContactParts& parts, ContactPoints& contact_points)
+    : system_(parts.system),
+      contact_points_(contact_points),
+      stepper_(parts.integrator.make({system_, nullptr, parts.orientation, parts.settings})),
+      solver_(system_, kAccuracy) {}
+
+double CrowdedSteps::longest(double dt) { return std::min(kLongest, kShare * dt); }
+
+std::string CrowdedSteps::wording() const {
+  const std::string rule = "inelastic steps of 1/120 s or a quarter of the run's";
+  return steps_ == 0 ? rule + ": none so far" : fmt::format("{}: {} so far, {:.3g} s", rule, steps_, seconds_);
+}
+
+double CrowdedSteps::short_of_passing(BodyColumns state, double h) const {
+  constexpr double kShortest = 1.0 / 64;  // of h
+  double share = 1;
+  for (const Collider& collider : contact_points_.colliders()) {
+    if (collider.fixed) continue;
+    const double speed =
+        state.velocity(collider.body).norm() + state.angular_velocity(collider.body).norm() * collider.bounding_radius;
+    share = std::min(share, collider.inradius / (speed * h));
+  }
+  return std::max(share, kShortest) * h;
+}
+
+double CrowdedSteps::take(MutableBodyColumns state, double t, double h) {
+  solver_warning_.clear();
+  h = short_of_passing(state, h);
+  stepper_->step(state, t, h);
+  free_ = BodyColumns(state);
+  stop_overlaps(state, h);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vec3 v = state.velocity(i) - free_.columns().velocity(i),
+               w = state.angular_velocity(i) - free_.columns().angular_velocity(i);
+    if (!v.isZero(0) || !w.isZero(0)) turn_and_move(state, i, 0.5 * h * v, 0.5 * h * w);
+  }
+  solve_where_they_came_to(state);
+  seconds_ += h, ++steps_;
+  length_before_ = h;
+  return h;
+}
+
+void CrowdedSteps::stop_overlaps(MutableBodyColumns state, double h) {
+  before_.swap(touching_);
+  touching_.clear();
+  contact_points_.find(state, contact_points_.candidates(state), kOverlap, touching_);
+  const double least = 2 * system_.scene_gravity.norm() * h;  // m/s, of what rebounds
+  cones_.clear();
+  bool rebounds = false;
+  for (const ContactPoint& contact : touching_) {
+    cones_.push_back(contact.cone);
+    cones_.back().grips = std::isinf(contact.cone.friction);
+    cones_.back().impulse = impulse_before(contact) * (h / length_before_);
+    const double approach = -ConeSolver::velocity_at(contact.cone, state).x();
+    if (!(approach > least) || contact.restitution == 0) continue;
+    cones_.back().target_velocity = contact.restitution * approach;
+    rebounds = true;
+  }
+  solver_.prepare(state, cones_);
+  const double energy = kinetic_energy(system_, state);
+  for (const ConeConstraint& cone : cones_) solver_.push(cone, cone.impulse, state);
+  bool has_settled = solver_.solve(state, cones_);
+  if (rebounds && kinetic_energy(system_, state) > energy * (1 + kNewEnergy)) {
+    copy_columns(std::as_const(free_).columns(), state);
+    for (ConeConstraint& cone : cones_) cone.target_velocity = 0, cone.impulse.setZero();
+    has_settled = solver_.solve(state, cones_);
+  }
+  if (!has_settled) solver_warning_ = kNotSettled;
+}
+
+// What held a point over the last step is where the search begins.
+Vec3 CrowdedSteps::impulse_before(const ContactPoint& contact) const {
+  const auto old = std::find_if(before_.begin(), before_.end(),
+                                [&](const ContactPoint& point) { return point.same_place(contact); });
+  if (old == before_.end()) return Vec3::Zero();
+  return contact.cone.frame.transpose() * (old->cone.frame * old->cone.impulse);
+}
+
+// The arms and normals are no longer what they were: without this what rolls or stands would be left with a slip.
+void CrowdedSteps::solve_where_they_came_to(MutableBodyColumns state) {
+  for (std::size_t i = 0; i < touching_.size(); ++i) {
+    touching_[i].cone = cones_[i];
+    contact_points_.follow(state, touching_[i]);
+    cones_[i] = touching_[i].cone;
+  }
+  solver_.prepare(state, cones_);
+  if (!solver_.solve(state, cones_)) solver_warning_ = kNotSettled;
+  for (std::size_t i = 0; i < touching_.size(); ++i) touching_[i].cone = cones_[i];
+}
+
+}  // namespace rigor
