@@ -96,7 +96,7 @@ class ConstraintRows {
   // M^-1 J^T lambda for each body, with S lambda = -residual: what takes the residual of each row away.
   template <typename Residual>
   std::vector<Block> correction(const std::vector<Row>& rows, const std::vector<InverseMass>& inverse_mass,
-                                const Residual& residual) {
+                                const Residual& residual) const {
     Multipliers right(choice_.rank);
     for (int i = 0; i < choice_.rank; ++i) right[i] = -residual(rows[pivots_[i]]);
     if (choice_.rank > 0) right = ldlt_.solve(right).eval();
@@ -222,7 +222,7 @@ class ConstraintRows {
   Matrix matrix_;  // upper triangle, by pivots: as ldlt_ takes it without a copy
   std::vector<std::array<Block, 2>> weighed_;
   Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt_;
-  Multipliers multipliers_;
+  mutable Multipliers multipliers_;  // of the last correction
 };
 
 }  // namespace rigor

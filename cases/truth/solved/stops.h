@@ -164,8 +164,9 @@ class Stops {
   }
 
   bool is_wrong(const AxisMode& mode, int side, const AxisMotion<Real>& at) const {
-    if (mode.limit != 0) return mode.limit * at.effort > no_effort_;
-    if (mode.keeps_speed) return std::abs(static_cast<double>(at.effort)) > mode.most + no_effort_;
+    // Half of what an event is found by: what an event ends is wrong after it.
+    if (mode.limit != 0) return mode.limit * at.effort > no_effort_ / 2;
+    if (mode.keeps_speed) return std::abs(static_cast<double>(at.effort)) > mode.most + no_effort_ / 2;
     if (side * at.acceleration > kSameSpeed && rests(side, at)) return true;
     return is_at_speed(mode, at) && mode.push * at.acceleration > kSameSpeed;
   }

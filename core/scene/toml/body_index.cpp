@@ -153,6 +153,12 @@ std::vector<Ends> BodyIndex::ends(const TomlValue& a, const TomlValue& b) const 
                          shown(end_a.array->body), shown(end_b.array->body)));
   }
   const BodyArray& array = *(end_a.array ? end_a.array : end_b.array);
+  if (end_a.array && end_b.array && end_a.step == end_b.step) {
+    b.refuse(
+        fmt::format("from each body of the array '{0}' to itself it does nothing; allowed: '{0}+x', '{0}+y' or "
+                    "'{0}+z' for the next one",
+                    shown(array.body)));
+  }
   std::vector<Ends> all;
   for_each_copy(array, [&](const std::array<int, 3>& at) {
     const auto index = [&](const End& end) {

@@ -44,7 +44,8 @@ std::string bytes_of(const fs::path& file) {
 
 bool same(const ReferenceSolution& a, const ReferenceSolution& b) {
   return a.dimension == b.dimension && a.times == b.times && a.states == b.states && a.error_times == b.error_times &&
-         a.errors == b.errors && a.complete == b.complete;
+         a.errors == b.errors && a.complete == b.complete && a.phases.times == b.phases.times &&
+         a.phases.modes == b.phases.modes;
 }
 
 const Scene kScene = test::coupled_bodies(0.5);
@@ -130,6 +131,41 @@ BOOST_AUTO_TEST_CASE(every_number_of_the_motion_counts_and_no_name) {
   BOOST_TEST(changed([&](Scene& s) { next(s.forces[0].from); }));
   BOOST_TEST(changed([&](Scene& s) { s.forces[0].until = 3; }));
   BOOST_TEST(!changed([&](Scene& s) { s.bodies[0].name = "another"; }));
+}
+
+// A hinge at whose limit its body is struck, by a motor too.
+Scene stopped() {
+  Scene scene;
+  scene.bodies = {test::body("arm", 1, {1, 1, 1}, {0, 0, 0})};
+  scene.joints.push_back({kWorld, 0, HingeJoint{Vec3::Zero(), Vec3::UnitZ()}});
+  scene.joints[0].upper = 1, scene.joints[0].restitution = 0.5;
+  scene.motors.push_back({.joint = 0, .speed = 2.0, .most = 3});
+  return scene;
+}
+
+BOOST_AUTO_TEST_CASE(every_number_of_limits_and_motors_counts) {
+  const auto changed = [](auto change) {
+    Scene scene = stopped();
+    change(scene);
+    return reference_content(scene, 1) != reference_content(stopped(), 1);
+  };
+  BOOST_TEST(!changed([](Scene&) {}));
+  BOOST_TEST(changed([](Scene& s) { s.joints[0].upper = 2; }));
+  BOOST_TEST(changed([](Scene& s) { s.joints[0].lower = -1; }));
+  BOOST_TEST(changed([](Scene& s) { s.joints[0].restitution = 0; }));
+  BOOST_TEST(changed([](Scene& s) { s.motors[0].speed = 1; }));
+  BOOST_TEST(changed([](Scene& s) { s.motors[0].speed.reset(); }));
+  BOOST_TEST(changed([](Scene& s) { s.motors[0].most = 1; }));
+}
+
+BOOST_AUTO_TEST_CASE(a_solution_in_phases_comes_back_with_them) {
+  const std::string content = reference_content(stopped(), 2);
+  const ReferenceSolution solution = solve_reference(stopped(), 2);
+  BOOST_TEST(solution.phases.times.size() > 2);
+  keep_solution(content, solution);
+  const auto kept = kept_solution(content);
+  BOOST_REQUIRE(kept.has_value());
+  BOOST_TEST(same(*kept, solution));
 }
 
 BOOST_AUTO_TEST_CASE(what_another_solver_kept_is_not_taken) {

@@ -64,6 +64,9 @@ const std::vector<Refusal> kBadJoints = {
      "12:8: scene.force.body: ",
      {"an array of 6 bodies", "'link-1-1'"}},
     {kChain + "[[scene.joint]]\ntype = 'fixed'\na = 'link'\nb = 'link+y'", "14:5: scene.joint.b: ", {"no next"}},
+    {kChain + "[[scene.joint]]\ntype = 'fixed'\na = 'link'\nb = 'link'",
+     "14:5: scene.joint.b: ",
+     {"itself", "'link+x'"}},
 };
 
 }  // namespace
