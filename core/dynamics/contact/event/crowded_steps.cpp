@@ -17,7 +17,7 @@ constexpr double kOverlap = 1e-10;      // m: a gap this small is closed; see ev
 constexpr double kNewEnergy = 1e-12;    // of the energy before: rounding
 
 // A step errs by its own length squared; impulses that are nearer to the laws than that are not worth their time.
-// Sweeps never add energy, finished or not.
+// Sweeps that begin with no impulses and ask for no rebound never add energy, finished or not.
 constexpr ConeAccuracy kAccuracy{.at_rest = 1e-4, .near_rest = 5e-2, .most_turns = 2, .by_newton = false};
 
 const char* const kNotSettled = "the impulses between touching bodies did not settle";
@@ -79,7 +79,6 @@ void CrowdedSteps::stop_overlaps(MutableBodyColumns state, double h) {
   contact_points_.find(state, contact_points_.candidates(state), kOverlap, touching_);
   const double least = 2 * system_.scene_gravity.norm() * h;  // m/s, of what rebounds
   cones_.clear();
-  bool rebounds = false;
   for (const ContactPoint& contact : touching_) {
     cones_.push_back(contact.cone);
     cones_.back().grips = std::isinf(contact.cone.friction);
@@ -87,13 +86,12 @@ void CrowdedSteps::stop_overlaps(MutableBodyColumns state, double h) {
     const double approach = -ConeSolver::velocity_at(contact.cone, state).x();
     if (!(approach > least) || contact.restitution == 0) continue;
     cones_.back().target_velocity = contact.restitution * approach;
-    rebounds = true;
   }
   solver_.prepare(state, cones_);
   const double energy = kinetic_energy(system_, state);
   for (const ConeConstraint& cone : cones_) solver_.push(cone, cone.impulse, state);
   bool has_settled = solver_.solve(state, cones_);
-  if (rebounds && kinetic_energy(system_, state) > energy * (1 + kNewEnergy)) {
+  if (kinetic_energy(system_, state) > energy * (1 + kNewEnergy)) {
     copy_columns(std::as_const(free_).columns(), state);
     for (ConeConstraint& cone : cones_) cone.target_velocity = 0, cone.impulse.setZero();
     has_settled = solver_.solve(state, cones_);
@@ -116,8 +114,11 @@ void CrowdedSteps::solve_where_they_came_to(MutableBodyColumns state) {
     contact_points_.follow(state, touching_[i]);
     cones_[i] = touching_[i].cone;
   }
+  free_ = BodyColumns(state);
   solver_.prepare(state, cones_);
   if (!solver_.solve(state, cones_)) solver_warning_ = kNotSettled;
+  const double before = kinetic_energy(system_, std::as_const(free_).columns());
+  if (kinetic_energy(system_, state) > before * (1 + kNewEnergy)) copy_columns(std::as_const(free_).columns(), state);
   for (std::size_t i = 0; i < touching_.size(); ++i) touching_[i].cone = cones_[i];
 }
 

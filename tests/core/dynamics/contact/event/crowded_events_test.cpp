@@ -1,0 +1,115 @@
+// Where events crowd: what a run may spend on them is bounded, and what is taken in inelastic steps instead goes on to
+// obey the laws. And what slides along a curved way, which is where friction's direction has to be asked at each stage.
+#include <boost/test/data/test_case.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/dynamics/model/energy.h"
+#include "tests/core/dynamics/contact/contact_runs.h"
+
+using namespace rigor;
+using namespace rigor::test;
+
+namespace {
+
+constexpr double kStep = 1.0 / 30;  // s
+
+Scene dominoes(int count) {
+  std::vector<Body> row;
+  for (int i = 0; i < count; ++i) row.push_back(solid("domino", Box{{0.2, 0.5, 1}}, {0.6 * i, 0, 0.5}));
+  row[0].angular_velocity = {0, 1.2, 0}, row[0].velocity = {0.6, 0, 0.12};
+  return on_floor(row, {0, 0.5});
+}
+
+// A step adds no more than what it lifts bodies by to part them, h²g of each one's weight at most. Returns how far the
+// lowest body's centre came down.
+void fall(const Scene& scene, ContactRun& run, double t) {
+  double least = energy(scene, run.state()), weight = 0;
+  for (const Body& body : scene.bodies) weight += body.fixed ? 0 : body.mass * 9.81;
+  while (run.time() < t) {
+    run.step(kStep);
+    const double now = energy(scene, run.state());
+    if (!(now <= least + weight * 9.81 * kStep * kStep / 16)) BOOST_TEST(now <= least, "at " << run.time() << " s by " << now - least << " J");
+    least = std::min(least, now);
+  }
+  BOOST_TEST(run.solver_warning() == "");
+}
+
+Body any_body(std::mt19937& random, int i) {
+  const auto between = [&](double low, double high) { return low + (high - low) * random() / 4294967296.0; };
+  const Vec3 position(1.2 * (i % 3), 1.2 * (i / 3 % 2), 0.6 + 1.1 * (i / 6));
+  const Shape shapes[] = {Box{{between(0.1, 0.6), between(0.1, 0.6), between(0.1, 0.6)}}, Sphere{between(0.1, 0.3)},
+                          Capsule{between(0.06, 0.2), between(0.1, 0.6)}};
+  Body body = solid("any", shapes[random() % 3], position);
+  body.orientation = rotation_by({between(-2, 2), between(-2, 2), between(-2, 2)});
+  body.velocity = {between(-3, 3), between(-3, 3), between(-3, 3)};
+  body.angular_velocity = {between(-5, 5), between(-5, 5), between(-5, 5)};
+  return body;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_crowded_events)
+
+BOOST_DATA_TEST_CASE(a_row_of_dominoes_falls_and_comes_to_lie, boost::unit_test::data::make({3, 10}), count) {
+  const Scene scene = dominoes(count);
+  ContactRun run(scene, "event");
+  fall(scene, run, 5);
+  for (int i = 0; i < count; ++i) {
+    BOOST_TEST(angle_between(run.state().orientation(i), Quat::Identity()) > 1);
+    // g h, of a step of 1/120 s, is what such a step may leave of a speed.
+    BOOST_TEST(run.state().velocity(i).norm() < 9.81 / 120);
+  }
+}
+
+// Painlevé's paradox needs mu x h > I/m + x²: of a cube, which turns to x = h/2 at worst, mu > 4/3.
+BOOST_AUTO_TEST_CASE(a_cube_thrown_along_a_floor_meets_no_paradox) {
+  for (const double friction : {0.5, 1.0, kInfiniteFriction}) {
+    for (const double side : {0.2, 1.0}) {
+      for (const double restitution : {0.0, 0.5}) {
+        BOOST_TEST_CONTEXT("friction " << friction << ", side " << side << ", restitution " << restitution) {
+          Body cube = solid("cube", Box{{side, side, side}}, {0, 0, 0.5 * side});
+          cube.velocity = {5, 0, 0};
+          const Scene scene = on_floor({cube}, {restitution, friction});
+          ContactRun run(scene, "event");
+          fall(scene, run, 3);
+        }
+      }
+    }
+  }
+}
+
+BOOST_DATA_TEST_CASE(ten_bodies_that_are_thrown_together_cost_no_more_than_was_saved,
+                     boost::unit_test::data::make({1, 2, 3, 4, 5, 6}), seed) {
+  std::mt19937 random(static_cast<unsigned>(seed));
+  std::vector<Body> bodies;
+  for (int i = 0; i < 4 + seed; ++i) bodies.push_back(any_body(random, i));
+  const Scene scene = on_floor(bodies, {0.1 * seed, 0.15 * seed});
+  ContactRun run(scene, "event");
+  fall(scene, run, 3);
+  for (std::size_t i = 0; i < bodies.size(); ++i) BOOST_TEST(run.state().position(i).z() > 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_log_that_slides_and_spins_keeps_the_order_of_the_integrator) {
+  Body log = solid("log", Capsule{0.1, 0.6}, {0, 0, 0.1});
+  log.orientation = rotation_by({0, 0.5 * std::numbers::pi, 0});
+  log.velocity = {1, 2, 0}, log.angular_velocity = {0, 0, 4};
+  const Scene scene = on_floor({log}, {0, 0.3});
+  const auto after = [&](const char* integrator, int steps) {
+    ContactRun run(scene, "event", integrator);
+    run.run(0.2 / steps, steps);
+    return run.state().body(0);
+  };
+  const BodyState exact = after("dormand-prince", 12);
+  // It does turn: each end slides another way.
+  BOOST_TEST(std::abs(exact.velocity.x() / exact.velocity.y() - 0.5) > 1e-3);
+  for (const char* integrator : {"rk4", "rkmk4"}) {
+    const auto error = [&](int steps) { return (after(integrator, steps).position - exact.position).norm(); };
+    const double coarse = error(3), fine = error(6), finer = error(12);
+    BOOST_TEST(std::log2(coarse / fine) > 3.5, integrator << ": " << coarse << ", " << fine);
+    BOOST_TEST(std::log2(fine / finer) > 3.7, integrator << ": " << fine << ", " << finer);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
