@@ -19,6 +19,7 @@ constexpr double kSureEnough = 0.98;   // nor two mistakes at once, one of which
 constexpr double kWorthASecond = 0.5;  // of what one mistake leaves, two together have to leave less
 constexpr double kAlike = 1e-3;        // suspects that explain as much, to within this part of what is left of 1
 constexpr std::size_t kShown = 5;
+constexpr double kMostOfMistake = 0.5;  // s of CPU time: some mistakes make scenes on which the core works for long
 constexpr double kNotable = 0.3;
 
 std::vector<Hypothesis> of_table() {
@@ -74,7 +75,7 @@ std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector
         tasks.push_back(std::move(task));
     }
   }
-  const std::vector<Motion> motions = simulate_motions(tasks, engines_, options_.at_once, options_.limit);
+  const std::vector<Motion> motions = simulate_motions(tasks, engines_, options_.at_once, kMostOfMistake);
   std::size_t at = 0;
   for (Hypothesis& hypothesis : hypotheses) {
     for (const View& view : table.views) hypothesis.sights.push_back(seen(view, motions, at)), at += view.dt.size();
@@ -143,7 +144,10 @@ void MistakeFinder::add_amounts(const Trace& trace, const Table& table, std::vec
     found.clear();
     for (Hypothesis& hypothesis : next) found.emplace_back(0, std::move(hypothesis));
   }
-  for (auto& [cosine, hypothesis] : found) hypotheses.push_back(std::move(hypothesis));
+  for (auto& [cosine, hypothesis] : found) {
+    const auto is_same = [&](const Hypothesis& other) { return other.names == hypothesis.names; };
+    if (std::none_of(hypotheses.begin(), hypotheses.end(), is_same)) hypotheses.push_back(std::move(hypothesis));
+  }
 }
 
 // Two mistakes in one engine: those that explain different cases whole, and those whose motions add up to the error's.

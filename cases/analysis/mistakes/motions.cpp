@@ -1,6 +1,11 @@
 #include "cases/analysis/mistakes/motions.h"
 
+#include <fmt/format.h>
+#include <sys/time.h>
+
 #include <algorithm>
+#include <cmath>
+#include <csignal>
 #include <cstring>
 #include <optional>
 
@@ -19,6 +24,19 @@ void append_state(BodyColumns bodies, std::vector<double>& into) {
     for (int k = 0; k < 9; ++k) into.push_back(R(k / 3, k % 3));
     into.insert(into.end(), v.data(), v.data() + 3), into.insert(into.end(), w.data(), w.data() + 3);
   }
+}
+
+// From now on this process may take so much CPU time [s], or ends.
+void allow(double seconds) {
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(seconds);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - std::floor(seconds)));
+  setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
+std::string why_it_ended(const JobEnd& end, double limit) {
+  const bool is_late = end.how == Ending::killed && end.code == SIGPROF;
+  return is_late ? fmt::format("it took more than {:g} s of CPU time", limit) : sentence_of(end, limit);
 }
 
 Motion simulated(const MotionTask& task) {
@@ -87,7 +105,10 @@ std::vector<Motion> simulate_motions(const std::vector<MotionTask>& tasks, const
     std::vector<Job> jobs;
     for (const Chain& chain : chains) {
       jobs.push_back({[&](const Channel& channel) {
-                        for (const std::size_t n : chain) channel.send(message_of(n, simulated(tasks[n])));
+                        for (const std::size_t n : chain) {
+                          allow(limit);
+                          channel.send(message_of(n, simulated(tasks[n])));
+                        }
                         engines.rest();
                       },
                       limit});
@@ -98,7 +119,7 @@ std::vector<Motion> simulate_motions(const std::vector<MotionTask>& tasks, const
     };
     const auto on_end = [&](std::size_t job, const JobEnd& end) {
       if (done[job] == chains[job].size()) return;
-      motions[chains[job][done[job]++]].why = sentence_of(end, limit);  // the one that it was at
+      motions[chains[job][done[job]++]].why = why_it_ended(end, limit);  // the one that it was at
       ++deaths;
     };
     run_jobs(jobs, at_once, on_message, on_end);

@@ -65,8 +65,13 @@ std::vector<double> Trace::nearest(const std::vector<Hypothesis>& hypotheses) co
   return least;
 }
 
+bool Trace::is_clear(std::size_t o, double size, double nearest) const {
+  return size > std::max(tolerance(o), kClear * nearest);
+}
+
 bool Trace::is_active(std::size_t o, double size, double error, double nearest) const {
-  return size > std::max(tolerance(o), kClear * nearest) || error > certain_error(o);
+  const bool is_accurate = views_[observations_[o].view_index()].kind == View::Kind::accurate;
+  return is_clear(o, size, nearest) || (!is_accurate && error > certain_error(o));
 }
 
 // Where bodies touch, or a method of high order is off otherwise, what is left is of the engine's way with contacts as
@@ -88,7 +93,8 @@ std::vector<std::size_t> Trace::probes_off(const std::vector<Hypothesis>& hypoth
     const Sight& engine = engine_[observations_[o].view_index()];
     const double error = observations_[o].distances(engine, engine).error;
     const std::size_t probe = views_[observations_[o].view_index()].probe;
-    if (is_active(o, error, error, least[o]) && (off.empty() || off.back() != probe)) off.push_back(probe);
+    const bool is_off = is_clear(o, error, least[o]) || error > certain_error(o);
+    if (is_off && (off.empty() || off.back() != probe)) off.push_back(probe);
   }
   return off;
 }

@@ -63,6 +63,8 @@ class Trace {
   double weight_of(std::size_t observation, double size) const;
   // Of each observation, how near any hypothesis comes, the motion without mistakes included.
   std::vector<double> nearest(const std::vector<Hypothesis>& hypotheses) const;
+  bool is_clear(std::size_t observation, double size, double nearest) const;
+  // Whether it counts for and against mistakes. Where bodies touch, what no mistake comes near is the engine's own way.
   bool is_active(std::size_t observation, double size, double error, double nearest) const;
 
   const std::vector<View>& views_;
