@@ -8,7 +8,9 @@ const THREE = await import(`${folder}/node_modules/three/build/three.module.js`)
 const { GLTFLoader } = await import(`${folder}/node_modules/three/examples/jsm/loaders/GLTFLoader.js`);
 const gltf = await new GLTFLoader().parseAsync(readFileSync(file, "utf8"), "");
 const mixer = new THREE.AnimationMixer(gltf.scene);
-mixer.clipAction(gltf.animations[0]).play();
+const action = mixer.clipAction(gltf.animations[0]).setLoop(THREE.LoopOnce);
+action.clampWhenFinished = true;
+action.play();
 mixer.setTime(Number(time));
 gltf.scene.updateMatrixWorld(true);
 const bodies = {};
