@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 #include "core/base/content_hash.h"
 
@@ -46,8 +46,9 @@ bool take_record(const std::string& bytes, std::size_t& at, std::size_t& job, Jo
 
 Journal::Journal(const std::string& file, const std::string& plan) {
   if (file.empty()) return;
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}}, title = title_of(plan);
+  std::ostringstream read;  // as far as it can be
+  read << std::ifstream(file, std::ios::binary).rdbuf();
+  const std::string bytes = read.str(), title = title_of(plan);
   std::size_t whole = 0;
   if (bytes.starts_with(title)) {
     whole = title.size();

@@ -99,15 +99,19 @@ void exchange(const fs::path& fresh, const fs::path& old) {
 void put_into_place(const fs::path& staged, const fs::path& folder) {
   std::ifstream ready(staged / kReady);
   ino_t fresh = 0;
+  std::vector<std::string> not_written;
   ready >> fresh;
+  for (std::string name; ready >> name;) not_written.push_back(name);
+  if (!ready.eof()) throw std::runtime_error("what is ready could not be read");
   if (inode_of(staged / kTrajectories) == fresh) exchange(staged / kTrajectories, folder / kTrajectories);
   for (const fs::directory_entry& entry : fs::directory_iterator(staged / "reports"))
     fs::rename(entry.path(), folder / entry.path().filename());
-  for (std::string not_written; ready >> not_written;) fs::remove(folder / not_written);
+  for (const std::string& name : not_written) fs::remove(folder / name);
   fs::remove(staged / kReady);
 }
 
-// In a process of its own, in a session of its own, so that whoever kills this one does not stop it half-way.
+// In a process of its own, in a session of its own, so that whoever kills this one does not stop it half-way. Should it
+// fail or be killed itself, this one goes on from where it was.
 void put_into_place_unstopped(const fs::path& staged, const fs::path& folder) {
   const pid_t child = fork();
   if (child < 0) return put_into_place(staged, folder);
@@ -124,7 +128,14 @@ void put_into_place_unstopped(const fs::path& staged, const fs::path& folder) {
   int status = 1;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (status != 0) throw std::runtime_error(fmt::format("the outputs could not be renamed into '{}'", folder.string()));
+  if (status == 0 || !fs::exists(staged / kReady)) return;
+  try {
+    put_into_place(staged, folder);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(
+        fmt::format("the outputs could not be put into '{}' as a whole: {}; the next run there begins by that",
+                    folder.string(), error.what()));
+  }
 }
 
 void check_what_stands_there(const fs::path& folder, const std::vector<std::string>& file_names) {

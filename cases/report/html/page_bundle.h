@@ -6,6 +6,7 @@
 namespace rigor {
 
 extern const std::string_view kPageScript;
+extern const std::string_view kPageScriptHash;  // as a content security policy names it
 extern const std::string_view kPageStyle;
 extern const std::string_view kPageLicences;  // of what the script contains
 

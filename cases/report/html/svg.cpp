@@ -73,7 +73,9 @@ std::string shade(double share) {
 std::string page_head(const std::string& title) {
   return fmt::format(
              R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<html lang="en"><head><meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{}</title>)",
              escaped(title)) +
          kStyle;

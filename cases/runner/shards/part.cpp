@@ -158,7 +158,9 @@ class Merge {
     const Subject subject = apply_message(result, answer.record.message);
     if (subject.part == Subject::Part::spreads) throw std::runtime_error("it is about no cell");
     if (subject.part != Subject::Part::cell) return;
-    Cell& cell = result.cells[subject.index];
+    const Cell& cell = result.cells[subject.index];
+    if (!cell.trajectory.empty() && cell.trajectory != plan_.cases[c].cells[subject.index].trajectory)
+      throw std::runtime_error("it names another trajectory");
     if (!answer.record.path.empty()) paths_[c][subject.index] = unpacked(answer.record.path);
     if (!cell.trajectory.empty()) merged_.trajectories[cell.trajectory] = part.folder;
   }

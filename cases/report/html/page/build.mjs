@@ -1,6 +1,7 @@
 // Bundles the page into one script and one style sheet and writes them as a C++ source:
 //   node build.mjs FOLDER-OF-node_modules OUT.cpp
 // Everything that is bundled comes from the folder that package-lock.json was installed to.
+import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
@@ -59,6 +60,7 @@ writeFileSync(
 
 namespace rigor {
 ${literal("kPageScript", text)}
+${literal("kPageScriptHash", `sha256-${createHash("sha256").update(text).digest("base64")}`)}
 ${literal("kPageStyle", style.outputFiles[0].text)}
 ${literal("kPageLicences", licences.replaceAll("--", "- -"))}
 }  // namespace rigor

@@ -74,6 +74,18 @@ try {
   }
   const solver_warnings = (await browser.solver_warnings()).filter((text) => !text.includes("GPU stall due to ReadPixels"));
   expect(!solver_warnings.length, solver_warnings.join("\n"));
+  // Even if a name got into the page as markup: no script of it runs, no handler, and nothing is fetched.
+  await browser.run(`
+    const script = document.createElement("script"), holder = document.createElement("div");
+    window.refused = [];
+    document.addEventListener("securitypolicyviolation", (event) => window.refused.push(event.effectiveDirective));
+    script.textContent = "window.harm = 'a script'";
+    holder.innerHTML = '<img src="data:image/png;base64,broken" onerror="window.harm = 1"><svg onload="window.harm = 2"></svg>';
+    document.body.append(script, holder)`);
+  await browser.until("window.refused.length >= 4", "the page to refuse what was put into it");
+  const refused = (await browser.run("return window.refused")).sort().join(" ");
+  expect(refused === "img-src script-src-attr script-src-attr script-src-elem", `refused was ${refused}`);
+  expect(await browser.run("return window.harm === undefined"), "a script that is not the page's own was run");
 } finally {
   await browser.close();
 }
