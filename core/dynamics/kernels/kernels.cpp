@@ -7,16 +7,16 @@ namespace rigor {
 namespace plain {
 extern const Kernels kTable;
 extern const BallKernels kBallTable;
-}
+}  // namespace plain
 #ifdef __x86_64__
 namespace avx2 {
 extern const Kernels kTable;
 extern const BallKernels kBallTable;
-}
+}  // namespace avx2
 namespace avx512 {
 extern const Kernels kTable;
 extern const BallKernels kBallTable;
-}
+}  // namespace avx512
 #endif
 
 namespace {
