@@ -27,6 +27,7 @@ constexpr int kMostHalvings = 7;
 constexpr double kWantedEventsError = 1e-8;  // m and rad; metrics ask for a hundred times that
 constexpr double kUseful = 1e-6;             // m and rad, what metrics ask for
 constexpr double kMostWork = 2e5;            // steps of a body, of some 20 µs each where it touches others
+constexpr const char* kPatience = "10";      // what a run takes in inelastic steps is found event by event here
 constexpr double kSafety = 3;
 // What both ways have in common: gaps that count as closed [m], and speeds of separating or sliding that count as none
 // [m/s]; see event.cpp and contact_modes.h.
@@ -41,6 +42,7 @@ class Stepping {
     Settings settings;
     settings.method = way.integrator;
     settings.options["restitution-threshold"] = way.restitution_threshold;
+    settings.options["patience"] = kPatience;
     stepper_ = contact_method("event").make(scene, {system_, integrator_, orientation_, settings});
   }
 

@@ -57,6 +57,7 @@ class EventStepper : public ContactStepper {
         impacts_(parts.system, number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
         crowded_(parts, contact_points_),
         bounds_(parts.system),
+        patience_(number_option(parts.settings, "patience", 1)),
         moving_(std::max<double>(
             1, static_cast<double>(std::count_if(parts.system.bodies.begin(), parts.system.bodies.end(),
                                                  [](const Inertia& body) { return !body.fixed; })))) {}
@@ -68,7 +69,7 @@ class EventStepper : public ContactStepper {
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
     instants_ = 0;
-    saved_ = std::min(saved_ + kForEachPart + kForEachStep / moving_, kMostSaved / moving_);
+    saved_ = std::min(saved_ + kForEachPart + patience_ * kForEachStep / moving_, patience_ * kMostSaved / moving_);
     crowded_step_ = CrowdedSteps::longest(dt);
     for (double done = 0; done < dt;) {
       if (!is_finite(state)) return note("the state of a body is no longer finite");
@@ -147,7 +148,7 @@ class EventStepper : public ContactStepper {
     for (int pieces = 0; !ahead_.empty(); ++pieces) {
       const double h = ahead_.back(), distance = pieces == 0 ? distance_from_event() : attempt(h);
       if (distance < 0) return locate(state, clear, h, distance);
-      if (pieces > kMostPieces) return go_past_neighbours(state, clear);
+      if (pieces > patience_ * kMostPieces) return go_past_neighbours(state, clear);
       if (!all_stay_apart(clear, h - clear)) {
         ahead_.push_back(0.5 * (clear + h));
         continue;
@@ -233,6 +234,7 @@ class EventStepper : public ContactStepper {
 
   double take_crowded_step(MutableBodyColumns state, double longest) {
     is_smooth_ = false;
+    if (patience_ > 1 && longest > kInstant) note("events crowd more than its patience allows");
     const double h = crowded_.take(state, part_.t + part_.from, std::min(part_.length(), longest));
     persistent_contact_.forget_points();
     pairs_ = contact_points_.candidates(state);
@@ -316,9 +318,10 @@ class EventStepper : public ContactStepper {
   Impacts impacts_;
   CrowdedSteps crowded_;
   AccelerationBounds bounds_;
-  double moving_;              // bodies
-  double saved_ = kMostSaved;  // of the budget, in steps of the integrator
-  double crowded_step_ = 0;    // s
+  double patience_;
+  double moving_;                                      // bodies
+  double saved_ = std::numeric_limits<double>::max();  // of the budget, in steps of the integrator
+  double crowded_step_ = 0;                            // s
   Part part_;
   double longest_ = kInfinity;  // s, of the next part
   int instants_ = 0;            // skipped in this step
@@ -338,7 +341,12 @@ const ContactMethod kEventContact = {
     .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
     .features =
         joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none", "restitution"}),
-    .options = {{"restitution-threshold", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1}},
+    .options = {{"restitution-threshold", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1},
+                {"patience",
+                 "times of what it may spend on events by default; more than 1: invalid where they crowd",
+                 {},
+                 1,
+                 1e6}},
     .make = make_contact_stepper<EventStepper>,
 };
 
