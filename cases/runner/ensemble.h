@@ -21,7 +21,8 @@ Scene jittered(const Scene& scene, std::uint64_t seed);
 std::optional<Points> outcomes_of(const Engine& engine, const Settings& settings, const Case& definition, double dt,
                                   std::uint64_t first_seed, std::string& flaw);
 
-// The core's own, at the case's finest step. Held against another one at half of that: if these two differ, outcomes depend on the step still, and there is nothing to hold a run against.
+// The core's own, at the case's finest step. Held against another one at half of that: if these two differ, outcomes
+// depend on the step still, and there is nothing to hold a run against.
 class EnsembleReference {
  public:
   EnsembleReference(const EngineTable& engines, const Case& definition);

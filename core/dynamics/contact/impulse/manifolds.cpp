@@ -14,7 +14,7 @@ constexpr double kStepsAhead = 12;           // and by its displacement in so ma
 constexpr double kFarthest = 1.5;            // but not by more than this
 constexpr double kSpeculativeMargin = 0.02;  // points closer than this are kept even if they do not approach
 constexpr double kMatchRadius = 0.1;         // a point this near to one of the last update is the same
-constexpr double kDeep = 0.02;               // an overlap of more was there from the start, or is a failure
+constexpr double kDeep = 0.02;               // an overlap of more at the start is parted, and no contact
 constexpr double kSunk = 0.5;                // one of more is no contact any longer
 constexpr double kTurnsFar = 0.25;           // a surface that turns farther is followed on its way
 constexpr double kCoincident = 1e-9, kAside = 1e-6;
@@ -211,17 +211,20 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
     const Vec3 to_surface = looks_ahead ? Vec3::Zero() : Vec3(0.5 * std::max(0.0, point.gap) * point.normal);
     constraints_.push_back({a.body, b.body, point.feature, point.normal, point.point + to_surface - motion_a.pose.p,
                             point.point - to_surface - motion_b.pose.p, point.gap,
-                            point.gap < -kDeep * smaller_inradius(a, b), law.friction, law.restitution, 0,
-                            Vec3::Zero()});
+                            is_parted_from_start(a, b, point.gap), law.friction, law.restitution, 0, Vec3::Zero()});
   }
+}
+
+bool Manifolds::is_parted_from_start(const Collider& a, const Collider& b, double gap) const {
+  const auto was_inside = [&](const Collider& c) { return !c.fixed && overlaps_at_start_[c.body] != 0; };
+  return gap < -kDeep * smaller_inradius(a, b) && (was_inside(a) || was_inside(b));
 }
 
 // What overlaps from the start is parted; nothing else may come to lie in each other.
 void Manifolds::watch(const Collider& a, const Collider& b, double gap) {
   const double size = smaller_inradius(a, b);
   if (is_first_ && gap < -kDeep * size) overlaps_at_start_[a.body] = overlaps_at_start_[b.body] = 1;
-  const auto is_meant = [&](const Collider& c) { return !c.fixed && overlaps_at_start_[c.body] != 0; };
-  if (gap >= -kSunk * size || is_meant(a) || is_meant(b) || !failure_.empty()) return;
+  if (gap >= -kSunk * size || is_parted_from_start(a, b, gap) || !failure_.empty()) return;
   failure_ = fmt::format(
       "{} and {} overlap by {:.2g} m, which impulses do not hold (much lighter bodies under heavier ones, or bodies "
       "with "

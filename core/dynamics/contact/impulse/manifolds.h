@@ -21,7 +21,7 @@ struct ContactConstraint {
   Vec3 normal;        // unit, in W, from b to a
   Vec3 arm_a, arm_b;  // m, in W, from each body's centre of mass to its point
   double gap;         // m
-  bool is_deep;       // an overlap that neither rest nor impacts make
+  bool is_deep;       // a deep overlap that was there from the start
   double friction, restitution;
   double normal_impulse = 0;             // N s
   Vec3 friction_impulse = Vec3::Zero();  // N s, in W
@@ -49,6 +49,7 @@ class Manifolds {
   bool stay_apart(int a, int b) const;
   void update_pairs(BodyColumns state, double dt);
   void add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b);
+  bool is_parted_from_start(const Collider& a, const Collider& b, double gap) const;
   void watch(const Collider& a, const Collider& b, double gap);
   void match_impulses(std::size_t first, std::size_t& old);
 

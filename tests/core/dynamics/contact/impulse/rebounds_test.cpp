@@ -148,7 +148,8 @@ BOOST_AUTO_TEST_CASE(bodies_in_one_place_part_and_stand_still) {
     ContactRun two(boxes, "impulse", integrator);
     two.run(1.0 / 30, 60);
     // Below a fiftieth of the inradius, 1 cm, one pass relaxes what pushes at 70/s of it: a tenth is left, 7 cm/s.
-    BOOST_TEST(rigor::energy(boxes, two.state()) < 0.07 * 0.07, integrator << ": " << rigor::energy(boxes, two.state()));
+    BOOST_TEST(rigor::energy(boxes, two.state()) < 0.07 * 0.07,
+               integrator << ": " << rigor::energy(boxes, two.state()));
     BOOST_TEST((two.state().position(0) - two.state().position(1)).norm() > 1 - 1e-3, integrator);
   }
 }
