@@ -28,6 +28,13 @@ std::vector<Hypothesis> of_table() {
   return all;
 }
 
+// An engine that gets its loads from Rigor, by wrenches, gets them worked out from what it tells: what it tells wrongly
+// moves it otherwise too, by which its motion is not the mistake's alone.
+bool is_fed_back(const Fault& fault, const Scene& scene, const EngineInfo& engine) {
+  const bool tells_wrongly = fault.read || fault.reads_late;
+  return tells_wrongly && engine.features.contains("wrench") && !(scene.springs.empty() && scene.forces.empty());
+}
+
 Hypothesis pair_of(const Hypothesis& first, const Hypothesis& second) {
   return {std::make_shared<Fault>(combined(*first.fault, *second.fault)), {first.names[0], second.names[0]}, {}};
 }
@@ -76,9 +83,14 @@ std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector
     }
   }
   const std::vector<Motion> motions = simulate_motions(tasks, engines_, options_.at_once, kMostOfMistake);
+  const EngineInfo& engine = engines_.info_of(run_.engine);
   std::size_t at = 0;
   for (Hypothesis& hypothesis : hypotheses) {
-    for (const View& view : table.views) hypothesis.sights.push_back(seen(view, motions, at)), at += view.dt.size();
+    for (const View& view : table.views) {
+      const bool is_left_out = is_fed_back(*hypothesis.fault, *probes_[view.probe].scene, engine);
+      hypothesis.sights.push_back(is_left_out ? Sight{{}, {}, "left out"} : seen(view, motions, at));
+      at += view.dt.size();
+    }
   }
   return hypotheses;
 }
