@@ -53,7 +53,7 @@ std::vector<Suspect> without_idle_seconds(std::vector<Suspect> ranked, const std
 
 }  // namespace
 
-MistakeFinder::MistakeFinder(const EngineTable& engines, RunName run, std::vector<Probe> probes, Options options)
+MistakeFinder::MistakeFinder(const EngineTable& engines, RunName run, std::vector<ProbeScene> probes, Options options)
     : engines_(engines), run_(std::move(run)), probes_(std::move(probes)), options_(options) {}
 
 // Of the engine by its own settings, where `engine` is one; else of each view's base.
@@ -66,7 +66,7 @@ std::vector<Sight> MistakeFinder::sights(const Table& table, const Engine* engin
     for (MotionTask& task : tasks_of(view, probes_[view.probe], moved, settings, fault))
       tasks.push_back(std::move(task));
   }
-  const std::vector<Motion> motions = simulate_motions(tasks, engines_, options_.at_once, options_.limit);
+  const std::vector<StateSeries> motions = simulate_motions(tasks, engines_, options_.at_once, options_.limit);
   std::vector<Sight> out;
   std::size_t at = 0;
   for (const View& view : table.views) out.push_back(seen(view, motions, at)), at += view.dt.size();
@@ -82,7 +82,7 @@ std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector
         tasks.push_back(std::move(task));
     }
   }
-  const std::vector<Motion> motions = simulate_motions(tasks, engines_, options_.at_once, kMostOfMistake);
+  const std::vector<StateSeries> motions = simulate_motions(tasks, engines_, options_.at_once, kMostOfMistake);
   const EngineInfo& engine = engines_.info_of(run_.engine);
   std::size_t at = 0;
   for (Hypothesis& hypothesis : hypotheses) {
