@@ -13,8 +13,8 @@
 namespace rigor {
 MistakeReport diagnosed(const CommandLine& line, const EngineTable& engines, const RunName& run) {
   const Vocabulary vocabulary = vocabulary_of(engines.infos());
-  std::vector<Probe> probes = line.words.empty() ? probes_of_suite(vocabulary)
-                                                 : probes_of(select_cases(line.words, line.suite_dir, vocabulary));
+  std::vector<ProbeScene> probes = line.words.empty() ? probes_of_suite(vocabulary)
+                                                      : probes_of(select_cases(line.words, line.suite_dir, vocabulary));
   constexpr double kMost = 10;  // s of CPU time for a run that takes milliseconds
   MistakeFinder finder(engines, run, std::move(probes), {line.jobs, std::min(line.limit, kMost)});
   return finder.report(engines.find(run.engine));

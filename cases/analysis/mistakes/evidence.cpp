@@ -74,7 +74,7 @@ std::vector<double> Observation::difference(const Sight& sight) const {
 }
 
 std::vector<Observation> observations_of(const std::vector<View>& views, const std::vector<Sight>& bases,
-                                         const std::vector<Probe>& probes) {
+                                         const std::vector<ProbeScene>& probes) {
   std::vector<Observation> all;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!bases[v].why.empty()) continue;

@@ -47,6 +47,6 @@ class Observation {
 
 // Each of which has an engine's error in it, or a mistake's that the engine does not have.
 std::vector<Observation> observations_of(const std::vector<View>& views, const std::vector<Sight>& bases,
-                                         const std::vector<Probe>& probes);
+                                         const std::vector<ProbeScene>& probes);
 
 }  // namespace rigor

@@ -28,6 +28,13 @@ std::vector<Hypothesis> of_table() {
   return all;
 }
 
+// An engine that gets its loads from Rigor, by wrenches, gets them worked out from what it tells: what it tells wrongly
+// moves it otherwise too, by which its motion is not the mistake's alone.
+bool is_fed_back(const Fault& fault, const Scene& scene, const EngineInfo& engine) {
+  const bool tells_wrongly = fault.read || fault.reads_late;
+  return tells_wrongly && engine.features.contains("wrench") && !(scene.springs.empty() && scene.forces.empty());
+}
+
 Hypothesis pair_of(const Hypothesis& first, const Hypothesis& second) {
   return {std::make_shared<Fault>(combined(*first.fault, *second.fault)), {first.names[0], second.names[0]}, {}};
 }
@@ -46,7 +53,7 @@ std::vector<Suspect> without_idle_seconds(std::vector<Suspect> ranked, const std
 
 }  // namespace
 
-MistakeFinder::MistakeFinder(const EngineTable& engines, RunName run, std::vector<Probe> probes, Options options)
+MistakeFinder::MistakeFinder(const EngineTable& engines, RunName run, std::vector<ProbeScene> probes, Options options)
     : engines_(engines), run_(std::move(run)), probes_(std::move(probes)), options_(options) {}
 
 // Of the engine by its own settings, where `engine` is one; else of each view's base.
@@ -59,7 +66,7 @@ std::vector<Sight> MistakeFinder::sights(const Table& table, const Engine* engin
     for (MotionTask& task : tasks_of(view, probes_[view.probe], moved, settings, fault))
       tasks.push_back(std::move(task));
   }
-  const std::vector<Motion> motions = simulate_motions(tasks, engines_, options_.at_once, options_.limit);
+  const std::vector<StateSeries> motions = simulate_motions(tasks, engines_, options_.at_once, options_.limit);
   std::vector<Sight> out;
   std::size_t at = 0;
   for (const View& view : table.views) out.push_back(seen(view, motions, at)), at += view.dt.size();
@@ -75,10 +82,15 @@ std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector
         tasks.push_back(std::move(task));
     }
   }
-  const std::vector<Motion> motions = simulate_motions(tasks, engines_, options_.at_once, kMostOfMistake);
+  const std::vector<StateSeries> motions = simulate_motions(tasks, engines_, options_.at_once, kMostOfMistake);
+  const EngineInfo& engine = engines_.info_of(run_.engine);
   std::size_t at = 0;
   for (Hypothesis& hypothesis : hypotheses) {
-    for (const View& view : table.views) hypothesis.sights.push_back(seen(view, motions, at)), at += view.dt.size();
+    for (const View& view : table.views) {
+      const bool is_left_out = is_fed_back(*hypothesis.fault, *probes_[view.probe].scene, engine);
+      hypothesis.sights.push_back(is_left_out ? Sight{{}, {}, "left out"} : seen(view, motions, at));
+      at += view.dt.size();
+    }
   }
   return hypotheses;
 }

@@ -35,7 +35,7 @@ class MistakeFinder {
     int at_once = 1;
     double limit = 10;  // s of CPU time for a run
   };
-  MistakeFinder(const EngineTable& engines, RunName run, std::vector<Probe> probes, Options options);
+  MistakeFinder(const EngineTable& engines, RunName run, std::vector<ProbeScene> probes, Options options);
 
   // Of the run's engine; `engine` behaves as that one should.
   MistakeReport report(const Engine& engine);
@@ -57,7 +57,7 @@ class MistakeFinder {
 
   const EngineTable& engines_;
   RunName run_;
-  std::vector<Probe> probes_;
+  std::vector<ProbeScene> probes_;
   Options options_;
   std::map<std::string, Table> tables_;  // by the base of Kind::same_method
 };

@@ -39,11 +39,11 @@ std::string why_it_ended(const JobEnd& end, double limit) {
   return is_late ? fmt::format("it took more than {:g} s of CPU time", limit) : sentence_of(end, limit);
 }
 
-Motion simulated(const MotionTask& task) {
+StateSeries simulated(const MotionTask& task) {
   std::optional<BrokenEngine> broken;
   if (task.fault) broken.emplace(*task.engine, *task.fault);
   const Engine& engine = broken ? *broken : *task.engine;
-  Motion motion;
+  StateSeries motion;
   try {
     const double duration = task.dt * static_cast<double>(task.steps);
     const Simulation run = simulate(engine, task.settings, *task.scene, task.dt, duration, task.every, false);
@@ -55,7 +55,7 @@ Motion simulated(const MotionTask& task) {
 }
 
 // A task's index, whether it came about, and its states or why not.
-std::string message_of(std::size_t index, const Motion& motion) {
+std::string message_of(std::size_t index, const StateSeries& motion) {
   const std::uint64_t number = index;
   std::string text(sizeof number, '\0');
   std::memcpy(text.data(), &number, sizeof number);
@@ -70,9 +70,9 @@ std::size_t index_in(const std::string& message) {
   return number;
 }
 
-Motion motion_in(const std::string& message) {
+StateSeries motion_in(const std::string& message) {
   constexpr std::size_t kHead = sizeof(std::uint64_t) + 1;
-  Motion motion;
+  StateSeries motion;
   if (message[kHead - 1] == 'w') {
     motion.why = message.substr(kHead);
   } else {
@@ -92,11 +92,11 @@ std::vector<Chain> dealt(const Chain& tasks, int hands) {
 
 }  // namespace
 
-std::vector<Motion> simulate_motions(const std::vector<MotionTask>& tasks, const EngineTable& engines, int at_once,
-                                     double limit) {
+std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, const EngineTable& engines, int at_once,
+                                          double limit) {
   constexpr int kMostDeaths = 4;  // an engine that dies of everything is not asked for the rest
   int deaths = 0, answers = 0;
-  std::vector<Motion> motions(tasks.size());
+  std::vector<StateSeries> motions(tasks.size());
   Chain left(tasks.size());
   for (std::size_t n = 0; n < left.size(); ++n) left[n] = n;
   while (!left.empty()) {

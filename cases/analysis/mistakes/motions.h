@@ -24,13 +24,13 @@ struct MotionTask {
   long steps, every;                   // each `every`-th is kept, t = 0 first
 };
 
-struct Motion {
+struct StateSeries {
   std::vector<double> states;  // sample by sample, body by body; ends where the run blows up
   std::string why;             // it did not come about; empty if it did
 };
 
 // One a task. `limit`: s of CPU time for a run.
-std::vector<Motion> simulate_motions(const std::vector<MotionTask>& tasks, const EngineTable& engines, int at_once,
-                                     double limit);
+std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, const EngineTable& engines, int at_once,
+                                          double limit);
 
 }  // namespace rigor

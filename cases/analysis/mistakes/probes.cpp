@@ -49,16 +49,16 @@ constexpr Row kRows[] = {
 // 1/60 s is itself a mistake of the table. Where bodies touch, what is left of a step's length at each impact shows.
 double step_for(const Scene& scene) { return anything_can_touch(scene) ? 1.0 / 500 : 1.0 / 100; }
 
-Probe probe_of(const Case& definition, double duration) {
-  Probe probe{definition.id, std::make_shared<Scene>(definition.scene)};
+ProbeScene probe_of(const Case& definition, double duration) {
+  ProbeScene probe{definition.id, std::make_shared<Scene>(definition.scene)};
   probe.dt = step_for(definition.scene), probe.duration = std::min(duration, definition.duration);
   return probe;
 }
 
 }  // namespace
 
-std::vector<Probe> probes_of_suite(const Vocabulary& vocabulary) {
-  std::vector<Probe> probes;
+std::vector<ProbeScene> probes_of_suite(const Vocabulary& vocabulary) {
+  std::vector<ProbeScene> probes;
   for (const Row& row : kRows) {
     probes.push_back(probe_of(select_cases({row.id}, default_suite_dir(), vocabulary).front(), row.duration));
     probes.back().is_of_points = row.is_of_points;
@@ -66,9 +66,9 @@ std::vector<Probe> probes_of_suite(const Vocabulary& vocabulary) {
   return probes;
 }
 
-std::vector<Probe> probes_of(const std::vector<Case>& cases) {
+std::vector<ProbeScene> probes_of(const std::vector<Case>& cases) {
   constexpr double kMostBodySteps = 600;  // some milliseconds of the core
-  std::vector<Probe> probes;
+  std::vector<ProbeScene> probes;
   for (const Case& definition : cases) {
     const double steps = std::max(20.0, kMostBodySteps / static_cast<double>(definition.scene.bodies.size()));
     probes.push_back(probe_of(definition, steps * step_for(definition.scene)));

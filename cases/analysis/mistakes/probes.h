@@ -9,7 +9,7 @@
 
 namespace rigor {
 
-struct Probe {
+struct ProbeScene {
   std::string id;  // of its case
   std::shared_ptr<const Scene> scene;
   double dt = 0;              // s
@@ -18,9 +18,9 @@ struct Probe {
 };
 
 // Those cases of Rigor's own suite that tell the table's mistakes apart.
-std::vector<Probe> probes_of_suite(const Vocabulary& vocabulary);
+std::vector<ProbeScene> probes_of_suite(const Vocabulary& vocabulary);
 
 // The cases, each as far as it is short enough to be run a hundred times.
-std::vector<Probe> probes_of(const std::vector<Case>& cases);
+std::vector<ProbeScene> probes_of(const std::vector<Case>& cases);
 
 }  // namespace rigor

@@ -99,7 +99,8 @@ std::vector<std::size_t> Trace::probes_off(const std::vector<Hypothesis>& hypoth
   return off;
 }
 
-std::vector<Suspect> Trace::ranked(const std::vector<Hypothesis>& hypotheses, const std::vector<Probe>& probes) const {
+std::vector<Suspect> Trace::ranked(const std::vector<Hypothesis>& hypotheses,
+                                   const std::vector<ProbeScene>& probes) const {
   const std::vector<double> least = nearest(hypotheses);
   std::vector<Suspect> suspects;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {

@@ -37,7 +37,7 @@ class Trace {
         bool is_single);
 
   // The best first; none that says nothing of any observation.
-  std::vector<Suspect> ranked(const std::vector<Hypothesis>& hypotheses, const std::vector<Probe>& probes) const;
+  std::vector<Suspect> ranked(const std::vector<Hypothesis>& hypotheses, const std::vector<ProbeScene>& probes) const;
   // Whether the engine's error passes what its scheme, rounding and the view leave open in any observation; with its
   // cases, by index.
   std::vector<std::size_t> probes_off(const std::vector<Hypothesis>& hypotheses) const;

@@ -15,7 +15,7 @@ constexpr long kSamples = 30;
 // step's way at each impact.
 constexpr double kOfRounding = 1e-10, kOfJoints = 1e-8, kOfContacts = 1e-4;
 
-View view_on(View::Kind kind, std::size_t index, const Probe& probe, const RunName& base, std::vector<double> dt) {
+View view_on(View::Kind kind, std::size_t index, const ProbeScene& probe, const RunName& base, std::vector<double> dt) {
   View view{kind, index, base, std::move(dt), 0, 1};
   view.steps = std::max(1L, std::lround(probe.duration / view.dt.front()));
   view.every = std::max(1L, view.steps / kSamples);
@@ -40,14 +40,14 @@ Sight extrapolated(const std::vector<double>& one, const std::vector<double>& ha
 
 }  // namespace
 
-std::vector<View> views_of(const EngineTable& engines, const RunName& run, const std::vector<Probe>& probes,
+std::vector<View> views_of(const EngineTable& engines, const RunName& run, const std::vector<ProbeScene>& probes,
                            const RunName* of_points) {
   const RunName accurate = parse_run_name("core", engines.infos());
   const MethodInfo& method = method_of(engines.info_of(run.engine), run.settings);
   constexpr int kHighOrder = 4;
   std::vector<View> views;
   for (std::size_t i = 0; i < probes.size(); ++i) {
-    const Probe& probe = probes[i];
+    const ProbeScene& probe = probes[i];
     if (!why_unsupported(engines.info_of(run.engine), run.settings, *probe.scene, probe.dt).empty()) continue;
     const auto twin = twin_of(engines, run, *probe.scene);
     if (twin) {
@@ -68,8 +68,8 @@ bool needs_same_method(const std::vector<View>& views) {
   return std::any_of(views.begin(), views.end(), [](const View& v) { return v.kind == View::Kind::extrapolated; });
 }
 
-std::vector<MotionTask> tasks_of(const View& view, const Probe& probe, const Engine& engine, const Settings& settings,
-                                 std::shared_ptr<const Fault> fault) {
+std::vector<MotionTask> tasks_of(const View& view, const ProbeScene& probe, const Engine& engine,
+                                 const Settings& settings, std::shared_ptr<const Fault> fault) {
   std::vector<MotionTask> tasks;
   long times = 1;
   for (const double dt : view.dt) {
@@ -79,7 +79,7 @@ std::vector<MotionTask> tasks_of(const View& view, const Probe& probe, const Eng
   return tasks;
 }
 
-Sight seen(const View& view, const std::vector<Motion>& motions, std::size_t first) {
+Sight seen(const View& view, const std::vector<StateSeries>& motions, std::size_t first) {
   for (std::size_t n = 0; n < view.dt.size(); ++n) {
     if (!motions[first + n].why.empty()) return {{}, {}, motions[first + n].why};
   }

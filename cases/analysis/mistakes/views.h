@@ -27,20 +27,20 @@ struct View {
 
 // What is seen of one motion.
 struct Sight {
-  std::vector<double> states;  // as Motion's
+  std::vector<double> states;  // as StateSeries's
   std::vector<double> coarse;  // of an extrapolated one: the same from the two finer steps alone; else empty
   std::string why;             // there is none; empty if there is
 };
 
 // The views of a run on the probes. `of_points`: the base of Kind::same_method; null where that is not needed.
-std::vector<View> views_of(const EngineTable& engines, const RunName& run, const std::vector<Probe>& probes,
+std::vector<View> views_of(const EngineTable& engines, const RunName& run, const std::vector<ProbeScene>& probes,
                            const RunName* of_points);
 bool needs_same_method(const std::vector<View>& views);
 
 // The tasks of a view, one for each of its dt.
-std::vector<MotionTask> tasks_of(const View& view, const Probe& probe, const Engine& engine, const Settings& settings,
-                                 std::shared_ptr<const Fault> fault);
+std::vector<MotionTask> tasks_of(const View& view, const ProbeScene& probe, const Engine& engine,
+                                 const Settings& settings, std::shared_ptr<const Fault> fault);
 // Of their motions, from `first` on.
-Sight seen(const View& view, const std::vector<Motion>& motions, std::size_t first);
+Sight seen(const View& view, const std::vector<StateSeries>& motions, std::size_t first);
 
 }  // namespace rigor

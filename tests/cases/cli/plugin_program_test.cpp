@@ -119,7 +119,8 @@ BOOST_AUTO_TEST_CASE(sweep_and_tune_take_it_too) {
   const Answer swept = run("sweep " + stone + " --vary dt=1/10,1/20 --jobs 1 --out " + out + toy);
   BOOST_TEST(swept.code == 0, swept.err);
   BOOST_TEST(content("out/sweep.csv").find("toy-py") != std::string::npos);
-  const Answer tuned = run("tune " + stone + " --within 1m --jobs 1" + toy);
+  const Answer tuned =
+      run("tune " + stone + " --within 1m --jobs 1 --engine toy-c --plugin " RIGOR_BUILD_DIR "/plugins/toy.so");
   BOOST_TEST(tuned.code == 0, tuned.out << tuned.err);
 }
 
