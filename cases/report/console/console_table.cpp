@@ -114,13 +114,18 @@ std::string what_is_wrong(const CaseResult& result) {
 
 // What several runs cannot do for the same reason is one sentence.
 std::string unsupported_lines(const Results& results, const CaseResult& result, const StepSize& dt) {
-  std::vector<std::pair<std::string, std::vector<const Cell*>>> groups;  // by reason, as they come
+  // By reason, as they come; who it is that cannot stands at its beginning.
+  const auto essence_of = [](const std::string& reason) {
+    const std::size_t at = reason.find(" has no ");
+    return at == std::string::npos ? reason : reason.substr(at + 5);
+  };
+  std::vector<std::pair<std::string, std::vector<const Cell*>>> groups;
   for (const Cell& cell : result.cells) {
     if (!(cell.dt == dt) || cell.status != Status::unsupported) continue;
-    const auto known =
-        std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.first == cell.reason; });
+    const auto known = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& group) { return group.first == essence_of(cell.reason); });
     if (known == groups.end()) {
-      groups.push_back({cell.reason, {&cell}});
+      groups.push_back({essence_of(cell.reason), {&cell}});
     } else {
       known->second.push_back(&cell);
     }
