@@ -76,8 +76,10 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
       return run;
     }
     if (n % every == 0 || n == steps) run.trajectory.samples.push_back({now.time, BodyTable(now.bodies())});
-    if (n == steps) return run;
-
+    if (n == steps) {
+      run.settings = world->settings_in_force();  // some say what the run has made of them
+      return run;
+    }
     const double begin = is_timed ? cpu_seconds_so_far(*world) : 0;
     world->step(dt);
     if (is_timed) run.cpu_seconds += std::max(0.0, cpu_seconds_so_far(*world) - begin - cost_of_reading_the_clock());
