@@ -68,10 +68,12 @@ class Scan {
   void pass_header_start() {
     begins_line_ = false;
     parts_ = 1;
-    for (int brackets = 0; brackets < 2 && at_ < text_.size() && text_[at_] == '['; ++brackets) ++at_, ++depth_;
+    int brackets = 0;
+    for (; brackets < 2 && at_ < text_.size() && text_[at_] == '['; ++brackets) ++at_, ++depth_;
     while (at_ < text_.size() && is_space(text_[at_])) ++at_;
-    // A header that ends here, by its bracket, another or the text's end, the library knows to be one too few.
-    if (at_ == text_.size() || text_[at_] == ']' || text_[at_] == '[' || begins_key(text_[at_])) return;
+    // A header that ends here, by its bracket or with the text, and one whose brackets stand apart the library refuses.
+    if (at_ == text_.size() || text_[at_] == ']' || begins_key(text_[at_])) return;
+    if (text_[at_] == '[' && brackets == 1) return;
     const char c = text_[at_];
     const bool is_printable = c > ' ' && c < 0x7f;
     found_fault(at_, fmt::format("is not TOML: found {} where the name of a table begins",

@@ -47,6 +47,12 @@ BOOST_AUTO_TEST_CASE(it_is_what_the_schema_says) {
   BOOST_TEST(std::system(command.c_str()) == 0, junit_report(gated_results()));
 }
 
+BOOST_AUTO_TEST_CASE(characters_that_xml_does_not_allow_are_replaced_one_by_one) {
+  Results grid = gated_results();
+  grid.cases.front().definition.id = "a\xEF\xBF\xBE\xEF\xBF\xBF\x7Fz";  // U+FFFE, U+FFFF, DEL
+  BOOST_TEST(junit_report(grid).find("\"a\?\?\?z\"") != std::string::npos, junit_report(grid));
+}
+
 BOOST_AUTO_TEST_CASE(each_cell_is_a_test_case_with_its_outcome_and_time) {
   const std::string text = junit_report(gated_results());
   BOOST_TEST(count(text, "<testcase name=\"(good|wild) dt=1/[12]0\" classname=\"family/case\" time=\"0.250000\"") == 4);

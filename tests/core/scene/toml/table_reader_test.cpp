@@ -191,6 +191,8 @@ BOOST_AUTO_TEST_CASE(what_the_library_has_no_answer_for_is_refused_with_its_plac
   const std::vector<Refusal> rows = {
       {"[ #", "1:3: is not TOML: found '#' " + name_begins, {}},
       {"x = 1\n  [[\t=]]", "2:6: is not TOML: found '=' " + name_begins, {}},
+      {"[[[a]]]", "1:3: is not TOML: found '[' " + name_begins, {}},
+      {"[[ [a]]]", "1:4: is not TOML: found '[' " + name_begins, {}},
       {"[\n]", "1:2: is not TOML: found a character that no name has " + name_begins, {}},
       {"x = [1,\n[2]]\n[.a]", "3:2: is not TOML: found '.' " + name_begins, {}},
       {"[é]", "1:2: is not TOML: found ", {name_begins}},
