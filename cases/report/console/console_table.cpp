@@ -9,7 +9,7 @@
 #include "cases/report/wording/comparison.h"
 #include "cases/report/wording/explained_error.h"
 #include "cases/report/wording/explanation.h"
-#include "cases/report/wording/findings.h"
+#include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/wording.h"
 #include "cases/truth/provenance.h"
 

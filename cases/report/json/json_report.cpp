@@ -10,7 +10,7 @@
 #include "cases/report/json/scene_json.h"
 #include "cases/report/reports.h"
 #include "cases/report/wording/explanation.h"
-#include "cases/report/wording/findings.h"
+#include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/results/result_json.h"
 #include "cases/truth/provenance.h"

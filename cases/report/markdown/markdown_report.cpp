@@ -13,7 +13,7 @@
 #include "cases/report/wording/comparison.h"
 #include "cases/report/wording/explained_error.h"
 #include "cases/report/wording/explanation.h"
-#include "cases/report/wording/findings.h"
+#include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/verdict_matrix.h"
 
 namespace rigor {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cases/metrics/measures/shape_gap.h"
-#include "cases/report/wording/findings.h"
+#include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/wording.h"
 
 namespace rigor {

@@ -263,7 +263,7 @@ class EventStepper : public ContactStepper {
   // an instant before the event, just before the root of d(h)/h, which is straight where d is a parabola. False if
   // there is none.
   bool narrow_from_start(double& low, double& high, double& distance_low, double& distance_high) {
-    constexpr int kMostTrials = 60;
+    constexpr int kMostTrials = 80, kMostGuesses = 20;
     constexpr double kBefore = 0.95, kLeastShare = 1.0 / 64;
     double share = 0.5;
     for (int k = 0; k < kMostTrials; ++k) {
@@ -274,7 +274,10 @@ class EventStepper : public ContactStepper {
       }
       const double rate = distance / middle, rate_high = distance_high / high;
       const double guess = kBefore * (middle - rate * (high - middle) / (rate_high - rate)) / middle;
-      share = guess > kLeastShare ? std::min(guess, kBefore) : (guess > 0 ? kLeastShare : 0.5);
+      // A root beyond the middle is not the one before it: bodies that close a gap of next to nothing from the start
+      // on.
+      const bool is_guessed = k < kMostGuesses && guess > 0 && guess < 1;
+      share = is_guessed ? std::clamp(guess, kLeastShare, kBefore) : 0.5;
       high = middle, distance_high = distance;
     }
     return false;

@@ -1,4 +1,4 @@
-#include "cases/report/wording/findings.h"
+#include "cases/report/wording/findings/findings.h"
 
 #include <boost/test/unit_test.hpp>
 

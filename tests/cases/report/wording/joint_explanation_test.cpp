@@ -3,7 +3,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "cases/report/wording/findings.h"
+#include "cases/report/wording/findings/findings.h"
 #include "tests/cases/report/jointed_results.h"
 
 using namespace rigor;
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(the_first_screen_says_whose_joints_hold) {
   BOOST_TEST(joints_found(grid) == "");  // nothing was measured
   test::set_gaps(grid, 0, {1e-9, 1e-9}), test::set_gaps(grid, 1, {0.05, 0.01});
   const std::string text = joints_found(grid);
-  BOOST_TEST(has(text, "joints hold in good, to a millionth of their reach"));
+  BOOST_TEST(has(text, "joints hold in good, to a millionth of their size"));
   BOOST_TEST(has(text, "they stretch in wild by 0.05 m at a size of 0.5 m (family/case)"));
   for (Cell& cell : grid.cases[0].cells) cell.stability.verdict = Verdict::blown_up;
   BOOST_TEST(joints_found(grid) == "");  // what blew up is told elsewhere

@@ -1,4 +1,4 @@
-#include "cases/report/wording/findings.h"
+#include "cases/report/wording/findings/findings.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "cases/analysis/step_needed.h"
 #include "cases/analysis/stiffest_frequency.h"
 #include "cases/analysis/work_precision.h"
-#include "cases/report/wording/energy_finding.h"
-#include "cases/report/wording/impacts_finding.h"
-#include "cases/report/wording/joints_finding.h"
+#include "cases/report/wording/findings/energy_finding.h"
+#include "cases/report/wording/findings/impacts_finding.h"
+#include "cases/report/wording/findings/joints_finding.h"
 #include "cases/report/wording/run_names.h"
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/report/wording/wording.h"

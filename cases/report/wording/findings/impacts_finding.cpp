@@ -1,4 +1,4 @@
-#include "cases/report/wording/impacts_finding.h"
+#include "cases/report/wording/findings/impacts_finding.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cases/report/wording/joints_finding.h"
+#include "cases/report/wording/findings/joints_finding.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "cases/report/wording/findings.h"
+#include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/run_names.h"
 
 namespace rigor {

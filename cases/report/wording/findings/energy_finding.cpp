@@ -1,4 +1,4 @@
-#include "cases/report/wording/energy_finding.h"
+#include "cases/report/wording/findings/energy_finding.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "cases/report/wording/findings.h"
+#include "cases/report/wording/findings/findings.h"
 
 namespace rigor {
 
