@@ -1,10 +1,10 @@
 // What a run that goes on believes of the one before it: a cell that an engine from outside died in is tried again, for
-// what was wrong may be mended where Rigor cannot see it; one of this program's, and all that came to an end, is not.
+// what was wrong may be mended where Rigor cannot see it; what came to an end is not.
 #include <boost/test/unit_test.hpp>
-#include <cstdlib>
 
 #include "cases/case/run_selector.h"
 #include "cases/runner/grid.h"
+#include "core/engine/engine_failure.h"
 #include "tests/cases/runner/faulty_engine.h"
 #include "tests/folder.h"
 
@@ -12,14 +12,13 @@ using namespace rigor;
 
 namespace {
 
-// Two engines that die while `is_broken`, the one from outside, and one that never does.
+// One from outside that dies while `is_broken`, and one that never does.
 EngineTable table_of(bool is_broken) {
   const auto step = [is_broken](double&) {
-    if (is_broken) std::abort();
+    if (is_broken) throw EngineFailure(FailureKind::crashed, "it died");
   };
   EngineTable table;
   table.add(std::make_unique<FaultyEngine>("good", [](double&) {}));
-  table.add(std::make_unique<FaultyEngine>("inside", step));
   table.add(std::make_unique<FaultyEngine>("outside", step), "some file, and its hash");
   return table;
 }
@@ -42,10 +41,9 @@ BOOST_AUTO_TEST_CASE(what_died_outside_is_tried_again) {
   const Folder folder;
   const std::string journals = folder.path.string();
   auto ends = ends_of(table_of(true), journals);
-  BOOST_TEST((ends["outside"] == Status::crashed && ends["inside"] == Status::crashed && ends["good"] == Status::pass));
+  BOOST_TEST((ends["outside"] == Status::crashed && ends["good"] == Status::pass));
   ends = ends_of(table_of(false), journals);
   BOOST_TEST((ends["outside"] == Status::pass));
-  BOOST_TEST((ends["inside"] == Status::crashed));  // believed: nothing of this program has changed
   // And what it came to then is kept in its turn.
   ends = ends_of(table_of(true), journals);
   BOOST_TEST((ends["outside"] == Status::pass));
