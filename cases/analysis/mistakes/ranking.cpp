@@ -133,10 +133,17 @@ std::vector<Suspect> Trace::ranked(const std::vector<Hypothesis>& hypotheses,
 }
 
 Trace::Fit Trace::fit(const Hypothesis& hypothesis) const {
+  // Where bodies touch, what an engine does otherwise would be taken for an amount.
+  const Fit smooth = fit(hypothesis, false);
+  return smooth.cosine == 0 ? fit(hypothesis, true) : smooth;
+}
+
+Trace::Fit Trace::fit(const Hypothesis& hypothesis, bool of_contacts) const {
   double together = 0, predicted = 0, error = 0;
   for (std::size_t o = 0; o < observations_.size(); ++o) {
     const std::size_t v = observations_[o].view_index();
     if (!is_seen(o) || !hypothesis.sights[v].why.empty()) continue;
+    if (!of_contacts && !observations_[o].is_loaded() && views_[v].kind == View::Kind::accurate) continue;
     const Distances d = observations_[o].distances(engine_[v], hypothesis.sights[v]);
     if (std::max(d.error, d.predicted) < tolerance(o)) continue;
     // Each observation counts alike.

@@ -56,6 +56,7 @@ class Trace {
   std::vector<std::size_t> explained_by(const Hypothesis& hypothesis, const std::vector<Hypothesis>& all) const;
 
  private:
+  Fit fit(const Hypothesis& hypothesis, bool of_contacts) const;
   bool is_seen(std::size_t observation) const;  // the engine has a sight there
   double tolerance(std::size_t observation) const;
   double certain_error(std::size_t observation) const;  // beyond it the engine is off whatever explains it
