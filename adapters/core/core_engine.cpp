@@ -35,11 +35,10 @@ class CoreWorld : public World {
     if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_);
     if (anything_can_touch(scene)) {
       auto stepper = contact_method_.make(scene, {system_, integrator_, orientation_, settings, joints_.get()});
-      contact_settings_ = stepper->settings_in_force();
-      contact_settings_.insert(contact_settings_.begin(), {"contact", name_of_contact(scene, settings)});
+      contact_ = stepper.get();
+      contact_name_ = name_of_contact(scene, settings);
       stepper_ = std::move(stepper);
     } else {
-      contact_settings_ = {{"contact", "none in this scene"}};
       stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get(), &scene});
       if (JointStops::are_in(scene))
         stepper_ = std::make_unique<JointEvents>(scene, system_, *joints_, std::move(stepper_));
@@ -62,7 +61,10 @@ class CoreWorld : public World {
     SettingsInForce settings = {{"integrator", integrator_.name}, {"gyroscopic term", "on"}};
     if (orientation_) settings.emplace_back("orientation", orientation_->name);
     if (integrator_.adaptive) settings.emplace_back("tolerance", fmt::format("{}", tolerance_));
-    settings.insert(settings.end(), contact_settings_.begin(), contact_settings_.end());
+    settings.emplace_back("contact", contact_name_);
+    // Asked each time, for some say what the run has made of them.
+    const SettingsInForce of_contact = contact_ ? contact_->settings_in_force() : SettingsInForce();
+    settings.insert(settings.end(), of_contact.begin(), of_contact.end());
     if (joints_) settings.emplace_back("joints", fmt::format("{} rows, of rank {}", joints_->rows(), joints_->rank()));
     return settings;
   }
@@ -87,7 +89,8 @@ class CoreWorld : public World {
   double tolerance_;  // of an adaptive method
   const ContactMethod& contact_method_;
   const OrientationUpdate* orientation_ = nullptr;
-  SettingsInForce contact_settings_;
+  std::string contact_name_ = "none in this scene";
+  const ContactStepper* contact_ = nullptr;  // the stepper, where bodies can touch
   BodyTable state_;
   std::unique_ptr<Joints> joints_;  // null where there are none
   std::unique_ptr<Stepper> stepper_;
