@@ -22,8 +22,6 @@ class ContactModes {
   // others have to be chosen. After persistent_.hold() there.
   double violation(BodyColumns state, const double* wrench);
 
-  long work() const { return solver_.work(); }
-
   // m/s: what slides more slowly sticks, if the cone allows it, 5e-15 m/(m/s²) before it would stop.
   static constexpr double kSliding = 1e-7;
 

@@ -102,9 +102,8 @@ class EventStepper : public ContactStepper {
     double length() const { return to - from; }
   };
 
-  long work_so_far() const {
-    return persistent_contact_.passes() + persistent_contact_.work_of_choices() + impacts_.work();
-  }
+  // What it takes to choose who sticks is not counted: on the verge of sliding that is much in every step, and no crowd.
+  long work_so_far() const { return persistent_contact_.passes() + impacts_.work(); }
 
   void note(const std::string& solver_warning) {
     if (solver_warning_.empty()) solver_warning_ = solver_warning;

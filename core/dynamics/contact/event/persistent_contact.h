@@ -41,7 +41,6 @@ class PersistentContact {
   const std::vector<Loading>& largest_loads() const { return persistent_.largest_loads(); }
   const std::string& integrator_in_contact() const { return in_contact_.name; }
   long passes() const { return passes_; }  // steps of the integrator so far
-  long work_of_choices() const { return modes_.work(); }
   // What went wrong in closing gaps and stopping points since the last call; empty if nothing did.
   std::string take_projection_warning() { return projection_.take_solver_warning(); }
   // Of the last advance; empty if nothing went wrong.
