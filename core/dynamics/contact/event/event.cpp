@@ -36,7 +36,8 @@ constexpr int kMostInstants = 100;   // in a step
 // Steps of the integrator, times the bodies that move: saved up at most, and for each step of the run. What an impact
 // costs is some ten of them; a ball that bounces with e = 0.9 comes to rest within 1700.
 constexpr double kMostSaved = 6000, kForEachStep = 200;
-constexpr double kForEachPart = 3;  // of such steps: what it costs to find what touches, and how
+constexpr double kForEachPart = 3;    // of such steps: what it costs to find what touches, and how
+constexpr double kForNoForces = 400;  // the same, where in the end no forces are found
 
 constexpr int kMostPieces = 200;  // of the time to the next event, while bodies are not seen to stay apart
 
@@ -102,7 +103,8 @@ class EventStepper : public ContactStepper {
     double length() const { return to - from; }
   };
 
-  // What it takes to choose who sticks is not counted: on the verge of sliding that is much in every step, and no crowd.
+  // What it takes to choose who sticks is not counted: on the verge of sliding that is much in every step, and no
+  // crowd.
   long work_so_far() const { return persistent_contact_.passes() + impacts_.work(); }
 
   void note(const std::string& solver_warning) {
@@ -226,6 +228,7 @@ class EventStepper : public ContactStepper {
   // Over an instant for which there are no forces that obey the laws.
   double skip_instant(MutableBodyColumns state) {
     is_smooth_ = false;
+    saved_ -= kForNoForces;
     if (++instants_ > kMostInstants)
       note("no forces between the touching bodies obey the laws of contact and friction (Painlevé's paradox)");
     return take_crowded_step(state, instants_ > kMostInstants ? crowded_step_ : kInstant);
