@@ -17,7 +17,7 @@
 
 namespace {
 
-volatile std::sig_atomic_t guarded = 0;
+volatile std::sig_atomic_t guarded = 0, was_told_to_end = 0;
 
 int be_a_rank(int argc, char** argv) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -42,12 +42,13 @@ int be_a_rank(int argc, char** argv) {
 int guard(pid_t rank) {
   guarded = rank;
   for (const int number : {SIGINT, SIGTERM, SIGHUP})
-    std::signal(number, [](int signal) { kill(static_cast<pid_t>(guarded), signal); });
+    std::signal(number, [](int signal) { was_told_to_end = 1, kill(static_cast<pid_t>(guarded), signal); });
   int status = 0;
   while (waitpid(rank, &status, 0) < 0) {
     if (errno != EINTR) return rigor::kBroken;
   }
   if (WIFEXITED(status)) return WEXITSTATUS(status);
+  if (was_told_to_end) return rigor::kBroken;  // by an MPI that ends all ranks, for what another one has said
   const char* name = sigabbrev_np(WTERMSIG(status));
   rigor::say(
       fmt::format("a rank was killed by SIG{}; no output was changed. What was computed is kept: the same "
