@@ -27,7 +27,7 @@ foreach(file bin/rigor share/man/man1/rigor.1 share/bash-completion/completions/
   endif()
 endforeach()
 
-run(said ${CMAKE_COMMAND} -S ${FOLDER}/moved/share/rigor/examples/embedding -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${FOLDER}/moved
+run(said ${CMAKE_COMMAND} -G Ninja -S ${FOLDER}/moved/share/rigor/examples/embedding -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${FOLDER}/moved
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug)
 run(said ${CMAKE_COMMAND} --build ${FOLDER}/build)
 # A stone that is thrown: x = 1 m after 1 s, y = -5 m.

@@ -48,7 +48,8 @@ int guard(pid_t rank) {
     if (errno != EINTR) return rigor::kBroken;
   }
   if (WIFEXITED(status)) return WEXITSTATUS(status);
-  if (was_told_to_end) return rigor::kBroken;  // by an MPI that ends all ranks, for what another one has said
+  if (was_told_to_end || WTERMSIG(status) == SIGTERM)
+    return rigor::kBroken;  // by an MPI that ends all ranks, for what another one has said
   const char* name = sigabbrev_np(WTERMSIG(status));
   rigor::say(
       fmt::format("a rank was killed by SIG{}; no output was changed. What was computed is kept: the same "
