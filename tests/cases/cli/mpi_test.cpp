@@ -9,26 +9,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr const char* kSprings = R"(title = "up and down"
-[scene]
-gravity = [0, -10, 0]
-[[scene.body]]
-name = "cube"
-mass = 100
-inertia = [1, 1, 1]
-position = [0, 0.1, 0]
-[[scene.spring]]
-a = "world"
-point_a = [0, 2, 0]
-b = "cube"
-stiffness = 1e4
-rest_length = 1.5
-[run]
-duration = 5
-dt = ["1/30", "1/100"]
-[truth]
-kind = "oscillator"
-[[gate]]
+constexpr const char* kGate = R"([[gate]]
 metric = "position_error"
 max = 1e-30
 engines = ["core:rk4"]
@@ -37,7 +18,8 @@ because = "no method is exact here, so that it fails"
 
 struct Ranks : Program {
   Ranks() {
-    for (const std::string name : {"a", "b", "c", "d"}) folder.write("suite/springs/" + name + ".toml", kSprings);
+    for (const std::string name : {"a", "b", "c", "d"})
+      folder.write("suite/springs/" + name + ".toml", std::string(kSprungCube) + kGate);
   }
   // Of a shell, with the folder as the current one.
   Answer shell(const std::string& command) const {

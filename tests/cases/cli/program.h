@@ -29,6 +29,28 @@ dt = ["1/10"]
 kind = "projectile"
 )";
 
+// Up and down on a spring, w = 10/s; with a closed form.
+inline constexpr const char* kSprungCube = R"(title = "up and down"
+[scene]
+gravity = [0, -10, 0]
+[[scene.body]]
+name = "cube"
+mass = 100
+inertia = [1, 1, 1]
+position = [0, 0.1, 0]
+[[scene.spring]]
+a = "world"
+point_a = [0, 2, 0]
+b = "cube"
+stiffness = 1e4
+rest_length = 1.5
+[run]
+duration = 5
+dt = ["1/30", "1/100"]
+[truth]
+kind = "oscillator"
+)";
+
 struct Program {
   struct Answer {
     int code;

@@ -11,29 +11,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr const char* kSpring = R"(title = "up and down"
-[scene]
-gravity = [0, -10, 0]
-[[scene.body]]
-name = "cube"
-mass = 100
-inertia = [1, 1, 1]
-position = [0, 0.1, 0]
-[[scene.spring]]
-a = "world"
-point_a = [0, 2, 0]
-b = "cube"
-stiffness = 1e4
-rest_length = 1.5
-[run]
-duration = 5
-dt = ["1/30", "1/100"]
-[truth]
-kind = "oscillator"
-)";
-
 struct Fixture : Program {
-  Fixture() { folder.write("suite/springs/spring.toml", kSpring); }
+  Fixture() { folder.write("suite/springs/spring.toml", kSprungCube); }
   Answer sweep(std::vector<std::string> words, const std::string& out = "out") const {
     words.insert(words.begin(), {"sweep", "spring"});
     words.insert(words.end(), {"--suite", "suite", "--jobs", "2", "--out", out});
