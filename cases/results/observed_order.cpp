@@ -20,6 +20,17 @@ bool came_to_a_result(const Cell& cell) {
          cell.status == Status::unexpected_pass;
 }
 
+std::vector<ErrorPoint> all_points(const CaseResult& result, std::size_t run, const std::string& metric) {
+  std::vector<ErrorPoint> points;
+  for (const Cell& cell : result.cells) {
+    if (cell.run != run || !came_to_a_result(cell)) continue;
+    const MetricValue *error = value_of(cell, metric), *cost = value_of(cell, "cost");
+    if (!error || !cost || !std::isfinite(error->value) || !(cost->value > 0)) continue;
+    points.push_back({cell.dt, std::max(error->value, error_floor(result)), cost->value});
+  }
+  return points;
+}
+
 }  // namespace
 
 double fitted_order(const std::vector<double>& dt, const std::vector<double>& values) {
@@ -42,14 +53,11 @@ double error_floor(const CaseResult& result) {
 }
 
 std::vector<ErrorPoint> error_points(const CaseResult& result, std::size_t run, const std::string& metric) {
-  std::vector<ErrorPoint> points;
-  for (const Cell& cell : result.cells) {
-    if (cell.run != run || !came_to_a_result(cell)) continue;
-    const MetricValue *error = value_of(cell, metric), *cost = value_of(cell, "cost");
-    if (!error || !cost || !std::isfinite(error->value) || !(cost->value > 0)) continue;
-    points.push_back({cell.dt, std::max(error->value, error_floor(result)), cost->value});
-  }
-  return points;
+  const bool is_held_to_itself = std::any_of(result.cells.begin(), result.cells.end(), [&](const Cell& cell) {
+    const MetricValue* error = value_of(cell, metric);
+    return cell.run == run && error && error->is_held_to_itself;
+  });
+  return is_held_to_itself ? std::vector<ErrorPoint>{} : all_points(result, run, metric);
 }
 
 std::vector<std::string> errors_worth_comparing(const CaseResult& result) {
@@ -69,7 +77,7 @@ ObservedOrder observed_order(const CaseResult& result, std::size_t run, const st
                              const std::function<bool(const StepSize&)>& selects) {
   ObservedOrder order;
   std::vector<double> dt, errors;
-  for (const ErrorPoint& point : error_points(result, run, metric)) {
+  for (const ErrorPoint& point : all_points(result, run, metric)) {
     if (!selects(point.dt) || point.error <= 100 * error_floor(result)) continue;
     dt.push_back(point.dt.seconds), errors.push_back(point.error);
     order.text += fmt::format("{}{:.4g} at {}", order.text.empty() ? "" : ", ", point.error, point.dt.text);

@@ -20,7 +20,8 @@ struct ErrorPoint {
   double cost;   // s/s
 };
 
-// The cells of a run that came to a result and have both `metric` and a cost, in the order of the run's dt.
+// The cells of a run that came to a result and have both `metric` and a cost, in the order of the run's dt. Those whose
+// truth is made by the run's own code are none: what they are off by is not known, and nothing may be compared with it.
 std::vector<ErrorPoint> error_points(const CaseResult& result, std::size_t run, const std::string& metric);
 
 // Below it an error says nothing about a scheme: the truth's own error over the run, but not more than a truth may be
@@ -34,7 +35,8 @@ struct ObservedOrder {
   std::optional<double> value;  // none where the cells do not show one
   std::string text;             // the errors fitted, or why there is no order
 };
-// Over the cells that `selects` takes, those aside that are within 100 of the floor: there rounding stops the fall.
+// Over the cells, those too that are held to themselves, for such a truth does know how a method converges, that
+// `selects` takes, those aside that are within 100 of the floor: there rounding stops the fall.
 ObservedOrder observed_order(
     const CaseResult& result, std::size_t run, const std::string& metric,
     const std::function<bool(const StepSize&)>& selects = [](const StepSize&) { return true; });

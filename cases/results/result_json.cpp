@@ -36,16 +36,18 @@ int body_index(const Scene& scene, const std::string& name) {
 Json json_of(const MetricValue& metric, const std::string& name, const Scene& scene) {
   if (!metric.not_applicable.empty()) return {{"not_applicable", metric.not_applicable}};
   const Instant& worst = metric.worst;
-  return {{"value", metric.value},
-          {"unit", unit_of_metric(name)},
-          {"first_second", metric.first_second},
-          {"worst",
-           {{"time", worst.time},
-            {"body", scene.body_name(worst.body)},
-            {"component", worst.component},
-            {"found", worst.found},
-            {"expected", worst.expected}}},
-          {"compared_until", metric.compared_until}};
+  Json json = {{"value", metric.value},
+               {"unit", unit_of_metric(name)},
+               {"first_second", metric.first_second},
+               {"worst",
+                {{"time", worst.time},
+                 {"body", scene.body_name(worst.body)},
+                 {"component", worst.component},
+                 {"found", worst.found},
+                 {"expected", worst.expected}}},
+               {"compared_until", metric.compared_until}};
+  if (metric.is_held_to_itself) json["held_to_itself"] = true;
+  return json;
 }
 
 MetricValue metric_from(const Json& json, const Scene& scene) {
@@ -61,6 +63,7 @@ MetricValue metric_from(const Json& json, const Scene& scene) {
                   worst.at("component").get<std::string>(), number_of(worst.at("found")),
                   number_of(worst.at("expected"))};
   metric.compared_until = number_of(json.at("compared_until"));
+  metric.is_held_to_itself = json.value("held_to_itself", false);
   return metric;
 }
 

@@ -25,8 +25,9 @@ struct MetricValue {
   double value = 0;
   double first_second = 0;  // the largest, by magnitude, of its series up to t = 1 s; not a number if it has none
   Instant worst;
-  double compared_until = 0;   // s
-  std::string not_applicable;  // why there is no value; empty if there is
+  double compared_until = 0;       // s
+  std::string not_applicable;      // why there is no value; empty if there is
+  bool is_held_to_itself = false;  // the truth is made by the run's own code: no witness (truth/provenance.h)
 };
 
 // A result without its series over time. `trajectory` is the one it was measured on.

@@ -9,6 +9,7 @@
 #include "cases/runner/ensemble.h"
 #include "cases/runner/simulate.h"
 #include "cases/runner/twin_run.h"
+#include "cases/truth/provenance.h"
 
 namespace rigor {
 namespace {
@@ -46,14 +47,15 @@ bool is_asked_for(const std::set<std::string>& metrics, const Case& definition, 
 }
 
 // Their series over time come out apart: no result keeps them.
-std::map<std::string, MetricValue> measured(const JudgedRun& run, const Case& definition, const GridOptions& options,
-                                            std::vector<NamedSeries>& series) {
+std::map<std::string, MetricValue> measured(const JudgedRun& run, const RunName& name, const Case& definition,
+                                            const GridOptions& options, std::vector<NamedSeries>& series) {
   std::map<std::string, MetricValue> values;
   for (const MetricRow& row : metrics()) {
     const bool is_wanted =
         is_asked_for({row.name}, definition, options) || (!row.is_costly && options.only_metrics.empty());
     MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
-    values[row.name] = condensed(found, run.trajectory);
+    MetricValue& value = values[row.name] = condensed(found, run.trajectory);
+    value.is_held_to_itself = is_held_to_itself(definition.truth, row.name, name, definition.scene);
     if (found.measurement) series.push_back({row.name, std::move(found.measurement->series)});
   }
   return values;
@@ -103,7 +105,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   if (reference && wants_ensembles) ensembles = reference->compare(engines, run_name, definition, cell.dt.seconds);
   if (ensembles) judged.ensembles = &*ensembles;
   std::vector<NamedSeries> series;
-  cell.metrics = measured(judged, definition, options, series);
+  cell.metrics = measured(judged, run_name, definition, options, series);
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);
   conclude(cell, run, scene);
   for (const auto& recorder : options.recorders) {

@@ -71,6 +71,10 @@ void Prober::add(ProbeAnswer& answer, const CaseResult& result, const Cell& cell
     const MetricValue& found = cell.metrics.at(bound.metric);
     answer.values.push_back(found.value);
     if (!found.not_applicable.empty()) return fail(fmt::format("{}: {}", bound.metric, found.not_applicable));
+    if (found.is_held_to_itself) {
+      return fail(fmt::format("{}: the truth '{}' is made by the same code as this run, and cannot judge it",
+                              bound.metric, result.definition.truth));
+    }
     // A run judged to less than its end, and a step, is one whose truth ends there.
     if (found.compared_until < result.definition.duration - cell.dt.seconds) {
       remarks_.insert(fmt::format("{}: {} is compared up to {:.3g} s of {:g} s, as far as the truth is sure of itself",

@@ -46,8 +46,9 @@ std::string cell_text(const CaseResult& result, const Cell& cell, const std::str
   const auto found = cell.metrics.find(metric);
   const bool has_number = found != cell.metrics.end() && found->second.not_applicable.empty();
   if (cell.status == Status::unsupported) return sign;
-  return sign +
-         (has_number ? shade_of(result, cell) + short_quantity(found->second.value, metric) : word_of(cell.status));
+  if (!has_number) return sign + word_of(cell.status);
+  const std::string quantity = short_quantity(found->second.value, metric);
+  return sign + (found->second.is_held_to_itself ? fmt::format("({})", quantity) : shade_of(result, cell) + quantity);
 }
 
 // A run's name in lines of a column's width, broken behind ':' and before '@', at '-', ',' and '=', else anywhere.

@@ -21,7 +21,8 @@ const std::string kNoValue = "-";
 std::string metric_text(const Cell& cell, const std::string& name, double MetricValue::*part) {
   const auto found = cell.metrics.find(name);
   if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return kNoValue;
-  return rounded(found->second.*part);
+  return found->second.is_held_to_itself ? fmt::format("({})", rounded(found->second.*part))
+                                         : rounded(found->second.*part);
 }
 
 // A drift as per cent of what it is measured against, with its sign: lost energy is negative.
@@ -170,6 +171,13 @@ std::string count_line(const Results& results) {
   return fmt::format("cells: {}\n", text);
 }
 
+bool has_run_held_to_itself(const CaseResult& result) {
+  return std::any_of(result.cells.begin(), result.cells.end(), [](const Cell& cell) {
+    const auto found = cell.metrics.find("position_error");
+    return found != cell.metrics.end() && found->second.is_held_to_itself;
+  });
+}
+
 }  // namespace
 
 std::string truth_sentence(const CaseResult& result) {
@@ -178,14 +186,16 @@ std::string truth_sentence(const CaseResult& result) {
   if (definition.truth == "none") return "truth: none; only stability and what is conserved are judged.";
   if (!result.truth) return fmt::format("truth: {}, not found.", definition.truth);
   const TruthFacts& facts = *result.truth;
+  const std::string brackets = has_run_held_to_itself(result) ? " What it finds of these stands in brackets." : "";
   if (facts.horizon >= definition.duration) {
-    return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s; it is {}.", definition.truth,
-                       facts.error_at_end, definition.duration, provenance_of(definition.truth));
+    return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s; it is {}.{}", definition.truth,
+                       facts.error_at_end, definition.duration, provenance_of(definition.truth), brackets);
   }
   return fmt::format(
       "truth: {}, known to {:g} µm until {:.1f} s of the {:g} s; beyond that the motion is too sensitive. It is "
-      "{}.",
-      definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration, provenance_of(definition.truth));
+      "{}.{}",
+      definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration, provenance_of(definition.truth),
+      brackets);
 }
 
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell) {

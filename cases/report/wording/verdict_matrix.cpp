@@ -27,8 +27,10 @@ double worst_of(const CaseResult& result, const std::string& name) {
 std::string error_text(const Cell& cell, const std::string& metric) {
   const double value = value_of(cell, metric);
   if (std::isnan(value)) return "";
-  if (metric == "position_error") return " " + rounded(value) + " m";
-  return metric == "orientation_error" ? " " + rounded(value) + " rad" : " " + rounded(100 * value) + " %";
+  const bool is_length = metric == "position_error", is_angle = metric == "orientation_error";
+  const std::string text =
+      is_length || is_angle ? rounded(value) + (is_length ? " m" : " rad") : rounded(100 * value) + " %";
+  return cell.metrics.at(metric).is_held_to_itself ? fmt::format(" ({})", text) : " " + text;
 }
 
 std::string cell_text(const Cell& cell, const std::string& metric, Words words) {
@@ -95,7 +97,8 @@ double size_of(const Scene& scene) {
 
 std::string shade_of(const CaseResult& result, const Cell& cell) {
   const double share = value_of(cell, "position_error") / size_of(result.definition.scene);
-  if (cell.status == Status::diverged || !(share >= 1e-3)) return " ";
+  if (cell.status == Status::diverged || !(share >= 1e-3) || cell.metrics.at("position_error").is_held_to_itself)
+    return " ";
   return share < 1e-2 ? "░" : share < 1e-1 ? "▒" : share < 1 ? "▓" : "█";
 }
 

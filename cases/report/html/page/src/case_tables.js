@@ -1,5 +1,5 @@
 // The tables of a case: numbers at one step, gates, settings, the file itself.
-import { cellOf, hasNumbers, judgement, metricOf, signedMetric, stableText, stepFor } from "./data.js";
+import { cellOf, hasNumbers, isHeldToItself, judgement, metricOf, signedMetric, stableText, stepFor } from "./data.js";
 import { el, tableHead } from "./dom.js";
 import { digits, isNumber, percent, quantity, words } from "./format.js";
 
@@ -36,10 +36,10 @@ export function numbersTable({ results, one, dt }) {
       "td",
       {
         title: w
-          ? `worst at ${digits(w.time)} s: ${w.body}, ${w.component}: found ${digits(w.found, 6)}, expected ${digits(w.expected, 6)}`
+          ? `${isHeldToItself(cell, name) ? "held to a truth that its own code makes; " : ""}worst at ${digits(w.time)} s: ${w.body}, ${w.component}: found ${digits(w.found, 6)}, expected ${digits(w.expected, 6)}`
           : "",
       },
-      text,
+      isHeldToItself(cell, name) ? `(${text})` : text,
     );
   };
   const stable = (engine) => {

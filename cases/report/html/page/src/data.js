@@ -116,6 +116,11 @@ export const metricOf = (cell, name) => {
   return metric && isNumber(metric.value) ? metric.value : null;
 };
 
+// Whether the truth is made by the run's own code: it tells how a method converges, not whether it is right.
+export const isHeldToItself = (cell, name) => cell?.metrics?.[name]?.held_to_itself === true;
+// What a truth that is a witness says.
+export const witnessed = (cell, name) => (isHeldToItself(cell, name) ? null : metricOf(cell, name));
+
 // The metric with its sign: lost energy is negative.
 export function signedMetric(metrics, name) {
   const metric = metrics?.[name];
@@ -169,7 +174,7 @@ const verdictKinds = {
 // How dark a cell of the matrix is: its position error in decades of the case's size, from 0 at 1e-4 of it to 1 at the
 // size itself. Nothing where there is no such error, or more to say than how large it is.
 export function shadeOf(one, cell) {
-  const error = cell?.status === "pass" ? metricOf(cell, "position_error") : null;
+  const error = cell?.status === "pass" ? witnessed(cell, "position_error") : null;
   if (error === null || !(one.size > 0)) return null;
   return Math.min(1, Math.max(0, (Math.log10(error / one.size) + 4) / 4));
 }
@@ -199,7 +204,7 @@ export function errorPoints(one, engine, metric) {
 export function stepFor(one, engine, metric, tolerance) {
   const furthest = 30,
     falls = 0.5; // order
-  const points = errorPoints(one, engine, metric);
+  const points = errorPoints(one, engine, metric).filter((p) => !isHeldToItself(p.cell, metric));
   if (!points.length) return null;
   const within = points.findIndex((p) => p.error <= tolerance);
   if (within === 0) return { mark: points[0].seconds === one.coarsest.seconds ? "≥" : "", seconds: points[0].seconds };

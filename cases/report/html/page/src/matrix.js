@@ -3,6 +3,7 @@ import {
   cellOf,
   dtOf,
   hasNumbers,
+  isHeldToItself,
   judgement,
   median,
   metricOf,
@@ -10,6 +11,7 @@ import {
   signedMetric,
   stableText,
   stepFor,
+  witnessed,
 } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
 import { digits, engineParts, isNumber, percent, quantity, words } from "./format.js";
@@ -107,14 +109,14 @@ export class Matrix {
         .filter((c) => c && c.status !== "unsupported");
     const typical = cases.map((one) =>
       median(
-        engines.map((e) => metricOf(cellOf(one, e.name, dtOf(one, this.dt.text).text), one.main)).filter((v) => v > 0),
+        engines.map((e) => witnessed(cellOf(one, e.name, dtOf(one, this.dt.text).text), one.main)).filter((v) => v > 0),
       ),
     );
     const ratio = (engine) => {
       const logs = cases
         .map((one, i) => {
           const cell = cellOf(one, engine.name, dtOf(one, this.dt.text).text),
-            value = hasNumbers(cell) ? metricOf(cell, one.main) : null;
+            value = hasNumbers(cell) ? witnessed(cell, one.main) : null;
           return value > 0 && typical[i] > 0 ? Math.log(Math.max(value / typical[i], 1e-6)) : null;
         })
         .filter((v) => v !== null);
@@ -242,7 +244,8 @@ export class Matrix {
       return [signed === null ? "–" : (signed > 0 && Math.abs(signed) > 1e-11 ? "+" : "") + percent(signed)];
     }
     const value = metricOf(cell, name);
-    return value === null ? ["–", "not applicable"] : [quantity(value, unit)];
+    if (value === null) return ["–", "not applicable"];
+    return isHeldToItself(cell, name) ? [`(${quantity(value, unit)})`, "by its own code"] : [quantity(value, unit)];
   }
 
   go(event, one, changes) {
