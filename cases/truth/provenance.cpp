@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "core/dynamics/contact/contact_method.h"
+
 namespace rigor {
 
 // One declaration and one row a truth that is solved; each is defined in the file of its name.
@@ -40,6 +42,13 @@ constexpr std::array kWithoutTruth = {"collapse_time",
                                       "unexplained_spin",
                                       "unexplained_velocity"};
 
+// The reference of ensembles is the core, with the contact that it gives a scene by itself (runner/ensemble.h).
+bool is_made_like_ensembles(const RunName& run, const Scene& scene) {
+  const auto& options = run.settings.options;
+  return run.engine == "core" &&
+         (!options.contains("contact") || options.at("contact") == contact_method_for(scene).name);
+}
+
 }  // namespace
 
 std::string provenance_of(const std::string& truth) {
@@ -53,6 +62,7 @@ bool is_against_truth(const std::string& metric) {
 }
 
 bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene) {
+  if (metric.starts_with("ensemble_")) return is_made_like_ensembles(run, scene);
   const Provenance* row = row_of(truth);
   return row && row->is_made_like && is_against_truth(metric) && row->is_made_like(run, scene);
 }

@@ -23,7 +23,7 @@ std::string provenance_of(const std::string& truth);
 // Whether a metric takes what it expects from the truth, always or in some scenes. One that is not known does.
 bool is_against_truth(const std::string& metric);
 
-// Whether a run, judged by this metric against this truth, is held to itself.
+// Whether a run, judged by this metric against this truth, or against a reference's ensemble, is held to itself.
 bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene);
 
 }  // namespace rigor

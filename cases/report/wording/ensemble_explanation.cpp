@@ -16,7 +16,7 @@ void append(std::string& list, const std::string& word) { list += (list.empty() 
 std::vector<std::string> ensemble_explanations(const Results& results, const CaseResult& result) {
   if (result.definition.ensemble == 0) return {};
   const StepSize dt = coarsest_dt(result);
-  std::string alike, different;
+  std::string alike, different, own;
   std::map<std::string, std::string> untold;  // by the reason
   for (const Cell& cell : result.cells) {
     const auto distance = cell.metrics.find("ensemble_distance"), p_value = cell.metrics.find("ensemble_p_value");
@@ -26,8 +26,8 @@ std::vector<std::string> ensemble_explanations(const Results& results, const Cas
       append(untold[distance->second.not_applicable], name);
       continue;
     }
-    append(p_value->second.value < kDiffers ? different : alike,
-           fmt::format("{} (H = {:.2g}, p = {:.2g})", name, distance->second.value, p_value->second.value));
+    std::string& list = p_value->second.is_held_to_itself ? own : p_value->second.value < kDiffers ? different : alike;
+    append(list, fmt::format("{} (H = {:.2g}, p = {:.2g})", name, distance->second.value, p_value->second.value));
   }
   std::vector<std::string> sentences;
   const auto say = [&](const std::string& what, const std::string& names) {
@@ -41,6 +41,7 @@ std::vector<std::string> ensemble_explanations(const Results& results, const Cas
           "From {} starts 1e-6 apart, at dt = {} s, nothing tells where bodies end from where the reference's do",
           result.definition.ensemble, dt.text),
       alike);
+  say("Made by the reference's own code, which is no witness of it", own);
   for (const auto& [why, names] : untold) say(fmt::format("No ensembles compared, for {}", why), names);
   return sentences;
 }

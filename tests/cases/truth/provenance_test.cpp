@@ -38,6 +38,18 @@ BOOST_AUTO_TEST_CASE(contact_by_events_is_held_to_itself_by_the_truth_events_alo
   }
 }
 
+// The reference of ensembles is the core with the contact that a scene gets by itself, whatever the truth.
+BOOST_AUTO_TEST_CASE(the_code_that_makes_the_reference_of_ensembles_is_held_to_itself_by_them) {
+  const Scene scene = test::dropped_sphere(0.5);
+  for (const char* metric : {"ensemble_distance", "ensemble_p_value"}) {
+    const auto itself = [&](const char* run) {
+      return is_held_to_itself("none", metric, parse_run_name(run, infos_of(engines())), scene);
+    };
+    for (const char* run : {"core", "core:rk4", "core:rk4,contact=event"}) BOOST_TEST(itself(run), run);
+    for (const char* run : {"core:rk4,contact=impulse", "ode", "bullet@stock"}) BOOST_TEST(!itself(run), run);
+  }
+}
+
 // A metric that nobody has thought of is taken to need the truth.
 BOOST_AUTO_TEST_CASE(what_is_measured_against_the_truth_is_known) {
   BOOST_TEST(is_against_truth("a metric of tomorrow"));
