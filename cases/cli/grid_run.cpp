@@ -27,11 +27,26 @@ namespace {
 // A gate wants what its gates judge, and no more than that unless engines or steps are named.
 bool is_gate(const CommandLine& line) { return line.command == "gate"; }
 
+// What no gate judges must not look like what passed.
+void expect_gates(const std::vector<Case>& cases) {
+  std::vector<std::string> without;
+  for (const Case& definition : cases) {
+    if (definition.gates.empty()) without.push_back(definition.id);
+  }
+  if (without.size() == cases.size()) {
+    throw InputError(fmt::format("rigor gate: no gate stands in {}, so there is nothing to judge; rigor run simulates "
+                                 "without judging",
+                                 fmt::join(without, ", ")));
+  }
+  if (!without.empty()) say(fmt::format("no gate judges {}", fmt::join(without, ", ")));
+}
+
 Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
   std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
   if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
   for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
   if (line.quick) cases = quick_selection(cases, engines.infos());
+  if (is_gate(line)) expect_gates(cases);
   const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
   // Who names engines wants these and no others.
   const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, engines.infos()) : std::vector<RunName>();

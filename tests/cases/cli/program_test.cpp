@@ -201,6 +201,18 @@ BOOST_AUTO_TEST_CASE(gate_answers_with_its_exit_code) {
   BOOST_TEST(unchecked.out.find("bound not checked") != std::string::npos, unchecked.out);
 }
 
+BOOST_AUTO_TEST_CASE(a_gate_over_what_no_gate_judges_is_refused) {
+  const std::string text = test::text_with("1");
+  const std::string file = folder.write("open.toml", text.substr(0, text.find("[[gate]]")));
+  const Answer answer = run({"gate", file, "--out", out});
+  BOOST_TEST(answer.code == 2);
+  BOOST_TEST(answer.err.find("nothing to judge") != std::string::npos, answer.err);
+  BOOST_TEST(!fs::exists(out));
+  const Answer beside = run({"gate", file, "stone", "--engine", "core:rk4", "--out", out});
+  BOOST_TEST(beside.code == 0, beside.err);
+  BOOST_TEST(beside.err.find("no gate judges ") != std::string::npos, beside.err);
+}
+
 BOOST_AUTO_TEST_CASE(a_gate_runs_what_its_gates_judge_and_on_a_runner_points_at_them) {
   const std::string summary = folder.write("summary.md", "before\n");
   ::setenv("GITHUB_ACTIONS", "true", 1), ::setenv("GITHUB_STEP_SUMMARY", summary.c_str(), 1);
