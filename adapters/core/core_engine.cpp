@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kVersion = "0.1.0";
 constexpr const char* kDefault = "dormand-prince";  // right whatever the step
 
-class CoreWorld : public World {
+class CoreWorld : public World, public MayReduceOrder {
  public:
   CoreWorld(const Scene& scene, const Integrator& integrator, const Settings& settings)
       : system_(scene),
@@ -72,6 +72,10 @@ class CoreWorld : public World {
   std::string solver_warning() const override {
     const std::string of_joints = joints_ ? joints_->warning() : "";
     return of_joints.empty() ? stepper_->solver_warning() : of_joints;
+  }
+
+  std::optional<ReducedOrder> reduced_order() const override {
+    return contact_ ? contact_->reduced_order() : std::nullopt;
   }
 
  private:

@@ -95,7 +95,7 @@ bool something_broke(const Results& grid) {
 // On a GitHub runner: annotations on stdout, where it looks for them, and the job's summary.
 void tell_the_runner(const Results& grid, const std::vector<Failure>& rows) {
   const char *is_one = std::getenv("GITHUB_ACTIONS"), *summary = std::getenv("GITHUB_STEP_SUMMARY");
-  if (is_one && std::string(is_one) == "true") print_table(annotations(rows));
+  if (is_one && std::string(is_one) == "true") print_table(annotations(rows) + warnings(grid));
   if (!summary || !*summary) return;
   std::ofstream file(summary, std::ios::binary | std::ios::app);
   file << job_summary(grid);

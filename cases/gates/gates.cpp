@@ -80,8 +80,26 @@ class GateCheck {
   }
 
   void add(const std::string& engine, const std::string& dt, GateAnswer answer, const std::string& text,
-           std::optional<double> value = {}, const std::optional<Instant>& worst = {}) {
-    result_.gates.push_back({index_, engine, dt, answer, text, value, worst});
+           std::optional<double> value = {}, const std::optional<Instant>& worst = {}, const std::string& caveat = "") {
+    result_.gates.push_back({index_, engine, dt, answer, text, value, worst, caveat});
+  }
+
+  // Of a gate that held: since when the cell, or one of a run's cells that have the metric, was not stepped by its
+  // method. What it costs it costs whatever the steps.
+  std::string caveat_of(const Cell& cell) const {
+    if (!cell.reduced_order || gate_.metric == "cost") return "";
+    const auto metric = cell.metrics.find(gate_.metric);
+    if (metric != cell.metrics.end() && metric->second.compared_until <= cell.reduced_order->from) return "";
+    return fmt::format("at dt = {} from {:.4g} s on stepped {}", cell.dt.text, cell.reduced_order->from,
+                       cell.reduced_order->how);
+  }
+  std::string caveat_of_run(std::size_t run) const {
+    std::string caveat;
+    for (const Cell& cell : result_.cells) {
+      const std::string of_cell = cell.run == run && selects(cell) ? caveat_of(cell) : "";
+      if (!of_cell.empty()) caveat += (caveat.empty() ? "" : "; ") + of_cell;
+    }
+    return caveat;
   }
   std::string because() const { return gate_.because.empty() ? "" : fmt::format(" (the gate: {})", gate_.because); }
 
@@ -111,7 +129,7 @@ class GateCheck {
       return fail(cell, fmt::format("{} {}; {}{}", head, fault, worst_of(*metric), because()), *metric);
     add(name_of(cell), cell.dt.text, GateAnswer::held,
         fmt::format("{} is {:.6g}{}{}", head, metric->value, unit_, allowed(allowance(cell.run, cell.dt))),
-        metric->value, metric->worst);
+        metric->value, metric->worst, caveat_of(cell));
   }
 
   // A run that blew up, or did not do what its method promises, has no value to hold or to record.
@@ -153,7 +171,8 @@ class GateCheck {
                                            other_blew_up ? ", which blew up" : "");
     if (!blew_up && (other_blew_up || is_ahead)) {
       return add(name_of(cell), cell.dt.text, GateAnswer::held,
-                 fmt::format("{} is {}, better than the {}", head, ends, theirs), mine->value, mine->worst);
+                 fmt::format("{} is {}, better than the {}", head, ends, theirs), mine->value, mine->worst,
+                 caveat_of(cell));
     }
     fail(cell, fmt::format("{} is {}, not better than the {}; {}{}", head, ends, theirs, worst_of(*mine), because()),
          *mine);
@@ -193,10 +212,10 @@ class GateCheck {
   }
 
   void answer(const std::string& engine, const std::string& dt, const std::string& head, double value,
-              const std::string& detail, double allowance = 0) {
+              const std::string& detail, const std::string& caveat, double allowance = 0) {
     const std::string fault = fault_of(value, allowance);
     if (fault.empty())
-      return add(engine, dt, GateAnswer::held, fmt::format("{} is {:.6g}{}", head, value, unit_), value);
+      return add(engine, dt, GateAnswer::held, fmt::format("{} is {:.6g}{}", head, value, unit_), value, {}, caveat);
     add(engine, dt, GateAnswer::failed, fmt::format("{} {}; {}{}", head, fault, detail, because()), value);
   }
 
@@ -220,7 +239,8 @@ class GateCheck {
     const ObservedOrder order = observed_order(result_, run, worth.front(), is_selected);
     if (!order.value) return;
     const std::string& name = grid_.runs[run].text;
-    answer(name, "", fmt::format("observed_order of {}", name), *order.value, worth.front() + " " + order.text);
+    answer(name, "", fmt::format("observed_order of {}", name), *order.value, worth.front() + " " + order.text,
+           caveat_of_run(run));
   }
 
   // The answer stands with the first run of the pair.
@@ -235,7 +255,7 @@ class GateCheck {
     const std::string &one = grid_.runs[spread.first].text, &other = grid_.runs[spread.second].text;
     answer(one, spread.dt.text, fmt::format("{} of {} and {} at dt = {}", gate_.metric, one, other, spread.dt.text),
            worst.value,
-           fmt::format("worst at {:.6g} s: {}", worst.time, result_.definition.scene.body_name(worst.body)),
+           fmt::format("worst at {:.6g} s: {}", worst.time, result_.definition.scene.body_name(worst.body)), "",
            std::max(allowance(spread.first, spread.dt), allowance(spread.second, spread.dt)));
   }
 
@@ -287,7 +307,7 @@ class GateCheck {
     const std::string head =
         fmt::format("the observed order of {} of {} is {:.3g} ({})", gate_.metric, grid_.runs[run].text, order, table);
     if (order >= *wanted) {
-      add(grid_.runs[run].text, "", GateAnswer::held, head, order);
+      add(grid_.runs[run].text, "", GateAnswer::held, head, order, {}, caveat_of_run(run));
     } else {
       add(grid_.runs[run].text, "", GateAnswer::failed,
           fmt::format("{}, below {:g}; {}{}", head, *wanted, worst_of(worst->metrics.at(gate_.metric)), because()),

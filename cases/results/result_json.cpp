@@ -94,6 +94,16 @@ SchemeFindings scheme_from(const Json& json, const Scene& scene) {
           metrics_from(json.at("without_gyroscopic_term"), scene)};
 }
 
+Json json_of(const std::optional<ReducedOrder>& reduced) {
+  if (!reduced) return nullptr;
+  return {{"from", reduced->from}, {"how", reduced->how}};
+}
+
+std::optional<ReducedOrder> reduced_order_from(const Json& json) {
+  if (json.is_null()) return {};
+  return ReducedOrder{number_of(json.at("from")), json.at("how").get<std::string>()};
+}
+
 void fill_in(Cell& cell, const Json& json, const Scene& scene) {
   cell.status = status_of(json.at("status").get<std::string>());
   cell.reason = json.at("reason").get<std::string>();
@@ -106,6 +116,7 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
                       body_index(scene, verdict.at("body").get<std::string>()), verdict.at("why").get<std::string>(),
                       number_of(verdict.at("amount"))};
   }
+  cell.reduced_order = reduced_order_from(json.at("reduced_order"));
   cell.metrics = metrics_from(json.at("metrics"), scene);
   cell.scheme = scheme_from(json.at("by_scheme"), scene);
   cell.settings.clear();
@@ -159,6 +170,7 @@ Json json_of(const Cell& cell, const Scene& scene) {
                        {"amount", stability.amount},
                        {"phrase", phrase_of(stability)}};
   }
+  json["reduced_order"] = json_of(cell.reduced_order);
   json["metrics"] = json_of(cell.metrics, scene);
   json["by_scheme"] = json_of(cell.scheme, scene);
   json["settings"] = Json::object();

@@ -10,6 +10,7 @@
 #include "cases/metrics/metric.h"
 #include "cases/metrics/stability.h"
 #include "cases/results/spread.h"
+#include "core/engine/reduced_order.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
@@ -54,6 +55,7 @@ struct GateResult {
   std::string text;                   // a sentence
   std::optional<double> value = {};   // in the metric's unit; none where there was nothing to judge
   std::optional<Instant> worst = {};  // where the metric has one
+  std::string caveat = "";            // what a `held` does not say: over what time no method was tested; else empty
 };
 
 // What a recorder kept (runner/recorder.h): texts that only the report it belongs to reads.
@@ -67,6 +69,8 @@ struct Cell {
   Status status = Status::crashed;
   std::string reason = "it did not run";  // why, for all but `pass`
   Stability stability;
+  // From when on the run was stepped by less than its method, if it was: such a time is no test of the method.
+  std::optional<ReducedOrder> reduced_order;
   std::map<std::string, MetricValue> metrics;  // by name; empty if the cell did not get so far
   SchemeFindings scheme;
   SettingsInForce settings;

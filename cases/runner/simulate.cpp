@@ -73,11 +73,13 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
   for (long n = 0;; ++n) {
     if (const auto body = body_not_finite(now.bodies())) {
       run.not_finite = NotFinite{now.time, *body};
+      run.reduced_order = reduced_order_of(*world);
       return run;
     }
     if (n % every == 0 || n == steps) run.trajectory.samples.push_back({now.time, BodyTable(now.bodies())});
     if (n == steps) {
       run.settings = world->settings_in_force();  // some say what the run has made of them
+      run.reduced_order = reduced_order_of(*world);
       return run;
     }
     const double begin = is_timed ? cpu_seconds_so_far(*world) : 0;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/engine/engine.h"
+#include "core/engine/reduced_order.h"
 #include "core/engine/trajectory.h"
 
 namespace rigor {
@@ -22,7 +23,8 @@ struct Simulation {
   std::optional<NotFinite> not_finite;
   std::string solver_warning;      // the first one of the world, with its time; empty if none
   double solver_warning_time = 0;  // s
-  double cpu_seconds = 0;          // of the steps alone, without recording; not a number if nobody timed them
+  std::optional<ReducedOrder> reduced_order;
+  double cpu_seconds = 0;  // of the steps alone, without recording; not a number if nobody timed them
   long steps_per_sample = 1;
 };
 

@@ -45,7 +45,8 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
   if (cell.stability.verdict == Verdict::blown_up) {
     return fmt::format("blown up at {:.2f} s: {}", cell.stability.time, scene.body_name(cell.stability.body));
   }
-  return cell.status == Status::pass ? phrase_of(cell.stability) : word_of(cell.status);
+  const std::string word = cell.status == Status::pass ? phrase_of(cell.stability) : word_of(cell.status);
+  return cell.reduced_order ? word + " ◐" : word;  // a warning below says from when on
 }
 
 // The first column of a table; a long name gets a line of its own.
@@ -96,10 +97,12 @@ std::string row_line(const RowText& row) {
   return engine_column(row.engine) + " " + wrapped(row.verdict, 27) + "\n";
 }
 
-// The gates that did not hold; those that no cell met only where asked for.
+// The gates that did not hold, or that say less than they seem to; those that no cell met only where asked for.
 std::string gate_lines(const CaseResult& result, bool with_unchecked) {
   std::string lines;
   for (const GateResult& gate : result.gates) {
+    if (!gate.caveat.empty())
+      lines += "  " + wrapped(fmt::format("warning: {}, but {}", gate.text, gate.caveat), 4) + "\n";
     if (!is_failure(gate.answer) || (gate.answer == GateAnswer::not_checked && !with_unchecked)) continue;
     const std::string kind = kind_of(result.definition.gates[gate.gate]);
     lines += "  " + wrapped(fmt::format("{} {}: {}", kind, word_of(gate.answer), gate.text), 4) + "\n";
@@ -153,6 +156,8 @@ std::string block(const Results& results, const CaseResult& result) {
     if (cell.dt == dt && cell.status != Status::unsupported) text += row_line(row_text(results, result, cell));
   }
   text += unsupported_lines(results, result, dt);
+  for (const std::string& warning : cell_warnings(results, result, dt))
+    text += "  " + wrapped("warning: " + warning, 4) + "\n";
   text += explained_text(explained_rows(results, result, dt));
   for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
   for (const std::string& sentence : work_precision_sentences(results, result))
@@ -198,6 +203,16 @@ std::string truth_sentence(const CaseResult& result) {
       brackets);
 }
 
+std::vector<std::string> cell_warnings(const Results& results, const CaseResult& result, const StepSize& dt) {
+  std::vector<std::string> warnings;
+  for (const Cell& cell : result.cells) {
+    if (!cell.reduced_order || cell.dt != dt) continue;
+    warnings.push_back(fmt::format("{} (◐) is from {:.4g} s on stepped {}", results.runs[cell.run].text,
+                                   cell.reduced_order->from, cell.reduced_order->how));
+  }
+  return warnings;
+}
+
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell) {
   RowText row;
   row.engine = results.runs[cell.run].text;
@@ -224,9 +239,12 @@ RowText row_text(const Results& results, const CaseResult& result, const Cell& c
 std::string gate_summary(const Results& results) {
   using Counts = std::map<GateAnswer, int>;
   std::map<std::string, Counts> counts;
+  int with_caveat = 0;
   for (const CaseResult& result : results.cases) {
-    for (const GateResult& answer : result.gates)
+    for (const GateResult& answer : result.gates) {
       ++counts[kind_of(result.definition.gates[answer.gate])][answer.answer];
+      with_caveat += !answer.caveat.empty();
+    }
   }
   const auto line = [](const std::string& what, Counts& of) {
     std::string text = fmt::format("{}: {} held, {} failed, {} not checked", what, of[GateAnswer::held],
@@ -238,7 +256,10 @@ std::string gate_summary(const Results& results) {
     }
     return text + "\n";
   };
-  const std::string bounds = line("bounds", counts["bound"]);
+  std::string bounds = line("bounds", counts["bound"]);
+  if (with_caveat > 0)
+    bounds += fmt::format("warning: {} of them held by runs that were stepped in part by less than their method\n",
+                          with_caveat);
   return counts.contains("regression") ? bounds + line("regressions", counts["regression"]) : bounds;
 }
 

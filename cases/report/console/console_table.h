@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cases/gates/failures.h"
 #include "cases/results/results.h"
@@ -26,5 +27,7 @@ struct RowText {
 };
 RowText row_text(const Results& results, const CaseResult& result, const Cell& cell);
 std::string truth_sentence(const CaseResult& result);
+// A sentence for each run that was stepped in part by less than its method.
+std::vector<std::string> cell_warnings(const Results& results, const CaseResult& result, const StepSize& dt);
 
 }  // namespace rigor

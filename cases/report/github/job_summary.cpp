@@ -82,4 +82,18 @@ std::string annotations(const std::vector<Failure>& rows) {
   return text;
 }
 
+std::string warnings(const Results& results) {
+  std::string text;
+  for (const CaseResult& result : results.cases) {
+    for (const GateResult& answer : result.gates) {
+      if (answer.caveat.empty()) continue;
+      const Gate& gate = result.definition.gates[answer.gate];
+      text += fmt::format("::warning {}title={}::{}\n", place_of(gate.where),
+                          percent_encoded(result.definition.id + ": " + gate.metric, true),
+                          percent_encoded(answer.text + ", but " + answer.caveat, false));
+    }
+  }
+  return text;
+}
+
 }  // namespace rigor

@@ -16,4 +16,7 @@ std::string job_summary(const Results& results, std::size_t longest = kLongestSu
 // One `::error file=...,line=...::` line a row.
 std::string annotations(const std::vector<Failure>& rows);
 
+// One `::warning` line for each gate that held by a run that was stepped in part by less than its method.
+std::string warnings(const Results& results);
+
 }  // namespace rigor

@@ -59,6 +59,7 @@ Json gates_json(const CaseResult& result) {
                          {"dt", answer.dt},
                          {"answer", word_of(answer.answer)},
                          {"text", answer.text},
+                         {"caveat", answer.caveat},
                          {"value", bound(answer.value)}});
     }
     gates.push_back({{"kind", kind_of(gate)},

@@ -46,6 +46,7 @@ struct TestCase {
   std::string type;     // the metric that failed, or the cell's status
   std::string message;  // the first line
   std::string text;     // all of them
+  std::string warning;  // what a test that passed does not say
 };
 
 struct Suite {
@@ -66,15 +67,24 @@ void add_line(TestCase& test, const std::string& line) {
   test.text += line + "\n";
 }
 
+void add_warning(TestCase& test, const GateResult& answer) {
+  if (!answer.caveat.empty()) test.warning += fmt::format("warning: {}, but {}\n", answer.text, answer.caveat);
+}
+
 TestCase of_cell(const Results& results, const CaseResult& result, const Cell& cell) {
   const std::string& run = results.runs[cell.run].text;
-  TestCase test{fmt::format("{} dt={}", run, cell.dt.text), result.definition.id, cell.wall_seconds, "", "", "", ""};
+  TestCase test{
+      fmt::format("{} dt={}", run, cell.dt.text), result.definition.id, cell.wall_seconds, "", "", "", "", ""};
+  if (cell.reduced_order)
+    test.warning =
+        fmt::format("warning: from {:.4g} s on stepped {}\n", cell.reduced_order->from, cell.reduced_order->how);
   if (cell.status == Status::unsupported) test.kind = "skipped", add_line(test, cell.reason);
   if (cell.status == Status::crashed || cell.status == Status::timed_out || cell.status == Status::invalid)
     test.kind = "error", test.type = word_of(cell.status), add_line(test, cell.reason);
   for (const GateResult& answer : result.gates) {
     if (answer.engine != run || answer.dt != cell.dt.text) continue;
     const Gate& gate = result.definition.gates[answer.gate];
+    add_warning(test, answer);
     if (is_failure(answer.answer)) {
       if (test.kind != "error") test.kind = "failure";
       if (test.type.empty()) test.type = gate.metric;
@@ -90,7 +100,8 @@ TestCase of_cell(const Results& results, const CaseResult& result, const Cell& c
 TestCase of_answer(const CaseResult& result, const GateResult& answer) {
   const Gate& gate = result.definition.gates[answer.gate];
   const std::string of = answer.engine.empty() ? "" : " " + answer.engine;
-  TestCase test{fmt::format("gate {}{}", answer.gate + 1, of), result.definition.id, 0, "", "", "", ""};
+  TestCase test{fmt::format("gate {}{}", answer.gate + 1, of), result.definition.id, 0, "", "", "", "", ""};
+  add_warning(test, answer);
   if (is_failure(answer.answer))
     test.kind = "failure", test.type = gate.metric, add_line(test, kind_of(gate) + ": " + answer.text);
   if (answer.answer == GateAnswer::known_deviation) test.kind = "skipped", add_line(test, answer.text);
@@ -100,7 +111,7 @@ TestCase of_answer(const CaseResult& result, const GateResult& answer) {
 Suite suite_of(const Results& results, const CaseResult& result) {
   Suite suite{result.definition.id, {}};
   if (!result.error.empty())
-    suite.cases.push_back({"truth", result.definition.id, 0, "error", "truth", result.error, result.error + "\n"});
+    suite.cases.push_back({"truth", result.definition.id, 0, "error", "truth", result.error, result.error + "\n", ""});
   for (const Cell& cell : result.cells) suite.cases.push_back(of_cell(results, result, cell));
   for (const GateResult& answer : result.gates) {
     if (answer.dt.empty()) suite.cases.push_back(of_answer(result, answer));
@@ -111,11 +122,15 @@ Suite suite_of(const Results& results, const CaseResult& result) {
 std::string xml_of(const TestCase& test) {
   std::string xml = fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.6f}\"", escaped(test.name),
                                 escaped(test.classname), test.seconds);
-  if (test.kind.empty()) return xml + "/>\n";
-  xml += fmt::format(">\n      <{} message=\"{}\"", test.kind, escaped(test.message));
-  if (test.kind != "skipped") xml += fmt::format(" type=\"{}\"", escaped(test.type));
-  return xml + (test.kind == "skipped" ? "/>" : fmt::format(">{}</{}>", escaped(test.text), test.kind)) +
-         "\n    </testcase>\n";
+  if (test.kind.empty() && test.warning.empty()) return xml + "/>\n";
+  xml += ">\n";
+  if (!test.kind.empty()) {
+    xml += fmt::format("      <{} message=\"{}\"", test.kind, escaped(test.message));
+    if (test.kind != "skipped") xml += fmt::format(" type=\"{}\"", escaped(test.type));
+    xml += (test.kind == "skipped" ? "/>" : fmt::format(">{}</{}>", escaped(test.text), test.kind)) + "\n";
+  }
+  if (!test.warning.empty()) xml += fmt::format("      <system-out>{}</system-out>\n", escaped(test.warning));
+  return xml + "    </testcase>\n";
 }
 
 std::string counts_of(long tests, long failures, long errors, long skipped, double seconds) {

@@ -43,6 +43,8 @@ std::string table(const Results& results, const CaseResult& result, const StepSi
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", plain(row.engine), row.first_second, row.whole,
                         row.orientation, row.energy, row.energy_synchronised, row.stable_dt, plain(row.verdict));
   }
+  for (const std::string& warning : cell_warnings(results, result, dt))
+    text += "\n**Warning:** " + plain(warning) + "\n";
   const std::string explained = explained_markdown(explained_rows(results, result, dt));
   return explained.empty() ? text : text + "\n" + explained;
 }
@@ -84,6 +86,8 @@ std::string headline(const Results& results, const CaseResult& result) {
   for (const std::string& sentence : work_precision_sentences(results, result)) text += plain(sentence) + "\n\n";
   for (const GateResult& gate : result.gates) {
     const std::string kind = kind_of(result.definition.gates[gate.gate]);
+    if (!gate.caveat.empty())
+      text += fmt::format("- {} held: {}, **but {}**\n", kind, plain(gate.text), plain(gate.caveat));
     if (gate.answer != GateAnswer::held && gate.answer != GateAnswer::not_recorded)
       text += fmt::format("- {} {}: {}\n", kind, word_of(gate.answer), plain(gate.text));
   }

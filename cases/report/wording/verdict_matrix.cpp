@@ -24,6 +24,8 @@ double worst_of(const CaseResult& result, const std::string& name) {
   return worst;
 }
 
+bool is_stable(const Cell& cell) { return cell.status == Status::pass && cell.stability.verdict == Verdict::stable; }
+
 std::string error_text(const Cell& cell, const std::string& metric) {
   const double value = value_of(cell, metric);
   if (std::isnan(value)) return "";
@@ -34,9 +36,7 @@ std::string error_text(const Cell& cell, const std::string& metric) {
 }
 
 std::string cell_text(const Cell& cell, const std::string& metric, Words words) {
-  const bool is_stable =
-      cell.status == Status::pass && !cell.metrics.empty() && cell.stability.verdict == Verdict::stable;
-  if (words == Words::few && is_stable) return sign_of(cell) + error_text(cell, metric);
+  if (words == Words::few && is_stable(cell) && !cell.metrics.empty()) return sign_of(cell) + error_text(cell, metric);
   if (words == Words::few && cell.status == Status::unsupported) return sign_of(cell);
   std::string word = word_of(cell.status);
   if (cell.status == Status::diverged) return sign_of(cell) + " " + phrase_of(cell.stability);
@@ -67,7 +67,7 @@ std::string sign_of(Verdict verdict) {
 std::string sign_of(const Cell& cell) {
   switch (cell.status) {
     case Status::pass:
-      return sign_of(cell.stability.verdict);
+      return is_stable(cell) && cell.reduced_order ? "◐" : sign_of(cell.stability.verdict);
     case Status::diverged:
     case Status::fail:
       return "✕";
@@ -125,7 +125,8 @@ TextTable verdict_matrix(const Results& results, Words words) {
                   "[rad] where nothing moves away; of the energy [%] where there is no truth. The darker "
                   "the square, the larger the position's error beside the case's size: ░ from 1e-3, ▒ 1e-2, "
                   "▓ 1e-1, █ 1{}",
-                  headline.text, words == Words::few ? ". ✓: stable; –: unsupported" : ""),
+                  headline.text,
+                  words == Words::few ? ". ✓: stable; ◐: stable, in part at a lower order; –: unsupported" : ""),
       {{"case"}}};
   for (const RunName& run : results.runs) matrix.rows[0].push_back(run.text);
   for (const CaseResult& result : results.cases) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/dynamics/integrators/integrator.h"
+#include "core/engine/reduced_order.h"
 #include "core/scene/features.h"
 #include "core/scene/scene.h"
 
@@ -20,6 +22,8 @@ class ContactStepper : public Stepper {
   virtual bool was_smooth() const { return false; }
   // Steps of the integrator that all steps so far have taken.
   virtual long work() const { return 0; }
+  // From when on it did not keep the integrator's order in contact, if it says so.
+  virtual std::optional<ReducedOrder> reduced_order() const { return {}; }
 };
 
 // What a contact stepper is made from. Outlives it.

@@ -192,6 +192,7 @@ std::ostream& operator<<(std::ostream& out, const Pile& pile) { return out << pi
 const Pile kPiles[] = {
     {"contact/card-house", 0.12, "each foot asks for tan(15°)/2 = 0.134 of the weight on it"},
     {"contact/log-pile", 0.25, "each contact needs tan(15°) = 0.268"},
+    {"contact/keystone-arch", 0.21, "a leg's lowest and highest joints ask for tan 12.3° = 0.219, see the case"},
     {"contact/corbel-arch", -1, "nothing pushes sideways: it stands without friction"},
 };
 

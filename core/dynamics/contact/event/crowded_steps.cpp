@@ -40,8 +40,7 @@ CrowdedSteps::CrowdedSteps(const ContactParts& parts, ContactPoints& contact_poi
 double CrowdedSteps::longest(double dt) { return std::min(kLongest, kShare * dt); }
 
 std::string CrowdedSteps::wording() const {
-  const std::string rule = "inelastic steps of 1/120 s or a quarter of the run's";
-  return steps_ == 0 ? rule + ": none so far" : fmt::format("{}: {} so far, {:.3g} s", rule, steps_, seconds_);
+  return fmt::format("{} inelastic steps of first order, {:.3g} s in all", steps_, seconds_);
 }
 
 double CrowdedSteps::short_of_passing(BodyColumns state, double h) const {

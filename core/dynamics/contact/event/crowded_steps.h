@@ -25,7 +25,7 @@ class CrowdedSteps {
   double take(MutableBodyColumns state, double t, double h);
   // Empty if the impulses of the last step settled.
   const std::string& solver_warning() const { return solver_warning_; }
-  // For how long it was in force so far, and how.
+  // How many of them there were so far.
   std::string wording() const;
 
  private:

@@ -9,13 +9,14 @@
 //
 // Where events crowd, as in the infinitely many small impacts with which a row of dominoes comes to lie, a run has a
 // budget: once it has spent it, the rest of a step is taken in steps that do not look for events (crowded_steps.h), and
-// the settings in force say for how long.
+// the run says from when on (reduced_order()).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -87,13 +88,17 @@ class EventStepper : public ContactStepper {
   std::string solver_warning() const override { return solver_warning_; }
   bool was_smooth() const override { return is_smooth_; }
   long work() const override { return persistent_contact_.passes(); }
+  std::optional<ReducedOrder> reduced_order() const override {
+    if (!crowded_from_) return {};
+    return ReducedOrder{*crowded_from_, "in part by " + crowded_.wording() + ", for events crowd there"};
+  }
 
   SettingsInForce settings_in_force() const override {
     return {
         {"impacts", "at their own instants, simultaneous ones together"},
         {"persistent contact", "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
         {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.restitution_threshold())},
-        {"where events crowd", crowded_.wording()}};
+        {"where events crowd", "inelastic steps of first order, of 1/120 s or a quarter of the run's at most"}};
   }
 
  private:
@@ -237,6 +242,7 @@ class EventStepper : public ContactStepper {
   double take_crowded_step(MutableBodyColumns state, double longest) {
     is_smooth_ = false;
     if (patience_ > 1 && longest > kInstant) note("events crowd more than its patience allows");
+    if (!crowded_from_ && longest > kInstant) crowded_from_ = part_.t + part_.from;
     const double h = crowded_.take(state, part_.t + part_.from, std::min(part_.length(), longest));
     persistent_contact_.forget_points();
     pairs_ = contact_points_.candidates(state);
@@ -327,6 +333,7 @@ class EventStepper : public ContactStepper {
   double moving_;                                      // bodies
   double saved_ = std::numeric_limits<double>::max();  // of the budget, in steps of the integrator
   double crowded_step_ = 0;                            // s
+  std::optional<double> crowded_from_;                 // s
   Part part_;
   double longest_ = kInfinity;  // s, of the next part
   int instants_ = 0;            // skipped in this step

@@ -1,5 +1,15 @@
 // The tables of a case: numbers at one step, gates, settings, the file itself.
-import { cellOf, hasNumbers, isHeldToItself, judgement, metricOf, signedMetric, stableText, stepFor } from "./data.js";
+import {
+  cellOf,
+  hasNumbers,
+  isHeldToItself,
+  judgement,
+  metricOf,
+  signedMetric,
+  stableText,
+  stepFor,
+  warningOf,
+} from "./data.js";
 import { el, tableHead } from "./dom.js";
 import { digits, isNumber, percent, quantity, words } from "./format.js";
 
@@ -51,6 +61,16 @@ export function numbersTable({ results, one, dt }) {
     const step = stepFor(one, engine.name, one.main, 1e-3);
     return step ? `${step.mark} ${quantity(step.seconds, "s")}` : "–";
   };
+  const warnings = rows
+    .filter(([, cell]) => cell.reduced_order)
+    .map(([engine, cell]) => el("li", {}, `${engine.name} is ${warningOf(cell)}`));
+  return [
+    warnings.length ? el("ul.findings.warnings", {}, warnings) : null,
+    numbersGrid({ results, one, rows, names, shown, stable, millimetre }),
+  ];
+}
+
+function numbersGrid({ results, one, rows, names, shown, stable, millimetre }) {
   return el(
     "div.scroll",
     {},
@@ -141,9 +161,11 @@ export function gatesTable({ results, one }) {
       const count = (answer) => gate.answers.filter((a) => a.answer === answer).length;
       const failed = count("failed"),
         unchecked = count("not checked"),
-        unrecorded = count("not recorded");
+        unrecorded = count("not recorded"),
+        qualified = gate.answers.filter((a) => a.caveat).length;
       const summary = [
         `${count("held")} held`,
+        qualified ? `${qualified} of them by runs stepped in part by less than their method` : "",
         failed ? `${failed} failed` : "",
         unchecked ? `${unchecked} not checked` : "",
         unrecorded ? `${unrecorded} not recorded` : "",
@@ -152,7 +174,7 @@ export function gatesTable({ results, one }) {
         .join(", ");
       return el(
         "details.gate",
-        { open: failed > 0 },
+        { open: failed + qualified > 0 },
         el(
           "summary",
           {},
@@ -184,7 +206,7 @@ export function gatesTable({ results, one }) {
                   el("td", {}, a.dt || "all"),
                   el("td", {}, value === null ? "" : quantity(value, results.units[gate.metric])),
                   el(`td.is-${kind}`, {}, el("span.word", {}, `${sign} ${a.answer}`)),
-                  el("td.text", {}, a.text),
+                  el("td.text", {}, a.caveat ? `${a.text}, but ${a.caveat}` : a.text),
                 );
               }),
             ),

@@ -1,5 +1,5 @@
 // One case: the truth, the runs in motion, their series over time, and what the cells of all step sizes say together.
-import { cellOf, dtOf, judgement, hasNumbers } from "./data.js";
+import { asideOf, cellOf, dtOf, judgement, hasNumbers } from "./data.js";
 import { el, replace } from "./dom.js";
 import { digits, quantity } from "./format.js";
 import { convergence, stabilityMap, workPrecision } from "./charts.js";
@@ -148,7 +148,7 @@ export class CaseView {
           type: "button",
           "aria-pressed": String(shown.has(engine.name)),
           disabled: cell.status === "unsupported",
-          title: `${engine.name}: ${verdict.word}${cell.reason ? ` – ${cell.reason}` : ""}`,
+          title: `${engine.name}: ${verdict.word}${asideOf(cell)}`,
           style: { "--engine": `var(--e${engine.index})` },
           onclick: (event) => this.toggle(engine, event.shiftKey),
           onmouseenter: () => this.plots?.focus(engine.name),

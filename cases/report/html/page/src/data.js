@@ -1,6 +1,6 @@
 // The results as the page uses them: cases with their cells, engines with their colours, and what follows from several
 // cells. All of it is read from the report itself.
-import { isNumber, quantity } from "./format.js";
+import { digits, isNumber, quantity } from "./format.js";
 
 export async function unpacked(base64) {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
@@ -160,8 +160,17 @@ export function judgement(cell) {
       return { kind: "bad", sign: "!", word: cell.status.replace("-", " ") };
   }
   const word = cell.verdict?.phrase ?? "stable";
-  return { ...verdictKinds[cell.verdict?.word ?? "stable"], word };
+  const found = verdictKinds[cell.verdict?.word ?? "stable"];
+  if (found.kind === "good" && cell.reduced_order) return { kind: "drift", sign: "◐", word: `${word} in part` };
+  return { ...found, word };
 }
+
+// What a cell's verdict and numbers do not say.
+export const warningOf = (cell) =>
+  cell?.reduced_order ? `from ${digits(cell.reduced_order.from)} s on stepped ${cell.reduced_order.how}` : "";
+
+// Why a cell ended as it did, and what to know beside it; for where the mouse rests.
+export const asideOf = (cell) => [cell.reason, warningOf(cell)].filter(Boolean).map((text) => ` – ${text}`).join("");
 
 const verdictKinds = {
   stable: { kind: "good", sign: "✓" },

@@ -1,5 +1,6 @@
 // The verdict matrix: cases by engines at one step, sorted by family, with what each engine's column comes to.
 import {
+  asideOf,
   cellOf,
   dtOf,
   hasNumbers,
@@ -203,7 +204,7 @@ export class Matrix {
     const changes = { case: one.id, dt: dt.text, engines: shown, time: 0, zoom: null };
     const rare = engine.isRare ? ".is-rare" : "";
     if (!cell) return el(`td.cell.is-absent${rare}`, {}, "");
-    const title = `${one.id}, ${engine.name}, dt = ${dt.text} s: ${verdict.word}${cell.reason ? ` – ${cell.reason}` : ""}`;
+    const title = `${one.id}, ${engine.name}, dt = ${dt.text} s: ${verdict.word}${asideOf(cell)}`;
     const shade = shadeOf(one, cell),
       style = shade === null ? {} : { "--shade": `${Math.round(100 * shade)}%` };
     return el(
