@@ -1,9 +1,12 @@
 #include "adapters/twin_joint_solver.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
 namespace rigor {
 namespace {
+
+constexpr Eigen::Index kMostDense = 64;  // rows, up to which a dense factorisation takes less than a sparse one's order
 
 Eigen::VectorXd velocities_of(BodyColumns state) {
   Eigen::VectorXd velocities(6 * static_cast<Eigen::Index>(state.size()));
@@ -43,19 +46,35 @@ TwinJointSolver::Sparse TwinJointSolver::inverse_mass(BodyColumns state) {
   return matrix;
 }
 
+// p of A p = b with A = S + softness, and whether it has one; once refined, for rows that repeat others are nearly
+// singular.
+template <typename Factor, typename Matrix>
+Eigen::VectorXd TwinJointSolver::solved(const Factor& factor, const Matrix& matrix, const Eigen::VectorXd& right) {
+  const bool is_regular = factor.info() == Eigen::Success && factor.vectorD().cwiseAbs().minCoeff() > 0;
+  warning_ = is_regular ? "" : "the joints' equations have no single solution, and cfm is zero";
+  const Eigen::VectorXd impulses = factor.solve(right);
+  return impulses + factor.solve(right - matrix * impulses);
+}
+
 void TwinJointSolver::push(MutableBodyColumns state, double dt) {
   const auto count = static_cast<Eigen::Index>(missing_.size());
-  Sparse J(count, 6 * static_cast<Eigen::Index>(state.size())), identity(count, count);
+  Sparse J(count, 6 * static_cast<Eigen::Index>(state.size()));
   J.setFromTriplets(of_J_.begin(), of_J_.end());
-  identity.setIdentity();
   const Sparse by_impulse = inverse_mass(state) * Sparse(J.transpose());  // M⁻¹ Jᵀ
-  const Sparse system = Sparse(J * by_impulse) + (cfm_ ? *cfm_ / dt : softness_) * identity;
-  const Eigen::SimplicialLDLT<Sparse> factor(system);
-  warning_ = factor.info() == Eigen::Success ? "" : "the joints' equations have no single solution, and cfm is zero";
+  const double softness = cfm_ ? *cfm_ / dt : softness_;
   const Eigen::VectorXd target = erp_ / dt * Eigen::Map<const Eigen::VectorXd>(missing_.data(), count),
                         right = target - J * velocities_of(state);
-  Eigen::VectorXd impulses = factor.solve(right);
-  impulses += factor.solve(right - system * impulses);  // once refined: rows that repeat others are nearly singular
+  Eigen::VectorXd impulses;
+  if (count <= kMostDense) {
+    Eigen::MatrixXd system = J * by_impulse;
+    system.diagonal().array() += softness;
+    impulses = solved(Eigen::LDLT<Eigen::MatrixXd>(system), system, right);
+  } else {
+    Sparse identity(count, count);
+    identity.setIdentity();
+    const Sparse system = Sparse(J * by_impulse) + softness * identity;
+    impulses = solved(Eigen::SimplicialLDLT<Sparse>(system), system, right);
+  }
   const Eigen::VectorXd change = by_impulse * impulses;
   for (std::size_t i = 0; i < state.size(); ++i) {
     const auto of_body = change.segment<6>(6 * static_cast<Eigen::Index>(i));

@@ -1,11 +1,14 @@
 // The one shift in time of the whole truth that fits the run best: s minimises the misfit
 //   J(s) = mean over samples of Σ m |p - P(t - s)|² + φᵀ I φ,  φ = 2 vec(Q(t - s)⁻¹ q),
 // in which a metre and a radian weigh as they do in the kinetic energy. s > 0: the run lags; s < 0: it leads. The best
-// of 33 shifts within half a period either way (a whole one cannot be told from none) brackets the root of dJ/ds.
+// of 33 shifts within half a period either way (a whole one cannot be told from none) brackets the root of dJ/ds. Which
+// it is, the truth's samples tell, gone on from at their own speed; the truth itself is asked there and beside it.
 #include <fmt/format.h>
 
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 
 #include "cases/metrics/measures/measuring.h"
@@ -35,10 +38,21 @@ class Fit {
   double end() const { return run_.trajectory.samples[count_ - 1].time; }
 
   Misfit at(double shift) {
+    return misfit([&](double t) { run_.truth->source->at(t, shifted_.columns()); }, shift);
+  }
+  // By the truth's samples alone.
+  Misfit roughly_at(double shift) {
+    return misfit([&](double t) { go_on_from_sample(t); }, shift);
+  }
+
+ private:
+  // `find` puts the truth at an instant into shifted_.
+  template <typename Find>
+  Misfit misfit(const Find& find, double shift) {
     Misfit misfit;
     for (std::size_t n : chosen_) {
       const Sample& sample = run_.trajectory.samples[n];
-      run_.truth->source->at(sample.time - shift, shifted_.columns());
+      find(sample.time - shift);
       for_moving([&](std::size_t i, const Body& body) {
         const PoseGap gap = pose_gap(sample.bodies.columns().body(i), shifted_.columns().body(i));
         const Vec3 turned = body.inertia * gap.orientation;
@@ -51,7 +65,20 @@ class Fit {
     return {misfit.value * share, misfit.slope * share};
   }
 
- private:
+  void go_on_from_sample(double t) {
+    const auto& samples = run_.trajectory.samples;
+    const auto steps = static_cast<std::size_t>(std::lround(std::max(0.0, t / samples[1].time)));
+    const std::size_t nearest = std::min(steps, count_ - 1);
+    const double after = t - samples[nearest].time;
+    const BodyColumns truth = run_.truth->bodies[nearest].columns();
+    for_moving([&](std::size_t i, const Body&) {
+      BodyState state = truth.body(i);
+      state.position += after * state.velocity;
+      state.orientation = rotation_by(after * state.angular_velocity) * state.orientation;
+      shifted_.columns().set_body(i, state);
+    });
+  }
+
   template <typename F>
   void for_moving(const F& f) const {
     for (std::size_t i = 0; i < run_.scene.bodies.size(); ++i) {
@@ -108,12 +135,11 @@ class Fit {
 
 // Round the best of the shifts tried: the root of the slope between its neighbours, or the vertex of the parabola
 // through the three misfits where the slope has none there.
-double refined(Fit& fit, const std::vector<Misfit>& tried, int best, double step, double dt) {
-  const auto* here = &tried[static_cast<std::size_t>(best + kEitherWay)];
-  const Misfit &before = here[-1], &after = here[1];
+double refined(Fit& fit, std::map<int, Misfit>& tried, int best, double step, double dt) {
+  const Misfit &before = tried[best - 1], &here = tried[best], &after = tried[best + 1];
   const double low = (best - 1) * step, middle = best * step, high = (best + 1) * step;
   if (!(before.slope < 0 && after.slope > 0)) {
-    const double bend = before.value - 2 * here->value + after.value;
+    const double bend = before.value - 2 * here.value + after.value;
     return bend > 0 ? middle + 0.5 * step * (before.value - after.value) / bend : middle;
   }
   const double close_enough = 1e-12 * dt;  // s
@@ -122,6 +148,20 @@ double refined(Fit& fit, const std::vector<Misfit>& tried, int best, double step
       boost::math::tools::toms748_solve([&](double shift) { return fit.at(shift).slope; }, low, high, before.slope,
                                         after.slope, [&](double a, double b) { return b - a <= close_enough; }, rounds);
   return 0.5 * (root.first + root.second);
+}
+
+// From a shift down to the first that is better than both beside it; into `tried` those that were asked for.
+int least_beside(Fit& fit, double step, int best, std::map<int, Misfit>& tried) {
+  const auto value = [&](int k) {
+    if (std::abs(k) > kEitherWay) return std::numeric_limits<double>::infinity();
+    if (!tried.contains(k)) tried[k] = fit.at(k * step);
+    return tried[k].value;
+  };
+  while (true) {
+    const int better = value(best - 1) < value(best + 1) ? best - 1 : best + 1;
+    if (!(value(better) < value(best))) return best;
+    best = better;
+  }
 }
 
 MetricResult measure_phase_error(const JudgedRun& run) {
@@ -133,15 +173,15 @@ MetricResult measure_phase_error(const JudgedRun& run) {
   if (fit.samples() < 3) return {{}, "there are too few samples to fit a shift to"};
 
   const double step = fit.widest() / kEitherWay;
-  std::vector<Misfit> tried;
-  for (int k = -kEitherWay; k <= kEitherWay; ++k) tried.push_back(fit.at(k * step));
   int best = 0;
-  double least = tried[kEitherWay].value;
+  double least = fit.roughly_at(0).value;
   for (int k = -kEitherWay; k <= kEitherWay; ++k) {
-    const double value = tried[static_cast<std::size_t>(k + kEitherWay)].value;
+    const double value = fit.roughly_at(k * step).value;
     if (value < least) best = k, least = value;
   }
   if (!std::isfinite(least)) return {{}, "the run is too far from the truth"};
+  std::map<int, Misfit> tried;
+  best = least_beside(fit, step, best, tried);
   if (std::abs(best) == kEitherWay) {
     return {{}, fmt::format("the best shift is {:.3g} s or more, where the search ends", fit.widest())};
   }

@@ -49,6 +49,12 @@ Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
 // How long a step has to hold to be called stable [s]: even where the run is short.
 double stability_horizon(const Case& definition) { return std::max(30.0, definition.duration); }
 
+// In a jointed scene a method that divides its own steps takes as many of them however long the step is: what it does
+// in the run's own duration is asked, and no more.
+double stability_horizon(const Case& definition, const MethodInfo& method) {
+  return method.adaptive && !definition.scene.joints.empty() ? definition.duration : stability_horizon(definition);
+}
+
 // A truth need not hold that long where no stable step is searched for.
 bool searches_steps(const CaseResult& planned, const GridOptions& options) {
   const auto& steps = planned.stable_steps;
@@ -164,8 +170,9 @@ class CaseJobs {
     const Case& definition = planned_.definition;
     const RunName& run = run_of(job.part);
     StableStepResult found;
+    const MethodInfo& method = method_of(engines_.info_of(run.engine), run.settings);
     found.step = largest_stable_dt(find_engine(engines_, run.engine), run.settings, definition.scene,
-                                   stability_horizon(definition), stable_energy_);
+                                   stability_horizon(definition, method), stable_energy_);
     found.status = Status::pass, found.reason = found.step.cut;
     channel.send(message_of_stable_step(job.part, found));
   }

@@ -11,9 +11,11 @@ namespace rigor {
 // judge_stability.
 //
 // A search takes no more than some 15 million steps of one body; in a jointed scene 3 million, a joint counting as
-// thirty, and five seconds of CPU time. Where trying so many steps would take half of what is left, the limit is found
-// by bisection alone; where all is used up, the search ends with the last step known to hold (is_cap), or known not to
-// (is_floor). StableStep::cut says so. Throws EngineFailure (timed out) where nothing is known by then.
+// thirty, and one with limits as three hundred. Where trying so many steps would take half of what is left, the limit is
+// found by bisection alone; where all is used up, the search ends with the last step known to hold (is_cap), or known
+// not to (is_floor). Of a method that divides its own steps (MethodInfo::adaptive) the largest step alone is tried in a
+// jointed scene, if that holds. StableStep::cut says so. It counts steps and no time: a search finds the same wherever
+// it runs.
 StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
                              double energy_in_play);
 

@@ -6,6 +6,7 @@
 
 #include "cases/metrics/measures/shape_gap.h"
 #include "cases/metrics/measures/synchronised.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -167,7 +168,7 @@ class Watcher {
 
 std::map<Pair, std::vector<Impact>> impacts_of(const Scene& scene, const Trajectory& trajectory,
                                                double leapfrog_stagger) {
-  if (trajectory.samples.empty()) return {};
+  if (trajectory.samples.empty() || !anything_can_touch(scene)) return {};
   return Watcher(scene, trajectory, leapfrog_stagger).impacts();
 }
 

@@ -76,6 +76,11 @@ class ConstraintRows {
  public:
   explicit ConstraintRows(RowChoice choice = {}) : choice_(std::move(choice)) {}
   const RowChoice& choice() const { return choice_; }
+  // Forgets that other rows have come into use since the choice was made; keeps what does not hang on it.
+  void restart(const RowChoice& choice) {
+    is_laid_out_ = is_laid_out_ && choice.chosen == choice_.chosen;
+    choice_ = choice;
+  }
 
   using Row = ConstraintRow<Real, N>;
   using Block = typename Row::Block;

@@ -159,6 +159,7 @@ class JointedMotion {
 
   std::vector<Row> rows_at(const std::vector<Pose>& poses) const {
     std::vector<Row> rows;
+    rows.reserve(3 * points_.size() + angles_.size() + offsets_.size() + distances_.size() + axes().size());
     for (const SharedPoint& point : points_) add_rows(point, poses, rows);
     for (const RightAngle& angle : angles_) add_row(angle, poses, rows);
     for (const Across& offset : offsets_) add_row(offset, poses, rows);
@@ -278,7 +279,14 @@ template <typename Real>
 class JointedMotion<Real>::Interval {
  public:
   Interval(const JointedMotion& motion, double t, AxisModes modes, RowChoice choice)
-      : motion_(&motion), modes_(std::move(modes)), free_(motion.free_.during(t, modes_)), solver_(std::move(choice)) {}
+      : motion_(&motion),
+        modes_(std::move(modes)),
+        free_(motion.free_.during(t, modes_)),
+        first_choice_(std::move(choice)),
+        solver_(first_choice_) {}
+
+  // As if it were made anew: what a state leads to does not depend on those asked for before.
+  void restart() { solver_.restart(first_choice_); }
 
   void operator()(const State& state, State& change, Real t) {
     free_(state, change, t);
@@ -354,6 +362,7 @@ class JointedMotion<Real>::Interval {
   const JointedMotion* motion_;
   AxisModes modes_;
   typename Free::Interval free_;
+  RowChoice first_choice_;
   Rows solver_;
   std::vector<Block> accelerations_;
 };

@@ -51,7 +51,7 @@ class DoubleMotion {
   };
 
   virtual ~DoubleMotion() = default;
-  virtual RightHandSide during(double t) const = 0;
+  virtual RightHandSide during(double t) const = 0;  // used up by the next call
   virtual void write(const double* state, MutableBodyColumns out) const = 0;
 };
 
@@ -61,7 +61,7 @@ class InDouble final : public DoubleMotion {
   explicit InDouble(Motion motion) : motion_(std::move(motion)) {}
 
   RightHandSide during(double t) const override {
-    const std::shared_ptr<typename Motion::Interval> system(new auto(motion_.during(t)));  // it may not be moved
+    const std::shared_ptr<Interval> system = interval(t);
     RightHandSide side;
     side.slope = [system](const State& state, State& change, double at) { (*system)(state, change, at); };
     if constexpr (requires(State & state) { system->project(state); }) {
@@ -72,7 +72,22 @@ class InDouble final : public DoubleMotion {
   void write(const double* state, MutableBodyColumns out) const override { motion_.write(state, out); }
 
  private:
+  using Interval = typename Motion::Interval;
+
+  // The same for all t where nothing begins or ends: laying out its equations takes longer than a step.
+  std::shared_ptr<Interval> interval(double t) const {
+    if constexpr (requires(Interval & kept) { kept.restart(), motion_.is_uniform(); }) {
+      if (motion_.is_uniform()) {
+        if (!throughout_) throughout_.reset(new auto(motion_.during(t)));
+        throughout_->restart();
+        return throughout_;
+      }
+    }
+    return std::shared_ptr<Interval>(new auto(motion_.during(t)));  // it may not be moved
+  }
+
   Motion motion_;
+  mutable std::shared_ptr<Interval> throughout_;
 };
 
 template <typename Real>

@@ -193,7 +193,10 @@ class PhasedMotion {
 
   // `Solution`: a ReferenceSolution or its Nodes.
   template <typename Solution>
-  PhasedMotion(const Scene& scene, const Solution& solution) : motion_(scene) {
+  PhasedMotion(const Scene& scene, const Solution& solution)
+      : motion_(scene),
+        is_uniform_(solution.phases.times.empty() &&
+                    switch_times(scene, std::numeric_limits<double>::infinity()).size() == 2) {
     const std::size_t phases = solution.phases.times.size(),
                       width = phases > 0 ? solution.phases.modes.size() / phases : 0;
     for (std::size_t i = 0; i < phases; ++i) {
@@ -207,6 +210,8 @@ class PhasedMotion {
     }
   }
 
+  // Whether during() is the same for all t.
+  bool is_uniform() const { return is_uniform_; }
   Interval during(double t) const {
     const auto next = std::find_if(phases_.begin(), phases_.end(), [t](const Phase& phase) { return phase.from > t; });
     if (next == phases_.begin()) return motion_.during(t);
@@ -224,6 +229,7 @@ class PhasedMotion {
     RowChoice choice;
   };
   Motion motion_;
+  bool is_uniform_;
   std::vector<Phase> phases_;
 };
 
