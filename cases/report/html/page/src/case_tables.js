@@ -1,7 +1,7 @@
 // The tables of a case: numbers at one step, gates, settings, the file itself.
 import { cellOf, hasNumbers, judgement, metricOf, signedMetric, stableText, stepFor } from "./data.js";
 import { el, tableHead } from "./dom.js";
-import { digits, isNumber, percent, quantity, words } from "./format.js";
+import { digits, isNumber, percent, quantity, singleTitle, words } from "./format.js";
 
 const usual = [
   "position_error",
@@ -84,6 +84,7 @@ export function numbersTable({ results, one, dt }) {
                 style: { "--engine": `var(--e${engine.index})` },
               }),
               engine.name,
+              engine.isSingle ? el("span.precision", { title: singleTitle }, " single") : null,
             ),
             el(`td.text.is-${verdict.kind}`, {}, el("span.word", {}, `${verdict.sign} ${verdict.word}`)),
             el("td", {}, millimetre(engine)),
