@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace rigor {
 namespace {
@@ -24,21 +25,36 @@ double largest(const Sight& base, std::size_t bodies, std::size_t first, std::si
   return std::sqrt(most);
 }
 
+// Of `size` numbers, `sample` at each instant.
+std::pair<std::size_t, std::size_t> range_of(Observation::Part part, std::size_t sample, std::size_t size) {
+  const std::size_t samples = size / sample, middle = (samples + 1) / 2;
+  switch (part) {
+    case Observation::Part::loaded:
+      return {0, std::min(sample, size)};
+    case Observation::Part::early:
+      return {std::min(sample, size), std::max(sample * middle, std::min(sample, size))};
+    case Observation::Part::late:
+      return {sample * middle, size};
+    case Observation::Part::end:
+      return {size - std::min(sample, size), size};
+  }
+  return {0, 0};
+}
+
 }  // namespace
 
-Observation::Observation(const View& view, std::size_t view_index, bool is_loaded, const Sight& base,
-                         std::size_t bodies)
-    : view_(view_index), is_loaded_(is_loaded), base_(base) {
-  const std::size_t sample = bodies * kMotionColumns;
-  begin_ = is_loaded ? 0 : sample, end_ = is_loaded ? sample : base.states.size();
-  begin_ = std::min(begin_, base.states.size()), end_ = std::min(end_, base.states.size());
+Observation::Observation(const View& view, std::size_t view_index, Part part, const Sight& base, std::size_t bodies)
+    : view_(view_index), part_(part), base_(base) {
+  std::tie(begin_, end_) = range_of(part, bodies * kMotionColumns, base.states.size());
   per_ = std::max<double>(1, static_cast<double>(end_ - begin_) / kMotionColumns);
-  tolerance_ = is_loaded ? kOfLoading : view.tolerance;
+  tolerance_ = is_loaded() ? kOfLoading : view.tolerance;
   // What hardly moves is measured by a metre, and by its own time.
   constexpr double kHardly = 1e-3;
-  const double time = view.dt.front() * static_cast<double>(view.steps);
+  const double dt = view.dt.front(), time = dt * static_cast<double>(view.steps);
   const double way = largest(base, bodies, 0, kTurn, true), length = way > kHardly ? way : 1;
-  const double speed = std::max(largest(base, bodies, kSpeed, kSpin, false), length / time);
+  const double fastest = largest(base, bodies, kSpeed, kSpin, false), speed = std::max(fastest, length / time);
+  // Of what counts where bodies touch at most a quarter is a step's way, by which an engine is late for an impact.
+  if (view.can_touch && !is_loaded()) tolerance_ = std::max(tolerance_, 4 * dt * fastest / length);
   const double spin = std::max(largest(base, bodies, kSpin, kMotionColumns, false), 1 / time);
   for (std::size_t c = 0; c < kMotionColumns; ++c)
     weights_[c] = c < kTurn ? 1 / length : c < kSpeed ? 1 : c < kSpin ? 1 / speed : 1 / spin;
@@ -78,8 +94,11 @@ std::vector<Observation> observations_of(const std::vector<View>& views, const s
   std::vector<Observation> all;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!bases[v].why.empty()) continue;
-    const std::size_t bodies = probes[views[v].probe].scene->bodies.size();
-    for (const bool is_loaded : {true, false}) all.emplace_back(views[v], v, is_loaded, bases[v], bodies);
+    using Part = Observation::Part;
+    for (const Part part : {Part::loaded, Part::early, Part::late, Part::end}) {
+      if (part == Part::end && !views[v].can_touch) continue;
+      all.emplace_back(views[v], v, part, bases[v], probes[views[v].probe].scene->bodies.size());
+    }
   }
   return all;
 }

@@ -1,5 +1,7 @@
 // How much of an engine's error a known mistake explains, observation by observation. An observation is a part of a
-// view: the state as loaded, before any step, in which no scheme has a share; or the motion after it.
+// view: the state as loaded, before any step, in which no scheme has a share; the motion after it, in two halves, for
+// what a mistake makes chaotic is told apart in the first alone; and where bodies touch, the end, in which how an
+// engine pushed a body to where it lies has no share.
 #pragma once
 
 #include <vector>
@@ -20,8 +22,9 @@ struct Distances {
 
 class Observation {
  public:
-  // `is_loaded`: the part. `base`: without mistakes.
-  Observation(const View& view, std::size_t view_index, bool is_loaded, const Sight& base, std::size_t bodies);
+  enum class Part { loaded, early, late, end };
+  // `base`: without mistakes.
+  Observation(const View& view, std::size_t view_index, Part part, const Sight& base, std::size_t bodies);
 
   Distances distances(const Sight& engine, const Sight& mistake) const;
   // Distance of a sight from its own coarse one: what extrapolation leaves open.
@@ -30,14 +33,14 @@ class Observation {
   std::vector<double> difference(const Sight& sight) const;
 
   std::size_t view_index() const { return view_; }
-  bool is_loaded() const { return is_loaded_; }
+  bool is_loaded() const { return part_ == Part::loaded; }
   double tolerance() const { return tolerance_; }  // below it nothing is seen
 
  private:
   double weight(std::size_t i) const;
 
   std::size_t view_;
-  bool is_loaded_;
+  Part part_;
   const Sight& base_;
   std::size_t begin_, end_;  // of the states
   double per_ = 1;           // samples times bodies

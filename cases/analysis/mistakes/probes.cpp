@@ -28,6 +28,7 @@ constexpr Row kRows[] = {
     {"contact/slide-to-roll", 1.2},    // rolls from 0.97 s on
     {"contact/sliding-stop", 1.2},     // stops at 1.02 s
     {"contact/slope-slides", 0.6},
+    {"contact/sphere-stack", 0.2},  // five on each other: where surfaces are adds up
     {"forces/compass-needle", 1.2},
     {"forces/switches-inside-steps", 3, true},  // the last of its forces ends at 2.72 s
     {"forces/torqued-top", 1.6},                // its torque begins at 1 s

@@ -11,17 +11,16 @@ namespace {
 
 constexpr long kSamples = 30;
 
-// What is left open, as a share of the motion's scale: roundings of a hundred steps, which joints solve for besides; a
-// step's way at each impact.
+// What is left open, as a share of the motion's scale: roundings of a hundred steps, which joints solve for besides;
+// how deep a body lies in another at rest, g dt², of a metre.
 constexpr double kOfRounding = 1e-10, kOfJoints = 1e-8, kOfContacts = 1e-4;
 
 View view_on(View::Kind kind, std::size_t index, const ProbeScene& probe, const RunName& base, std::vector<double> dt) {
   View view{kind, index, base, std::move(dt), 0, 1};
   view.steps = std::max(1L, std::lround(probe.duration / view.dt.front()));
   view.every = std::max(1L, view.steps / kSamples);
-  view.tolerance = anything_can_touch(*probe.scene) ? kOfContacts
-                   : probe.scene->joints.empty()    ? kOfRounding
-                                                    : kOfJoints;
+  view.can_touch = anything_can_touch(*probe.scene);
+  view.tolerance = view.can_touch ? kOfContacts : probe.scene->joints.empty() ? kOfRounding : kOfJoints;
   return view;
 }
 

@@ -23,6 +23,7 @@ struct View {
   long steps, every;       // of the first dt
   int order = 1;           // of the engine's method, by which three are extrapolated
   double tolerance = 0;    // what the kind of view leaves open, in scaled numbers
+  bool can_touch = false;  // an engine sees an impact by up to a step too late
 };
 
 // What is seen of one motion.

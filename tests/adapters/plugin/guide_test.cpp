@@ -66,4 +66,17 @@ BOOST_AUTO_TEST_CASE(every_line_of_it_works) {
   BOOST_TEST((pieces == 4 && commands == 4));
 }
 
+// engine.pl knows no more of Rigor than the guide says, and its language is none of the examples'.
+BOOST_AUTO_TEST_CASE(an_engine_in_perl_that_follows_it_conforms) {
+  const Folder folder;
+  const std::string said = (folder.path / "said").string();
+  const std::string call =
+      RIGOR_PROGRAM " conform --plugin 'perl " RIGOR_SOURCE_DIR "/tests/adapters/plugin/engine.pl' >" + said + " 2>&1";
+  const int answer = std::system(call.c_str());
+  std::ifstream file(said);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  BOOST_TEST((WIFEXITED(answer) && WEXITSTATUS(answer) == 0), text);
+  BOOST_TEST(text.find("perl conforms") != std::string::npos, text);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

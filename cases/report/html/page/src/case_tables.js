@@ -11,7 +11,7 @@ import {
   warningOf,
 } from "./data.js";
 import { el, tableHead } from "./dom.js";
-import { digits, isNumber, percent, quantity, words } from "./format.js";
+import { digits, isNumber, percent, quantity, singleTitle, words } from "./format.js";
 
 const usual = [
   "position_error",
@@ -104,6 +104,7 @@ function numbersGrid({ results, one, rows, names, shown, stable, millimetre }) {
                 style: { "--engine": `var(--e${engine.index})` },
               }),
               engine.name,
+              engine.isSingle ? el("span.precision", { title: singleTitle }, " single") : null,
             ),
             el(`td.text.is-${verdict.kind}`, {}, el("span.word", {}, `${verdict.sign} ${verdict.word}`)),
             el("td", {}, millimetre(engine)),

@@ -20,7 +20,11 @@ function indexed(results, playback) {
   results.summaries = Object.fromEntries(results.metrics.map((m) => [m.name, m.summary]));
   results.series = playback.series;
   for (const engine of results.engines)
-    Object.assign(engine, { core: engine.name.startsWith("core"), stock: engine.name.includes("@stock") });
+    Object.assign(engine, {
+      core: engine.name.startsWith("core"),
+      stock: engine.name.includes("@stock"),
+      isSingle: engine.precision === "single",
+    });
   results.engines = inReadingOrder(results);
   results.engines.forEach((engine, i) => (engine.index = i));
   giveColours(results.engines);
@@ -56,7 +60,8 @@ function inReadingOrder({ engines, cells, cases }) {
   return [...engines].sort((a, b) => place(a) - place(b));
 }
 
-// Engines that are not ours have the warm and the strong colours; the stock track of one is its dashed twin.
+// Engines that are not ours have the warm and the strong colours, lighter ones once all are taken; the stock track of one
+// is its dashed twin.
 function giveColours(engines) {
   const strong = [
     [28, 0.17],
@@ -74,8 +79,9 @@ function giveColours(engines) {
       (hue = calm[own % calm.length]), (chroma = 0.1 + 0.03 * (own % 2)), (engine.step = own++ % 3);
     } else {
       const family = engine.engine ?? engine.name;
-      if (!foreign.has(family)) foreign.set(family, strong[foreign.size % strong.length]);
-      ([hue, chroma] = foreign.get(family)), (engine.step = 0);
+      if (!foreign.has(family)) foreign.set(family, foreign.size);
+      const place = foreign.get(family);
+      ([hue, chroma] = strong[place % strong.length]), (engine.step = Math.floor(place / strong.length) % 3);
     }
     engine.colours = [
       `oklch(${0.55 + 0.07 * engine.step} ${chroma} ${hue})`,

@@ -15,7 +15,7 @@ import {
   witnessed,
 } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
-import { digits, engineParts, isNumber, percent, quantity, words } from "./format.js";
+import { digits, engineParts, isNumber, percent, quantity, singleTitle, words } from "./format.js";
 import { address, openCase, state } from "./state.js";
 
 // What it can show that is no metric.
@@ -90,6 +90,7 @@ export class Matrix {
           el("span.stripe", { style: { "--engine": `var(--e${engine.index})` } }),
           el("span.who", {}, who.replace("@", " @\u200b")),
           method ? el("span.method", {}, method.replaceAll(/[-,=]/g, "$&\u200b")) : null,
+          engine.isSingle ? el("span.method.precision", { title: singleTitle }, "single precision") : null,
         );
       }),
     );
