@@ -52,17 +52,18 @@ struct Arms {
 
 class BallStep : public JointStep {
  public:
-  explicit BallStep(const Arms& arms) : arms_(arms) {}
+  BallStep(const Arms& arms, const Quat& between) : arms_(arms), start_(between) {}
   Motion child_after(const Ends& ends) const override {
     const Vec3 turning = ends.turning();
     const Vec3 rate = ends.child.q.conjugate() *
                       (turning + ends.dt * (ends.turning_rate() - ends.child.angular_velocity.cross(turning)));
-    const Quat q = ends.parent_then.q * ends.between() * ends.turn(rate, ends.dt);
+    const Quat q = ends.parent_then.q * start_ * ends.turn(start_.conjugate() * ends.between(), rate, ends.dt);
     return hang(ends, arms_.parent, arms_.child, q, q.normalized() * rate);
   }
 
  private:
   Arms arms_;
+  Quat start_;  // child to parent, at t = 0
 };
 
 // Also a fixed joint: an axis of zero is one that nothing turns about.
@@ -130,7 +131,7 @@ struct MakeStep {
   Arms arms(const Vec3& point) const { return {in_parent(point - parent.position), in_child(point - child.position)}; }
 
   std::unique_ptr<JointStep> operator()(const BallJoint& joint) const {
-    return std::make_unique<BallStep>(arms(joint.anchor));
+    return std::make_unique<BallStep>(arms(joint.anchor), parent.orientation.conjugate() * child.orientation);
   }
   std::unique_ptr<JointStep> operator()(const HingeJoint& joint) const {
     return std::make_unique<HingeStep>(arms(joint.anchor), in_child(joint.axis));
@@ -244,7 +245,7 @@ class ReducedTwin : public Stepper {
     motion.velocity += dt * accelerations_[i].linear;
     motion.angular_velocity += dt * accelerations_[i].angular;
     motion.position += dt * motion.velocity;
-    motion.q = (turn_(motion.angular_velocity, dt) * motion.q).normalized();
+    motion.q = turn_(motion.q, motion.q.conjugate() * motion.angular_velocity, dt).normalized();
   }
 
   StepperParts parts_;

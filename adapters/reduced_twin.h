@@ -12,10 +12,11 @@
 
 namespace rigor {
 
-// Turns by w over dt; what takes the frame of w, as it is before, to what it is after.
-using TurnOverStep = Quat (*)(const Vec3& w, double dt);
+// An orientation after dt of turning by w, which is seen by what turns: of a free body in W, of what hangs on a ball
+// joint against what it was at t = 0.
+using TurnOverStep = Quat (*)(const Quat& from, const Vec3& w, double dt);
 
-inline Quat exact_turn(const Vec3& w, double dt) { return rotation_by(dt * w); }
+inline Quat exact_turn(const Quat& from, const Vec3& w, double dt) { return from * rotation_by(dt * w); }
 
 std::unique_ptr<Stepper> make_reduced_twin(const StepperParts& parts, TurnOverStep turn);
 

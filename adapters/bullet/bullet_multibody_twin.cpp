@@ -6,6 +6,11 @@
 #include "adapters/reduced_twin.h"
 
 namespace rigor {
+namespace {
+
+Quat turned_by_bullet(const Quat& from, const Vec3& w, double dt) { return from * bullet::turn_of(w, dt); }
+
+}  // namespace
 
 const Integrator kBulletMultibodyTwin = {
     .name = "bullet-multibody-twin",
@@ -18,7 +23,7 @@ const Integrator kBulletMultibodyTwin = {
     .takes_joints = true,
     .lacks = {"joint:distance", "joint-limit", "joint-loop", "motor:speed"},
     .twin_of = "bullet",
-    .make = [](const StepperParts& parts) { return make_reduced_twin(parts, bullet::turn_of); },
+    .make = [](const StepperParts& parts) { return make_reduced_twin(parts, turned_by_bullet); },
 };
 
 }  // namespace rigor
