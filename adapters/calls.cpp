@@ -1,6 +1,9 @@
 #include "adapters/calls.h"
 
 #include "adapters/bullet/bullet_calls.h"
+#ifdef RIGOR_WITH_DART
+#include "adapters/dart/dart_calls.h"
+#endif
 #ifdef RIGOR_WITH_MUJOCO
 #include "adapters/mujoco/mujoco_calls.h"
 #endif
@@ -18,6 +21,9 @@ struct CallsRow {
 
 std::vector<std::string> engine_calls(const RunName& run, const std::string& dt) {
   static const std::vector<CallsRow> rows = {{"bullet", bullet_calls},
+#ifdef RIGOR_WITH_DART
+                                             {"dart", dart_calls},
+#endif
 #ifdef RIGOR_WITH_MUJOCO
                                              {"mujoco", mujoco_calls},
 #endif

@@ -9,6 +9,10 @@
 #include "adapters/bullet/bullet_multibody_twin.h"
 #include "adapters/bullet/bullet_twin.h"
 #include "adapters/core/core_engine.h"
+#ifdef RIGOR_WITH_DART
+#include "adapters/dart/dart_engine.h"
+#include "adapters/dart/dart_twin.h"
+#endif
 #ifdef RIGOR_WITH_MUJOCO
 #include "adapters/mujoco/mujoco_engine.h"
 #include "adapters/mujoco/mujoco_twin.h"
@@ -23,6 +27,9 @@ namespace {
 
 std::vector<Integrator> twins() {
   std::vector<Integrator> rows = {kBulletMultibodyTwin, kBulletTwin, kOdeTwin};
+#ifdef RIGOR_WITH_DART
+  rows.push_back(kDartTwin);
+#endif
 #ifdef RIGOR_WITH_MUJOCO
   rows.insert(rows.end(), {kMujocoEulerTwin, kMujocoImplicitTwin, kMujocoRk4Twin});
 #endif
@@ -36,6 +43,9 @@ EngineTable built_in_engines() {
   EngineTable table;
   table.add(std::make_unique<BulletEngine>());
   table.add(std::make_unique<CoreEngine>(twins()));
+#ifdef RIGOR_WITH_DART
+  table.add(std::make_unique<DartEngine>());
+#endif
 #ifdef RIGOR_WITH_MUJOCO
   table.add(std::make_unique<MujocoEngine>());
 #endif
@@ -45,6 +55,9 @@ EngineTable built_in_engines() {
 
 const std::vector<MissingEngine>& missing_engines() {
   static const std::vector<MissingEngine> missing = {
+#ifndef RIGOR_WITH_DART
+      {"dart", "libdart-dev and libdart-external-ikfast-dev"},
+#endif
 #ifndef RIGOR_WITH_MUJOCO
       {"mujoco", "libmujoco-dev"},
 #endif

@@ -1,6 +1,7 @@
-// The smooth steps of MuJoCo 2.2 for free bodies, to be held against MuJoCo itself. Its coordinates are position,
-// orientation q, velocity in W and angular velocity w in B; with tau the torque in B and I the inertia there:
-//   euler     w1 = w0 + dt I⁻¹ (tau - w0 x I w0),   v1 = v0 + dt F/m,   x1 = x0 + dt v1,   q1 = q0 exp(dt w1)
+// The smooth steps of MuJoCo 2.2, to be held against MuJoCo itself. A free body's coordinates are position, orientation
+// q, velocity in W and angular velocity w in B; with tau the torque in B and I the inertia there:
+//   euler     w1 = w0 + dt I⁻¹ (tau - w0 x I w0),   v1 = v0 + dt F/m,   x1 = x0 + dt v1,   q1 = q0 exp(dt w1),
+//             and alike in the coordinates of joints (adapters/reduced_twin.h); the others for free bodies alone
 //   implicit  the same with (I + dt ([w0]x I - [I w0]x))⁻¹ for I⁻¹ and, where springs damp, one Newton step for their
 //             forces: (M + dt sum c j jᵀ) (V1 - V0) = dt f, j the slope of a spring's length in the velocities of one
 //             body; what one body's velocity does to another's force is left out
@@ -11,6 +12,8 @@
 
 #include <Eigen/LU>
 #include <array>
+
+#include "adapters/reduced_twin.h"
 
 namespace rigor {
 namespace {
@@ -33,27 +36,6 @@ Rates rates_of(const Inertia& body, BodyColumns state, std::size_t i, const Wren
   return {state.velocity(i), w, body.inverse_mass * wrench.force,
           body.inverse_inertia_B * (torque - w.cross(body.inertia_B * w))};
 }
-
-class EulerTwin : public Stepper {
- public:
-  explicit EulerTwin(const StepperParts& parts) : system_(parts.system) {}
-
-  void step(MutableBodyColumns state, double t, double dt) override {
-    system_.wrenches(state, t, dt, wrenches_);
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      if (system_.bodies[i].fixed) continue;
-      const Rates rates = rates_of(system_.bodies[i], state, i, wrenches_[i]);
-      const Vec3 v = rates.v + dt * rates.acceleration, w = rates.w_B + dt * rates.dw;
-      state.set_velocity(i, v);
-      state.set_position(i, state.position(i) + dt * v);
-      turn(state, i, state.orientation(i), dt * w, w);
-    }
-  }
-
- private:
-  const System& system_;
-  Wrenches wrenches_;
-};
 
 class ImplicitTwin : public Stepper {
  public:
@@ -173,15 +155,19 @@ constexpr const char* kSummary = "repeats MuJoCo's own smooth step, to explain i
 
 }  // namespace
 
-const Integrator kMujocoEulerTwin = {.name = "mujoco-euler-twin",
-                                     .summary = kSummary,
-                                     .order = 1,
-                                     .symplectic = false,  // the gyroscopic term is explicit
-                                     .leapfrog_stagger = 0.5,
-                                     .default_orientation = "",
-                                     .takes_contact = false,
-                                     .twin_of = "mujoco",
-                                     .make = make_stepper<EulerTwin>};
+// Dampers of joints are implicit in MuJoCo's Euler, and loops soft constraints: neither is repeated.
+const Integrator kMujocoEulerTwin = {
+    .name = "mujoco-euler-twin",
+    .summary = kSummary,
+    .order = 1,
+    .symplectic = false,  // the gyroscopic term is explicit
+    .leapfrog_stagger = 0.5,
+    .default_orientation = "",
+    .takes_contact = false,
+    .takes_joints = true,
+    .lacks = {"joint:distance", "joint-damper", "joint-limit", "joint-loop", "motor:speed"},
+    .twin_of = "mujoco",
+    .make = [](const StepperParts& parts) { return make_reduced_twin(parts, exact_turn); }};
 
 const Integrator kMujocoImplicitTwin = {.name = "mujoco-implicit-twin",
                                         .summary = kSummary,

@@ -1,0 +1,166 @@
+#include "adapters/dart/dart_contacts.h"
+
+#include <fmt/format.h>
+
+#include <dart/collision/CollisionObject.hpp>
+#include <dart/dynamics/BoxShape.hpp>
+#include <dart/dynamics/SphereShape.hpp>
+#include <unordered_map>
+
+#include "core/engine/engine_failure.h"
+#include "core/scene/contact_laws.h"
+
+namespace rigor {
+namespace {
+
+namespace dyn = ::dart::dynamics;
+
+// Up to here DART takes a coefficient for zero (ContactConstraint.cpp: DART_RESTITUTION_COEFF_THRESHOLD, …FRICTION…).
+constexpr double kTakenForZero = 1e-3;
+
+void refuse_small(double value, const char* what) {
+  if (value == 0 || value > kTakenForZero) return;
+  throw EngineFailure(
+      FailureKind::unsupported,
+      fmt::format("DART takes {} of {:g} or less for none, and here it is {:g}", what, kTakenForZero, value));
+}
+
+bool same(const ContactLaw& a, const ContactLaw& b) {
+  return a.restitution == b.restitution && a.friction == b.friction;
+}
+
+// The scene's different laws, by number, and which a body takes part in.
+class LawNumbers {
+ public:
+  explicit LawNumbers(const Scene& scene)
+      : of_pairs_(scene), laws_{scene.contact_default}, of_(scene.bodies.size(), {0}) {
+    for (const ContactPair& pair : scene.contact_pairs) {
+      const std::size_t number = number_of(pair.law);
+      if (number == laws_.size()) laws_.push_back(pair.law);
+      of_[pair.a].insert(number), of_[pair.b].insert(number);
+    }
+    for (const ContactLaw& law : laws_) {
+      refuse_small(law.restitution, "a restitution");
+      refuse_small(law.friction, "a friction");
+    }
+  }
+
+  const std::set<std::size_t>& of_body(std::size_t body) const { return of_[body]; }
+  const ContactLaw& law(std::size_t number) const { return laws_[number]; }
+  std::size_t of_pair(int a, int b) const { return number_of(of_pairs_.of(a, b)); }
+  std::size_t size() const { return laws_.size(); }
+
+ private:
+  std::size_t number_of(const ContactLaw& law) const {
+    const auto found =
+        std::find_if(laws_.begin(), laws_.end(), [&](const ContactLaw& other) { return same(law, other); });
+    return static_cast<std::size_t>(found - laws_.begin());
+  }
+
+  ContactLaws of_pairs_;
+  std::vector<ContactLaw> laws_;
+  std::vector<std::set<std::size_t>> of_;  // by body
+};
+
+// Beside DART's own, by which two bodies that do not move are not tried.
+class LawFilter : public ::dart::collision::BodyNodeCollisionFilter {
+ public:
+  explicit LawFilter(const Scene& scene) : laws_(scene) {}
+
+  const LawNumbers& laws() const { return laws_; }
+  void add(const dyn::ShapeFrame* shape, int body, std::size_t law) { shapes_[shape] = {body, law}; }
+
+  bool ignoresCollision(const ::dart::collision::CollisionObject* one,
+                        const ::dart::collision::CollisionObject* other) const override {
+    if (laws_.size() > 1) {
+      const auto [a, law_a] = shapes_.at(one->getShapeFrame());
+      const auto [b, law_b] = shapes_.at(other->getShapeFrame());
+      if (a == b || law_a != law_b || laws_.of_pair(a, b) != law_a) return true;
+    }
+    return BodyNodeCollisionFilter::ignoresCollision(one, other);
+  }
+
+ private:
+  struct Place {
+    int body;
+    std::size_t law;
+  };
+  LawNumbers laws_;
+  std::unordered_map<const dyn::ShapeFrame*, Place> shapes_;
+};
+
+struct MakeShape {
+  dyn::ShapePtr operator()(const Sphere& s) const { return std::make_shared<dyn::SphereShape>(s.radius); }
+  dyn::ShapePtr operator()(const Box& b) const { return std::make_shared<dyn::BoxShape>(b.size); }  // full edges
+  dyn::ShapePtr operator()(const Plane&) const {
+    return std::make_shared<dyn::BoxShape>(Vec3::Constant(2 * kDartPlaneReach));
+  }
+  dyn::ShapePtr operator()(const Capsule&) const { return nullptr; }  // no feature: nothing that it could touch
+};
+
+// Of a box with its face in the plane, over the point of it next to the origin.
+Eigen::Isometry3d pose_of_plane(const Plane& plane) {
+  const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), plane.normal);
+  return dart_transform((plane.offset - kDartPlaneReach) * plane.normal, turn);
+}
+
+double reach_of(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return box->size.norm() / 2;
+  return 0;
+}
+
+}  // namespace
+
+std::shared_ptr<::dart::collision::CollisionFilter> add_dart_shapes(const Scene& scene, DartBodies& made) {
+  auto filter = std::make_shared<LawFilter>(scene);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const dyn::ShapePtr shape = body.collides ? std::visit(MakeShape{}, *body.shape) : nullptr;
+    if (!shape) continue;
+    if (const auto* plane = std::get_if<Plane>(&*body.shape))  // it is given in W
+      made.bodies[i]->getParentJoint()->setTransformFromParentBodyNode(pose_of_plane(*plane));
+    for (const std::size_t number : filter->laws().of_body(i)) {
+      auto* node = made.bodies[i]->createShapeNodeWith<dyn::CollisionAspect, dyn::DynamicsAspect>(shape);
+      node->getDynamicsAspect()->setFrictionCoeff(filter->laws().law(number).friction);
+      node->getDynamicsAspect()->setRestitutionCoeff(std::sqrt(filter->laws().law(number).restitution));
+      filter->add(node, static_cast<int>(i), number);
+    }
+  }
+  for (const dyn::SkeletonPtr& skeleton : made.skeletons) {  // joined bodies touch each other like any others
+    skeleton->enableSelfCollisionCheck();
+    skeleton->enableAdjacentBodyCheck();
+  }
+  return filter;
+}
+
+DartPlaneEdges::DartPlaneEdges(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (!body.collides) continue;
+    if (const auto* plane = std::get_if<Plane>(&*body.shape)) {
+      planes_.push_back(*plane), names_.push_back(body.name);
+    } else if (!body.fixed) {
+      solids_.push_back({i, body.name, reach_of(*body.shape)});
+    }
+  }
+}
+
+std::string DartPlaneEdges::left_by(BodyColumns bodies) const {
+  for (std::size_t p = 0; p < planes_.size(); ++p) {
+    const Vec3& normal = planes_[p].normal;
+    for (const Solid& solid : solids_) {
+      const Vec3 position = bodies.position(solid.body);
+      const double height = normal.dot(position) - planes_[p].offset;
+      const double beside = (position - normal.dot(position) * normal).norm();
+      if (height > solid.reach || beside + solid.reach < kDartPlaneReach) continue;
+      return fmt::format(
+          "body '{}' is {:.0f} m from the point of plane '{}' next to the origin, and the box that stands "
+          "for a plane in DART ends at {:g} m",
+          solid.name, beside, names_[p], kDartPlaneReach);
+    }
+  }
+  return "";
+}
+
+}  // namespace rigor

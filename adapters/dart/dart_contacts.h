@@ -1,0 +1,36 @@
+// A scene's shapes and contact laws in DART, which multiplies the restitutions of two shapes and takes the lesser of
+// their frictions. A body has its shape once for each law that it takes part in, and only shapes of the law of their
+// pair are tried against each other: so every pair has its own.
+#pragma once
+
+#include <dart/collision/CollisionFilter.hpp>
+#include <memory>
+
+#include "adapters/dart/dart_bodies.h"
+
+namespace rigor {
+
+// Half the edge of the box whose upper face stands for a plane. m
+inline constexpr double kDartPlaneReach = 500;
+
+// Gives the bodies their shapes. What it returns has to be the filter of the world's collisions.
+std::shared_ptr<::dart::collision::CollisionFilter> add_dart_shapes(const Scene& scene, DartBodies& made);
+
+// Whether a body has come beside the box that stands for a plane; then the sentence that says so, else nothing.
+class DartPlaneEdges {
+ public:
+  explicit DartPlaneEdges(const Scene& scene);
+  std::string left_by(BodyColumns bodies) const;
+
+ private:
+  struct Solid {
+    std::size_t body;
+    std::string name;
+    double reach;  // m, of its farthest point from its centre
+  };
+  std::vector<Plane> planes_;
+  std::vector<std::string> names_;  // of the planes
+  std::vector<Solid> solids_;
+};
+
+}  // namespace rigor

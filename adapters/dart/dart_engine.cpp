@@ -1,0 +1,53 @@
+#include "adapters/dart/dart_engine.h"
+
+#include <dart/config.hpp>
+
+#include "adapters/dart/dart_world.h"
+#include "adapters/option_values.h"
+#include "core/engine/run_name.h"
+
+namespace rigor {
+namespace {
+
+// Spheres and boxes are all that DART's own detector of collisions knows; a plane is the face of a wide box.
+const Features kDartContacts = {"contact:box-box", "contact:box-plane", "contact:box-sphere", "contact:plane-sphere",
+                                "contact:sphere-sphere"};
+
+const Features kDartJoints = {"joint:ball",           "joint:fixed",         "joint:hinge",  "joint:slider",
+                              "joint:universal",      "joint-spring",        "joint-damper", "joint-limit",
+                              "joints-with-contacts", "joints-with-dampers", "motor:effort", "motor:speed"};
+
+std::vector<OptionInfo> options_of_solvers() {
+  return {{"erp", "share of a gap or an overlap corrected in one step", {}, 0, 1},
+          {"cfm", "share by which a constraint's own inverse mass is raised: softness", {}, 1e-9, 1}};
+}
+
+MethodInfo by_solver(const std::string& name, const std::string& solver) {
+  return {.name = name,
+          .summary = "semi-implicit Euler in the joints' coordinates, gyroscopic term explicit; contacts by " + solver,
+          .leapfrog_stagger = 0.5,
+          .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
+          .options = options_of_solvers()};
+}
+
+}  // namespace
+
+EngineInfo DartEngine::info() const {
+  return {.name = "dart",
+          .version = DART_VERSION,
+          .precision = "double",  // it is written for no other
+          .features = joined(joined(kDartContacts, kDartJoints), {"spring", "timed-force", "fixed-body", "restitution",
+                                                                  "friction:none", "friction:coulomb"}),
+          .methods = {by_solver("dantzig", "Dantzig's direct solver"),
+                      by_solver("pgs", "projected Gauss-Seidel, 30 sweeps")}};
+}
+
+std::unique_ptr<World> DartEngine::load(const Scene& scene, const Settings& settings) const {
+  refuse_unsupported(info(), settings, scene);
+  return make_dart_world(scene, settings);
+}
+
+// Neither solver touches smooth motion, nor do its options.
+std::string DartEngine::twin(const Settings&) const { return "core:dart-twin"; }
+
+}  // namespace rigor
