@@ -15,6 +15,10 @@
 #endif
 #include "adapters/ode/ode_engine.h"
 #include "adapters/ode/ode_twin.h"
+#ifdef RIGOR_WITH_SIMBODY
+#include "adapters/simbody/simbody_engine.h"
+#include "adapters/simbody/simbody_twin.h"
+#endif
 #include "core/base/error.h"
 #include "core/engine/remote.h"
 
@@ -25,6 +29,10 @@ std::vector<Integrator> twins() {
   std::vector<Integrator> rows = {kBulletMultibodyTwin, kBulletTwin, kOdeTwin};
 #ifdef RIGOR_WITH_MUJOCO
   rows.insert(rows.end(), {kMujocoEulerTwin, kMujocoImplicitTwin, kMujocoRk4Twin});
+#endif
+#ifdef RIGOR_WITH_SIMBODY
+  const std::vector<Integrator> of_simbody = simbody_twins();
+  rows.insert(rows.end(), of_simbody.begin(), of_simbody.end());
 #endif
   return rows;
 }
@@ -40,6 +48,9 @@ EngineTable built_in_engines() {
   table.add(std::make_unique<MujocoEngine>());
 #endif
   table.add(std::make_unique<OdeEngine>());
+#ifdef RIGOR_WITH_SIMBODY
+  table.add(std::make_unique<SimbodyEngine>());
+#endif
   return table;
 }
 
@@ -47,6 +58,9 @@ const std::vector<MissingEngine>& missing_engines() {
   static const std::vector<MissingEngine> missing = {
 #ifndef RIGOR_WITH_MUJOCO
       {"mujoco", "libmujoco-dev"},
+#endif
+#ifndef RIGOR_WITH_SIMBODY
+      {"simbody", "libsimbody-dev"},
 #endif
   };
   return missing;

@@ -44,7 +44,7 @@ std::string inertia_of_body(const Body& body) {
 
 class Exporter {
  public:
-  Exporter(const Scene& scene, LeftOut& left_out) : scene_(scene), left_out_(left_out), tree_(mujoco_tree(scene)) {}
+  Exporter(const Scene& scene, LeftOut& left_out) : scene_(scene), left_out_(left_out), tree_(spanning_tree(scene)) {}
 
   std::string text() {
     std::string text = body_of_file();
@@ -92,7 +92,7 @@ class Exporter {
 
   void add_body(int index, int indent) {
     const Body& body = scene_.bodies[index];
-    const MujocoTree::Link& link = tree_.links[index];
+    const SpanningTree::Link& link = tree_.links[index];
     const BodyPose in_parent = inverse(scene_.pose(link.parent)) * scene_.pose(index);
     add("{:{}}<body name=\"{}\" pos=\"{}\" quat=\"{}\">\n", "", indent, escaped(body.name), numbers(in_parent.position),
         numbers(in_parent.orientation));
@@ -246,7 +246,7 @@ class Exporter {
 
   const Scene& scene_;
   LeftOut& left_out_;
-  MujocoTree tree_;
+  SpanningTree tree_;
   std::string out_;
 };
 

@@ -40,7 +40,7 @@ struct GeomOf {
 
 class Writer {
  public:
-  Writer(const Scene& scene, const MujocoTree& tree, const Settings& settings)
+  Writer(const Scene& scene, const SpanningTree& tree, const Settings& settings)
       : scene_(scene), tree_(tree), settings_(settings) {}
 
   std::string text() {
@@ -111,7 +111,7 @@ class Writer {
                                       scene_.bodies[index].name, kDeepest));
     }
     const Body& body = scene_.bodies[index];
-    const MujocoTree::Link& link = tree_.links[index];
+    const SpanningTree::Link& link = tree_.links[index];
     const BodyPose parent = scene_.pose(link.parent);
     add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index),
         text_of(parent.orientation.conjugate() * (body.position - parent.position)),
@@ -254,14 +254,14 @@ class Writer {
   }
 
   const Scene& scene_;
-  const MujocoTree& tree_;
+  const SpanningTree& tree_;
   const Settings& settings_;
   std::string out_;
 };
 
 }  // namespace
 
-std::string mujoco_mjcf(const Scene& scene, const MujocoTree& tree, const Settings& settings) {
+std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings) {
   return Writer(scene, tree, settings).text();
 }
 

@@ -8,11 +8,11 @@
 
 #include <string>
 
-#include "adapters/mujoco/mujoco_tree.h"
+#include "adapters/spanning_tree.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
 
-std::string mujoco_mjcf(const Scene& scene, const MujocoTree& tree, const Settings& settings);
+std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings);
 
 }  // namespace rigor

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <algorithm>
 
 #include "adapters/mujoco/mujoco_mjcf.h"
 
@@ -25,7 +25,7 @@ void set_inertia(mjModel& model, int body, const Mat3& inertia) {
 
 bool is_diagonal(const Mat3& m) { return m(0, 1) == 0 && m(0, 2) == 0 && m(1, 2) == 0; }
 
-MujocoModel::Coordinate coordinate_of(const mjModel& model, const Scene& scene, const MujocoTree& tree, int joint) {
+MujocoModel::Coordinate coordinate_of(const mjModel& model, const Scene& scene, const SpanningTree& tree, int joint) {
   const int id = mj_name2id(&model, mjOBJ_JOINT, fmt::format("j{}", joint).c_str());
   if (id < 0 || !free_axis(scene.joints[joint])) return {};
   const int below = scene.joints[joint].b;
@@ -35,7 +35,7 @@ MujocoModel::Coordinate coordinate_of(const mjModel& model, const Scene& scene, 
 
 }  // namespace
 
-MujocoModel mujoco_model(const Scene& scene, const MujocoTree& tree, const Settings& settings) {
+MujocoModel mujoco_model(const Scene& scene, const SpanningTree& tree, const Settings& settings) {
   MujocoModel made;
   made.model = mujoco_library::compile(mujoco_mjcf(scene, tree, settings));
   mjModel& model = *made.model;
@@ -50,57 +50,21 @@ MujocoModel mujoco_model(const Scene& scene, const MujocoTree& tree, const Setti
   return made;
 }
 
-namespace {
-
-struct Motion {  // in W
-  Vec3 position, velocity, turning;
-};
-
-Motion motion_of(const Scene& scene, int body) {
-  if (body == kWorld || scene.bodies[body].fixed) return {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  const Body& b = scene.bodies[body];
-  return {b.position, b.velocity, b.angular_velocity};
-}
-
-// A universal joint's two speeds: those whose turning is nearest to w.
-Eigen::Vector2d speeds_about(const Vec3& first, const Vec3& second, const Vec3& w) {
-  Eigen::Matrix<double, 3, 2> axes;
-  axes << first, second;
-  return axes.colPivHouseholderQr().solve(w);
-}
-
-}  // namespace
-
-std::vector<double> mujoco_velocities(const Scene& scene, const MujocoTree& tree, const MujocoModel& made) {
+std::vector<double> mujoco_velocities(const Scene& scene, const SpanningTree& tree, const MujocoModel& made) {
   const mjModel& model = *made.model;
   std::vector<double> velocities(static_cast<std::size_t>(model.nv), 0.0);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const int id = made.body[i];
     if (scene.bodies[i].fixed || model.body_dofnum[id] == 0) continue;
     double* out = &velocities[static_cast<std::size_t>(model.body_dofadr[id])];
-    const Motion of_body = motion_of(scene, static_cast<int>(i)), of_parent = motion_of(scene, tree.links[i].parent);
-    const Vec3 w = of_body.turning - of_parent.turning;
-    const Mat3 to_body = matrix_of(scene.bodies[i].orientation).transpose();
-    Eigen::Map<Vec3> first(out);
     if (tree.links[i].joint < 0) {  // velocity in W, angular velocity in B
-      first = of_body.velocity;
-      Eigen::Map<Vec3>(out + 3) = to_body * of_body.turning;
+      const Body& body = scene.bodies[i];
+      Eigen::Map<Vec3>{out} = body.velocity;
+      Eigen::Map<Vec3>(out + 3) = matrix_of(body.orientation).transpose() * body.angular_velocity;
       continue;
     }
-    const Joint& joint = scene.joints[tree.links[i].joint];
-    const bool is_b = joint.b == static_cast<int>(i);
-    if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-      Eigen::Map<Eigen::Vector2d> speeds(out);
-      speeds = is_b ? speeds_about(universal->axis, universal->axis2, w)
-                    : speeds_about(universal->axis2, universal->axis, w);
-    } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
-      const Vec3 carried = of_parent.velocity + of_parent.turning.cross(of_body.position - of_parent.position);
-      out[0] = slider->axis.dot(of_body.velocity - carried);
-    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-      out[0] = hinge->axis.dot(w);
-    } else {
-      first = to_body * w;  // a ball's, in the frame of the body that hangs on it
-    }
+    const std::vector<double> speeds = hanging_speeds(scene, tree, static_cast<int>(i));
+    std::copy(speeds.begin(), speeds.end(), out);
   }
   return velocities;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "adapters/mujoco/mujoco_library.h"
-#include "adapters/mujoco/mujoco_tree.h"
+#include "adapters/spanning_tree.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
@@ -23,9 +23,9 @@ struct MujocoModel {
 };
 
 // Throws InputError with MuJoCo's words where it refuses the scene.
-MujocoModel mujoco_model(const Scene& scene, const MujocoTree& tree, const Settings& settings);
+MujocoModel mujoco_model(const Scene& scene, const SpanningTree& tree, const Settings& settings);
 
 // The velocities of all joints and free bodies at t = 0, for qvel.
-std::vector<double> mujoco_velocities(const Scene& scene, const MujocoTree& tree, const MujocoModel& model);
+std::vector<double> mujoco_velocities(const Scene& scene, const SpanningTree& tree, const MujocoModel& model);
 
 }  // namespace rigor

@@ -52,7 +52,7 @@ std::string solref_in_words(const mjtNum* solref, const mjtNum* solimp) {
 
 MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
     : scene_(only_forces(scene)),
-      tree_(mujoco_tree(scene)),
+      tree_(spanning_tree(scene)),
       made_((mujoco_library::start(), mujoco_model(scene, tree_, settings))),
       data_(mj_makeData(made_.model.get())),
       loads_(scene_),

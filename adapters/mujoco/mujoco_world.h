@@ -25,7 +25,7 @@ class MujocoWorld : public World {
   void read_jointed(MutableBodyColumns out, std::size_t body) const;
 
   Scene scene_;  // without its springs and joint springs, which MuJoCo has itself
-  MujocoTree tree_;
+  SpanningTree tree_;
   MujocoModel made_;
   mujoco_library::Data data_;
   ExternalLoads loads_;  // timed forces

@@ -1,5 +1,6 @@
-#include "adapters/mujoco/mujoco_tree.h"
+#include "adapters/spanning_tree.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <numeric>
 
@@ -65,8 +66,8 @@ Neighbours span(const Scene& scene, std::vector<int>& loops) {
 
 }  // namespace
 
-MujocoTree mujoco_tree(const Scene& scene) {
-  MujocoTree tree;
+SpanningTree spanning_tree(const Scene& scene) {
+  SpanningTree tree;
   const Neighbours neighbours = span(scene, tree.loops);
   tree.links.resize(scene.bodies.size());
   tree.below.resize(scene.bodies.size());
@@ -95,6 +96,47 @@ MujocoTree mujoco_tree(const Scene& scene) {
     hang_all();
   }
   return tree;
+}
+
+namespace {
+
+struct StartingMotion {  // in W
+  Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(), turning = Vec3::Zero();
+};
+
+StartingMotion starting_motion(const Scene& scene, int body) {
+  if (!moves(scene, body)) return {};
+  const Body& b = scene.bodies[body];
+  return {b.position, b.velocity, b.angular_velocity};
+}
+
+// A universal joint's two speeds: those whose turning is nearest to w.
+std::vector<double> speeds_about(const Vec3& first, const Vec3& second, const Vec3& w) {
+  Eigen::Matrix<double, 3, 2> axes;
+  axes << first, second;
+  const Eigen::Vector2d speeds = axes.colPivHouseholderQr().solve(w);
+  return {speeds[0], speeds[1]};
+}
+
+}  // namespace
+
+std::vector<double> hanging_speeds(const Scene& scene, const SpanningTree& tree, int body) {
+  const SpanningTree::Link& link = tree.links[body];
+  const Joint& joint = scene.joints[link.joint];
+  const StartingMotion own = starting_motion(scene, body), above = starting_motion(scene, link.parent);
+  const Vec3 w = own.turning - above.turning;
+  if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
+    return joint.b == body ? speeds_about(universal->axis, universal->axis2, w)
+                           : speeds_about(universal->axis2, universal->axis, w);
+  }
+  if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
+    const Vec3 carried = above.velocity + above.turning.cross(own.position - above.position);
+    return {slider->axis.dot(own.velocity - carried)};
+  }
+  if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) return {hinge->axis.dot(w)};
+  if (std::holds_alternative<FixedJoint>(joint.type)) return {};
+  const Vec3 in_body = matrix_of(scene.bodies[body].orientation).transpose() * w;
+  return {in_body.x(), in_body.y(), in_body.z()};
 }
 
 }  // namespace rigor
