@@ -8,6 +8,9 @@
 #include "adapters/mujoco/mujoco_calls.h"
 #endif
 #include "adapters/ode/ode_calls.h"
+#ifdef RIGOR_WITH_SIMBODY
+#include "adapters/simbody/simbody_calls.h"
+#endif
 
 namespace rigor {
 namespace {
@@ -20,14 +23,19 @@ struct CallsRow {
 }  // namespace
 
 std::vector<std::string> engine_calls(const RunName& run, const std::string& dt) {
-  static const std::vector<CallsRow> rows = {{"bullet", bullet_calls},
+  static const std::vector<CallsRow> rows = {
+      {"bullet", bullet_calls},
 #ifdef RIGOR_WITH_DART
-                                             {"dart", dart_calls},
+      {"dart", dart_calls},
 #endif
 #ifdef RIGOR_WITH_MUJOCO
-                                             {"mujoco", mujoco_calls},
+      {"mujoco", mujoco_calls},
 #endif
-                                             {"ode", ode_calls}};
+      {"ode", ode_calls},
+#ifdef RIGOR_WITH_SIMBODY
+      {"simbody", simbody_calls},
+#endif
+  };
   for (const CallsRow& row : rows) {
     if (row.engine == run.engine) return row.calls(run.settings, dt);
   }

@@ -19,6 +19,10 @@
 #endif
 #include "adapters/ode/ode_engine.h"
 #include "adapters/ode/ode_twin.h"
+#ifdef RIGOR_WITH_SIMBODY
+#include "adapters/simbody/simbody_engine.h"
+#include "adapters/simbody/simbody_twin.h"
+#endif
 #include "core/base/error.h"
 #include "core/engine/remote.h"
 
@@ -32,6 +36,10 @@ std::vector<Integrator> twins() {
 #endif
 #ifdef RIGOR_WITH_MUJOCO
   rows.insert(rows.end(), {kMujocoEulerTwin, kMujocoImplicitTwin, kMujocoRk4Twin});
+#endif
+#ifdef RIGOR_WITH_SIMBODY
+  const std::vector<Integrator> of_simbody = simbody_twins();
+  rows.insert(rows.end(), of_simbody.begin(), of_simbody.end());
 #endif
   return rows;
 }
@@ -50,6 +58,9 @@ EngineTable built_in_engines() {
   table.add(std::make_unique<MujocoEngine>());
 #endif
   table.add(std::make_unique<OdeEngine>());
+#ifdef RIGOR_WITH_SIMBODY
+  table.add(std::make_unique<SimbodyEngine>());
+#endif
   return table;
 }
 
@@ -60,6 +71,9 @@ const std::vector<MissingEngine>& missing_engines() {
 #endif
 #ifndef RIGOR_WITH_MUJOCO
       {"mujoco", "libmujoco-dev"},
+#endif
+#ifndef RIGOR_WITH_SIMBODY
+      {"simbody", "libsimbody-dev"},
 #endif
   };
   return missing;

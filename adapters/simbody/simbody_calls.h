@@ -1,0 +1,13 @@
+// A run's settings in Simbody's own words, see adapters/calls.h.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/engine/engine.h"
+
+namespace rigor {
+
+std::vector<std::string> simbody_calls(const Settings& settings, const std::string& dt);
+
+}  // namespace rigor

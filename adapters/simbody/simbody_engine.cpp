@@ -1,0 +1,77 @@
+#include "adapters/simbody/simbody_engine.h"
+
+#include <fmt/format.h>
+
+#include "adapters/option_values.h"
+#include "adapters/simbody/simbody_world.h"
+#include "core/engine/run_name.h"
+
+namespace rigor {
+namespace {
+
+OptionInfo accuracy_option(const std::string& by_default) {
+  return {.name = "accuracy",
+          .meaning = "what each inner step may err by, relative to the state's scale; default " + by_default,
+          .min = 1e-12,
+          .max = 0.1};
+}
+
+MethodInfo runge_kutta(const std::string& name, const std::string& summary, int order) {
+  return {.name = name, .summary = summary, .order = order};
+}
+
+// Its projection takes and gives energy where a step leaves a constraint by a first-order error: a pendulum of mass 1
+// on a rod of 1 m gains joules in ten seconds at 1/30.
+MethodInfo semi_explicit_euler() {
+  return {.name = "semi-explicit-euler",
+          .summary = "velocities first, then positions; no loops nor rods, whose projection would feed it energy",
+          .leapfrog_stagger = 0.5,
+          .lacks = {"joint-loop", "joint:distance"}};
+}
+
+MethodInfo adaptive(const std::string& name, const std::string& summary, int order, const std::string& accuracy) {
+  return {.name = name,
+          .summary = summary,
+          .order = order,
+          .adaptive = true,
+          .options = {accuracy_option(accuracy + ", as shipped 0.001")}};
+}
+
+std::vector<MethodInfo> methods() {
+  return {runge_kutta("merson", "Runge, Kutta and Merson's five stages", 4),
+          adaptive("cpodes", "backward differences of order 1 to 5, by error control", 1, "1e-9"),
+          {.name = "explicit-euler", .summary = "everything from the step's start: swings grow"},
+          adaptive("feldberg", "Runge, Kutta and Fehlberg's six stages, by error control", 4, "1e-9"),
+          runge_kutta("rk2", "the explicit trapezoid", 2),
+          runge_kutta("rk3", "Kutta's three stages", 3),
+          semi_explicit_euler(),
+          adaptive("semi-explicit-euler-2", "semi-explicit Euler, its steps halved, by error control", 1, "1e-4"),
+          {.name = "verlet", .summary = "positions by Taylor, velocities by an iterated trapezoid", .order = 2}};
+}
+
+}  // namespace
+
+EngineInfo SimbodyEngine::info() const {
+  return {.name = "simbody",
+          .version = simbody_version(),
+          .precision = "double",
+          .features = {"spring", "timed-force", "fixed-body", "joint:ball", "joint:distance", "joint:fixed",
+                       "joint:hinge", "joint:slider", "joint:universal", "joint-spring", "joint-damper",
+                       "joints-with-dampers", "motor:effort"},
+          .methods = methods()};
+}
+
+std::unique_ptr<World> SimbodyEngine::load(const Scene& scene, const Settings& settings) const {
+  refuse_unsupported(info(), settings, scene);
+  return simbody_world(scene, settings);
+}
+
+// As it ships an integrator chooses its steps by its error, but for semi-explicit Euler, which has no estimate of it.
+std::string SimbodyEngine::twin(const Settings& settings) const {
+  const MethodInfo method = method_of(info(), settings);
+  const bool takes_fixed_steps =
+      !method.adaptive && (settings.track == Track::matched || method.name == "semi-explicit-euler");
+  return takes_fixed_steps ? fmt::format("core:simbody-{}-twin", method.name) : "";
+}
+
+}  // namespace rigor

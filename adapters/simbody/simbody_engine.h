@@ -1,0 +1,17 @@
+// Simbody, double precision. Bodies move in the coordinates of the joints that hang them on each other; what closes a
+// loop is a constraint, met by the accelerations of each stage and projected to after each step (Sherman, Seth, Delp,
+// "Simbody: multibody dynamics for biomedical research", 2011). No contacts: see README.md.
+#pragma once
+
+#include "core/engine/engine.h"
+
+namespace rigor {
+
+class SimbodyEngine : public Engine {
+ public:
+  EngineInfo info() const override;
+  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override;
+  std::string twin(const Settings& settings) const override;
+};
+
+}  // namespace rigor

@@ -1,0 +1,64 @@
+// A scene as a multibody system of Simbody's. Compiled as C++17, which is as far as Simbody 3.7's headers go (its index
+// types are compared ambiguously in C++20), and with NDEBUG, so that what they check is the same in every build: what
+// they would check of inertias is checked here (why_no_inertia()).
+//
+// Simbody's conventions and ours: SI here and there; quaternions (w, x, y, z), body to parent; W is called Ground, and
+// angular velocity comes before linear velocity. A body's frame has its origin at the centre of mass here too.
+#pragma once
+
+#include <SimTKsimbody.h>
+
+#include <vector>
+
+#include "adapters/simbody/simbody_mobilizers.h"
+#include "core/dynamics/model/loads.h"
+#include "core/engine/body_table.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+class SimbodySystem {
+ public:
+  // Throws InputError for an inertia that no body can have, and EngineFailure for a spring of no length.
+  explicit SimbodySystem(const Scene& scene);
+
+  const SimTK::MultibodySystem& system() const { return system_; }
+  const SimTK::SimbodyMatterSubsystem& matter() const { return matter_; }
+  const Scene& scene() const { return scene_; }
+  const SimTK::State& start() const { return start_; }  // of t = 0
+  SimTK::Vec3 gravity() const { return gravity_.getGravity(); }
+
+  // The loads that are Rigor's own: timed forces, and the springs, dampers and motors of joints.
+  const Loads& loads() const { return loads_; }
+  // What acts from now on is what acts in the step from `from` to `to` [s]; false if that is what acted before.
+  bool set_interval(double from, double to);
+
+  // The state must be realised to its velocities.
+  void read(const SimTK::State& state, MutableBodyColumns out) const;
+
+ private:
+  void add(const Mobilizer& joint);
+  void add_springs();
+  void refuse_no_length(const Spring& spring) const;
+  void add_loop(const Joint& joint);
+  void set_start(const Mobilizer& joint);
+
+  SimTK::MobilizedBody mobilized(int body);
+  SimTK::Transform frame_in(int body, const Mat3& axes_W, const Vec3& origin_W) const;
+
+  Scene scene_;
+  Loads loads_;
+  double from_ = 0, to_ = 0;    // s
+  std::vector<double> shares_;  // of the step, in which each timed force, then each motor acts
+  SimTK::MultibodySystem system_;
+  SimTK::SimbodyMatterSubsystem matter_;
+  SimTK::GeneralForceSubsystem forces_;
+  SimTK::Force::UniformGravity gravity_;
+  std::vector<SimTK::MobilizedBodyIndex> bodies_;  // by body; Ground for a fixed one
+  std::vector<bool> is_free_;                      // by body: hangs on nothing
+  SimTK::State start_;
+
+  friend class StageLoads;
+};
+
+}  // namespace rigor

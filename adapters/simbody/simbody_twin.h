@@ -1,0 +1,12 @@
+// The fixed steps of Simbody's integrators as methods of the core, see simbody_twin.cpp.
+#pragma once
+
+#include <vector>
+
+#include "core/dynamics/integrators/integrator.h"
+
+namespace rigor {
+
+std::vector<Integrator> simbody_twins();
+
+}  // namespace rigor

@@ -1,0 +1,190 @@
+#include "adapters/simbody/simbody_world.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "adapters/simbody/simbody_system.h"
+#include "core/engine/clock.h"
+#include "core/engine/option_values.h"
+
+namespace rigor {
+namespace {
+
+using IntegratorPointer = std::unique_ptr<SimTK::Integrator>;
+
+template <typename Kind>
+IntegratorPointer make_of(const SimTK::System& system) {
+  return std::make_unique<Kind>(system);
+}
+template <>
+IntegratorPointer make_of<SimTK::SemiExplicitEulerIntegrator>(const SimTK::System& system) {
+  return std::make_unique<SimTK::SemiExplicitEulerIntegrator>(system, 1.0);  // its step is set anew
+}
+
+struct MethodRow {
+  IntegratorPointer (*make)(const SimTK::System&);
+  double accuracy;  // of an adaptive method on the matched track; 0: its steps are fixed there
+};
+
+const MethodRow& row_of(const std::string& method) {
+  static const std::map<std::string, MethodRow> rows = {
+      {"cpodes", {make_of<SimTK::CPodesIntegrator>, 1e-9}},
+      {"explicit-euler", {make_of<SimTK::ExplicitEulerIntegrator>, 0}},
+      {"feldberg", {make_of<SimTK::RungeKuttaFeldbergIntegrator>, 1e-9}},
+      {"merson", {make_of<SimTK::RungeKuttaMersonIntegrator>, 0}},
+      {"rk2", {make_of<SimTK::RungeKutta2Integrator>, 0}},
+      {"rk3", {make_of<SimTK::RungeKutta3Integrator>, 0}},
+      {"semi-explicit-euler", {make_of<SimTK::SemiExplicitEulerIntegrator>, 0}},
+      {"semi-explicit-euler-2", {make_of<SimTK::SemiExplicitEuler2Integrator>, 1e-4}},  // of order 1: tighter is slow
+      {"verlet", {make_of<SimTK::VerletIntegrator>, 0}}};
+  return rows.at(method);
+}
+
+// An integrator whose step is fixed takes the whole way to where it is sent as one step, if that is not longer: this
+// one is longer than any, so that each step may have a length of its own without the integrator being set up anew.
+constexpr double kLongestStep = 1e9;  // s
+
+// Where a step's estimate of its own error is more than 2^p times the accuracy, neither constraints nor quaternions are
+// projected (AbstractIntegratorRep::attemptDAEStep), and the step is kept: a loose accuracy does no harm to a fixed
+// step, a tight one does. Likewise for constraints that a step leaves by more than the root of their tolerance.
+constexpr double kLoosest = 0.5, kConstraintTolerance = 1e-3;
+
+// Beyond it a state is one that blew up; MuJoCo draws the same line.
+constexpr double kBlownUp = 1e10;
+
+class SimbodyWorld : public World {
+ public:
+  SimbodyWorld(const Scene& scene, const Settings& settings)
+      : system_(scene),
+        is_fixed_step_(simbody_steps(settings).are_fixed),
+        integrator_(row_of(settings.method).make(system_.system())) {
+    const SimbodySteps steps = simbody_steps(settings);
+    if (steps.are_fixed) {
+      integrator_->setFixedStepSize(kLongestStep);
+      integrator_->setProjectEveryStep(true);
+    }
+    if (steps.accuracy) integrator_->setAccuracy(*steps.accuracy);
+    if (steps.constraint_tolerance) integrator_->setConstraintTolerance(*steps.constraint_tolerance);
+    // What steps past the end and reads between would step past a jump of the loads too.
+    const bool jumps = !scene.forces.empty() || !scene.motors.empty();
+    if (!steps.reads_between || jumps) integrator_->setAllowInterpolation(false);
+    system_.set_interval(0, 0);
+    integrator_->initialize(system_.start());
+  }
+
+  void step(double dt) override {
+    double from = clock_.time();
+    clock_.advance(dt);
+    const double end = clock_.time();
+    solver_warning_.clear();
+    while (!lost_ && from < end) {  // parts in which no load begins or ends, so that none lies within a step
+      const double to = system_.loads().next_switch(from, end);
+      advance(from, to);
+      from = to;
+    }
+  }
+
+  void read(Snapshot& out) const override {
+    out.time = clock_.time();
+    const MutableBodyColumns columns = out.own(system_.scene().bodies.size());
+    if (lost_) return set_lost(columns);
+    const SimTK::State& state = integrator_->getState();
+    system_.system().realize(state, SimTK::Stage::Velocity);
+    system_.read(state, columns);
+  }
+
+  SettingsInForce settings_in_force() const override;
+  std::string solver_warning() const override { return solver_warning_; }
+
+ private:
+  void advance(double from, double to);
+  void note_what_was_not_done(int failures);
+  void set_lost(MutableBodyColumns out) const;
+
+  SimbodySystem system_;
+  bool is_fixed_step_;
+  IntegratorPointer integrator_;
+  Clock clock_;
+  bool lost_ = false;  // blown up: from then on its state is "not a number"
+  std::string solver_warning_;
+};
+
+// A first call after a start returns at once, without a step; and a change of the loads is a start.
+void SimbodyWorld::advance(double from, double to) {
+  const int failures = integrator_->getNumConvergenceTestFailures();
+  try {
+    if (system_.set_interval(from, to)) integrator_->reinitialize(SimTK::Stage::Dynamics, false);
+    while (integrator_->getTime() < to) integrator_->stepTo(to, to);
+  } catch (const std::exception& error) {
+    const SimTK::Vector& y = integrator_->getAdvancedState().getY();
+    if (y.normInf() < kBlownUp) throw;  // its own failure: it costs the cell
+    lost_ = true;
+    solver_warning_ = fmt::format("Simbody gave up on numbers that passed {:g}: {}", kBlownUp, error.what());
+    return;
+  }
+  if (is_fixed_step_) note_what_was_not_done(integrator_->getNumConvergenceTestFailures() - failures);
+}
+
+void SimbodyWorld::note_what_was_not_done(int failures) {
+  if (failures > 0) solver_warning_ = "the step was kept although it did not converge, or its joints were too far open";
+}
+
+void SimbodyWorld::set_lost(MutableBodyColumns out) const {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const BodyState nowhere = {Vec3::Constant(kNaN), Quat(kNaN, kNaN, kNaN, kNaN), Vec3::Constant(kNaN),
+                             Vec3::Constant(kNaN)};
+  for (std::size_t i = 0; i < system_.scene().bodies.size(); ++i) {
+    const Body& body = system_.scene().bodies[i];
+    out.set_body(i, body.fixed ? BodyState{body.position, body.orientation, Vec3::Zero(), Vec3::Zero()} : nowhere);
+  }
+}
+
+SettingsInForce SimbodyWorld::settings_in_force() const {
+  const SimTK::Vec3 g = system_.gravity();
+  const SimTK::State& state = integrator_->getState();
+  const int equations = state.getNMultipliers();
+  const std::string step =
+      is_fixed_step_ ? "dt" : fmt::format("as its error asks: accuracy {:g}", integrator_->getAccuracyInUse());
+  SettingsInForce in_force = {
+      {"precision", sizeof(SimTK::Real) == sizeof(double) ? "double" : "single"},
+      {"integrator", integrator_->getMethodName()},
+      {"step", step},
+      {"gravity", fmt::format("{:g}, {:g}, {:g} m/s^2", g[0], g[1], g[2])},
+      {"coordinates", fmt::format("{} speeds of joints and free bodies", state.getNU())},
+      {"springs", "its own, at each stage"},
+      {"timed forces and motors", "at each stage; a step ends where one begins or ends"},
+  };
+  if (equations > 0) {
+    in_force.emplace_back("loops", fmt::format("{} constraints, projected to {:g} after each step", equations,
+                                               integrator_->getConstraintToleranceInUse()));
+  }
+  return in_force;
+}
+
+}  // namespace
+
+std::string simbody_version() {
+  int major = 0, minor = 0, build = 0;
+  SimTK_version_simbody(&major, &minor, &build);
+  return fmt::format("{}.{}.{}", major, minor, build);
+}
+
+SimbodySteps simbody_steps(const Settings& settings) {
+  const bool matched = settings.track == Track::matched, has_accuracy = settings.options.count("accuracy") > 0;
+  const double of_method = row_of(settings.method).accuracy;
+  if (of_method == 0 && matched) return {true, kLoosest, kConstraintTolerance, false};
+  if (settings.method == "semi-explicit-euler") return {true, {}, {}, false};  // it knows of no error
+  const double accuracy = number_option(settings, "accuracy", of_method);
+  if (matched) return {false, accuracy, accuracy, false};
+  return {false, has_accuracy ? std::optional(accuracy) : std::nullopt, {}, true};
+}
+
+std::unique_ptr<World> simbody_world(const Scene& scene, const Settings& settings) {
+  return std::make_unique<SimbodyWorld>(scene, settings);
+}
+
+}  // namespace rigor
