@@ -9,6 +9,7 @@
 #include "adapters/option_values.h"
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/integrators/joint_events.h"
+#include "core/dynamics/joints/singular_passages.h"
 #include "core/engine/clock.h"
 #include "core/scene/contact_laws.h"
 
@@ -50,6 +51,7 @@ class CoreWorld : public World {
     stepper_->step(state_.columns(), clock_.time(), dt);
     if (joints_) joints_->end_step(state_.columns());
     clock_.advance(dt);
+    if (joints_) passages_.note(clock_.time(), joints_->smallest_pivot());
   }
 
   void read(Snapshot& out) const override {
@@ -66,6 +68,7 @@ class CoreWorld : public World {
     const SettingsInForce of_contact = contact_ ? contact_->settings_in_force() : SettingsInForce();
     settings.insert(settings.end(), of_contact.begin(), of_contact.end());
     if (joints_) settings.emplace_back("joints", fmt::format("{} rows, of rank {}", joints_->rows(), joints_->rank()));
+    if (!passages_.times().empty()) settings.emplace_back("singular positions", passages_.text());
     return settings;
   }
 
@@ -93,6 +96,7 @@ class CoreWorld : public World {
   const ContactStepper* contact_ = nullptr;  // the stepper, where bodies can touch
   BodyTable state_;
   std::unique_ptr<Joints> joints_;  // null where there are none
+  SingularPassages passages_;
   std::unique_ptr<Stepper> stepper_;
   Clock clock_;
 };

@@ -63,6 +63,9 @@ class Joints : public ConstraintForces {
   // not allow.
   void restrict(int component, std::vector<Vec6>& change);
 
+  // Of the last factorisation; see block_cholesky.h.
+  double smallest_pivot() const { return factor_.smallest_pivot(); }
+
   double extent() const { return extent_; }  // m: the longest arm, what gaps are small against
   // Rows of all joints, and how many of them do not repeat others.
   int rows() const;
