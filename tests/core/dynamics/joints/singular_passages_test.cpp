@@ -95,7 +95,10 @@ BOOST_AUTO_TEST_CASE(a_step_that_ends_beside_a_singular_position_is_taken_round_
     const double dt = (passes + beside) / 150;  // the 150th step ends there
     const auto world = CoreEngine().load(scene, {.method = "rk4", .options = {}});
     Snapshot now;
-    for (int n = 0; n < 200; ++n) world->step(dt), BOOST_TEST(world->solver_warning() == "");
+    for (int n = 0; n < 200; ++n) {
+      world->step(dt);
+      BOOST_TEST(world->solver_warning() == "");
+    }
     world->read(now);
     // x = 2 cos(angle) of the slider, and the rod goes as the crank does, mirrored: the branch is kept.
     const Vec3 crank = now.bodies().position(0), rod = now.bodies().position(1);
