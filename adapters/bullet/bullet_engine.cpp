@@ -39,7 +39,9 @@ MethodInfo sequential_impulse() {
 
 MethodInfo mlcp() {
   return {.name = "mlcp",
-          .summary = "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver",
+          .summary =
+              "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver, dense: a step takes "
+              "the cube of its rows, 30 ms for 500",
           .leapfrog_stagger = 0.5,
           .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
           .options = options_of_rigid_bodies()};
@@ -48,7 +50,7 @@ MethodInfo mlcp() {
 // Trees of joints, and no contacts.
 MethodInfo multibody() {
   return {.name = "multibody",
-          .summary = "semi-implicit Euler in reduced coordinates (Featherstone)",
+          .summary = "semi-implicit Euler in the reduced coordinates of trees (Featherstone), without limits or speeds",
           .leapfrog_stagger = 0.5,
           .lacks = joined(contacts_of_all_shapes(),
                           {"joint-limit", "joint-loop", "joints-with-contacts", "motor:speed", "restitution"})};

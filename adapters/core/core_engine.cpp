@@ -8,7 +8,9 @@
 
 #include "adapters/option_values.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/dynamics/integrators/around_singularity.h"
 #include "core/dynamics/integrators/joint_events.h"
+#include "core/dynamics/joints/singular_passages.h"
 #include "core/engine/clock.h"
 #include "core/scene/contact_laws.h"
 
@@ -40,6 +42,8 @@ class CoreWorld : public World, public MayReduceOrder {
       stepper_ = std::move(stepper);
     } else {
       stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get(), &scene});
+      if (joints_ && joints_->has_loops() && !integrator_.adaptive)  // which divides its steps by itself
+        stepper_ = std::make_unique<AroundSingularity>(*joints_, scene.bodies.size(), std::move(stepper_));
       if (JointStops::are_in(scene))
         stepper_ = std::make_unique<JointEvents>(scene, system_, *joints_, std::move(stepper_));
     }
@@ -50,6 +54,7 @@ class CoreWorld : public World, public MayReduceOrder {
     stepper_->step(state_.columns(), clock_.time(), dt);
     if (joints_) joints_->end_step(state_.columns());
     clock_.advance(dt);
+    if (joints_) passages_.note(clock_.time(), joints_->smallest_pivot());
   }
 
   void read(Snapshot& out) const override {
@@ -66,6 +71,7 @@ class CoreWorld : public World, public MayReduceOrder {
     const SettingsInForce of_contact = contact_ ? contact_->settings_in_force() : SettingsInForce();
     settings.insert(settings.end(), of_contact.begin(), of_contact.end());
     if (joints_) settings.emplace_back("joints", fmt::format("{} rows, of rank {}", joints_->rows(), joints_->rank()));
+    if (!passages_.times().empty()) settings.emplace_back("singular positions", passages_.text());
     return settings;
   }
 
@@ -97,6 +103,7 @@ class CoreWorld : public World, public MayReduceOrder {
   const ContactStepper* contact_ = nullptr;  // the stepper, where bodies can touch
   BodyTable state_;
   std::unique_ptr<Joints> joints_;  // null where there are none
+  SingularPassages passages_;
   std::unique_ptr<Stepper> stepper_;
   Clock clock_;
 };

@@ -9,16 +9,32 @@ namespace rigor {
 namespace {
 
 // Measured over the suite, a step of all its metrics included: what differs is engines, by ten and more, and cases.
-constexpr double kPerBodyStep = 3e-6, kPerJointedStep = 12e-6;          // s
-constexpr double kPerCell = 0.03, kPerStableStep = 0.5, kPerTruth = 1;  // s
-constexpr double kTimingAndTwin = 2;                                    // a run of everything runs each cell again
+constexpr double kPerBodyStep = 3e-6;                             // s
+constexpr double kPerJointedStep = 6e-6, kPerJointedBody = 4e-6;  // s, of a step, and of each body in it
+constexpr double kPerCell = 0.03;                                 // s
+constexpr double kPerSearch = 0.5, kPerJointedSearch = 0.2, kPerSearchWithLimits = 1.5;  // s, for a stable step
+constexpr double kPerSolvedTruth = 1, kPerClosedForm = 0.05;                             // s
+constexpr double kTimingAndTwin = 2;  // a run of everything runs each cell again
 
 bool is_run(const Cell& cell) { return cell.status != Status::unsupported; }
 
 double seconds_of(const Case& definition, const Cell& cell) {
   const double steps = definition.duration / cell.dt.seconds,
                bodies = static_cast<double>(definition.scene.bodies.size());
-  return kPerCell + steps * bodies * (definition.scene.joints.empty() ? kPerBodyStep : kPerJointedStep);
+  const double per_step =
+      definition.scene.joints.empty() ? bodies * kPerBodyStep : kPerJointedStep + bodies * kPerJointedBody;
+  return kPerCell + steps * per_step;
+}
+
+double seconds_of_search(const Scene& scene) {
+  const bool has_limits =
+      std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.has_limits(); });
+  return has_limits ? kPerSearchWithLimits : scene.joints.empty() ? kPerSearch : kPerJointedSearch;
+}
+
+double seconds_of_truth(const std::string& truth) {
+  if (truth == "none") return 0;
+  return truth == "reference" || truth == "events" ? kPerSolvedTruth : kPerClosedForm;
 }
 
 std::string in_words(double seconds) {
@@ -38,15 +54,16 @@ double estimated_seconds(const Results& planned, const CommandLine& line) {
   const bool is_everything = line.command == "run";
   double all = 0;
   for (const CaseResult& result : planned.cases) {
-    all += result.definition.truth == "none" ? 0 : kPerTruth;
+    all += seconds_of_truth(result.definition.truth);
     for (const Cell& cell : result.cells) {
       if (is_run(cell))
         all += std::min(seconds_of(result.definition, cell) * (is_everything ? kTimingAndTwin : 1), line.limit);
     }
     if (!is_everything) continue;
-    all += kPerStableStep * static_cast<double>(std::count_if(
-                                result.stable_steps.begin(), result.stable_steps.end(),
-                                [](const StableStepResult& stable) { return stable.status != Status::unsupported; }));
+    const auto searches =
+        std::count_if(result.stable_steps.begin(), result.stable_steps.end(),
+                      [](const StableStepResult& stable) { return stable.status != Status::unsupported; });
+    all += seconds_of_search(result.definition.scene) * static_cast<double>(searches);
   }
   return all / line.jobs;
 }
@@ -56,8 +73,7 @@ std::string plan_sentence(const Results& planned, const CommandLine& line) {
   for (const CaseResult& result : planned.cases) {
     for (const Cell& cell : result.cells) ++(is_run(cell) ? cells : unsupported);
   }
-  const std::string rest =
-      unsupported > 0 ? fmt::format(", {} more unsupported", unsupported) : "";
+  const std::string rest = unsupported > 0 ? fmt::format(", {} more unsupported", unsupported) : "";
   return fmt::format("{} by {}: {}{}; {} with {}; the reports will be in {}", counted(planned.cases.size(), "case"),
                      counted(planned.runs.size(), "run"), counted(cells, "cell"), rest,
                      in_words(estimated_seconds(planned, line)), counted(static_cast<std::size_t>(line.jobs), "job"),

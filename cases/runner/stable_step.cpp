@@ -10,7 +10,6 @@
 #include "cases/metrics/stability.h"
 #include "core/dynamics/model/energy.h"
 #include "core/engine/remote.h"
-#include "core/engine/run_name.h"
 #include "core/engine/simulation.h"
 #include "core/scene/contact_laws.h"
 
@@ -41,6 +40,11 @@ double work_of_step(const Scene& scene) {
   return work;
 }
 
+bool divides_its_steps(const EngineInfo& engine, const Settings& settings) {
+  return std::any_of(engine.methods.begin(), engine.methods.end(),
+                     [&](const MethodInfo& method) { return method.name == settings.method && method.adaptive; });
+}
+
 double most_work(const Scene& scene) { return scene.joints.empty() ? kMostWork : kMostJointedWork; }
 
 class Search {
@@ -52,11 +56,12 @@ class Search {
         horizon_(horizon),
         energy_in_play_(energy_in_play),
         steps_left_(most_work(scene) / work_of_step(scene)),
-        divides_steps_(method_of(engine.info(), settings).adaptive) {}
+        divides_steps_(divides_its_steps(engine.info(), settings)) {}
 
   StableStep result() {
     if (divides_steps_ && !scene_.joints.empty() && survives(kLargestStep) == true)
-      return {kLargestStep, true, false, fmt::format("its method divides each step: {:g} s alone was tried", kLargestStep)};
+      return {kLargestStep, true, false,
+              fmt::format("its method divides each step: {:g} s alone was tried", kLargestStep)};
     if (!bracket()) return found_;
     const double sweep = sweep_of(scene_), steps_of_sweep = horizon_ / good_ / (sweep - 1);
     if (steps_of_sweep > steps_left_ / 2) {

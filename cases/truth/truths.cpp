@@ -12,6 +12,7 @@ namespace rigor {
 TruthRow asymmetric_top_truth();
 TruthRow axisymmetric_top_truth();
 TruthRow bounce_truth();
+TruthRow cardan_shaft_truth();
 TruthRow events_truth();
 TruthRow heavy_top_truth();
 TruthRow line_impacts_truth();
@@ -36,6 +37,7 @@ const std::vector<TruthRow>& truths() {
       asymmetric_top_truth(),
       axisymmetric_top_truth(),
       bounce_truth(),
+      cardan_shaft_truth(),
       events_truth(),
       heavy_top_truth(),
       line_impacts_truth(),

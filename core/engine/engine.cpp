@@ -68,7 +68,8 @@ std::string why_unsupported(const EngineInfo& engine, const Settings& settings, 
   asked.insert(asked.begin(), needs.begin(), needs.end());
   for (const Need& need : asked) {
     if (method.lacks.contains(need.feature))
-      return fmt::format("{}:{} has no {}, which {} asks for", engine.name, method.name, need.feature, need.because);
+      return fmt::format("{}:{} has no {}, which {} asks for; its method: {}", engine.name, method.name, need.feature,
+                         need.because, method.summary);
   }
   for (const OptionInfo& option : method.options) {
     if (option.features_of_choice.empty()) continue;

@@ -65,6 +65,23 @@ std::string text_of_energy(const Diagnosis& found, const std::string& names) {
       names, text_over_steps(found), found.beside);
 }
 
+// Of the finest step that says so, for there it is seen best; empty where none does.
+std::string text_of_singular_positions(const Results& results, const CaseResult& result) {
+  const Cell* finest = nullptr;
+  std::string passed;
+  for (const Cell& cell : result.cells) {
+    for (const auto& [key, value] : cell.settings) {
+      if (key != "singular positions" || (finest && finest->dt.seconds <= cell.dt.seconds)) continue;
+      finest = &cell, passed = value;
+    }
+  }
+  if (!finest) return "";
+  return fmt::format(
+      "Why: the joints pass a singular position, {} ({} at dt = {} s): rows of theirs come to repeat others there, and "
+      "another motion branches off. Which one a run goes on by, and how it leaves, hangs on its own error there.",
+      passed, results.runs[finest->run].text, finest->dt.text);
+}
+
 }  // namespace
 
 std::vector<std::string> joint_explanations(const Results& results, const CaseResult& result) {
@@ -85,6 +102,8 @@ std::vector<std::string> joint_explanations(const Results& results, const CaseRe
     }
   }
   std::vector<std::string> sentences;
+  if (const std::string singular = text_of_singular_positions(results, result); !singular.empty())
+    sentences.push_back(singular);
   for (const auto& [found, names] : said) sentences.push_back(text_of(found, names));
   return sentences;
 }

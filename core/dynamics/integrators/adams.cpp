@@ -175,7 +175,9 @@ class Adams : public Stepper {
 extern const Integrator kAdams;
 const Integrator kAdams = {
     .name = "adams",
-    .summary = "Adams-Bashforth-Moulton; four steps of the formula a step, each with one evaluation of the loads",
+    .summary =
+        "Adams-Bashforth-Moulton; four steps of the formula a step, each with one evaluation of the loads; no "
+        "joints, for bringing a state back to them makes the rates it remembers those of another motion",
     .order = kAdamsRates,
     .symplectic = false,
     .leapfrog_stagger = 0,

@@ -19,6 +19,9 @@ namespace {
 using dormand_prince::kStages;
 
 constexpr int kMostTries = 20000;  // inner steps, refused ones included, in one step
+// Of a step of jointed bodies: where so short an inner step is refused they are in a singular position, in which what
+// errs is rounding and no step is short enough.
+constexpr double kShortest = 1e-6;
 
 class DormandPrince : public Stepper {
  public:
@@ -57,7 +60,8 @@ class DormandPrince : public Stepper {
       const std::string noted = parts_.joints ? parts_.joints->noted() : "";
       take_stages(t, length, h);
       const double error = error_of_stages(h) / tolerance_;
-      const bool given_up = ++tries == kMostTries || !is_finite(y_);
+      const bool is_stuck = parts_.joints && error > 1 && std::abs(h) < kShortest * std::abs(length);
+      const bool given_up = ++tries == kMostTries || is_stuck || !is_finite(y_);
       if (!(error <= 1 || given_up)) {
         if (parts_.joints) parts_.joints->note_only(noted);
       } else {

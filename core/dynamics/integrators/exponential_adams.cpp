@@ -287,7 +287,9 @@ class ExponentialAdams : public Stepper {
 extern const Integrator kExponentialAdams;
 const Integrator kExponentialAdams = {
     .name = "exponential-adams",
-    .summary = "exponential Adams-Bashforth; each body's own springs and dampers solved exactly, the rest extrapolated",
+    .summary =
+        "exponential Adams-Bashforth; each body's own springs and dampers solved exactly, the rest extrapolated; no "
+        "joints, for bringing a state back to them makes the rates it remembers those of another motion",
     .order = kNodes,
     .symplectic = false,
     .leapfrog_stagger = 0,

@@ -155,7 +155,9 @@ class ImplicitMidpoint : public Stepper {
 extern const Integrator kImplicitMidpoint;
 const Integrator kImplicitMidpoint = {
     .name = "implicit-midpoint",
-    .summary = "solved for the velocities at mid-step by Newton's method; symmetric",
+    .summary =
+        "solved for the velocities at mid-step by Newton's method; symmetric; no joints, for its equations have no "
+        "multipliers",
     .order = 2,
     .symplectic = true,
     .symmetric = true,

@@ -91,7 +91,9 @@ class LinearlyImplicitEuler : public Stepper {
 extern const Integrator kLinearlyImplicitEuler;
 const Integrator kLinearlyImplicitEuler = {
     .name = "linearly-implicit-euler",
-    .summary = "one linear solve a step with the loads' exact derivative; for stiff springs and dampers",
+    .summary =
+        "one linear solve a step with the loads' exact derivative; for stiff springs and dampers; no joints, for its "
+        "equations have no multipliers",
     .order = 1,
     .symplectic = false,
     .leapfrog_stagger = 0,

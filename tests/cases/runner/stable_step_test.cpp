@@ -4,6 +4,7 @@
 
 #include "tests/cases/judged.h"
 #include "tests/cases/scripted_engine.h"
+#include "tests/core/dynamics/joints/jointed_run.h"
 
 using namespace rigor;
 
@@ -65,6 +66,31 @@ BOOST_AUTO_TEST_CASE(a_search_that_takes_too_much_says_where_it_was_cut) {
   BOOST_TEST(jointed.is_floor);
   BOOST_TEST(jointed.dt == 0.25);
   BOOST_TEST(jointed.cut == "the search's 3 million steps of a body are used up: not searched below 0.25 s");
+}
+
+// A chain of rods whips about: the core's adaptive method divides each step as it needs, whatever the step is.
+BOOST_AUTO_TEST_CASE(of_jointed_bodies_a_method_that_divides_its_steps_is_asked_once) {
+  const Scene scene = test::suite_scene("joints/double-pendulum");
+  const StableStep found = largest_stable_dt(core(), test::core_method("dormand-prince"), scene, 2, 100);
+  BOOST_TEST(found.is_cap);
+  BOOST_TEST(found.dt == 0.5);
+  BOOST_TEST(found.cut == "its method divides each step: 0.5 s alone was tried");
+  // With next to no energy in play no motion is bounded: it is not called stable for being asked once.
+  const StableStep none = largest_stable_dt(core(), test::core_method("dormand-prince"), scene, 0.5, 1e-20);
+  BOOST_TEST(!none.is_cap);
+  const StableStep free =
+      largest_stable_dt(core(), test::core_method("dormand-prince"), test::tumbling_body({1, 1, 1}), 30, 1);
+  BOOST_TEST(free.cut == "");  // without joints all steps are tried, as of any method
+}
+
+// No clock has a say in it.
+BOOST_AUTO_TEST_CASE(a_search_finds_the_same_again) {
+  const Scene scene = test::suite_scene("joints/chain-10");
+  const StableStep one = largest_stable_dt(core(), test::core_method("explicit-euler"), scene, 30, 100),
+                   other = largest_stable_dt(core(), test::core_method("explicit-euler"), scene, 30, 100);
+  BOOST_TEST(one.dt == other.dt);
+  BOOST_TEST(one.cut == other.cut);
+  BOOST_TEST(one.cut.find("CPU time") == std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(the_course_scenes_have_the_known_stability_limits) {

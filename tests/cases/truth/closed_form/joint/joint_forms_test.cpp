@@ -14,7 +14,8 @@ using namespace rigor;
 
 namespace {
 
-const char* const kOfJoints[] = {"heavy-top", "linkage", "pendulum", "slider", "steady-precession", "welded"};
+const char* const kOfJoints[] = {"cardan-shaft", "heavy-top",         "linkage", "pendulum",
+                                 "slider",       "steady-precession", "welded"};
 
 bool is_of_joints(const Case& c) {
   return !c.scene.joints.empty() &&
@@ -166,6 +167,22 @@ BOOST_AUTO_TEST_CASE(a_scene_it_does_not_hold_for_is_refused_with_the_reason) {
       {"linkage", "mechanisms/four-bar", [](Scene&) {}, "would part as it turns"},
       {"linkage", "mechanisms/slider-crank", [](Scene&) {}, "would part as it turns"},
       {"linkage", "mechanisms/cardan-shaft", [](Scene&) {}, "its hinges are not parallel"},
+      {"cardan-shaft", "mechanisms/four-bar", [](Scene& s) { s.gravity.setZero(); }, "an arm of the cross"},
+      {"cardan-shaft", "mechanisms/cardan-shaft",
+       [](Scene& s) {
+         s.gravity = {0, 0, -9.81};
+       },
+       "gravity acts"},
+      {"cardan-shaft", "mechanisms/cardan-shaft",
+       [](Scene& s) { s.bodies[1].inertia(0, 1) = s.bodies[1].inertia(1, 0) = 1e-4; }, "no principal axes"},
+      {"cardan-shaft", "mechanisms/cardan-shaft", [](Scene& s) { s.bodies[2].angular_velocity *= 1.01; },
+       "'driven' does not move with the rest"},
+      {"cardan-shaft", "mechanisms/cardan-shaft",
+       [](Scene& s) {
+         std::get<HingeJoint>(s.joints[3].type).anchor = {0.01, 0, 0};
+       },
+       "do not meet in one point"},
+      {"cardan-shaft", "mechanisms/cardan-shaft", [](Scene& s) { s.joints.pop_back(); }, "no two bodies turn"},
       {"welded", "joints/welded-pair", [](Scene& s) { s.bodies[1].velocity.x() += 0.1; },
        "does not move with the rest"},
       {"welded", "joints/welded-pair", [](Scene& s) { s.bodies.push_back(s.bodies[1]); }, "is not fixed to the rest"},
