@@ -145,17 +145,18 @@ class MpiExecutor::Leading : public JobFeed {
   std::size_t next_ = 0, out_ = 0;
 };
 
-// Asks for jobs and does them. While they are brief it has one ahead, so that it need not wait for the next.
+// Asks for jobs and does them. While they are brief it has one ahead, so that it need not wait for the next: on a busy
+// machine an answer may take as long as a time slice of each other process.
 class MpiExecutor::Helping : public JobFeed {
  public:
   explicit Helping(const Work& work) : work_(work) {}
 
   bool is_over() override {
     while (const auto letter = next_letter()) {
-      if (letter->tag == kJob) waiting_.push_back(Json::parse(letter->text));
+      if (letter->tag == kJob) waiting_.push_back(Json::parse(letter->text)), --due_;
       is_over_ |= letter->tag == kOver;
     }
-    for (const int can_take = last_seconds_ < kBrief ? 2 : 1; !is_over_ && asked_ < can_take; ++asked_)
+    for (const int can_take = last_seconds_ < kBrief ? 2 : 1; !is_over_ && asked_ < can_take; ++asked_, ++due_)
       send(kLeader, kWant);
     return is_over_;
   }
@@ -167,7 +168,8 @@ class MpiExecutor::Helping : public JobFeed {
     return Numbered{json.at("number").get<std::size_t>(),
                     {[this, job](const Channel& channel) { work_(job, channel); }, job.limit}};
   }
-  int longest_wait() const override { return static_cast<int>(kNap.count()); }
+  // With all that it has asked for it need not look for letters; its child wakes it.
+  int longest_wait() const override { return due_ > 0 ? static_cast<int>(kNap.count()) : JobFeed::longest_wait(); }
 
   void end(std::size_t job, const JobEnd& end) {
     last_seconds_ = end.seconds;
@@ -176,11 +178,12 @@ class MpiExecutor::Helping : public JobFeed {
   }
 
  private:
-  static constexpr double kBrief = 0.1;  // s
+  static constexpr double kBrief = 0.5;  // s: by so much at most ranks end apart
 
   const Work& work_;
   std::deque<Json> waiting_;
   int asked_ = 0;  // jobs asked for that have not ended
+  int due_ = 0;    // of these, not got yet
   double last_seconds_ = 2 * kBrief;
   bool is_over_ = false;
 };
