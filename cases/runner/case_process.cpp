@@ -245,9 +245,15 @@ std::size_t jobs_in(const CaseResult& planned) {
          std::count_if(planned.stable_steps.begin(), planned.stable_steps.end(), is_one);
 }
 
-std::string journal_of(const CaseResult& planned, const Results& grid, const GridOptions& options) {
+// `share`: of the case; 0: all of it.
+std::string journal_of(std::size_t of_case, int share, const GridOptions& options) {
   if (options.journals.empty()) return "";
-  return fmt::format("{}/{}.journal", options.journals, &planned - grid.cases.data());
+  return share == 0 ? fmt::format("{}/{}.journal", options.journals, of_case)
+                    : fmt::format("{}/{}.{}.journal", options.journals, of_case, share);
+}
+
+std::size_t index_of(const CaseResult& planned, const Results& grid) {
+  return static_cast<std::size_t>(&planned - grid.cases.data());
 }
 
 }  // namespace
@@ -268,12 +274,28 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const Engine
 
 std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned, const EngineTable& engines,
                                           const GridOptions& options) {
-  const Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, engines, options));
+  const std::size_t index = index_of(planned, grid);
+  const Partition::OfCase shares = options.executor ? Partition(grid, kShares).cases()[index] : Partition::OfCase();
   std::vector<Journal::Record> answers;
-  for (const auto& [job, record] : journal.found()) {
-    if (job != Journal::kTruth) answers.push_back(record);
+  for (const int share : options.executor ? shares_in(shares) : std::vector<int>{0}) {
+    CaseResult own = planned;
+    if (share != 0) leave_to_others(own, shares, share);
+    const Journal journal(journal_of(index, share, options), plan_of(grid, own, engines, options));
+    for (const auto& [job, record] : journal.found()) {
+      if (job != Journal::kTruth) answers.push_back(record);
+    }
   }
   return answers;
+}
+
+PathsOfCells paths_in(const CaseResult& planned, const std::vector<Journal::Record>& answers) {
+  PathsOfCells paths;
+  CaseResult scratch = planned;
+  for (const Journal::Record& answer : answers) {
+    const MessageSubject subject = apply_message(scratch, answer.message);
+    if (!answer.path.empty()) paths[subject.index] = unpacked(answer.path);
+  }
+  return paths;
 }
 
 std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths) {
@@ -322,7 +344,8 @@ void forget_what_is_wrong(Journal& journal, const Results& grid, const CaseResul
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel) {
   const Case& definition = planned.definition;
-  Journal journal(journal_of(planned, grid, options), plan_of(grid, planned, engines, options));
+  Journal journal(journal_of(index_of(planned, grid), options.share, options),
+                  plan_of(grid, planned, engines, options));
   forget_what_is_wrong(journal, grid, planned, engines, options);
   const auto known_truth = journal.found().find(Journal::kTruth);
   const bool is_done = known_truth != journal.found().end() && journal.found().size() == 1 + jobs_in(planned);

@@ -33,12 +33,14 @@ TruthFacts facts_of(const Case& definition, const Truth* truth);
 std::string plan_of(const Results& grid, const CaseResult& planned, const EngineTable& engines,
                     const GridOptions& options);
 
-// What the cells and stable steps of a case that has run have left in its journal; those that failed left nothing.
+// What the cells and stable steps of a case that has run have left in its journals; those that failed left nothing.
+// `grid` as it was planned.
 std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned, const EngineTable& engines,
                                           const GridOptions& options);
 
 // Of every pair of runs at the same dt that both left a path.
 using PathsOfCells = std::map<std::size_t, Path>;  // by index of the cell
+PathsOfCells paths_in(const CaseResult& planned, const std::vector<Journal::Record>& answers);
 std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths);
 
 }  // namespace rigor

@@ -16,7 +16,7 @@ struct JobSpec {
   Kind kind;
   std::size_t of_case;    // index in Results::cases
   double limit;           // s, CPU time until its first message; none after that
-  std::size_t part = 0;   // index in CaseResult::cells or stable_steps; of a whole case none
+  std::size_t part = 0;   // index in CaseResult::cells or stable_steps; of a case its share (shards/shard.h), 0: all
   std::string run = "";   // with its method and options, as it is named
   StepSize dt = {0, ""};  // of a cell
 };

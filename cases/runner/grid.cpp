@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "cases/case/selection.h"
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/case_process.h"
+#include "cases/runner/shards/shard.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -129,7 +131,8 @@ std::vector<std::size_t> longest_first(const Results& grid) {
 }
 
 // Why the case's own process came to no good end: then no cell of it can be trusted that has not been heard of.
-void note_case_end(CaseResult& result, const JobEnd& end, double limit) {
+// `planned`: the case's parts that it was to do, as they were before.
+void note_case_end(CaseResult& result, const CaseResult& planned, const JobEnd& end, double limit) {
   const bool is_input = end.how == Ending::refused;
   if (end.how != Ending::finished) {
     const std::string what = is_input       ? result.definition.truth_where + ": "
@@ -140,16 +143,53 @@ void note_case_end(CaseResult& result, const JobEnd& end, double limit) {
   }
   if (result.error.empty()) return;
   const Status status = is_input ? Status::invalid : end.how == Ending::timed_out ? Status::timed_out : Status::crashed;
-  const auto is_unheard = [](const auto& part) {
-    return part.status == Status::crashed && part.reason == Cell().reason;
+  const auto is_unheard = [](const auto& part, const auto& before) {
+    return before.status != Status::unsupported && part.status == Status::crashed && part.reason == Cell().reason;
   };
-  for (Cell& cell : result.cells) {
-    if (is_unheard(cell)) cell.status = status, cell.reason = result.error, cell.trajectory.clear();
+  for (std::size_t i = 0; i < result.cells.size(); ++i) {
+    Cell& cell = result.cells[i];
+    if (is_unheard(cell, planned.cells[i])) cell.status = status, cell.reason = result.error, cell.trajectory.clear();
   }
-  for (StableStepResult& stable : result.stable_steps) {
-    if (is_unheard(stable)) stable.status = status, stable.reason = result.error;
+  for (std::size_t i = 0; i < result.stable_steps.size(); ++i) {
+    StableStepResult& stable = result.stable_steps[i];
+    if (is_unheard(stable, planned.stable_steps[i])) stable.status = status, stable.reason = result.error;
   }
 }
+
+// The jobs of a grid: its cases; for an executor each case in the shares that it falls into.
+class GridJobs {
+ public:
+  GridJobs(const Results& grid, const GridOptions& options) : planned_(grid) {
+    if (options.executor) partition_.emplace(grid, kShares);
+    for (const std::size_t index : longest_first(grid)) {
+      for (const int share : partition_ ? shares_in(partition_->cases()[index]) : std::vector<int>{0})
+        jobs_.push_back({JobSpec::Kind::whole_case, index, options.limit, static_cast<std::size_t>(share)});
+    }
+  }
+
+  const std::vector<JobSpec>& jobs() const { return jobs_; }
+
+  // The case with what the job is to do of it.
+  CaseResult planned(const JobSpec& job) const {
+    CaseResult own = planned_.cases[job.of_case];
+    if (partition_) leave_to_others(own, partition_->cases()[job.of_case], static_cast<int>(job.part));
+    return own;
+  }
+
+  // Pairs of cells that different processes have done.
+  void add_spreads(Results& grid, const EngineTable& engines, const GridOptions& options) const {
+    for (std::size_t c = 0; partition_ && c < grid.cases.size(); ++c) {
+      if (shares_in(partition_->cases()[c]).size() < 2) continue;
+      const CaseResult& planned = planned_.cases[c];
+      grid.cases[c].spreads = spreads_of(planned, paths_in(planned, kept_answers(planned_, planned, engines, options)));
+    }
+  }
+
+ private:
+  const Results planned_;
+  std::optional<Partition> partition_;
+  std::vector<JobSpec> jobs_;
+};
 
 std::string plan_of_all(const Results& grid, const EngineTable& engines, const GridOptions& options) {
   std::string all;
@@ -205,18 +245,19 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   const std::size_t all = cells_to_run(grid);
   std::size_t done = 0;
   if (!options.journals.empty()) build_identity();  // read before there are processes that would each read it
-  const std::vector<std::size_t> order = longest_first(grid);
-  const int at_once = std::min<int>(options.jobs, static_cast<int>(order.size()));
+  const GridJobs all_jobs(grid, options);
+  const std::vector<JobSpec>& jobs = all_jobs.jobs();
+  const int at_once = std::min<int>(options.jobs, static_cast<int>(grid.cases.size()));
   GridOptions of_case = options;
-  of_case.jobs = options.jobs / std::max(1, at_once);
-  std::vector<JobSpec> jobs;
-  for (const std::size_t index : order) jobs.push_back({JobSpec::Kind::whole_case, index, options.limit});
+  of_case.jobs = options.executor ? 1 : options.jobs / std::max(1, at_once);
+  // In a process of its own, to which the grid belongs.
   const auto work = [&](const JobSpec& job, const Channel& channel) {
+    grid.cases[job.of_case] = all_jobs.planned(job), of_case.share = static_cast<int>(job.part);
     run_case(grid, grid.cases[job.of_case], engines, of_case, channel);
   };
   const auto on_message = [&](std::size_t job, const std::string& message) {
     using Part = MessageSubject::Part;
-    CaseResult& result = grid.cases[order[job]];
+    CaseResult& result = grid.cases[jobs[job].of_case];
     try {
       const Part part = apply_message(result, message).part;
       if (part == Part::cell || part == Part::stable_step) on_progress(++done, all);
@@ -225,12 +266,13 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
     }
   };
   const auto on_end = [&](std::size_t job, const JobEnd& end) {
-    note_case_end(grid.cases[order[job]], end, options.limit);
+    note_case_end(grid.cases[jobs[job].of_case], all_jobs.planned(jobs[job]), end, options.limit);
   };
   const ProcessExecutor processes(at_once);
   const Executor& executor = options.executor ? *options.executor : processes;
   executor.begin(plan_of_all(grid, engines, options), options.journals);
   executor.run(jobs, work, on_message, on_end);
+  all_jobs.add_spreads(grid, engines, options);
   grid.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

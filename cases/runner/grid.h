@@ -30,6 +30,7 @@ struct GridOptions {
   bool is_thorough = true;             // times each run and repeats it by its twin, also where no gate asks for it
   std::string journals = {};           // folder of what cases have come to so far (journal.h); empty: it is not kept
   const Executor* executor = nullptr;  // of the cases; null: processes of this machine
+  int share = 0;                       // of the cases, that this process does (shards/shard.h); 0: all
   std::vector<std::string> only_metrics = {};  // measure these, costly or not, and no others; empty: all as above
 };
 
@@ -51,7 +52,8 @@ Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& ru
 
 // Runs it and fills it in. One child process a case makes the truth and forks the case's cells, which inherit it; a
 // truth that hangs, throws or crashes so costs one case. As many cases at once as there are jobs, the long ones first;
-// fewer cases share the jobs out. `on_progress` is called as cells end.
+// fewer cases share the jobs out. An executor is given shares of cases, so that one long case is no tail; each makes
+// the truth anew, or takes it from the cache. `on_progress` is called as cells end.
 void run_grid(Results& grid, const EngineTable& engines, const GridOptions& options,
               const std::function<void(std::size_t done, std::size_t all)>& on_progress);
 

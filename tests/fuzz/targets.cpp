@@ -1,20 +1,25 @@
 #include "tests/fuzz/targets.h"
 
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "adapters/plugin/answer.h"
 #include "adapters/plugin/plugin_info.h"
 #include "cases/case/case_reader.h"
+#include "cases/import/import.h"
 #include "cases/results/baseline.h"
 #include "cases/results/history.h"
 #include "cases/results/result_json.h"
 #include "cases/results/spread.h"
 #include "cases/runner/journal.h"
+#include "cases/truth/solved/solution_cache.h"
+#include "core/base/content_hash.h"
 #include "core/base/error.h"
 #include "tests/cases/vocabulary.h"
 
@@ -30,14 +35,82 @@ void read_or_refuse(const Read& read) {
   }
 }
 
-// For what is read by its path; the same file again and again, in memory where that is to be had.
+// In memory where that is to be had.
+std::string path_for(const std::string& ending) {
+  const std::filesystem::path folder =
+      std::filesystem::exists("/dev/shm") ? "/dev/shm" : std::filesystem::temp_directory_path();
+  return (folder / ("rigor_fuzz_" + std::to_string(getpid()) + ending)).string();
+}
+
+// For what is read by its path; the same file again and again.
 const std::string& file_with(const std::string& bytes) {
-  static const std::string path = [] {
-    const auto folder = std::filesystem::exists("/dev/shm") ? "/dev/shm" : std::filesystem::temp_directory_path();
-    return (folder / ("rigor_fuzz_" + std::to_string(getpid()))).string();
-  }();
+  static const std::string path = path_for("");
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
+}
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Other tests of this process have the cache that they had.
+template <typename Do>
+auto with_cache_in(const std::string& folder, const Do& act) {
+  const char* said = std::getenv("RIGOR_CACHE_DIR");
+  const std::optional<std::string> before = said ? std::optional<std::string>(said) : std::nullopt;
+  ::setenv("RIGOR_CACHE_DIR", folder.c_str(), 1);
+  const auto result = act();
+  before ? ::setenv("RIGOR_CACHE_DIR", before->c_str(), 1) : ::unsetenv("RIGOR_CACHE_DIR");
+  return result;
+}
+
+// A folder of kept solutions with one in it, which may be overwritten.
+class KeptFile {
+ public:
+  KeptFile() : folder_(path_for("_cache")) {
+    std::filesystem::remove_all(folder_);
+    with_cache_in(folder_, [] { return keep_solution(kContent, {}), 0; });
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) file_ = entry.path().string();
+    if (file_.empty()) std::abort();
+    constexpr std::size_t kOfNothing = 8 * 8 + 8;  // a dimension, whether it is complete, six lengths; the seal
+    head_ = content(file_), head_.resize(head_.size() - kOfNothing);
+  }
+  ~KeptFile() { std::filesystem::remove_all(folder_); }
+
+  std::optional<ReferenceSolution> with(const std::string& bytes) const {
+    std::ofstream(file_, std::ios::binary) << bytes;
+    return with_cache_in(folder_, [] { return kept_solution(kContent); });
+  }
+  // What is read behind the head, under a seal that fits.
+  std::optional<ReferenceSolution> with_body(const std::string& body) const {
+    const std::string bytes = head_ + body;
+    const std::uint64_t seal = content_hash(bytes);
+    return with(bytes + std::string(reinterpret_cast<const char*>(&seal), sizeof seal));
+  }
+
+ private:
+  static constexpr const char* kContent = "fuzzed";
+  std::string folder_, file_, head_;
+};
+
+// A kept solution: any bytes are none; under a good seal it is none, or one that is kept and read again as it is.
+void read_cache(const std::string& bytes) {
+  static const KeptFile file;
+  if (file.with(bytes)) std::abort();
+  if (const auto solution = file.with_body(bytes)) {
+    const std::size_t nodes = solution->times.size();
+    if (nodes == 0 || solution->states.size() % nodes != 0 || solution->states.size() / nodes != solution->dimension)
+      std::abort();
+  }
+}
+
+// A robot's file in URDF or SDF; MJCF is read by MuJoCo's own parser. What is taken is a case file that can be read.
+void read_model(const std::string& bytes) {
+  static const std::string path = path_for(".xml");
+  std::ofstream(path, std::ios::binary) << bytes;
+  if (bytes.find("<mujoco") != std::string::npos) return;
+  read_or_refuse([&] { read_case_text(import_model(path).case_text, "fuzzed.toml", "fuzzed", test::words()); });
 }
 
 void read_case_file(const std::string& bytes) {
@@ -91,8 +164,9 @@ void read_results(const std::string& bytes) {
 }  // namespace
 
 const std::vector<Target>& targets() {
-  static const std::vector<Target> all = {
-      {"case", read_case_file}, {"plugin", read_plugin}, {"records", read_records}, {"results", read_results}};
+  static const std::vector<Target> all = {{"cache", read_cache},     {"case", read_case_file},
+                                          {"import", read_model},    {"plugin", read_plugin},
+                                          {"records", read_records}, {"results", read_results}};
   return all;
 }
 

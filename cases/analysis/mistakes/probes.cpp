@@ -28,7 +28,7 @@ constexpr Row kRows[] = {
     {"contact/slide-to-roll", 1.2},    // rolls from 0.97 s on
     {"contact/sliding-stop", 1.2},     // stops at 1.02 s
     {"contact/slope-slides", 0.6},
-    {"contact/sphere-stack", 0.2},  // five on each other: where surfaces are adds up
+    {"contact/sphere-stack", 0.5},  // five on each other: where surfaces are adds up; at rest after 0.3 s
     {"forces/compass-needle", 1.2},
     {"forces/switches-inside-steps", 3, true},  // the last of its forces ends at 2.72 s
     {"forces/torqued-top", 1.6},                // its torque begins at 1 s

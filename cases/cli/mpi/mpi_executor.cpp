@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
@@ -100,7 +101,9 @@ std::string sign_in(const std::string& folder) {
 
 }  // namespace
 
-// Hands the jobs of one call out, to helpers first, and hears of those.
+// Hands the jobs of one call out, to helpers first, and hears of those. While plenty are left each may have one ahead,
+// so that it need not wait for the next: on a busy machine an answer may take as long as a time slice of each other
+// process.
 class MpiExecutor::Leading : public JobFeed {
  public:
   Leading(const MpiExecutor& team, const std::vector<JobSpec>& jobs, const Work& work, const OnMessage& on_message,
@@ -109,9 +112,15 @@ class MpiExecutor::Leading : public JobFeed {
 
   bool is_over() override {
     while (const auto letter = next_letter()) take(*letter);
-    for (; next_ < jobs_.size() && !team_.hungry_.empty(); ++next_, ++out_) {
-      send(team_.hungry_.front(), kJob, text_of(next_, jobs_[next_]));
+    for (std::size_t asked = team_.hungry_.size(); asked > 0 && next_ < jobs_.size(); --asked) {
+      const int rank = team_.hungry_.front();
       team_.hungry_.pop_front();
+      if (held_[rank] > 0 && !has_plenty()) {
+        team_.hungry_.push_back(rank);
+        continue;
+      }
+      send(rank, kJob, text_of(next_, jobs_[next_]));
+      ++next_, ++out_, ++held_[rank];
     }
     return next_ == jobs_.size() && out_ == 0;
   }
@@ -124,6 +133,12 @@ class MpiExecutor::Leading : public JobFeed {
   int longest_wait() const override { return static_cast<int>(kNap.count()); }
 
  private:
+  // So many that what one rank has ahead is done before the last of them.
+  bool has_plenty() const {
+    constexpr std::size_t kEach = 4;
+    return jobs_.size() - next_ > kEach * static_cast<std::size_t>(team_.ranks_);
+  }
+
   void take(const Letter& letter) {
     if (letter.tag == kWant) team_.hungry_.push_back(letter.rank);
     if (letter.tag == kMessage) {
@@ -132,7 +147,7 @@ class MpiExecutor::Leading : public JobFeed {
     }
     if (letter.tag == kEnd) {
       const Json json = Json::parse(letter.text);
-      --out_;
+      --out_, --held_[letter.rank];
       on_end_(json.at("number").get<std::size_t>(), end_from(json));
     }
   }
@@ -143,20 +158,20 @@ class MpiExecutor::Leading : public JobFeed {
   const OnMessage& on_message_;
   const OnEnd& on_end_;
   std::size_t next_ = 0, out_ = 0;
+  std::map<int, int> held_;  // by rank: jobs that it has and that have not ended
 };
 
-// Asks for jobs and does them. While they are brief it has one ahead, so that it need not wait for the next.
+// Asks for jobs, always for one more than it does, and does them.
 class MpiExecutor::Helping : public JobFeed {
  public:
   explicit Helping(const Work& work) : work_(work) {}
 
   bool is_over() override {
     while (const auto letter = next_letter()) {
-      if (letter->tag == kJob) waiting_.push_back(Json::parse(letter->text));
+      if (letter->tag == kJob) waiting_.push_back(Json::parse(letter->text)), --due_;
       is_over_ |= letter->tag == kOver;
     }
-    for (const int can_take = last_seconds_ < kBrief ? 2 : 1; !is_over_ && asked_ < can_take; ++asked_)
-      send(kLeader, kWant);
+    for (; !is_over_ && asked_ < 2; ++asked_, ++due_) send(kLeader, kWant);
     return is_over_;
   }
   std::optional<Numbered> next() override {
@@ -167,21 +182,19 @@ class MpiExecutor::Helping : public JobFeed {
     return Numbered{json.at("number").get<std::size_t>(),
                     {[this, job](const Channel& channel) { work_(job, channel); }, job.limit}};
   }
-  int longest_wait() const override { return static_cast<int>(kNap.count()); }
+  // While it has a job it need not look for letters: the job's end wakes it.
+  int longest_wait() const override { return asked_ > due_ ? JobFeed::longest_wait() : static_cast<int>(kNap.count()); }
 
   void end(std::size_t job, const JobEnd& end) {
-    last_seconds_ = end.seconds;
     --asked_;
     send(kLeader, kEnd, text_of(job, end));
   }
 
  private:
-  static constexpr double kBrief = 0.1;  // s
-
   const Work& work_;
   std::deque<Json> waiting_;
   int asked_ = 0;  // jobs asked for that have not ended
-  double last_seconds_ = 2 * kBrief;
+  int due_ = 0;    // of these, not got yet
   bool is_over_ = false;
 };
 

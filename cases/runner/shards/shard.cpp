@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "core/base/error.h"
 
@@ -88,6 +89,22 @@ Partition::Partition(const Results& grid, int count) {
   }
 }
 
+std::vector<int> shares_in(const Partition::OfCase& of_case) {
+  std::set<int> found(of_case.cells.begin(), of_case.cells.end());
+  found.insert(of_case.stable_steps.begin(), of_case.stable_steps.end());
+  found.erase(0);
+  if (found.empty()) found.insert(of_case.truth);
+  return {found.begin(), found.end()};
+}
+
+void leave_to_others(CaseResult& result, const Partition::OfCase& of_case, int shard) {
+  const auto leave = [&](auto& part, int of) {
+    if (of != 0 && of != shard) part.status = Status::unsupported, part.reason = kOfAnotherShard;
+  };
+  for (std::size_t i = 0; i < result.stable_steps.size(); ++i) leave(result.stable_steps[i], of_case.stable_steps[i]);
+  for (std::size_t i = 0; i < result.cells.size(); ++i) leave(result.cells[i], of_case.cells[i]);
+}
+
 Results share_of(const Results& grid, const Shard& shard) {
   const Partition partition(grid, shard.count);
   Results share;
@@ -95,13 +112,8 @@ Results share_of(const Results& grid, const Shard& shard) {
   for (std::size_t c = 0; c < grid.cases.size(); ++c) {
     const Partition::OfCase& of_case = partition.cases()[c];
     if (!of_case.has(shard.index)) continue;
-    CaseResult result = grid.cases[c];
-    const auto leave = [&](auto& part, int of) {
-      if (of != 0 && of != shard.index) part.status = Status::unsupported, part.reason = kOfAnotherShard;
-    };
-    for (std::size_t i = 0; i < result.stable_steps.size(); ++i) leave(result.stable_steps[i], of_case.stable_steps[i]);
-    for (std::size_t i = 0; i < result.cells.size(); ++i) leave(result.cells[i], of_case.cells[i]);
-    share.cases.push_back(std::move(result));
+    share.cases.push_back(grid.cases[c]);
+    leave_to_others(share.cases.back(), of_case, shard.index);
   }
   return share;
 }

@@ -36,6 +36,16 @@ class Partition {
   std::vector<OfCase> cases_;
 };
 
+// Into how many shares ranks cut a grid, whatever their number, so that another number of them can go on: enough that
+// they end together, few enough that few truths are made twice.
+inline constexpr int kShares = 1024;
+
+// Those that have a part in a case, one at least.
+std::vector<int> shares_in(const Partition::OfCase& of_case);
+
+// What the others do becomes `unsupported`.
+void leave_to_others(CaseResult& result, const Partition::OfCase& of_case, int shard);
+
 // The grid with the cases of one shard alone, in their order, and in them as `unsupported` what other shards do.
 Results share_of(const Results& grid, const Shard& shard);
 

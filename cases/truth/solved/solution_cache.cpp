@@ -134,8 +134,9 @@ std::string head_of(const std::string& content) {
 
 // Whether state_at and the error may rely on it.
 bool is_sound(const ReferenceSolution& s) {
-  return !s.times.empty() && s.states.size() == s.times.size() * s.dimension && !s.errors.empty() &&
-         s.errors.size() == s.error_times.size() &&
+  // Divided rather than multiplied: a garbled dimension may be any number.
+  return !s.times.empty() && s.states.size() % s.times.size() == 0 && s.states.size() / s.times.size() == s.dimension &&
+         !s.errors.empty() && s.errors.size() == s.error_times.size() &&
          (s.phases.times.empty() ? s.phases.modes.empty() : s.phases.modes.size() % s.phases.times.size() == 0);
 }
 

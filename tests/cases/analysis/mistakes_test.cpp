@@ -1,6 +1,7 @@
 // rigor diagnose: each mistake of the table, put into an engine, is named first; what is not in the table is not named;
 // two at once are both named. The short form takes a few of each; RIGOR_DIAGNOSE=all takes all, and prints the score;
-// RIGOR_DIAGNOSE=PART those whose names have this part in them.
+// RIGOR_DIAGNOSE=PART those whose names have this part in them. RIGOR_DIAGNOSE_SEED draws other pairs: those of 1 were
+// looked at while the thresholds were chosen, those of any other number had no part in it.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
@@ -75,11 +76,11 @@ Finders& finders() {
 }
 
 struct Score {
-  int right = 0, asked = 0, unseen = 0, wrong_and_sure = 0;
+  int right = 0, asked = 0, unseen = 0, wrong_and_sure = 0, halves = 0;  // of a pair the one, and not the other
   double share() const { return asked ? double(right) / asked : 1; }
   void say(const std::string& what) const {
     BOOST_TEST_MESSAGE(what << ": " << right << " of " << asked << "; without effect " << unseen << "; wrong and sure "
-                            << wrong_and_sure);
+                            << wrong_and_sure << "; one of two " << halves);
   }
 };
 
@@ -99,7 +100,8 @@ void take(const std::string& engine, const Fault& fault, const std::vector<std::
   }
   ++score.asked;
   const bool all_named = std::all_of(names.begin(), names.end(), [&](const auto& n) { return is_named(n, report); });
-  score.right += all_named;
+  const bool is_any = std::any_of(names.begin(), names.end(), [&](const auto& n) { return is_named(n, report); });
+  score.right += all_named, score.halves += is_any && !all_named;
   const bool is_sure = report.verdict == Verdict::named && report.suspects.front().explains > kConfident;
   score.wrong_and_sure += is_sure && !names_none_but(names, report);
   if (!all_named || !wanted().empty()) BOOST_TEST_MESSAGE(engine << ", " << fault.name << ": " << first_line(report));
@@ -197,9 +199,7 @@ BOOST_AUTO_TEST_CASE(a_mistake_of_the_table_is_named_first) {
       if (is_taken(fault.name, n, kEach)) take(engine, fault, {fault.name}, score);
     }
     score.say(engine + ", named first");
-    // Of sixteen that are each named with a chance of 0.95, one is missed more often than not.
-    const bool is_sample = wanted() != "all";
-    BOOST_TEST((score.share() >= 0.95 || (is_sample && score.right >= score.asked - 1)), engine);
+    BOOST_TEST(score.share() >= 0.95, engine);
     BOOST_TEST(score.wrong_and_sure == 0);
   }
 }
@@ -234,24 +234,24 @@ BOOST_AUTO_TEST_CASE(the_amount_of_a_mistake_is_found) {
   }
 }
 
-// That both are named in 0.7 of all pairs is asked of the full form alone: three say nothing of it.
-BOOST_AUTO_TEST_CASE(two_mistakes_at_once_are_not_taken_for_another) {
-  std::mt19937 random(1);
-  const std::size_t tried = wanted() == "all" ? 40 : wanted().empty() ? 3 : 0;
+// A pair of which one is named is neither both named nor, for that, a wrong name.
+BOOST_AUTO_TEST_CASE(two_mistakes_at_once_are_both_named) {
+  const char* seed = std::getenv("RIGOR_DIAGNOSE_SEED");
+  std::mt19937 random(seed ? static_cast<unsigned>(std::atoi(seed)) : 1);
+  const int tried = wanted() == "all" ? 40 : wanted().empty() ? 4 : 0;
   for (const std::string& engine : engines_asked()) {
     Score score;
-    while (static_cast<std::size_t>(score.asked) < tried) {
+    while (score.asked < tried) {
       const Fault &first = faults()[random() % faults().size()], &second = faults()[random() % faults().size()];
       if (first.name == second.name) continue;
       // Both have an effect by themselves.
       if (finders().of(engine, first).verdict == Verdict::right) continue;
       if (finders().of(engine, second).verdict == Verdict::right) continue;
       take(engine, combined(first, second), {first.name, second.name}, score);
-      const MistakeReport report = finders().of(engine, combined(first, second));
-      BOOST_TEST(names_none_but({first.name, second.name}, report), first_line(report));
     }
     score.say(engine + ", both named");
-    if (wanted() == "all") BOOST_TEST(score.share() >= 0.7, engine);
+    BOOST_TEST(score.share() >= 0.7, engine);
+    BOOST_TEST(score.wrong_and_sure == 0, engine);
   }
 }
 

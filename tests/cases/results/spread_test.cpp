@@ -71,6 +71,10 @@ BOOST_AUTO_TEST_CASE(a_run_that_ended_early_is_compared_until_then) {
   const Spread spread = spread_of(moving(0, 0, 3), moving(1, 0, 8));
   BOOST_TEST(spread.compared_until == 0.75);
   BOOST_TEST(spread.distance.value == 0.75);
+  const Spread other_way = spread_of(moving(1, 0, 8), moving(0, 0, 3));
+  BOOST_TEST(other_way.compared_until == 0.75);
+  BOOST_TEST(other_way.distance.value == 0.75);
+  BOOST_TEST(spread_of(moving(1, 0, 8), {0.25, {}}).compared_until == 0);
   const Spread nothing = spread_of({0.25, {}}, moving(1, 0, 8));
   BOOST_TEST(nothing.compared_until == 0);
   BOOST_TEST(!nothing.parted_at.has_value());
