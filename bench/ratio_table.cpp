@@ -243,7 +243,7 @@ std::string RatioTable::reached_by(const RatioRow& row) const {
   for (const auto& [name, words] : kReached) {
     const auto ours = of->second.find(name), theirs = against->second.find(name);
     if (ours != of->second.end() && theirs != against->second.end())
-      return fmt::format("  {} {:.2g} / {:.2g}", words, ours->second.value, theirs->second.value);
+      return fmt::format("  {} {:.2g} / {:.2g}", words, ours->second, theirs->second);
   }
   return "";
 }
@@ -277,7 +277,7 @@ void RatioTable::Finalize() {
   for (const auto& [name, values] : counters_) {
     for (const auto& [what, words] : kReached) {
       if (const auto value = values.find(what); value != values.end())
-        std::cout << fmt::format("{:<{}} {} {:.3g}\n", name, kNameWidth, what, value->second);
+        std::cout << fmt::format("{:<{}} {} {:.3g}\n", name, kNameWidth, words, value->second);
     }
   }
 }

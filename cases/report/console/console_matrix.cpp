@@ -165,10 +165,12 @@ std::string console_matrix(const Results& results) {
     text += "\n" + panel(results, {begin, end});
   }
   if (runs.size() < results.runs.size()) {
-    text += fmt::format(
-        "\n{} more runs, of other methods and tracks or of single cases, stand in the reports; --engine NAME:METHOD "
-        "shows one here.\n",
-        results.runs.size() - runs.size());
+    text += "\n" +
+            wrapped(fmt::format("{} more runs, of other methods and tracks or of single cases, stand in the reports; "
+                                "--engine NAME:METHOD shows one here.",
+                                results.runs.size() - runs.size()),
+                    0) +
+            "\n";
   }
   return text;
 }
