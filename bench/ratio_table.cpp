@@ -6,12 +6,14 @@
 #include <cmath>
 #include <iostream>
 
+#include "adapters/engines.h"
 #include "cases/report/json/machine.h"
 
 namespace rigor::bench {
 namespace {
 
-const std::string kCore = "core:semi-implicit-euler", kOde = "ode:worldstep", kBullet = "bullet:sequential-impulse";
+const std::string kCore = "core:semi-implicit-euler", kOde = "ode:worldstep", kBullet = "bullet:sequential-impulse",
+                  kDart = "dart:dantzig", kMujoco = "mujoco:euler";
 constexpr int kNameWidth = 58;
 
 std::string step(const std::string& scene, int count, const std::string& run) {
@@ -29,6 +31,22 @@ void add_pair(std::vector<RatioRow>& rows, const std::string& scene, int count, 
         {what + " against Bullet", step(scene, count, run), step(scene, count, kBullet), kind, times_bullet});
 }
 
+bool is_built(const std::string& run) {
+  const std::string engine = run.substr(0, run.find(':'));
+  const auto& infos = engines().infos();
+  return std::any_of(infos.begin(), infos.end(), [&](const EngineInfo& info) { return info.name == engine; });
+}
+
+// The engines that are built where their library is found.
+void add_optional(std::vector<RatioRow>& rows, const std::string& scene, int count, const std::string& run,
+                  double times) {
+  for (const std::string& other : {kDart, kMujoco}) {
+    if (!is_built(other)) continue;
+    rows.push_back({fmt::format("{}, N = {}, {} against {}", scene, count, run, other), step(scene, count, run),
+                    step(scene, count, other), RatioRow::Kind::times_as_fast, times});
+  }
+}
+
 // Mechanisms, by the core's projection, against each engine's own way of holding joints. Goals are for the chain of
 // 100; an engine that has no such joints or method is told of in its row.
 void add_joints(std::vector<RatioRow>& rows) {
@@ -43,6 +61,10 @@ void add_joints(std::vector<RatioRow>& rows) {
                     step(scene, count, other.run), RatioRow::Kind::times_as_fast, goal});
   };
   for (const Against& other : engines) add("chain", 100, other, other.goal);
+  if (is_built(kDart)) add("chain", 100, {kDart, 0}, 2);
+  if (is_built(kMujoco)) add("chain", 95, {kMujoco, 0}, 2);  // its reader of scenes goes no deeper
+  for (const std::string& other : {kDart, kMujoco})
+    if (is_built(other)) add("ragdolls", 1000, {other, 0}, 2);
   for (const auto& [scene, count] : {std::pair("chain", 1),
                                      {"chain", 10},
                                      {"chain", 1000},
@@ -57,6 +79,7 @@ std::vector<RatioRow> all_rows() {
   using Kind = RatioRow::Kind;
   std::vector<RatioRow> rows;
   add_pair(rows, "free-bodies", 1000, kCore, kOde, 20, 40);
+  add_optional(rows, "free-bodies", 1000, kCore, 50);
   add_pair(rows, "free-bodies", 1000, "core:rk4", kOde, 10, 0);
   add_pair(rows, "free-bodies", 1, kCore, kOde, 5, 10);
   add_pair(rows, "spring-chain", 1000, kCore, kOde, 8, 15);
@@ -65,6 +88,7 @@ std::vector<RatioRow> all_rows() {
   add_pair(rows, "bouncing-spheres", 1000, kCore, kOde, 20, 60);
   const std::string impulse = kCore + ",contact=impulse", quick = "ode:quickstep";
   add_pair(rows, "pile", 216, impulse, quick, 2, 2);
+  add_optional(rows, "pile", 216, impulse, 4);
   add_pair(rows, "pyramid", 1240, impulse, quick, 1.5, 1.5);
   add_joints(rows);
   rows.push_back({"free-bodies, N = 1000000, against copying the state", step("free-bodies", 1000000, kCore),
@@ -91,6 +115,12 @@ std::vector<RatioRow> all_rows() {
 const std::vector<std::string> kAlone = {"harness/cell", "harness/read-case/springs/body-springs",
                                          "harness/truth/springs/fixed-spring",
                                          "harness/truth-kept/springs/fixed-spring", "limit/copy/1000"};
+
+// What is counted beside the time, and its words.
+constexpr std::pair<const char*, const char*> kReached[] = {{"error_m_rad", "error [m, rad]"},
+                                                            {"energy_error", "energy error"},
+                                                            {"penetration_m", "deepest overlap [m]"},
+                                                            {"joint_gap_m", "widest gap [m]"}};
 
 // How the cost of a body grows with N.
 struct Growth {
@@ -200,9 +230,22 @@ void RatioTable::print_row(const RatioRow& row) {
   std::cout << fmt::format("{:<{}} {:>9} {:>9} {:>9}  {:<19} {:>9}  {}\n", row.what, kNameWidth, time_text(median(of)),
                            time_text(median(against)), value_text(row.kind, value),
                            value_text(row.kind, *low) + " .. " + value_text(row.kind, *high), goal_text(row),
-                           row.goal == 0       ? ""
-                           : holds(row, value) ? "yes"
-                                               : "no");
+                           (row.goal == 0       ? ""
+                            : holds(row, value) ? "yes"
+                                                : "no ") +
+                               reached_by(row));
+}
+
+// "joint gap 7.9e-15 / 3.7e-06 m": what both reach beside their speed, where both were looked at for the same.
+std::string RatioTable::reached_by(const RatioRow& row) const {
+  const auto of = counters_.find(row.of), against = counters_.find(row.against);
+  if (of == counters_.end() || against == counters_.end()) return "";
+  for (const auto& [name, words] : kReached) {
+    const auto ours = of->second.find(name), theirs = against->second.find(name);
+    if (ours != of->second.end() && theirs != against->second.end())
+      return fmt::format("  {} {:.2g} / {:.2g}", words, ours->second, theirs->second);
+  }
+  return "";
 }
 
 void RatioTable::print_growth() {
@@ -223,8 +266,8 @@ void RatioTable::print_alone(const std::string& name) {
 }
 
 void RatioTable::Finalize() {
-  std::cout << fmt::format("\n{:<{}} {:>9} {:>9} {:>9}  {:<19} {:>9}  met\n", "per body and step", kNameWidth, "this",
-                           "other", "ratio", "range", "goal");
+  std::cout << fmt::format("\n{:<{}} {:>9} {:>9} {:>9}  {:<19} {:>9}  met, and what both reach\n", "per body and step",
+                           kNameWidth, "this", "other", "ratio", "range", "goal");
   for (const RatioRow& row : ratio_rows()) {
     if (ns_.contains(row.of) || ns_.contains(row.against) || skipped_.contains(row.of)) print_row(row);
   }
@@ -232,9 +275,9 @@ void RatioTable::Finalize() {
   for (const std::string& name : kAlone) print_alone(name);
   std::cout << "\nreached\n";
   for (const auto& [name, values] : counters_) {
-    for (const char* what : {"error_m_rad", "energy_error", "penetration_m", "joint_gap_m"}) {
+    for (const auto& [what, words] : kReached) {
       if (const auto value = values.find(what); value != values.end())
-        std::cout << fmt::format("{:<{}} {} {:.3g}\n", name, kNameWidth, what, value->second);
+        std::cout << fmt::format("{:<{}} {} {:.3g}\n", name, kNameWidth, words, value->second);
     }
   }
 }

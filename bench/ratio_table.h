@@ -33,6 +33,7 @@ class RatioTable : public benchmark::BenchmarkReporter {
  private:
   using Rounds = std::vector<double>;  // ns per body and step, or ns
   void print_row(const RatioRow& row);
+  std::string reached_by(const RatioRow& row) const;
   void print_alone(const std::string& name);
   void print_growth();
 

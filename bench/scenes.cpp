@@ -260,7 +260,7 @@ const std::vector<SceneRow>& scenes() {
   static const std::vector<SceneRow> table = {
       {"ballistic/projectile", {1}, kCourse, Reached::trajectory, false, of_the_suite},
       {"bouncing-spheres", {1, 100, 1000, 10000}, kFine, Reached::energy, false, bouncing_spheres},
-      {"chain", {1, 10, 100, 1000}, kFine, Reached::joint_gap, false, joint_chain},
+      {"chain", {1, 10, 95, 100, 1000}, kFine, Reached::joint_gap, false, joint_chain},
       {"contact/collision", {1}, kCourse, Reached::energy, false, of_the_suite},
       {"four-bars", {21, 81}, kFine, Reached::joint_gap, false, four_bars},
       {"free-bodies", {1, 10, 100, 1000, 10000, 100000, 1000000}, kFine, Reached::trajectory, true, free_bodies},

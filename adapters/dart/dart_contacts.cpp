@@ -146,7 +146,7 @@ DartPlaneEdges::DartPlaneEdges(const Scene& scene) {
   }
 }
 
-std::string DartPlaneEdges::left_by(BodyColumns bodies) const {
+void DartPlaneEdges::check(BodyColumns bodies) const {
   for (std::size_t p = 0; p < planes_.size(); ++p) {
     const Vec3& normal = planes_[p].normal;
     for (const Solid& solid : solids_) {
@@ -154,13 +154,13 @@ std::string DartPlaneEdges::left_by(BodyColumns bodies) const {
       const double height = normal.dot(position) - planes_[p].offset;
       const double beside = (position - normal.dot(position) * normal).norm();
       if (height > solid.reach || beside + solid.reach < kDartPlaneReach) continue;
-      return fmt::format(
-          "body '{}' is {:.0f} m from the point of plane '{}' next to the origin, and the box that stands "
-          "for a plane in DART ends at {:g} m",
-          solid.name, beside, names_[p], kDartPlaneReach);
+      throw EngineFailure(
+          beside > 2 * kDartPlaneReach ? FailureKind::diverged : FailureKind::unsupported,
+          fmt::format("body '{}' is {:.0f} m from the point of plane '{}' next to the origin, and the box that stands "
+                      "for a plane in DART ends at {:g} m",
+                      solid.name, beside, names_[p], kDartPlaneReach));
     }
   }
-  return "";
 }
 
 }  // namespace rigor

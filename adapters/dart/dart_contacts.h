@@ -16,11 +16,13 @@ inline constexpr double kDartPlaneReach = 500;
 // Gives the bodies their shapes. What it returns has to be the filter of the world's collisions.
 std::shared_ptr<::dart::collision::CollisionFilter> add_dart_shapes(const Scene& scene, DartBodies& made);
 
-// Whether a body has come beside the box that stands for a plane; then the sentence that says so, else nothing.
+// The box that stands for a plane has edges.
 class DartPlaneEdges {
  public:
   explicit DartPlaneEdges(const Scene& scene);
-  std::string left_by(BodyColumns bodies) const;
+  // Throws EngineFailure for a body that has come beside the box, where nothing would hold it: as unsupported, or as
+  // diverged where it is so far off that it has been thrown there.
+  void check(BodyColumns bodies) const;
 
  private:
   struct Solid {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "adapters/reduced_twin.h"
 
@@ -24,8 +23,8 @@ Mat3 exponential(const Vec3& v) {
 Vec3 logarithm(const Mat3& m) {
   const Vec3 twice_sine(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1));
   const double angle = std::acos(std::clamp(0.5 * (m.trace() - 1), -1.0, 1.0));
-  constexpr double kTiny = 1e-6, kNearlyHalf = std::numbers::pi - 1e-3;  // rad
-  if (angle > kNearlyHalf) {
+  constexpr double kTiny = 1e-6, kLarge = 1;  // rad; near half a turn the sine is a rounding
+  if (angle > kLarge) {
     const Eigen::AngleAxisd turn(Quat(m).normalized());
     return turn.angle() * turn.axis();
   }

@@ -186,7 +186,12 @@ const char* const kDirections =
     "its constraint force mixing, here 1e-10 of 1/m, makes what friction does depend by as much on the two directions "
     "that it is split into; after a first impact without sliding these are left to rounding";
 constexpr double kMixing = 1e-9;  // ten times the mixing: a few impacts
+const char* const kCutOff =
+    "its exponential map is cut off below 1e-3 rad, for orientations as for turns, so that W's own axes are not like "
+    "others (dart/README.md)";
 const std::vector<Exception> kExceptions = {
+    {"turned frame", "dart", "", false, 1e-8, kCutOff},
+    {"turned frame", "core:dart-twin", "", false, 1e-8, "does as DART does"},
     {"smaller masses", "bullet", "", false, kAnyAmount,
      "leaves out the gyroscopic torque of small moments of inertia (bullet_twin.cpp)"},
     {"smaller masses", "core:bullet-twin", "", false, kAnyAmount, "does as Bullet does"},

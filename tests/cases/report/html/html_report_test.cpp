@@ -104,8 +104,8 @@ BOOST_AUTO_TEST_CASE(the_programs_own_report_works_in_a_browser, *boost::unit_te
   Folder folder;
   const std::string out = (folder.path / "out").string();
   const std::string engines =
-      " --engine ode --engine ode@stock --engine bullet --engine core:explicit-euler --engine core:rk4 --engine "
-      "core:semi-implicit-euler";
+      " --engine ode --engine ode@stock --engine bullet --engine bullet@stock --engine core:explicit-euler --engine "
+      "core:rk4 --engine core:semi-implicit-euler --engine core:velocity-verlet";
   BOOST_TEST_REQUIRE(succeeds(std::string(RIGOR_PROGRAM) +
                                   " run springs/fixed-spring springs/stiff-3 tops/asymmetric-top contact/collision "
                                   "contact/friction-fan joints/pendulum-90 "

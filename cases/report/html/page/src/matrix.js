@@ -26,15 +26,38 @@ export const shownAside = {
   cost: "CPU time",
 };
 
+// Up to so many columns are read at a glance; of more, each engine's first stands for it until it is opened.
+const readableColumns = 7;
+const engineOf = (run) => run.name.split(/[:@,]/)[0];
+
 export class Matrix {
   constructor(results) {
     (this.results = results), (this.root = el("div.matrix-scroll", { tabindex: -1 }));
+    this.opened = new Set();
+  }
+
+  // Runs by engine, in the order in which engines first come.
+  groups(runs) {
+    const groups = new Map();
+    for (const run of runs) groups.set(engineOf(run), [...(groups.get(engineOf(run)) ?? []), run]);
+    return [...groups].map(([name, members]) => {
+      const isOpen = runs.length <= readableColumns || this.opened.has(name);
+      return { name, members, isOpen, shown: isOpen ? members : members.slice(0, 1) };
+    });
+  }
+
+  toggle(name) {
+    if (!this.opened.delete(name)) this.opened.add(name);
+    this.draw(this.dt, this.filter);
+    [...this.root.querySelectorAll("button.open-engine")].find((button) => button.dataset.engine === name)?.focus();
   }
 
   draw(dt, filter) {
-    this.dt = dt;
+    (this.dt = dt), (this.filter = filter);
     const cases = this.results.cases.filter((c) => !filter || `${c.id} ${c.title}`.toLowerCase().includes(filter));
-    const engines = this.results.engines.filter((e) => this.results.cells.some((c) => c.engine === e.name));
+    const runs = this.results.engines.filter((e) => this.results.cells.some((c) => c.engine === e.name));
+    const groups = this.groups(runs),
+      engines = groups.flatMap((group) => group.shown);
     const rare = engines.filter((e) => e.isRare).length;
     const families = new Map();
     for (const one of cases) families.set(one.family, [...(families.get(one.family) ?? []), one]);
@@ -42,7 +65,7 @@ export class Matrix {
       "table.matrix",
       { "aria-label": `Cases by engines at dt = ${dt.text} s` },
       el("caption", {}, this.caption()),
-      this.head(engines),
+      this.head(engines, runs.length > readableColumns ? groups : null),
       this.summary(cases, engines),
     );
     for (const [family, members] of [...families].sort((a, b) => (a[0] < b[0] ? -1 : 1))) {
@@ -79,8 +102,35 @@ export class Matrix {
     ];
   }
 
-  head(engines) {
-    return tableHead(
+  // Over the columns, each engine's name, and how many more runs of it there are.
+  engineHeads(groups) {
+    const button = ({ name, members, isOpen }) =>
+      el(
+        "button.open-engine",
+        {
+          "aria-expanded": String(isOpen),
+          "data-engine": name,
+          title: isOpen ? `${name}: only its first run` : `${name}: all ${members.length} of its runs`,
+          onclick: () => this.toggle(name),
+        },
+        isOpen ? `${name} −` : `${name} +${members.length - 1}`,
+      );
+    return el(
+      "tr.engine-heads",
+      {},
+      el("td"),
+      groups.map((group) =>
+        el(
+          "th",
+          { scope: "colgroup", colspan: group.shown.length },
+          group.members.length > 1 ? button(group) : group.name,
+        ),
+      ),
+    );
+  }
+
+  head(engines, groups) {
+    const head = tableHead(
       el("th.corner", { scope: "col" }, "case"),
       engines.map((engine) => {
         const [who, method] = engineParts(engine.name);
@@ -94,6 +144,8 @@ export class Matrix {
         );
       }),
     );
+    if (groups) head.prepend(this.engineHeads(groups));
+    return head;
   }
 
   // What an engine's column comes to over all cases shown.
