@@ -1,4 +1,4 @@
-// ODE and Bullet against their twins: on smooth scenes an engine must do what its published scheme does, to rounding.
+// Engines against their twins: on smooth scenes an engine must do what its published scheme does, to rounding.
 #include <boost/test/unit_test.hpp>
 
 #include "cases/case/suite.h"
@@ -65,9 +65,9 @@ std::vector<SmoothScene> smooth_scenes() {
           {"slow swing", slow_swing(), 20}};
 }
 
-bool has_mujoco() {  // it is built where its library is
+bool has(const std::string& engine) {  // some are built where their library is
   const auto& infos = infos_of(engines());
-  return std::any_of(infos.begin(), infos.end(), [](const EngineInfo& info) { return info.name == "mujoco"; });
+  return std::any_of(infos.begin(), infos.end(), [&](const EngineInfo& info) { return info.name == engine; });
 }
 
 // Each engine that has a twin, with every combination of the options that its twin knows, on both tracks.
@@ -85,11 +85,16 @@ std::vector<std::string> runs_with_twins() {
     for (const char* gyroscopic : {"implicit-body", "implicit-world", "explicit", "off"}) {
       names.push_back(std::string("bullet,gyroscopic=") + gyroscopic + "@" + track);
     }
-    if (has_mujoco()) {
+    if (has("mujoco")) {
       for (const char* method : {"euler", "implicit", "rk4"})
         names.push_back(std::string("mujoco:") + method + "@" + track);
     }
+    if (has("simbody")) names.push_back(std::string("simbody:semi-explicit-euler@") + track);
     for (const char* engine : {"ode", "ode:quickstep", "bullet"}) names.push_back(std::string(engine) + "@" + track);
+  }
+  if (has("simbody")) {  // as shipped the others choose their own steps
+    for (const char* method : {"explicit-euler", "merson", "rk2", "rk3", "verlet"})
+      names.push_back(std::string("simbody:") + method);
   }
   return names;
 }
@@ -146,7 +151,8 @@ BOOST_AUTO_TEST_CASE(in_every_smooth_case_of_the_suite_an_engine_does_what_its_s
     const StepSize dt = *std::max_element(definition.dt.begin(), definition.dt.end(),
                                           [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
     std::vector<std::string> runs = {"ode", "ode@stock", "bullet", "bullet@stock"};
-    if (has_mujoco()) runs.insert(runs.end(), {"mujoco", "mujoco:implicit", "mujoco:rk4"});
+    if (has("mujoco")) runs.insert(runs.end(), {"mujoco", "mujoco:implicit", "mujoco:rk4"});
+    if (has("simbody")) runs.insert(runs.end(), {"simbody", "simbody:semi-explicit-euler"});
     for (const std::string& text : runs) {
       const RunName name = parse_run_name(text, infos);
       const auto twin = twin_of(engines(), name, scene);
