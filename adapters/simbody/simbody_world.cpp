@@ -127,11 +127,20 @@ class SimbodyWorld : public World {
   std::string solver_warning_;
 };
 
-// Of constraints that all repeat what the tree of joints says already.
+// Of constraints that all repeat what the tree of joints says already the matrix G M⁻¹ Gᵀ is nothing but roundings,
+// which Simbody, whose ranks are relative, takes for a matrix. Squares of roundings are below 1e-30 of what a row else
+// comes to.
 void SimbodyWorld::refuse_what_has_no_forces() const {
   SimTK::State state = system_.start();
   system_.system().realize(state, SimTK::Stage::Acceleration);
-  if (state.getNMultipliers() == 0 || std::isfinite(largest_in(state.getMultipliers()))) return;
+  if (state.getNMultipliers() == 0) return;
+  SimTK::Matrix matrix;
+  system_.matter().calcProjectedMInv(state, matrix);
+  double heaviest = 0, largest = 0;  // kg or kg m²; 1/kg or 1/(kg m²)
+  for (const Body& body : system_.scene().bodies)
+    if (!body.fixed) heaviest = std::max({heaviest, body.mass, body.inertia.diagonal().maxCoeff()});
+  for (int i = 0; i < matrix.nrow(); ++i) largest = std::max(largest, std::abs(matrix(i, i)));
+  if (largest * heaviest > 1e-20) return;
   throw EngineFailure(FailureKind::unsupported,
                       "Simbody finds no forces for the joints that close loops: all that they say, others say already");
 }
@@ -172,8 +181,8 @@ void SimbodyWorld::set_lost(MutableBodyColumns out) const {
 
 SettingsInForce SimbodyWorld::settings_in_force() const {
   const SimTK::Vec3 g = system_.gravity();
-  const SimTK::State& state = system_.start();
-  const int equations = state.getNMultipliers();
+  const SimTK::State& state = moves_ ? integrator_->getState() : system_.start();
+  const int equations = moves_ ? state.getNMultipliers() : 0;
   const std::string step =
       is_fixed_step_ ? "dt" : fmt::format("as its error asks: accuracy {:g}", integrator_->getAccuracyInUse());
   SettingsInForce in_force = {

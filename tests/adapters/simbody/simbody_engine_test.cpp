@@ -200,7 +200,7 @@ BOOST_AUTO_TEST_CASE(rings_of_one_kind_of_joint_are_closed_by_constraints) {
   }
 }
 
-// Constraints that say no more than the tree does leave Simbody a matrix of zeros, of which it makes numbers that are
+// Constraints that say no more than the tree does leave Simbody a matrix of roundings, of which it makes forces that are
 // none.
 BOOST_AUTO_TEST_CASE(a_joint_said_twice_is_refused) {
   for (Joint joint : joints_of_each_kind()) {
