@@ -162,6 +162,10 @@ void register_harness() {
     };
     add("raw/bullet", [count](benchmark::State& s) { time_raw(s, raw_bullet, count); });
     add("raw/ode", [count](benchmark::State& s) { time_raw(s, raw_ode, count); });
+#ifdef RIGOR_WITH_SIMBODY
+    add("raw/simbody", [count](benchmark::State& s) { time_raw(s, raw_simbody, count); });
+    add("seam/simbody", [count](benchmark::State& s) { time_seam(s, "simbody", "merson", count); });
+#endif
     add("seam/bullet", [count](benchmark::State& s) { time_seam(s, "bullet", "sequential-impulse", count); });
     add("seam/ode", [count](benchmark::State& s) { time_seam(s, "ode", "worldstep", count); });
   }

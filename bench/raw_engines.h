@@ -1,4 +1,4 @@
-// ODE and Bullet as a program of their own would call them, set as their adapters set them: what the seam is held to.
+// ODE, Bullet and Simbody as a program of their own would call them, set as their adapters set them: what the seam is held to.
 #pragma once
 
 #include <memory>
@@ -18,5 +18,6 @@ class RawWorld {
 // Free bodies alone: no shapes, springs or forces.
 std::unique_ptr<RawWorld> raw_ode(const Scene& scene);
 std::unique_ptr<RawWorld> raw_bullet(const Scene& scene);
+std::unique_ptr<RawWorld> raw_simbody(const Scene& scene);  // where the build has Simbody
 
 }  // namespace rigor::bench

@@ -44,6 +44,8 @@ class StageLoads : public SimTK::Force::Custom::Implementation {
   void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& on_bodies, SimTK::Vector_<SimTK::Vec3>&,
                  SimTK::Vector&) const override {
     owner_.read(state, bodies_.columns());
+    for (std::size_t i = 0; i < bodies_.size(); ++i)  // a stage's quaternion is not of length 1; Simbody's pose is
+      bodies_.columns().set_orientation(i, bodies_.columns().orientation(i).normalized());
     owner_.loads_.evaluate(bodies_.columns(), owner_.from_, owner_.to_ - owner_.from_, wrenches_);
     for (std::size_t i = 0; i < wrenches_.size(); ++i) {
       if (!owner_.scene_.bodies[i].fixed)

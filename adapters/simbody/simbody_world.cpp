@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,6 +10,7 @@
 
 #include "adapters/simbody/simbody_system.h"
 #include "core/engine/clock.h"
+#include "core/engine/engine_failure.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
@@ -53,8 +55,16 @@ constexpr double kLongestStep = 1e9;  // s
 // step, a tight one does. Likewise for constraints that a step leaves by more than the root of their tolerance.
 constexpr double kLoosest = 0.5, kConstraintTolerance = 1e-3;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Beyond it a state is one that blew up; MuJoCo draws the same line.
 constexpr double kBlownUp = 1e10;
+
+double largest_in(const SimTK::Vector& numbers) {  // infinite if one is not finite
+  double largest = 0;
+  for (int i = 0; i < numbers.size(); ++i)
+    largest = std::max(largest, std::isfinite(numbers[i]) ? std::abs(numbers[i]) : kInfinity);
+  return largest;
+}
 
 class SimbodyWorld : public World {
  public:
@@ -72,7 +82,9 @@ class SimbodyWorld : public World {
     // What steps past the end and reads between would step past a jump of the loads too.
     const bool jumps = !scene.forces.empty() || !scene.motors.empty();
     if (!steps.reads_between || jumps) integrator_->setAllowInterpolation(false);
-    system_.set_interval(0, 0);
+    moves_ = system_.start().getNU() > 0;
+    if (!moves_) return;
+    refuse_what_has_no_forces();
     integrator_->initialize(system_.start());
   }
 
@@ -81,7 +93,7 @@ class SimbodyWorld : public World {
     clock_.advance(dt);
     const double end = clock_.time();
     solver_warning_.clear();
-    while (!lost_ && from < end) {  // parts in which no load begins or ends, so that none lies within a step
+    while (moves_ && !lost_ && from < end) {  // parts in which no load begins or ends, so that none lies within a step
       const double to = system_.loads().next_switch(from, end);
       advance(from, to);
       from = to;
@@ -92,7 +104,7 @@ class SimbodyWorld : public World {
     out.time = clock_.time();
     const MutableBodyColumns columns = out.own(system_.scene().bodies.size());
     if (lost_) return set_lost(columns);
-    const SimTK::State& state = integrator_->getState();
+    const SimTK::State& state = moves_ ? integrator_->getState() : system_.start();
     system_.system().realize(state, SimTK::Stage::Velocity);
     system_.read(state, columns);
   }
@@ -101,6 +113,7 @@ class SimbodyWorld : public World {
   std::string solver_warning() const override { return solver_warning_; }
 
  private:
+  void refuse_what_has_no_forces() const;
   void advance(double from, double to);
   void note_what_was_not_done(int failures);
   void set_lost(MutableBodyColumns out) const;
@@ -109,23 +122,46 @@ class SimbodyWorld : public World {
   bool is_fixed_step_;
   IntegratorPointer integrator_;
   Clock clock_;
+  bool moves_;         // something has a speed: CPODES aborts where nothing has
   bool lost_ = false;  // blown up: from then on its state is "not a number"
   std::string solver_warning_;
 };
 
-// A first call after a start returns at once, without a step; and a change of the loads is a start.
+// Of constraints that all repeat what the tree of joints says already the matrix G M⁻¹ Gᵀ is nothing but roundings,
+// which Simbody, whose ranks are relative, takes for a matrix. Squares of roundings are below 1e-30 of what a row else
+// comes to.
+void SimbodyWorld::refuse_what_has_no_forces() const {
+  SimTK::State state = system_.start();
+  system_.system().realize(state, SimTK::Stage::Acceleration);
+  if (state.getNMultipliers() == 0) return;
+  SimTK::Matrix matrix;
+  system_.matter().calcProjectedMInv(state, matrix);
+  double heaviest = 0, largest = 0;  // kg or kg m²; 1/kg or 1/(kg m²)
+  for (const Body& body : system_.scene().bodies)
+    if (!body.fixed) heaviest = std::max({heaviest, body.mass, body.inertia.diagonal().maxCoeff()});
+  for (int i = 0; i < matrix.nrow(); ++i) largest = std::max(largest, std::abs(matrix(i, i)));
+  if (largest * heaviest > 1e-20) return;
+  throw EngineFailure(FailureKind::unsupported,
+                      "Simbody finds no forces for the joints that close loops: all that they say, others say already");
+}
+
+// A first call after a start returns at once, without a step; and a change of the loads is a start, before which what
+// was worked out with the old ones has to be forgotten.
 void SimbodyWorld::advance(double from, double to) {
   const int failures = integrator_->getNumConvergenceTestFailures();
   try {
-    if (system_.set_interval(from, to)) integrator_->reinitialize(SimTK::Stage::Dynamics, false);
+    if (system_.set_interval(from, to)) {
+      integrator_->updAdvancedState().invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
+      integrator_->reinitialize(SimTK::Stage::Dynamics, false);
+    }
     while (integrator_->getTime() < to) integrator_->stepTo(to, to);
   } catch (const std::exception& error) {
-    const SimTK::Vector& y = integrator_->getAdvancedState().getY();
-    if (y.normInf() < kBlownUp) throw;  // its own failure: it costs the cell
+    if (largest_in(integrator_->getAdvancedState().getY()) < kBlownUp) throw;  // its own failure: it costs the cell
     lost_ = true;
     solver_warning_ = fmt::format("Simbody gave up on numbers that passed {:g}: {}", kBlownUp, error.what());
     return;
   }
+  lost_ = !std::isfinite(largest_in(integrator_->getAdvancedState().getY()));
   if (is_fixed_step_) note_what_was_not_done(integrator_->getNumConvergenceTestFailures() - failures);
 }
 
@@ -145,8 +181,8 @@ void SimbodyWorld::set_lost(MutableBodyColumns out) const {
 
 SettingsInForce SimbodyWorld::settings_in_force() const {
   const SimTK::Vec3 g = system_.gravity();
-  const SimTK::State& state = integrator_->getState();
-  const int equations = state.getNMultipliers();
+  const SimTK::State& state = moves_ ? integrator_->getState() : system_.start();
+  const int equations = moves_ ? state.getNMultipliers() : 0;
   const std::string step =
       is_fixed_step_ ? "dt" : fmt::format("as its error asks: accuracy {:g}", integrator_->getAccuracyInUse());
   SettingsInForce in_force = {

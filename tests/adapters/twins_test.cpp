@@ -1,4 +1,4 @@
-// ODE and Bullet against their twins: on smooth scenes an engine must do what its published scheme does, to rounding.
+// Engines against their twins: on smooth scenes an engine must do what its published scheme does, to rounding.
 #include <boost/test/unit_test.hpp>
 
 #include "cases/case/suite.h"
@@ -91,7 +91,12 @@ std::vector<std::string> runs_with_twins() {
         names.push_back(std::string("mujoco:") + method + "@" + track);
     }
     if (is_built("dart")) names.push_back(std::string("dart@") + track);
+    if (is_built("simbody")) names.push_back(std::string("simbody:semi-explicit-euler@") + track);
     for (const char* engine : {"ode", "ode:quickstep", "bullet"}) names.push_back(std::string(engine) + "@" + track);
+  }
+  if (is_built("simbody")) {  // as shipped the others choose their own steps
+    for (const char* method : {"explicit-euler", "merson", "rk2", "rk3", "verlet"})
+      names.push_back(std::string("simbody:") + method);
   }
   return names;
 }
@@ -150,6 +155,7 @@ BOOST_AUTO_TEST_CASE(in_every_smooth_case_of_the_suite_an_engine_does_what_its_s
     std::vector<std::string> runs = {"ode", "ode@stock", "bullet", "bullet@stock"};
     if (is_built("dart")) runs.insert(runs.end(), {"dart", "dart@stock"});
     if (is_built("mujoco")) runs.insert(runs.end(), {"mujoco", "mujoco:implicit", "mujoco:rk4"});
+    if (is_built("simbody")) runs.insert(runs.end(), {"simbody", "simbody:semi-explicit-euler"});
     for (const std::string& text : runs) {
       const RunName name = parse_run_name(text, infos);
       const auto twin = twin_of(engines(), name, scene);
