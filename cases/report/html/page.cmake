@@ -1,4 +1,4 @@
-# Builds the page of report.html into rigor_light. npm installs what package-lock.json names into the build tree, once;
+# Builds the page of report.html into rigor_light, a part of cases. npm installs what package-lock.json names into the build tree, once;
 # esbuild bundles it with page/src; the outcome is a C++ source. Nothing of it is needed when Rigor runs.
 set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/../reports.cpp PROPERTIES
   COMPILE_DEFINITIONS RIGOR_HTML_REPORT=$<BOOL:${RIGOR_HTML_REPORT}>)

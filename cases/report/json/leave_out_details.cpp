@@ -49,10 +49,8 @@ void shorten_cells(Json& cells) {
   for (std::size_t place = 0; place < cells.size(); ++place) {
     Json& cell = cells[place];
     keep_values(cell.at("metrics"));
-    if (Json& scheme = cell.at("by_scheme"); !scheme.is_null()) {
-      keep_values(scheme.at("metrics"));
-      keep_values(scheme.at("without_gyroscopic_term"));
-    }
+    if (Json& scheme = cell.at("by_scheme"); !scheme.is_null())
+      scheme.at("metrics").clear(), scheme.at("without_gyroscopic_term").clear();
     shorten_verdict(cell.at("verdict"));
     for (Json& answer : cell.at("gates")) answer.erase("text");
     if (cell.at("settings").empty()) continue;
