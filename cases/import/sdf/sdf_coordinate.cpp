@@ -1,4 +1,4 @@
-#include "cases/import/sdf_coordinate.h"
+#include "cases/import/sdf/sdf_coordinate.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cases/import/sdf_reader.h"
+#include "cases/import/sdf/sdf_reader.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 
 #include "cases/import/model_elements.h"
 #include "cases/import/model_files.h"
-#include "cases/import/sdf_coordinate.h"
-#include "cases/import/sdf_frames.h"
-#include "cases/import/sdf_link.h"
+#include "cases/import/sdf/sdf_coordinate.h"
+#include "cases/import/sdf/sdf_frames.h"
+#include "cases/import/sdf/sdf_link.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
