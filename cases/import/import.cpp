@@ -11,7 +11,7 @@
 #include "cases/import/assembly.h"
 #include "cases/import/memory_limit.h"
 #include "cases/import/model_files.h"
-#include "cases/import/sdf_reader.h"
+#include "cases/import/sdf/sdf_reader.h"
 #include "cases/import/urdf_reader.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"

@@ -18,7 +18,7 @@ void keep_values(Json& metrics) {
     if (metric.contains("value")) {
       kept[name] = {{"value", metric.at("value")}};
     } else if (metric.at("not_applicable").get<std::string>().starts_with("not measured")) {
-      kept[name] = metric;
+      kept[name] = {{"not_applicable", "not measured"}};
     }
   }
   metrics = kept;
@@ -30,16 +30,29 @@ void drop_text_of_held(Json& answers) {
   }
 }
 
+// Of a stable cell the reason goes: that nothing was found.
+void shorten_verdict(Json& verdict) {
+  if (!verdict.is_null() && verdict.at("word") == "stable") verdict["why"] = "";
+}
+
+template <typename F>
+void drop_rows_that(const F& say_nothing, Json& rows) {
+  Json kept = Json::array();
+  for (const Json& row : rows) {
+    if (!say_nothing(row)) kept.push_back(row);
+  }
+  rows = kept;
+}
+
 void shorten_cells(Json& cells) {
   std::map<std::string, std::size_t> told;  // by settings: the place of the first cell with them
   for (std::size_t place = 0; place < cells.size(); ++place) {
     Json& cell = cells[place];
     keep_values(cell.at("metrics"));
-    if (Json& scheme = cell.at("by_scheme"); !scheme.is_null()) {
-      keep_values(scheme.at("metrics"));
-      keep_values(scheme.at("without_gyroscopic_term"));
-    }
-    drop_text_of_held(cell.at("gates"));
+    if (Json& scheme = cell.at("by_scheme"); !scheme.is_null())
+      scheme.at("metrics").clear(), scheme.at("without_gyroscopic_term").clear();
+    shorten_verdict(cell.at("verdict"));
+    for (Json& answer : cell.at("gates")) answer.erase("text");
     if (cell.at("settings").empty()) continue;
     const auto [first, is_new] = told.try_emplace(text_of(cell.at("settings"), -1), place);
     if (!is_new) cell["settings"] = Json::object(), cell["settings_of"] = first->second;
@@ -50,9 +63,11 @@ void shorten_cells(Json& cells) {
 
 void leave_out_details(Json& results) {
   shorten_cells(results.at("cells"));
+  drop_rows_that([](const Json& row) { return row.at("reason") == "not asked for"; }, results.at("stable_dt"));
   for (Json& one : results.at("cases")) {
     one.at("spread").clear();
-    for (Json& order : one.at("observed_order")) order.erase("errors"), order.erase("not_applicable");
+    drop_rows_that([](const Json& order) { return order.at("value").is_null(); }, one.at("observed_order"));
+    for (Json& order : one.at("observed_order")) order.erase("errors");
     for (Json& gate : one.at("gates")) drop_text_of_held(gate.at("answers"));
   }
 }

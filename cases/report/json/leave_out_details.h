@@ -9,9 +9,10 @@ namespace rigor {
 
 inline constexpr std::size_t kMostCasesInDetail = 10;
 
-// Out of what results_json() made: what a metric is besides its value, and metrics without one; what held gates say;
-// spreads, and what observed orders are made of. Settings stand with the first cell that has them: `settings_of` of a
-// later one is that one's place among the cells.
+// Out of what results_json() made: what a metric is besides its value, and metrics without one; a twin's own metrics; what
+// held gates say, and of any gate what it says of a cell a second time; why a cell is stable; spreads, what observed orders
+// are made of, those that there are not, and stable steps that nobody asked for. Settings stand with the first cell that
+// has them: `settings_of` of a later one is that one's place among the cells.
 void leave_out_details(nlohmann::ordered_json& results);
 
 }  // namespace rigor

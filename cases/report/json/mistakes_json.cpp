@@ -5,6 +5,8 @@
 namespace rigor {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 const char* word_of_verdict(MistakeReport::Verdict verdict) {
   using enum MistakeReport::Verdict;
   switch (verdict) {
@@ -22,8 +24,8 @@ const char* word_of_verdict(MistakeReport::Verdict verdict) {
   return "";
 }
 
-nlohmann::ordered_json json_of_suspect(const MistakeReport::Named& suspect) {
-  nlohmann::ordered_json cases = Json::array();
+Json json_of_suspect(const MistakeReport::Named& suspect) {
+  Json cases = Json::array();
   for (const CaseShare& share : suspect.cases)
     cases.push_back({{"case", share.id}, {"error", share.error}, {"left", share.rest}});
   return {{"mistakes", suspect.names},
@@ -35,7 +37,7 @@ nlohmann::ordered_json json_of_suspect(const MistakeReport::Named& suspect) {
 }  // namespace
 
 nlohmann::ordered_json mistakes_json(const MistakeReport& report, const std::string& run) {
-  nlohmann::ordered_json suspects = Json::array();
+  Json suspects = Json::array();
   for (const auto& suspect : report.suspects) suspects.push_back(json_of_suspect(suspect));
   return {{"engine", run},
           {"verdict", word_of_verdict(report.verdict)},

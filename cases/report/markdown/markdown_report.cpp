@@ -1,15 +1,18 @@
 // report.md: the console's table as Markdown, a table for each further step size below, then the machine and settings;
-// of many cases without the tables.
+// of many cases without the tables, and what several have in common is said once.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "cases/report/console/console_table.h"
 #include "cases/report/json/leave_out_details.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/markdown/markdown_text.h"
+#include "cases/report/markdown/said_before.h"
 #include "cases/report/reports.h"
 #include "cases/report/wording/comparison.h"
 #include "cases/report/wording/explained_error.h"
@@ -54,7 +57,7 @@ std::string table(const TextTable& cells) {
   std::string text = plain(cells.heading) + "\n\n";
   for (std::size_t row = 0; row < cells.rows.size(); ++row) {
     text += "|";
-    for (const std::string& cell : cells.rows[row]) text += fmt::format(" {} |", plain(cell));
+    for (const std::string& cell : cells.rows[row]) text += cell.empty() ? "|" : fmt::format(" {} |", plain(cell));
     text += "\n";
     if (row > 0) continue;
     text += "|---|";
@@ -79,19 +82,45 @@ std::string diagnosis_line(const CaseResult& result) {
   return text.empty() ? "" : "\nWhich known mistake the error looks like:" + text + "\n";
 }
 
-std::string headline(const Results& results, const CaseResult& result) {
-  std::string text = fmt::format("## {}: {}\n\n{}\n\n", plain(result.definition.id), plain(result.definition.title),
-                                 plain(truth_sentence(result)));
-  if (has_tables(results)) text += table(results, result, coarsest_dt(result)) + "\n";
-  for (const std::string& sentence : explanations(results, result)) text += plain(sentence) + "\n\n";
-  for (const std::string& sentence : work_precision_sentences(results, result)) text += plain(sentence) + "\n\n";
+// What gates answered but that they held, or held with a caveat, a paragraph each.
+std::vector<std::string> answers_in_full(const CaseResult& result) {
+  std::vector<std::string> lines;
   for (const GateResult& gate : result.gates) {
     const std::string kind = kind_of(result.definition.gates[gate.gate]);
     if (!gate.caveat.empty())
-      text += fmt::format("- {} held: {}, **but {}**\n", kind, plain(gate.text), plain(gate.caveat));
-    if (gate.answer != GateAnswer::held && gate.answer != GateAnswer::not_recorded)
-      text += fmt::format("- {} {}: {}\n", kind, word_of(gate.answer), plain(gate.text));
+      lines.push_back(fmt::format("- {} held: {}, **but {}**", kind, plain(gate.text), plain(gate.caveat)));
+    if (gate.answer == GateAnswer::held || gate.answer == GateAnswer::not_recorded) continue;
+    lines.push_back(fmt::format("- {} {}: {}", kind, word_of(gate.answer), plain(gate.text)));
   }
+  return lines;
+}
+
+// The same with known deviations of one reason together, by their runs and steps.
+std::vector<std::string> answers_in_short(CaseResult result) {
+  std::map<std::string, std::string> known;  // what deviates, by the reasons that end its text
+  for (const GateResult& gate : result.gates) {
+    if (gate.answer != GateAnswer::known_deviation) continue;
+    std::string& list = known[gate.text.substr(std::min(gate.text.size(), gate.text.find(" (")))];
+    const std::string& metric = result.definition.gates[gate.gate].metric;
+    list += fmt::format("{}{} of {} at dt = {}", list.empty() ? "" : ", ", metric, gate.engine, gate.dt);
+  }
+  std::erase_if(result.gates, [](const GateResult& gate) { return gate.answer == GateAnswer::known_deviation; });
+  std::vector<std::string> lines = answers_in_full(result);
+  for (const auto& [reasons, list] : known)
+    lines.push_back(fmt::format("- {}: {}{}", word_of(GateAnswer::known_deviation), plain(list), plain(reasons)));
+  return lines;
+}
+
+std::string headline(const Results& results, const CaseResult& result, SaidBefore& said) {
+  const bool is_long = !has_tables(results);
+  const auto told = [&](const std::string& paragraph) { return is_long ? said.shortened(paragraph) : paragraph; };
+  std::string text = fmt::format("## {}: {}\n\n{}\n\n", plain(result.definition.id), plain(result.definition.title),
+                                 told(plain(truth_sentence(result))));
+  if (!is_long) text += table(results, result, coarsest_dt(result)) + "\n";
+  for (const std::string& sentence : explanations(results, result)) text += told(plain(sentence)) + "\n\n";
+  for (const std::string& sentence : work_precision_sentences(results, result)) text += told(plain(sentence)) + "\n\n";
+  for (const std::string& line : is_long ? answers_in_short(result) : answers_in_full(result))
+    text += told(line) + "\n";
   return text + diagnosis_line(result);
 }
 
@@ -127,18 +156,45 @@ std::string precision_after(const Results& results, std::size_t run) {
                                                                           : "";
 }
 
+const SettingsInForce* settings_of_run(const Results& results, std::size_t run) {
+  for (const CaseResult& result : results.cases) {
+    for (const Cell& cell : result.cells) {
+      if (cell.run == run && !cell.settings.empty()) return &cell.settings;
+    }
+  }
+  return nullptr;
+}
+
+std::string list_of(const SettingsInForce& settings) {
+  std::string text;
+  for (const auto& [name, value] : settings) text += fmt::format(" {} = {};", plain(name), plain(value));
+  return text;
+}
+
+// What a run sets apart from another one of the same names of settings, where that is shorter.
+std::string list_beside(const SettingsInForce& settings, const SettingsInForce& other, const std::string& name) {
+  SettingsInForce differing;
+  for (std::size_t i = 0; i < settings.size() && settings.size() == other.size(); ++i) {
+    if (settings[i].first != other[i].first) return list_of(settings);
+    if (settings[i] != other[i]) differing.push_back(settings[i]);
+  }
+  const std::string text = fmt::format(" as {}{}{}", plain(name), differing.empty() ? "" : ", but", list_of(differing));
+  return settings.size() == other.size() && text.size() < list_of(settings).size() ? text : list_of(settings);
+}
+
 std::string settings(const Results& results) {
+  std::vector<std::pair<std::string, const SettingsInForce*>> told;  // by the run's name
   std::string text;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
-    for (const CaseResult& result : results.cases) {
-      const auto cell = std::find_if(result.cells.begin(), result.cells.end(),
-                                     [&](const Cell& c) { return c.run == run && !c.settings.empty(); });
-      if (cell == result.cells.end()) continue;
-      text += fmt::format("- {}{}:", plain(results.runs[run].text), precision_after(results, run));
-      for (const auto& [name, value] : cell->settings) text += fmt::format(" {} = {};", plain(name), plain(value));
-      text += "\n";
-      break;
+    const SettingsInForce* own = settings_of_run(results, run);
+    if (!own) continue;
+    std::string list = list_of(*own);
+    for (const auto& [name, other] : told) {
+      const std::string beside = list_beside(*own, *other, name);
+      if (beside.size() < list.size()) list = beside;
     }
+    told.emplace_back(results.runs[run].text, own);
+    text += fmt::format("- {}{}:{}\n", plain(results.runs[run].text), precision_after(results, run), list);
   }
   return text;
 }
@@ -171,8 +227,11 @@ std::string markdown_report(const Results& results) {
   }
   const Words words = has_tables(results) ? Words::all : Words::few;
   text += "\n" + matrices(results, words) + "\n" + plain(gate_summary(results)) + "\n";
-  for (const CaseResult& result : results.cases) text += headline(results, result) + "\n";
-  text += has_tables(results) ? tables(results) : "A case's tables: `rigor run CASE`, or report.html.\n\n";
+  SaidBefore said;
+  for (const CaseResult& result : results.cases) text += headline(results, result, said) + "\n";
+  text += has_tables(results) ? tables(results)
+                              : "An ellipsis stands for words that an earlier case has in full. A case's tables, and "
+                                "all that is said of it: `rigor run CASE`, or report.html.\n\n";
   const Machine machine = this_machine();
   text += fmt::format(
       "# Settings in force\n\nAs read back from each engine, in the first case it ran.\n\n{}\n"

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "cases/truth/distance.h"
 #include "core/dynamics/contact/contact_method.h"
 
 namespace rigor {
@@ -128,15 +129,6 @@ BodyState between(const BodyState& from, const BodyState& to, double h, double s
           angular_velocity_of(turning.value, turning.rate)};
 }
 
-double distance(BodyColumns a, BodyColumns b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest =
-        std::max({largest, (a.position(i) - b.position(i)).norm(), angle_between(a.orientation(i), b.orientation(i))});
-  }
-  return std::isfinite(largest) ? largest : kInfinity;
-}
-
 // Into `fine`: its error at each of its nodes as long as `coarse` goes.
 void note_errors(ReferenceSolution& fine, const ReferenceSolution& coarse, const Scene& scene) {
   fine.error_times.clear(), fine.errors.clear();
@@ -146,7 +138,7 @@ void note_errors(ReferenceSolution& fine, const ReferenceSolution& coarse, const
     const auto t = static_cast<double>(fine.times[i]);
     state_at(fine, scene, t, a.columns());
     state_at(coarse, scene, t, b.columns());
-    largest = std::max(largest, distance(std::as_const(a).columns(), std::as_const(b).columns()));
+    largest = std::max(largest, distance_between(std::as_const(a).columns(), std::as_const(b).columns()));
     fine.error_times.push_back(t);
     fine.errors.push_back(kSafety * largest + kClosed + kStill * t);
   }

@@ -30,10 +30,4 @@ inline constexpr const char* kEventsMadeBy = \"${events}\";
 
 }  // namespace rigor
 ")
-set(old "")
-if(EXISTS ${OUTPUT})
-  file(READ ${OUTPUT} old)
-endif()
-if(NOT old STREQUAL text)
-  file(WRITE ${OUTPUT} "${text}")
-endif()
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "${text}" @ONLY)  # leaves a file alone that says so already

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cases/truth/distance.h"
+
 namespace rigor::solving {
 namespace {
 
@@ -39,16 +41,7 @@ Nodes filled_in(const Nodes& nodes, const DoubleMotion& motion) {
   return filled;
 }
 
-// The largest distance [m] and angle [rad] between the same body of two tables, and of roundings in them.
-double distance(BodyColumns a, BodyColumns b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest =
-        std::max({largest, (a.position(i) - b.position(i)).norm(), angle_between(a.orientation(i), b.orientation(i))});
-  }
-  return largest;
-}
-
+// The largest that roundings in a table come to, in m and rad.
 double rounding(BodyColumns bodies) {
   double largest = 1;  // of a unit quaternion
   for (std::size_t i = 0; i < bodies.size(); ++i) largest = std::max(largest, bodies.position(i).norm());
@@ -106,7 +99,7 @@ void Judged::compare(const std::function<void(const double* state, MutableBodyCo
     const auto t = static_cast<double>(other.times[i]);
     motion_->write(state_at(solution_, *motion_, t).data(), here.columns());
     write(&other.states[i * other.dimension], there.columns());
-    const double apart = distance(here.columns(), there.columns());
+    const double apart = distance_between(here.columns(), there.columns());
     errors_.emplace_back(t, kSafety * apart + rounding(here.columns()));
   }
   solution_.complete = solution_.complete && other.complete;

@@ -6,7 +6,7 @@ SymmetricKick::SymmetricKick(const System& system)
     : system_(system),
       carried_(kCarriedColumns, system.size()),
       loads_(system),
-      equations_(damped() ? system.size() : 0),
+      equations_(damped() ? system.size() : 0, BlockSystem::Kind::symmetric),
       impulse_(6 * static_cast<Eigen::Index>(system.size())),
       change_(impulse_.size()) {}
 

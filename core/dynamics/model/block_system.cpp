@@ -1,7 +1,11 @@
 #include "core/dynamics/model/block_system.h"
 
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace rigor {
 namespace {
@@ -28,57 +32,77 @@ bool is_singular(const auto& A, const auto& lu) {
   return spread.cwiseQuotient(probe).maxCoeff() > kSingular;
 }
 
-}  // namespace
-
-BlockSystem::BlockSystem(std::size_t bodies) : size_(6 * static_cast<Eigen::Index>(bodies)) {
-  if (is_dense()) dense_.resize(size_, size_);
+bool solve_by(const auto& A, const auto& lu, const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
+  if (is_singular(A, lu)) return false;
+  solution = lu.solve(right_side);
+  return solution.allFinite();
 }
 
-// Up to ten bodies a dense factorisation takes less time than a sparse one needs to order its unknowns.
-bool BlockSystem::is_dense() const { return size_ <= 60; }
+// Up to ten bodies a dense factorisation takes less time than a sparse one.
+constexpr std::size_t kMostDense = 10;
+
+}  // namespace
+
+// The order of elimination depends on which blocks there are, not on what is in them: it is found once.
+struct BlockSystem::Sparse {
+  using Blocks = std::vector<std::pair<std::size_t, std::size_t>>;
+
+  explicit Sparse(std::size_t bodies, Kind of_kind) : kind(of_kind), matrix(size_of(bodies), size_of(bodies)) {}
+
+  static Eigen::Index size_of(std::size_t bodies) { return 6 * static_cast<Eigen::Index>(bodies); }
+
+  bool factorise_by(auto& factors, Blocks& ordered) {
+    if (blocks != ordered) factors.analyzePattern(matrix), ordered = blocks;
+    factors.factorize(matrix);
+    return factors.info() == Eigen::Success;
+  }
+
+  bool solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
+    matrix.setFromTriplets(triplets.begin(), triplets.end());
+    if (kind == Kind::symmetric && factorise_by(cholesky, ordered_by_cholesky))
+      return solve_by(matrix, cholesky, right_side, solution);
+    return factorise_by(lu, ordered_by_lu) && solve_by(matrix, lu, right_side, solution);
+  }
+
+  Kind kind;
+  std::vector<Eigen::Triplet<double>> triplets;
+  Eigen::SparseMatrix<double> matrix;
+  Blocks blocks, ordered_by_cholesky, ordered_by_lu;           // now, and when the unknowns were ordered
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky;  // says so where a matrix is not positive definite
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu;
+};
+
+BlockSystem::BlockSystem(std::size_t bodies, Kind kind)
+    : sparse_(bodies > kMostDense ? std::make_unique<Sparse>(bodies, kind) : nullptr) {
+  if (is_dense()) dense_.resize(Sparse::size_of(bodies), Sparse::size_of(bodies));
+}
+
+BlockSystem::~BlockSystem() = default;
 
 void BlockSystem::clear() {
   dense_.setZero();
-  triplets_.clear();
-  blocks_.clear();
+  if (is_dense()) return;
+  sparse_->triplets.clear();
+  sparse_->blocks.clear();
 }
 
 void BlockSystem::add(std::size_t row, std::size_t column, const Mat6& block) {
-  const Eigen::Index r = 6 * static_cast<Eigen::Index>(row), c = 6 * static_cast<Eigen::Index>(column);
+  const Eigen::Index r = Sparse::size_of(row), c = Sparse::size_of(column);
   if (is_dense()) {
     dense_.block<6, 6>(r, c) += block;
     return;
   }
-  blocks_.emplace_back(row, column);
+  sparse_->blocks.emplace_back(row, column);
   for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) {
-      triplets_.emplace_back(static_cast<int>(r + i), static_cast<int>(c + j), block(i, j));
-    }
+    for (int j = 0; j < 6; ++j)
+      sparse_->triplets.emplace_back(static_cast<int>(r + i), static_cast<int>(c + j), block(i, j));
   }
 }
 
 bool BlockSystem::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
-  if (is_dense()) {
-    dense_lu_.compute(dense_);
-    if (is_singular(dense_, dense_lu_)) return false;
-    solution = dense_lu_.solve(right_side);
-    return solution.allFinite();
-  }
-  if (!factorise_sparse() || is_singular(sparse_, sparse_lu_)) return false;
-  solution = sparse_lu_.solve(right_side);
-  return solution.allFinite();
-}
-
-// The order of elimination depends on which blocks there are, not on what is in them: it is found once.
-bool BlockSystem::factorise_sparse() {
-  sparse_.resize(size_, size_);
-  sparse_.setFromTriplets(triplets_.begin(), triplets_.end());
-  if (blocks_ != ordered_blocks_) {
-    sparse_lu_.analyzePattern(sparse_);
-    ordered_blocks_ = blocks_;
-  }
-  sparse_lu_.factorize(sparse_);
-  return sparse_lu_.info() == Eigen::Success;
+  if (!is_dense()) return sparse_->solve(right_side, solution);
+  dense_lu_.compute(dense_);
+  return solve_by(dense_, dense_lu_, right_side, solution);
 }
 
 }  // namespace rigor

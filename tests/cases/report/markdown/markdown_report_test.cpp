@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "cases/report/json/leave_out_details.h"
+#include "cases/report/markdown/said_before.h"
 #include "cases/report/reports.h"
 #include "tests/cases/report/sample_results.h"
 
@@ -32,6 +33,46 @@ BOOST_AUTO_TEST_CASE(of_many_cases_there_is_the_matrix_alone) {
   BOOST_TEST(text.find("| family/case |") != std::string::npos);
   BOOST_TEST(text.find("| dt = 1/10 s |") == std::string::npos);
   BOOST_TEST(text.find("rigor run CASE") != std::string::npos);
+}
+
+// A gate's reason, and why a deviation is known, stand once for all runs that they hold for.
+BOOST_AUTO_TEST_CASE(of_many_cases_known_deviations_of_one_reason_are_a_line) {
+  Results grid = sample_results();
+  CaseResult& first = grid.cases.front();
+  first.definition.gates.resize(1);
+  first.definition.gates[0].metric = "position_error";
+  for (const char* engine : {"good", "wild"}) {
+    first.gates.push_back(
+        {0, engine, "1/10", GateAnswer::known_deviation,
+         std::string("position_error of ") + engine + " is 3 m (the gate: half a metre) (known: soft)"});
+  }
+  BOOST_TEST(markdown_report(grid).find("of wild is 3 m") != std::string::npos);
+  while (grid.cases.size() <= kMostCasesInDetail) grid.cases.push_back(sample_results().cases.front());
+  const std::string line =
+      "- known deviation: position\\_error of good at dt = 1/10, position\\_error of wild at dt = 1/10 "
+      "(the gate: half a metre) (known: soft)\n";
+  BOOST_TEST(markdown_report(grid).find(line) != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(what_ends_in_the_words_of_an_earlier_paragraph_is_cut_there) {
+  SaidBefore said;
+  const std::string reason = "its setting gives back a fifth of every overlap as speed, which stays.";
+  BOOST_TEST(said.shortened("A bounces: " + reason) == "A bounces: " + reason);
+  BOOST_TEST(said.shortened("B bounces by 3 m: " + reason) == "B bounces by 3 m: …");
+  BOOST_TEST(said.shortened("B bounces: " + reason + " And on.") == "B bounces: " + reason + " And on.");
+  BOOST_TEST(said.shortened("C (too little) (short)") == "C (too little) (short)");
+  BOOST_TEST(said.shortened("D (too little) (short)") == "D (too little) (short)");
+}
+
+// The second run is told by what it sets apart; where nothing is alike, in full.
+BOOST_AUTO_TEST_CASE(settings_are_told_beside_those_of_a_run_before) {
+  Results grid = sample_results();
+  grid.cases.front().cells[0].settings = {{"solver", "exact"}, {"friction", "a cone"}, {"sub-steps", "none at all"}};
+  grid.cases.front().cells[1].settings.clear();
+  grid.cases.front().cells[2].settings = {{"solver", "rough"}, {"friction", "a cone"}, {"sub-steps", "none at all"}};
+  BOOST_TEST(markdown_report(grid).find("- wild: as good, but solver = rough;\n") != std::string::npos);
+  grid.cases.front().cells[2].settings = {{"method", "rough"}, {"friction", "a cone"}, {"sub-steps", "none at all"}};
+  BOOST_TEST(markdown_report(grid).find("- wild: method = rough; friction = a cone;") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(no_name_becomes_a_tag) {

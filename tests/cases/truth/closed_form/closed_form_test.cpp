@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "cases/case/suite.h"
+#include "cases/truth/distance.h"
 #include "core/base/error.h"
 #include "core/dynamics/model/energy.h"
 #include "tests/cases/truth/closed_form/smooth/smooth_scenes.h"
@@ -28,15 +29,6 @@ double relative_distance(BodyColumns a, BodyColumns b) {
   return largest;
 }
 
-double distance(BodyColumns a, BodyColumns b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest =
-        std::max({largest, (a.position(i) - b.position(i)).norm(), angle_between(a.orientation(i), b.orientation(i))});
-  }
-  return largest;
-}
-
 void check_against_reference(const SmoothScene& row) {
   const auto closed = make_truth(row.truth, row.scene, row.duration);
   const auto solved = make_truth("reference", row.scene, row.duration);
@@ -48,7 +40,7 @@ void check_against_reference(const SmoothScene& row) {
                     b = truth_at(*solved, t, row.scene.bodies.size());
     const double apart = relative_distance(a.columns(), b.columns());
     if (apart > worst) worst = apart, when = t;
-    worst_excess = std::max(worst_excess, distance(a.columns(), b.columns()) / (closed->error(t) + solved->error(t)));
+    worst_excess = std::max(worst_excess, distance_between(a.columns(), b.columns()) / (closed->error(t) + solved->error(t)));
   }
   BOOST_TEST_MESSAGE(row.truth << ", " << row.label << ": " << worst << " at " << when << " s; " << worst_excess
                                << " of the errors' sum, " << closed->error(row.duration) << " + "

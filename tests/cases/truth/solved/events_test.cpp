@@ -1,6 +1,7 @@
 // The truth by events against every closed form of the contact family, and what it refuses.
 #include <algorithm>
 
+#include "cases/truth/distance.h"
 #include "core/base/error.h"
 #include "core/scene/contact_laws.h"
 #include "tests/cases/judged.h"
@@ -16,15 +17,6 @@ constexpr double kShort = 1;  // s: enough for impacts, stops and the end of sli
 
 bool has_closed_form(const Case& c) {
   return anything_can_touch(c.scene) && c.scene.joints.empty() && c.truth != "none" && c.truth != "events" && c.truth != "reference";
-}
-
-double distance(BodyColumns a, BodyColumns b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest =
-        std::max({largest, (a.position(i) - b.position(i)).norm(), angle_between(a.orientation(i), b.orientation(i))});
-  }
-  return largest;
 }
 
 }  // namespace
@@ -46,7 +38,7 @@ BOOST_AUTO_TEST_CASE(its_error_bounds_the_distance_from_every_closed_form) {
         const double t = duration * k / kInstants;
         const BodyTable found = test::truth_at(*events, t, c.scene.bodies.size()),
                         expected = test::truth_at(*form, t, c.scene.bodies.size());
-        const double off = distance(found.columns(), expected.columns());
+        const double off = distance_between(found.columns(), expected.columns());
         BOOST_TEST(off <= events->error(t) + form->error(t), "at " << t << " s it is off by " << off);
       }
     }

@@ -53,6 +53,28 @@ BOOST_AUTO_TEST_CASE(one_system_is_solved_again_and_again_with_other_numbers_and
   }
 }
 
+// Positive definite or, with every other sign of its diagonal turned, not; the last one singular.
+BOOST_AUTO_TEST_CASE(a_symmetric_system_is_solved_whatever_its_signs) {
+  for (const std::size_t bodies : {2, 11, 30}) {
+    BlockSystem system(bodies, BlockSystem::Kind::symmetric);
+    const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(6 * static_cast<Eigen::Index>(bodies), -1, 2);
+    for (const double sign : {1.0, -1.0, 0.0}) {
+      std::vector<Block> blocks;
+      for (std::size_t i = 0; i < bodies; ++i) {
+        const double size = (i % 2 == 0 ? sign : 1) * (3.0 + static_cast<double>(i));
+        blocks.push_back({i, i, size * Mat6::Identity()});
+        if (i == 0 || sign == 0) continue;
+        blocks.push_back({i, i - 1, Mat6::Constant(0.1)}), blocks.push_back({i - 1, i, Mat6::Constant(0.1)});
+      }
+      Eigen::VectorXd solution;
+      system.clear();
+      for (const Block& b : blocks) system.add(b.row, b.column, b.values);
+      BOOST_TEST(system.solve(right, solution) == (sign != 0));
+      if (sign != 0) BOOST_TEST((times(blocks, solution) - right).norm() < 1e-12);  // as above
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_singular_system_is_said_to_be_so) {
   for (const std::size_t bodies : {2, 30}) {
     BlockSystem system(bodies);

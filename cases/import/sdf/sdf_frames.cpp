@@ -1,4 +1,4 @@
-#include "cases/import/sdf_frames.h"
+#include "cases/import/sdf/sdf_frames.h"
 
 #include <fmt/format.h>
 

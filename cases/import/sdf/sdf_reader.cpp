@@ -1,19 +1,18 @@
-#include "cases/import/sdf_reader.h"
+#include "cases/import/sdf/sdf_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 
 #include "cases/import/model_elements.h"
 #include "cases/import/model_files.h"
-#include "cases/import/sdf_frames.h"
-#include "cases/import/sdf_link.h"
+#include "cases/import/sdf/sdf_coordinate.h"
+#include "cases/import/sdf/sdf_frames.h"
+#include "cases/import/sdf/sdf_link.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
@@ -21,7 +20,6 @@ namespace rigor {
 namespace {
 
 constexpr double kSdfGravity = 9.8;  // m/s², along -z: the format's own default
-constexpr double kUnlimited = 1e16;  // of a joint's limits, as the format has it
 constexpr int kDeepest = 16;         // models in models and files in files
 const std::vector<std::string> kSdfJointTypes = {"revolute",  "continuous", "prismatic", "ball",   "universal",
                                                  "revolute2", "fixed",      "screw",     "gearbox"};
@@ -296,57 +294,13 @@ class SdfReader {
     if (type == "universal" || type == "revolute2") {
       row.joint.type = UniversalJoint{anchor, axis_of(element, "axis", scope, name, version),
                                       axis_of(element, "axis2", scope, name, version)};
-      for (const char* which : {"axis", "axis2"}) leave_out_coordinate(element.only(which));
+      for (const char* which : {"axis", "axis2"}) leave_out_sdf_coordinate(element.only(which), model_.left_out);
     }
     if (type == "revolute" || type == "continuous")
       row.joint.type = HingeJoint{anchor, axis_of(element, "axis", scope, name, version)};
     if (type == "prismatic") row.joint.type = SliderJoint{axis_of(element, "axis", scope, name, version)};
-    if (free_axis(row.joint)) read_coordinate(element.only("axis"), type, row.joint);
+    if (free_axis(row.joint)) read_sdf_coordinate(element.only("axis"), type, row.joint, model_.left_out);
     model_.joints.push_back(std::move(row));
-  }
-
-  void leave_out_coordinate(const XmlElement& axis) {
-    for (const char* word : {"limit", "dynamics"}) {
-      if (axis.child(word))
-        model_.left_out.add(axis.place(), fmt::format("<{}>", word),
-                            "of two axes a scene's joint has neither limits nor springs nor dampers");
-    }
-  }
-
-  void read_coordinate(const XmlElement& axis, const std::string& type, Joint& joint) {
-    if (const auto limit = axis.child("limit")) {
-      limit->check({{},
-                    {"lower", "upper"},
-                    {{"effort", kBoundsADrive},
-                     {"velocity", kBoundsADrive},
-                     {"stiffness", "is how soft a limit is, which in a scene is hard"},
-                     {"dissipation", "is how soft a limit is, which in a scene is hard"}}},
-                   model_.left_out);
-      const auto bound = [&](const char* word, double otherwise) {
-        const auto found = limit->child(word);
-        if (!found) return otherwise;
-        for (const char* infinite : {"inf", "-inf", "+inf", "infinity", "-infinity"}) {
-          if (found->text() == infinite) return otherwise;
-        }
-        const double value = found->number_of_text();
-        return std::abs(value) >= kUnlimited ? otherwise : value;
-      };
-      if (type != "continuous") joint.lower = bound("lower", joint.lower), joint.upper = bound("upper", joint.upper);
-      if (!(joint.lower < joint.upper))
-        limit->refuse(fmt::format("lower is {} and upper {}; allowed: limits of which the upper is greater",
-                                  joint.lower, joint.upper));
-    }
-    const auto dynamics = axis.child("dynamics");
-    if (!dynamics) return;
-    dynamics->check({{}, {"damping", "friction", "spring_reference", "spring_stiffness"}}, model_.left_out);
-    const auto value = [&](const char* word) {
-      const auto found = dynamics->child(word);
-      return found ? found->number_of_text() : 0;
-    };
-    joint.damping = not_negative(value("damping"), "damping", *dynamics);
-    joint.stiffness = not_negative(value("spring_stiffness"), "spring_stiffness", *dynamics);
-    joint.rest = value("spring_reference");
-    if (value("friction") != 0) model_.left_out.add(dynamics->place(), "<friction>", kDryFriction);
   }
 
   std::string path_;

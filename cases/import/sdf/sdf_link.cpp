@@ -1,4 +1,4 @@
-#include "cases/import/sdf_link.h"
+#include "cases/import/sdf/sdf_link.h"
 
 #include <fmt/format.h>
 
