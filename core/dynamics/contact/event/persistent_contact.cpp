@@ -187,6 +187,7 @@ bool PersistentContact::carries(const ContactPoint& contact) const {
 bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,
                                    Closing which) {
   double before = kForever;
+  bool is_one_by_one = false;
   for (int k = 0, most = kMostMoves; k < most; ++k) {
     open_.clear(), targets_.clear();
     contact_points_.find(state, pairs, kTouching, open_);
@@ -199,14 +200,16 @@ bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<s
       widest = std::max(widest, std::abs(contact.gap));
       add_target(contact.cone, 0, -contact.gap, is_carrying);
     }
-    // Where it does not fall by much any more, it is rounding, or there is no place for all bodies.
-    if (!(widest > kClosed) || widest > 0.5 * before) return k > 0;
+    if (!(widest > kClosed)) return k > 0;
+    const bool has_stalled = widest > 0.5 * before;
     before = widest;
-    if (targets_.size() > kMostTogether) {
+    if (!is_one_by_one && (targets_.size() > kMostTogether || (has_stalled && jam())))
+      is_one_by_one = true, most = k + kMostSweeps;
+    if (is_one_by_one) {
       part_one_by_one(state);
-      before = kForever, most = kMostSweeps;
       continue;
     }
+    if (has_stalled) return k > 0;  // by rounding
     const std::vector<PoseStep>& motion = projection_.project(state, targets_);
     for (std::size_t i = 0; i < motion.size(); ++i) {
       if (!motion[i].isZero(0)) move(state, i, motion[i]);
@@ -222,7 +225,7 @@ const ContactPoint* PersistentContact::jam() const {
   return deepest_.gap < -kDeep * size ? &deepest_ : nullptr;
 }
 
-// Of more than can be parted together: each two by what is left of their overlap, without turning them.
+// Of more than can be parted together, or that cannot: each two by what is left of their overlap, without turning them.
 void PersistentContact::part_one_by_one(MutableBodyColumns state) {
   moved_.assign(state.size(), Vec3::Zero());
   for (const ContactPoint& contact : open_) {
