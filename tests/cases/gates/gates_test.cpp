@@ -353,4 +353,30 @@ BOOST_AUTO_TEST_CASE(limits_are_wider_for_single_precision_by_its_roundings_and_
   BOOST_TEST(count(answers_of(3e-6), GateAnswer::held) == 0);
 }
 
+// A run may go on by steps of less than its method's order: what it was held to then says nothing of the method.
+BOOST_AUTO_TEST_CASE(a_gate_that_held_over_a_time_of_reduced_order_says_so) {
+  Fixture fixture;
+  Gate limit = gate("position_error"), order = gate("position_error");
+  limit.max = 1, order.at_least_order = 1.9;
+  for (std::size_t i = 0; i < 4; ++i) fixture.cell(i).metrics["position_error"].compared_until = 0.5;
+  fixture.cell(0).reduced_order = ReducedOrder{0.2, "by short steps"};
+  fixture.cell(2).reduced_order = ReducedOrder{0.5, "by short steps"};  // what was compared ends there
+  const auto caveats = [&](const Gate& of) {
+    std::vector<std::string> found;
+    for (const GateResult& answer : fixture.check(of)) {
+      BOOST_TEST((answer.answer == GateAnswer::held), answer.text);
+      if (!answer.caveat.empty()) found.push_back(answer.engine + ": " + answer.caveat);
+    }
+    return found;
+  };
+  const std::vector<std::string> one = {"a: at dt = 1/10 from 0.2 s on stepped by short steps"};
+  BOOST_TEST(caveats(limit) == one, boost::test_tools::per_element());
+  BOOST_TEST(caveats(order) == one, boost::test_tools::per_element());
+  fixture.cell(0).metrics["cost"] = fixture.cell(0).metrics["position_error"];
+  Gate cost = gate("cost");
+  cost.max = 1, cost.engines = {"a"}, cost.dt = {{0.1, "1/10"}};
+  BOOST_TEST(caveats(cost).empty());
+  BOOST_TEST(all_gates_hold(fixture.grid));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -101,13 +101,16 @@ bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) 
   });
 }
 
-bool ContactModes::are_at_rest(BodyColumns state) const {
+bool ContactModes::is_at_rest(BodyColumns state, int body) const {
+  if (system_.bodies[body].fixed) return true;
   const BodyColumns rates = accelerations_.columns();
+  return state.velocity(body).norm() <= kResting && state.angular_velocity(body).norm() <= kResting &&
+         rates.velocity(body).norm() <= kResting * size_ && rates.angular_velocity(body).norm() <= kResting * size_;
+}
+
+bool ContactModes::are_at_rest(BodyColumns state) const {
   for (std::size_t i = 0; i < state.size(); ++i) {
-    if (system_.bodies[i].fixed) continue;
-    if (state.velocity(i).norm() > kResting || state.angular_velocity(i).norm() > kResting) return false;
-    if (rates.velocity(i).norm() > kResting * size_ || rates.angular_velocity(i).norm() > kResting * size_)
-      return false;
+    if (!is_at_rest(state, static_cast<int>(i))) return false;
   }
   return true;
 }

@@ -18,6 +18,7 @@ class ContactModes {
   bool choose(BodyColumns state, const double* wrench);
   // Whether, after choose(), nothing moves and nothing begins to.
   bool are_at_rest(BodyColumns state) const;
+  bool is_at_rest(BodyColumns state, int body) const;
   // By how much the modes that the points have break the laws at this instant, of the accelerations: more than 0 where
   // others have to be chosen. After persistent_.hold() there.
   double violation(BodyColumns state, const double* wrench);

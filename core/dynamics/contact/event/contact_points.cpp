@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/collision/coincident.h"
+
 namespace rigor {
 namespace {
 
@@ -48,7 +50,10 @@ const std::vector<std::pair<int, int>>& ContactPoints::overlapping_boxes() {
 
 const Manifold& ContactPoints::manifold(BodyColumns state, int a, int b) {
   const Collider &first = colliders_[a], &second = colliders_[b];
-  collide(first.shape, pose_of(state, first.body), second.shape, pose_of(state, second.body), manifold_);
+  Pose pose_of_first = pose_of(state, first.body);
+  const Pose pose_of_second = pose_of(state, second.body);
+  pose_of_first.p += aside_of(first, pose_of_first.p, second, pose_of_second.p);
+  collide(first.shape, pose_of_first, second.shape, pose_of_second, manifold_);
   return manifold_;
 }
 

@@ -62,7 +62,9 @@ class EventStepper : public ContactStepper {
         patience_(number_option(parts.settings, "patience", 1)),
         moving_(std::max<double>(
             1, static_cast<double>(std::count_if(parts.system.bodies.begin(), parts.system.bodies.end(),
-                                                 [](const Inertia& body) { return !body.fixed; })))) {}
+                                                 [](const Inertia& body) { return !body.fixed; })))) {
+    for (const Body& body : scene.bodies) names_.push_back(body.name);
+  }
 
   void step(MutableBodyColumns state, double t, double dt) override {
     solver_warning_.clear();
@@ -70,6 +72,7 @@ class EventStepper : public ContactStepper {
     if (!(dt > 0)) return step_without_contact(state, t, dt);
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
+    note_jam();
     instants_ = 0;
     saved_ = std::min(saved_ + kForEachPart + patience_ * kForEachStep / moving_, patience_ * kMostSaved / moving_);
     crowded_step_ = CrowdedSteps::longest(dt);
@@ -114,6 +117,13 @@ class EventStepper : public ContactStepper {
 
   void note(const std::string& solver_warning) {
     if (solver_warning_.empty()) solver_warning_ = solver_warning;
+  }
+
+  void note_jam() {
+    const ContactPoint* jam = persistent_contact_.jam();
+    if (!jam) return;
+    note(fmt::format("{} and {} overlap by {:.2g} m, and no way was found to part all bodies", names_[jam->cone.a],
+                     names_[jam->cone.b], -jam->gap));
   }
 
   void step_without_contact(MutableBodyColumns state, double t, double dt) {
@@ -184,10 +194,17 @@ class EventStepper : public ContactStepper {
       };
       if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair))
         return true;
+      if (stays(a) && stays(b)) return true;
       const Collider &first = contact_points_.colliders()[a], &second = contact_points_.colliders()[b];
       return stay_apart(first, second, {from, contact_points_.separating_axis(from, a, b)},
                         {to, contact_points_.separating_axis(to, a, b)}, bend_of(first), bend_of(second), h);
     });
+  }
+
+  // Whether a collider is where it was at the part's start, whatever the part's length.
+  bool stays(int collider) const {
+    const Collider& of = contact_points_.colliders()[collider];
+    return of.fixed || persistent_contact_.rests(of.body);
   }
 
   Bend bend_of(const Collider& collider) const {
@@ -305,6 +322,7 @@ class EventStepper : public ContactStepper {
     double least = kInfinity;
     const std::vector<PersistentPoint>& known = persistent_contact_.points();
     for (const auto& [a, b] : pairs_) {
+      if (stays(a) && stays(b)) continue;
       double drift = 0;
       const auto is_of_pair = [&](const auto& point) { return point.a == a && point.b == b; };
       for (const ContactPoint& point : touching_) {
@@ -342,6 +360,7 @@ class EventStepper : public ContactStepper {
   std::vector<double> ahead_;  // s, ends of the intervals still to be looked at, the next one last
   std::vector<ContactPoint> touching_;
   std::vector<std::pair<int, int>> pairs_;
+  std::vector<std::string> names_;
   std::string solver_warning_;
 };
 

@@ -12,16 +12,18 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kClosed = 1e-13;  // m: a few roundings of a position of one metre
-constexpr int kMostMoves = 20;
-constexpr double kTouching = 1e-3;    // m: a point that drifted further than this is not in contact any more
-constexpr double kBeginning = 1e-11;  // m/s: how much a slip that begins may go the wrong way, by rounding
-constexpr double kPulling = 2e-9;     // of the forces: twice what is still chosen
-constexpr double kLeastSize = 1e-6;   // m/s²: of accelerations; weaker forces are roundings
-constexpr double kStable = 2;         // of an explicit method: how much a step may be in units of what it damps
-constexpr double kShortest = 1e-5;    // s: what slips make of themselves within it is some 1e-4 m/s
-constexpr double kReversed = 0.1;     // of the fastest slip at any stage: what stages differ by is less
-constexpr double kSlow = 10;          // of the restitution threshold: what parts no faster, and comes back, stays
-constexpr double kStill = 1e-15;      // of the speeds: what is left of a velocity that is to be zero
+constexpr int kMostMoves = 20, kMostSweeps = 200;
+constexpr std::size_t kMostTogether = 2000;  // points: a second or two of the projection's time
+constexpr double kTouching = 1e-3;           // m: a point that drifted further than this is not in contact any more
+constexpr double kBeginning = 1e-11;         // m/s: how much a slip that begins may go the wrong way, by rounding
+constexpr double kPulling = 2e-9;            // of the forces: twice what is still chosen
+constexpr double kLeastSize = 1e-6;          // m/s²: of accelerations; weaker forces are roundings
+constexpr double kStable = 2;                // of an explicit method: how much a step may be in units of what it damps
+constexpr double kShortest = 1e-5;           // s: what slips make of themselves within it is some 1e-4 m/s
+constexpr double kReversed = 0.1;            // of the fastest slip at any stage: what stages differ by is less
+constexpr double kDeep = 0.1;                // of the smaller inradius: crowded steps leave up to 0.03 for a while
+constexpr double kSlow = 10;      // of the restitution threshold: what parts no faster, and comes back, stays
+constexpr double kStill = 1e-15;  // of the speeds: what is left of a velocity that is to be zero
 
 // Of no lower order than `own`, and asks for forces at its stages.
 const Integrator& integrator_in_contact(const Integrator& own) {
@@ -49,13 +51,15 @@ PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& c
           in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, nullptr, &persistent_})),
       loads_(system_),
       projection_(system_),
-      restitution_threshold_(number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)) {}
+      restitution_threshold_(number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
+      rests_(parts.system.size(), 0) {}
 
 bool PersistentContact::select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t,
                                double dt) {
   std::vector<PersistentPoint>& points = persistent_.points();
   old_points_.swap(points);
-  points.clear();
+  old_points_.insert(old_points_.end(), resting_points_.begin(), resting_points_.end());
+  forget_points();
   const auto& colliders = contact_points_.colliders();
   for (const ContactPoint& contact : contact_points) {
     const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
@@ -77,15 +81,44 @@ bool PersistentContact::select(MutableBodyColumns state, const std::vector<Conta
   if (points.empty()) return true;
   const bool are_found = modes_.choose(state, loads_.over_step(state, t, dt));
   stop_points(state);
+  if (are_found) set_resting_aside(state);
   return are_found;
+}
+
+void PersistentContact::forget_points() {
+  persistent_.points().clear(), resting_points_.clear();
+  rests_.assign(system_.size(), 0);
+}
+
+// Where only gravity acts, what rests together does so for good.
+void PersistentContact::set_resting_aside(BodyColumns state) {
+  if (!system_.loads.empty() || modes_.are_at_rest(state)) return;
+  std::vector<std::pair<int, int>> pairs;
+  for (const PersistentPoint& point : points()) pairs.emplace_back(point.contact.cone.a, point.contact.cone.b);
+  std::vector<char> is_aside(pairs.size(), 0);
+  for (const Island& island : islands_of(system_, pairs)) {
+    const bool is_resting =
+        std::all_of(island.bodies.begin(), island.bodies.end(), [&](int i) { return modes_.is_at_rest(state, i); });
+    if (!is_resting) continue;
+    for (const int body : island.bodies) rests_[static_cast<std::size_t>(body)] = 1;
+    for (const std::size_t i : island.points) is_aside[i] = 1;
+  }
+  std::vector<PersistentPoint> moving;
+  for (std::size_t i = 0; i < pairs.size(); ++i) (is_aside[i] ? resting_points_ : moving).push_back(points()[i]);
+  persistent_.points().swap(moving);
 }
 
 void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
   persistent_.begin_attempt();
   copy_columns(start, end);
   ++passes_;
-  if (points().empty()) return free_stepper_->step(end, t, dt);
-  contact_stepper_->step(end, t, dt);
+  (points().empty() ? free_stepper_ : contact_stepper_)->step(end, t, dt);
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    if (!rests_[i]) continue;
+    end.set_body(i, start.body(i));
+    if (end.has_rotation()) end.set_rotation(i, start.rotation(i));
+  }
+  if (points().empty()) return;
   if (end.has_rotation() && contact_stepper_ && in_contact_.default_orientation.empty()) {
     for (std::size_t i = 0; i < end.size(); ++i) end.set_rotation(i, matrix_of(end.orientation(i)));
   }
@@ -154,25 +187,57 @@ bool PersistentContact::carries(const ContactPoint& contact) const {
 bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,
                                    Closing which) {
   double before = kForever;
-  for (int k = 0; k < kMostMoves; ++k) {
+  bool is_one_by_one = false;
+  for (int k = 0, most = kMostMoves; k < most; ++k) {
     open_.clear(), targets_.clear();
     contact_points_.find(state, pairs, kTouching, open_);
+    deepest_ = ContactPoint();
     double widest = 0;
     for (const ContactPoint& contact : open_) {
+      if (contact.gap < deepest_.gap) deepest_ = contact;
       const bool is_carrying = which == Closing::all && carries(contact);
       if (!(contact.gap < 0 || is_carrying)) continue;
       widest = std::max(widest, std::abs(contact.gap));
       add_target(contact.cone, 0, -contact.gap, is_carrying);
     }
-    // Where it does not fall by much any more, it is rounding, or there is no place for all bodies.
-    if (!(widest > kClosed) || widest > 0.5 * before) return k > 0;
+    if (!(widest > kClosed)) return k > 0;
+    const bool has_stalled = widest > 0.5 * before;
     before = widest;
+    if (!is_one_by_one && (targets_.size() > kMostTogether || (has_stalled && jam())))
+      is_one_by_one = true, most = k + kMostSweeps;
+    if (is_one_by_one) {
+      part_one_by_one(state);
+      continue;
+    }
+    if (has_stalled) return k > 0;  // by rounding
     const std::vector<PoseStep>& motion = projection_.project(state, targets_);
     for (std::size_t i = 0; i < motion.size(); ++i) {
       if (!motion[i].isZero(0)) move(state, i, motion[i]);
     }
   }
   return true;
+}
+
+const ContactPoint* PersistentContact::jam() const {
+  if (!(deepest_.gap < 0)) return nullptr;
+  const auto& colliders = contact_points_.colliders();
+  const double size = std::min(colliders[deepest_.a].inradius, colliders[deepest_.b].inradius);
+  return deepest_.gap < -kDeep * size ? &deepest_ : nullptr;
+}
+
+// Of more than can be parted together, or that cannot: each two by what is left of their overlap, without turning them.
+void PersistentContact::part_one_by_one(MutableBodyColumns state) {
+  moved_.assign(state.size(), Vec3::Zero());
+  for (const ContactPoint& contact : open_) {
+    const int a = contact.cone.a, b = contact.cone.b;
+    const Vec3 n = contact.cone.frame.col(0);
+    const double left = -contact.gap - n.dot(moved_[a] - moved_[b]);
+    if (!(left > 0)) continue;
+    const double of_a = system_.bodies[a].inverse_mass, of_b = system_.bodies[b].inverse_mass;
+    moved_[a] += left * of_a / (of_a + of_b) * n;
+    moved_[b] -= left * of_b / (of_a + of_b) * n;
+  }
+  for (std::size_t i = 0; i < state.size(); ++i) state.set_position(i, state.position(i) + moved_[i]);
 }
 
 void PersistentContact::stop_points(MutableBodyColumns state) {

@@ -28,13 +28,19 @@ class PersistentContact {
   double longest_step() const;
   // Whether nothing moves, and nothing will.
   bool is_at_rest(BodyColumns state) const;
+  // Whether the body rests, with all that it touches, while others move: it does so until something else touches it, so
+  // that its points are not among those whose forces are asked at each stage.
+  bool rests(int body) const { return rests_[static_cast<std::size_t>(body)] != 0; }
   // How far the end of the last advance is from a change of what sticks, slides or touches there: negative beyond it.
   double distance_from_change();
-  void forget_points() { persistent_.points().clear(); }
+  void forget_points();
   // Moves bodies so that nothing overlaps and, of `all`, what carries a force has no gap; velocities stay. Returns
   // whether any body had to move.
   enum class Closing { overlaps, all };
   bool close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs, Closing which);
+  // The point at which the last close_gaps() left two bodies deep in each other, for they have no room; null if there
+  // is none.
+  const ContactPoint* jam() const;
   // Takes the velocities away that the points must not have.
   void stop_points(MutableBodyColumns state);
 
@@ -50,6 +56,8 @@ class PersistentContact {
   double margin() const;
   double slipping_margin() const;
   bool carries(const ContactPoint& contact) const;
+  void set_resting_aside(BodyColumns state);
+  void part_one_by_one(MutableBodyColumns state);
   void add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral);
 
   const System& system_;
@@ -63,8 +71,11 @@ class PersistentContact {
   double restitution_threshold_;  // m/s
   BodyColumns end_;
   const double* wrench_at_end_ = nullptr;
-  std::vector<PersistentPoint> old_points_;
+  std::vector<PersistentPoint> old_points_, resting_points_;
+  std::vector<char> rests_;  // by body
   std::vector<ContactPoint> open_;
+  ContactPoint deepest_{};  // of the points that the last close_gaps() left open
+  std::vector<Vec3> moved_;
   std::vector<ProjectionTarget> targets_;
   long passes_ = 0;
 };

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPenalty = 1e6;
 constexpr int kMostForceRounds = 6;
 constexpr double kSettled = 1e-15;  // of the accelerations without forces
-constexpr double kNoSlip = 1e-9;     // m/s: a slip that has no direction of its own
+constexpr double kNoSlip = 1e-9;    // m/s: a slip that has no direction of its own
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/collision/coincident.h"
+
 namespace rigor {
 namespace {
 
@@ -17,7 +19,6 @@ constexpr double kMatchRadius = 0.1;         // a point this near to one of the 
 constexpr double kDeep = 0.02;               // an overlap of more at the start is parted, and no contact
 constexpr double kSunk = 0.5;                // one of more is no contact any longer
 constexpr double kTurnsFar = 0.25;           // a surface that turns farther is followed on its way
-constexpr double kCoincident = 1e-9, kAside = 1e-6;
 constexpr int kMostOfPair = 4;
 
 double smaller_inradius(const Collider& a, const Collider& b) { return std::min(a.inradius, b.inradius); }
@@ -31,14 +32,6 @@ double rotational_displacement(const Collider& collider, BodyColumns state, doub
 double rotational_speed(const Collider& collider, BodyColumns state) {
   if (collider.fixed || std::holds_alternative<Sphere>(collider.shape)) return 0;
   return state.angular_velocity(collider.body).norm() * collider.bounding_radius;
-}
-
-// To where a body whose centre is another's is taken to lie aside, so that many in one place part to all sides: evenly
-// spread numbers (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018), in [-1/2, 1/2].
-Vec3 aside(const Collider& collider) {
-  const double n = collider.body + 1;
-  const Vec3 x = n * Vec3(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
-  return x - x.array().floor().matrix() - Vec3::Constant(0.5);
 }
 
 // What a body fills in the next dt.
@@ -184,8 +177,7 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
   FreeMotion motion_a = free_motion_of(state, a, poses_[&a - colliders_.data()]);
   FreeMotion motion_b = free_motion_of(state, b, poses_[&b - colliders_.data()]);
   const Vec3 v = motion_a.v - motion_b.v;
-  if ((motion_a.pose.p - motion_b.pose.p).norm() < kCoincident * smaller_inradius(a, b))
-    motion_a.pose.p += kAside * smaller_inradius(a, b) * (aside(a) - aside(b));
+  motion_a.pose.p += aside_of(a, motion_a.pose.p, b, motion_b.pose.p);
   collide(a.shape, motion_a.pose, b.shape, motion_b.pose, manifold_);
   // What comes fast touches elsewhere, and along another normal, than where it is nearest now.
   const bool turns_far = turning > kTurnsFar * smaller_inradius(a, b);

@@ -152,4 +152,20 @@ BOOST_AUTO_TEST_CASE(a_truth_says_how_far_it_can_be_trusted) {
   BOOST_TEST(truth_sentence(result).find("none") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_run_of_reduced_order_has_a_mark_and_a_warning_that_says_from_when_on) {
+  Results results = sample_results();
+  BOOST_TEST(console_table(results).find("◐") == std::string::npos);
+  results.cases.front().cells[0].reduced_order = ReducedOrder{0.93, "by short steps"};
+  const std::string text = console_table(results);
+  BOOST_TEST(line_with(text, "  good ").ends_with("stable ◐"), text);
+  BOOST_TEST(text.find("warning: good (◐) is from 0.93 s on stepped by short steps") != std::string::npos, text);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) BOOST_TEST(line.size() <= 104, line);  // bytes: ◐ has three
+  results.cases.front().definition.gates.emplace_back();
+  results.cases.front().gates.push_back(
+      {0, "good", "1/10", GateAnswer::held, "it is small", 0.1, {}, "from 0.93 s on not by its method"});
+  BOOST_TEST(console_table(results).find("warning: it is small, but from 0.93 s on") != std::string::npos);
+  BOOST_TEST(gate_summary(results).find("warning: 1 of them held by runs") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -31,6 +31,14 @@ export async function oneCase(browser) {
       expect(plots.includes(name), `there is no plot of ${name}`);
       expect((await colours(browser, `.plot[data-plot="${name}"] canvas`)) > 8, `the plot of ${name} is empty`);
     }
+    const [first, second, fourth] = await browser.run(
+      `return [...document.querySelector("#convergence .chart").querySelectorAll("line.guide")].map((line) => {
+        const at = (name) => line[name].baseVal.value;
+        return (at("y2") - at("y1")) / (at("x2") - at("x1"));
+      })`,
+    );
+    for (const [order, slope] of [[2, second], [4, fourth]])
+      expect(Math.abs(slope / first - order) < 1e-6, `order ${order} is drawn with ${slope / first} times the slope of 1`);
     equal(
       await browser.run("return document.querySelector('#file pre').textContent"),
       results.cases.find((c) => c.id === spring).file + "\n",

@@ -98,4 +98,22 @@ BOOST_AUTO_TEST_CASE(a_bound_and_a_regression_are_told_apart) {
   BOOST_TEST(count(junit_report(grid), "message=\"regression: position_error of wild") == 1);
 }
 
+BOOST_AUTO_TEST_CASE(a_test_that_passed_at_a_lower_order_says_so) {
+  Results grid = gated_results();
+  check_gates(grid.cases.front(), grid);
+  const std::string before = junit_report(grid);
+  BOOST_TEST(before.find("system-out") == std::string::npos);
+  grid.cases.front().cells[0].reduced_order = ReducedOrder{0.25, "by <short> steps"};
+  check_gates(grid.cases.front(), grid);
+  const std::string text = junit_report(grid);
+  BOOST_TEST(count(text, "<system-out>warning: from 0.25 s on stepped by &lt;short&gt; steps") == 1, text);
+  BOOST_TEST(text.find(", but at dt = 1/10 from 0.25 s on") != std::string::npos, text);
+  BOOST_TEST(count(text, "<failure ") == count(before, "<failure "));
+  const Folder folder;
+  const std::string file = folder.write("junit.xml", text);
+  const std::string command =
+      "xmllint --noout --schema " RIGOR_SOURCE_DIR "/tests/cases/report/junit/junit.xsd " + file + " 2>&1";
+  BOOST_TEST(std::system(command.c_str()) == 0, text);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -3,6 +3,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -34,6 +35,7 @@ class ContactRun {
   BodyColumns state() const { return state_.columns(); }
   MutableBodyColumns state() { return state_.columns(); }
   double time() const { return time_; }
+  std::optional<ReducedOrder> reduced_order() const { return stepper_->reduced_order(); }
   const std::string& solver_warning() const { return solver_warning_; }  // the first
 
  private:

@@ -236,7 +236,7 @@ export class CaseView {
         ? part(
             "convergence",
             "Convergence",
-            "Error against step size; the figure behind a name is the order fitted.",
+            "Error against step size; the figure behind a name is the order fitted, dotted lines are what orders 1, 2 and 4 fall by.",
             converged,
           )
         : null,

@@ -26,8 +26,20 @@ export const bounds = (values) => {
   ];
 };
 
+// What errors of these orders fall by, from the coarsest step down: for the eye to hold the lines' slopes against.
+function slopes(x, y, [finest, coarsest], [least, most]) {
+  return [1, 2, 4].flatMap((order) => {
+    const end = Math.max(finest, coarsest * (least / most) ** (1 / order)),
+      low = most * (end / coarsest) ** order;
+    return [
+      svg("line", { class: "guide", x1: x.at(coarsest), x2: x.at(end), y1: y.at(most), y2: y.at(low) }),
+      svg("text", { class: "guide", x: x.at(end) + 4, y: y.at(low) - 4 }, `order ${order}`),
+    ];
+  });
+}
+
 // Lines through points (x, y) on two logarithmic axes.
-function logLog(lines, { xLabel, yLabel, xTicks, label }) {
+function logLog(lines, { xLabel, yLabel, xTicks, label, withSlopes }) {
   const width = 560,
     height = 340,
     left = 62,
@@ -66,6 +78,7 @@ function logLog(lines, { xLabel, yLabel, xTicks, label }) {
       yLabel,
     ),
   ]);
+  if (withSlopes) add(root, slopes(x, y, [xTicks.at(-1)[0], xTicks[0][0]], [floor, ys[1]]));
   for (const { engine, points } of lines) {
     const places = points.map((p) => `${x.at(p.x).toFixed(1)},${y.at(p.y).toFixed(1)}`).join(" ");
     add(root, [
@@ -138,7 +151,11 @@ export function convergence(context) {
   };
   return errorFigures(context, {
     place: (p, error) => ({ x: p.seconds, text: error }),
-    axis: { xLabel: "dt [s]", xTicks: one.dt.map((dt) => [dt.seconds, dt.text]) },
+    axis: {
+      xLabel: "dt [s]",
+      xTicks: one.dt.map((dt) => [dt.seconds, dt.text]).sort((a, b) => b[0] - a[0]),
+      withSlopes: true,
+    },
     versus: "step size",
     below: (metric, lines) => legend(lines.map(({ engine }) => [engine, fitted(engine, metric)])),
   });

@@ -112,4 +112,21 @@ BOOST_AUTO_TEST_CASE(a_log_that_slides_and_spins_keeps_the_order_of_the_integrat
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_run_says_from_when_on_its_events_were_crowded) {
+  ContactRun calm(on_floor({solid("ball", Sphere{0.1}, {0, 0, 1})}, {0.5, 0.5}), "event");
+  calm.run(kStep, 60);
+  BOOST_TEST(!calm.reduced_order());
+  ContactRun row(dominoes(10), "event");
+  row.run(kStep, 30);
+  BOOST_TEST(!row.reduced_order());  // one after another they fall event by event
+  row.run(kStep, 90);
+  BOOST_REQUIRE(row.reduced_order());
+  BOOST_TEST(row.reduced_order()->from > 30 * kStep);
+  BOOST_TEST(row.reduced_order()->from < 120 * kStep);
+  const ReducedOrder at_first = *row.reduced_order();
+  row.run(kStep, 30);
+  BOOST_TEST(row.reduced_order()->from == at_first.from);
+  BOOST_TEST(row.reduced_order()->how != at_first.how);  // it counts on
+}
+
 BOOST_AUTO_TEST_SUITE_END()
