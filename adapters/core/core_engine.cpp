@@ -8,7 +8,6 @@
 
 #include "adapters/option_values.h"
 #include "core/dynamics/contact/contact_method.h"
-#include "core/dynamics/integrators/around_singularity.h"
 #include "core/dynamics/integrators/joint_events.h"
 #include "core/dynamics/joints/singular_passages.h"
 #include "core/engine/clock.h"
@@ -42,8 +41,6 @@ class CoreWorld : public World, public MayReduceOrder {
       stepper_ = std::move(stepper);
     } else {
       stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get(), &scene});
-      if (joints_ && joints_->has_loops() && !integrator_.adaptive)  // which divides its steps by itself
-        stepper_ = std::make_unique<AroundSingularity>(*joints_, scene.bodies.size(), std::move(stepper_));
       if (JointStops::are_in(scene))
         stepper_ = std::make_unique<JointEvents>(scene, system_, *joints_, std::move(stepper_));
     }

@@ -84,19 +84,7 @@ void Joints::factorise(BodyColumns state, Rows rows) {
   rows_.evaluate(state);
   rows_.assemble(factor_);
   factor_.factorise(rows == Rows::chosen_anew);
-  least_pivot_ = std::min(least_pivot_, factor_.smallest_pivot());
   warn_if_singular();
-}
-
-bool Joints::has_loops() const {
-  for (int c = 0; c < components(); ++c) {
-    const bool is_held = std::any_of(joints_of_component_[c].begin(), joints_of_component_[c].end(), [&](int k) {
-      const JointRow& joint = rows_.joint(k);
-      return joint.body[0] == kWorld || joint.body[1] == kWorld;
-    });
-    if (joints_of_component_[c].size() + 1 > bodies_of_component_[c].size() + (is_held ? 1 : 0)) return true;
-  }
-  return false;
 }
 
 void Joints::warn_if_singular() {

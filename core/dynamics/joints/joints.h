@@ -65,11 +65,6 @@ class Joints : public ConstraintForces {
 
   // Of the last factorisation; see block_cholesky.h.
   double smallest_pivot() const { return factor_.smallest_pivot(); }
-  // Of all factorisations since they were forgotten.
-  double least_pivot() const { return least_pivot_; }
-  void forget_pivots() { least_pivot_ = 1; }
-  // Whether some joints close a loop, by way of what stands still, too: only then there are singular positions.
-  bool has_loops() const;
 
   double extent() const { return extent_; }  // m: the longest arm, what gaps are small against
   // Rows of all joints, and how many of them do not repeat others.
@@ -117,7 +112,6 @@ class Joints : public ConstraintForces {
   std::vector<std::vector<int>> bodies_of_component_, joints_of_component_;  // bodies that can move
   Columns total_;
   double extent_ = 1;  // m
-  double least_pivot_ = 1;
   struct SprungHinge {
     JointCoordinate coordinate;
     std::size_t joint;

@@ -85,26 +85,4 @@ BOOST_AUTO_TEST_CASE(cranks_that_fold_flat_are_named_and_regular_mechanisms_are_
     BOOST_TEST(said_by(regular, 1.0 / 1000, 2) == "", regular);
 }
 
-// A step that ends a ten-thousandth of a radian beside the position would leave a velocity across the way. Of two
-// hundred steps of one length or another the crank's angle is as exact whichever it is.
-BOOST_AUTO_TEST_CASE(a_step_that_ends_beside_a_singular_position_is_taken_round_it) {
-  const Scene scene = test::suite_scene("mechanisms/slider-crank-singular");
-  // The time of the passage, by steps that are as fine as they need be.
-  const double passes = upright_at(1e-4);
-  for (const double beside : {1e-3, 1e-5, 1e-6, 1e-7}) {
-    const double dt = (passes + beside) / 150;  // the 150th step ends there
-    const auto world = CoreEngine().load(scene, {.method = "rk4", .options = {}});
-    Snapshot now;
-    for (int n = 0; n < 200; ++n) {
-      world->step(dt);
-      BOOST_TEST(world->solver_warning() == "");
-    }
-    world->read(now);
-    // x = 2 cos(angle) of the slider, and the rod goes as the crank does, mirrored: the branch is kept.
-    const Vec3 crank = now.bodies().position(0), rod = now.bodies().position(1);
-    const double off = (Vec3(3 * crank.x(), crank.y(), 0) - rod).norm();
-    BOOST_TEST_CONTEXT("steps of " << dt << " s, " << beside << " s beside") BOOST_TEST(off < 1e-12);
-  }
-}
-
 BOOST_AUTO_TEST_SUITE_END()
