@@ -249,7 +249,7 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   const std::vector<JobSpec>& jobs = all_jobs.jobs();
   const int at_once = std::min<int>(options.jobs, static_cast<int>(grid.cases.size()));
   GridOptions of_case = options;
-  of_case.jobs = options.executor ? 1 : options.jobs / std::max(1, at_once);
+  of_case.jobs = options.executor ? options.jobs : options.jobs / std::max(1, at_once);
   // In a process of its own, to which the grid belongs.
   const auto work = [&](const JobSpec& job, const Channel& channel) {
     grid.cases[job.of_case] = all_jobs.planned(job), of_case.share = static_cast<int>(job.part);

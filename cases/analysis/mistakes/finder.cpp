@@ -170,9 +170,9 @@ void MistakeFinder::add_amounts(const Trace& trace, const Table& table, std::vec
 }
 
 // Two mistakes in one engine: those that explain different cases whole, those whose motions add up to the error's, and
-// the best ones alone with any other.
+// the best one alone with any other.
 void MistakeFinder::add_pairs(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const {
-  constexpr std::size_t kMostTried = 24, kBest = 2;
+  constexpr std::size_t kMostTried = 24;
   const std::vector<Hypothesis>& all = table.hypotheses;
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   std::vector<std::pair<std::size_t, std::pair<std::size_t, std::size_t>>> covers;
@@ -193,10 +193,8 @@ void MistakeFinder::add_pairs(const Trace& trace, const Table& table, std::vecto
   const std::vector<Trace::Sum> sums = trace.sums(all);
   for (std::size_t n = 0; n < std::min(kMostTried, sums.size()); ++n) pairs.insert({sums[n].first, sums[n].second});
   const std::vector<Suspect> alone = trace.ranked(all, probes_);
-  for (std::size_t n = 0; n < std::min(kBest, alone.size()); ++n) {
-    for (std::size_t other = 0; other < all.size(); ++other) {
-      if (other != alone[n].hypothesis) pairs.insert(std::minmax(alone[n].hypothesis, other));
-    }
+  for (std::size_t other = 0; other < all.size() && !alone.empty(); ++other) {
+    if (other != alone.front().hypothesis) pairs.insert(std::minmax(alone.front().hypothesis, other));
   }
   std::vector<Hypothesis> tried;
   for (const auto& [i, j] : pairs) tried.push_back(pair_of(all[i], all[j]));

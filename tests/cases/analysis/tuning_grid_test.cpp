@@ -1,0 +1,113 @@
+// rigor tune beside a full grid over the same space: no setting at any step keeps the bound for a tenth less than the
+// winner. One case; RIGOR_TUNE=all takes ten, which is some minutes of CPU time.
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cstdlib>
+
+#include "cases/analysis/tuning/tuning_probe.h"
+#include "cases/analysis/tuning/tuning_space.h"
+#include "cases/case/suite.h"
+#include "tests/cases/vocabulary.h"
+
+using namespace rigor;
+
+namespace {
+
+struct Row {
+  const char *id, *within;
+};
+
+// Where ODE's first-order steps keep the bound at a step that is tried.
+constexpr Row kRows[] = {{"springs/fixed-spring", "1cm"},   {"springs/oscillator", "1cm"},
+                         {"springs/hung-part", "1cm"},      {"springs/oscillator-underdamped", "1cm"},
+                         {"springs/mass-ratio", "1cm"},     {"springs/stiff-1", "1cm"},
+                         {"forces/torqued-top", "1cm"},     {"joints/pendulum-90", "1cm"},
+                         {"joints/chrono-revolute", "1cm"}, {"ballistic/projectile", "1cm"}};
+
+// Every combination of the options that the tuning did not find without effect.
+std::vector<std::string> all_settings(const std::string& engine, const Tuning& found) {
+  std::vector<std::string> all;
+  for (const MethodSpace& space : method_spaces(engine, infos_of(engines()))) {
+    std::vector<std::string> runs = {space.base};
+    for (const OptionInfo& option : space.options) {
+      const auto& idle = found.without_effect;
+      if (std::find(idle.begin(), idle.end(), option.name + " of " + space.base) != idle.end()) continue;
+      const std::vector<std::string> so_far = runs;
+      for (const std::string& run : so_far) {
+        for (const std::string& value : tried_values(option)) runs.push_back(with_option(run, option.name, value));
+      }
+    }
+    all.insert(all.end(), runs.begin(), runs.end());
+  }
+  return all;
+}
+
+// Of each of these [s], the median of so many repeats, in turn so that what disturbs the machine disturbs all.
+std::vector<double> costs_of(const std::vector<Probe>& probes, Prober& prober) {
+  constexpr int kRepeats = 9;
+  std::vector<std::vector<double>> costs(probes.size());
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    const auto answers = prober.run(probes, 1, true, 1);
+    for (std::size_t i = 0; i < probes.size(); ++i) costs[i].push_back(answers[i].cost);
+  }
+  std::vector<double> medians;
+  for (auto& one : costs) {
+    std::nth_element(one.begin(), one.begin() + kRepeats / 2, one.end());
+    medians.push_back(one[kRepeats / 2]);
+  }
+  return medians;
+}
+
+// The cheapest of the grid that keep the bound.
+std::vector<Probe> best_of_grid(const std::vector<std::string>& settings, Prober& prober) {
+  constexpr std::size_t kMost = 5;
+  std::vector<Probe> probes;
+  for (const std::string& run : settings) {
+    for (std::size_t step = 0; step < tuned_steps().size(); ++step) probes.push_back({run, step});
+  }
+  const auto answers = prober.run(probes, 1, true, 2);
+  std::vector<std::size_t> good;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (answers[i].error <= 1) good.push_back(i);
+  }
+  std::sort(good.begin(), good.end(), [&](auto a, auto b) { return answers[a].cost < answers[b].cost; });
+  good.resize(std::min(good.size(), kMost));
+  std::vector<Probe> best;
+  for (const std::size_t i : good) best.push_back(probes[i]);
+  return best;
+}
+
+void check_row(const Row& row) {
+  const std::string engine = "ode";
+  const TuneOptions options{2};
+  const std::vector<Case> cases = select_cases({row.id}, default_suite_dir(), test::words());
+  const std::vector<Bound> bounds = {parse_bound(row.within)};
+  const Tuning found = tune(engine, cases, bounds, engines(), options);
+  BOOST_TEST_REQUIRE(found.winner.has_value(), row.id << ": " << found.nearest);
+  Prober prober(cases, bounds, engines(), options);
+  std::vector<Probe> probes = best_of_grid(all_settings(engine, found), prober);
+  BOOST_TEST_REQUIRE(!probes.empty());
+  const auto& steps = tuned_steps();
+  const auto step = std::find(steps.begin(), steps.end(), found.winner->dt) - steps.begin();
+  probes.push_back({found.winner->run.text, static_cast<std::size_t>(step)});
+  const std::vector<double> costs = costs_of(probes, prober);
+  const auto best = std::min_element(costs.begin(), costs.end()) - costs.begin();
+  BOOST_TEST_MESSAGE(row.id << ": " << found.winner->run.text << " at " << found.winner->dt.text << " costs "
+                            << costs.back() / costs[best] << " times " << probes[best].run << " at "
+                            << steps[probes[best].step].text);
+  BOOST_TEST(costs.back() <= 1.1 * costs[best], row.id);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_analysis_tuning_grid)
+
+BOOST_AUTO_TEST_CASE(no_setting_of_the_full_grid_is_a_tenth_cheaper_than_the_winner) {
+  const bool is_full = std::getenv("RIGOR_TUNE") != nullptr;
+  for (const Row& row : kRows) {
+    check_row(row);
+    if (!is_full) break;
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
