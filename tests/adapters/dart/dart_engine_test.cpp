@@ -10,8 +10,11 @@
 #include <numbers>
 #include <sstream>
 
+#include "cases/case/suite.h"
+#include "cases/runner/grid.h"
 #include "core/engine/engine_failure.h"
 #include "tests/adapters/free_body_measures.h"
+#include "tests/cases/vocabulary.h"
 
 using namespace rigor;
 
@@ -101,6 +104,22 @@ BOOST_AUTO_TEST_CASE(a_world_that_blows_up_is_lost_before_it_aborts) {
   const BodyState end = body_after(*world, 1.0 / 30, 1800);
   BOOST_TEST(!std::isfinite(end.angular_velocity.norm()));
   BOOST_TEST(world->solver_warning().find("before it would abort") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(what_aborts_all_the_same_costs_its_cell) {
+  // As shipped DART asserts here that its solver has found numbers.
+  Case doll = select_cases({"mechanisms/ragdoll-on-floor"}, default_suite_dir(), test::words()).front();
+  std::erase_if(doll.dt, [](const StepSize& dt) { return dt.text != "1/240"; });
+  doll.gates.clear();
+  const auto infos = infos_of(engines());
+  Results grid =
+      plan_grid({doll}, {parse_run_name("dart@stock", infos), parse_run_name("ode", infos)}, engines(), {false, true});
+  run_grid(grid, engines(), {1, 60, {}, false, false}, [](std::size_t, std::size_t) {});
+  for (const Cell& cell : grid.cases.front().cells) {
+    const bool is_dart = grid.runs[cell.run].engine == "dart";
+    BOOST_TEST((cell.status == (is_dart ? Status::crashed : Status::pass)), cell.reason);
+    if (is_dart) BOOST_TEST(cell.reason.find("SIGABRT") != std::string::npos, cell.reason);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(small_turns_go_too_far_by_a_sixth_of_their_cube) {
