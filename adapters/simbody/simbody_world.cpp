@@ -145,6 +145,11 @@ void SimbodyWorld::refuse_what_has_no_forces() const {
                       "Simbody finds no forces for the joints that close loops: all that they say, others say already");
 }
 
+std::string in_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 // A first call after a start returns at once, without a step; and a change of the loads is a start, before which what
 // was worked out with the old ones has to be forgotten.
 void SimbodyWorld::advance(double from, double to) {
@@ -158,7 +163,8 @@ void SimbodyWorld::advance(double from, double to) {
   } catch (const std::exception& error) {
     if (largest_in(integrator_->getAdvancedState().getY()) < kBlownUp) throw;  // its own failure: it costs the cell
     lost_ = true;
-    solver_warning_ = fmt::format("Simbody gave up on numbers that passed {:g}: {}", kBlownUp, error.what());
+    solver_warning_ =
+        fmt::format("Simbody gave up on numbers that passed {:g}: {}", kBlownUp, in_one_line(error.what()));
     return;
   }
   lost_ = !std::isfinite(largest_in(integrator_->getAdvancedState().getY()));
