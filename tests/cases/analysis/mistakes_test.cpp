@@ -3,6 +3,7 @@
 // RIGOR_DIAGNOSE=PART those whose names have this part in them. RIGOR_DIAGNOSE_SEED draws other pairs: those of 1 were
 // looked at while the thresholds were chosen, those of any other number had no part in it.
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 #include <random>
@@ -234,7 +235,9 @@ BOOST_AUTO_TEST_CASE(the_amount_of_a_mistake_is_found) {
   }
 }
 
-// A pair of which one is named is neither both named nor, for that, a wrong name.
+// A pair of which one is named is neither both named nor, for that, a wrong name. Four are too few to show a share of
+// 0.7: the short form fails where it would see so few, if the share were 0.7, less than once in twenty times; the full
+// form asks for the share itself.
 BOOST_AUTO_TEST_CASE(two_mistakes_at_once_are_both_named) {
   const char* seed = std::getenv("RIGOR_DIAGNOSE_SEED");
   std::mt19937 random(seed ? static_cast<unsigned>(std::atoi(seed)) : 1);
@@ -250,7 +253,10 @@ BOOST_AUTO_TEST_CASE(two_mistakes_at_once_are_both_named) {
       take(engine, combined(first, second), {first.name, second.name}, score);
     }
     score.say(engine + ", both named");
-    BOOST_TEST(score.share() >= 0.7, engine);
+    constexpr double kShare = 0.7;
+    const boost::math::binomial_distribution<double> expected(score.asked, kShare);
+    if (wanted() == "all") BOOST_TEST(score.share() >= kShare, engine);
+    if (wanted().empty()) BOOST_TEST(boost::math::cdf(expected, score.right) >= 0.05, engine);
     BOOST_TEST(score.wrong_and_sure == 0, engine);
   }
 }
