@@ -57,6 +57,12 @@ inline bool chooses_steps(const Run& run) {
   return run.method().adaptive || (run.settings.track == Track::stock && run.settings.method != "semi-explicit-euler");
 }
 
+// Of what chooses its steps.
+inline double accuracy_of(const Run& run) {
+  if (run.settings.track == Track::stock) return 1e-3;
+  return run.settings.method == "semi-explicit-euler-2" ? 1e-4 : 1e-9;
+}
+
 // The same, but for what damps every motion as it ships, btMultiBody, and what as it ships is content with a thousandth
 // of everything, CPODES.
 inline void for_each_undamped_run(const Scene& scene, double dt, const std::function<void(const Run&)>& check) {

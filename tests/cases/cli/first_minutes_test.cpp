@@ -55,8 +55,11 @@ BOOST_AUTO_TEST_CASE(the_version_names_the_compiler_and_each_engine) {
 BOOST_AUTO_TEST_CASE(a_run_first_says_what_it_will_do_and_about_how_long_that_takes) {
   folder.write("thrown.toml", kThrown);
   const Answer answer = run({"run", "thrown.toml", "--engine", "ode", "--engine", "core:rk4", "--jobs", "1"});
-  BOOST_TEST(answer.err.starts_with("rigor: 1 case by 2 runs: 2 cells; about "), answer.err);
-  BOOST_TEST(answer.err.find(" with 1 job; the reports will be in out\n") != std::string::npos, answer.err);
+  const std::string moment = "rigor: 1 case by 2 runs: 2 cells; a moment with 1 job; the reports will be in out\n";
+  BOOST_TEST(answer.err.starts_with(moment), answer.err);
+  const Answer longer =
+      run({"run", "thrown.toml", "--engine", "ode", "--duration", "2000", "--dt", "1/1000", "--jobs", "1"});
+  BOOST_TEST(longer.err.find(" cells; about ") != std::string::npos, longer.err);
 }
 
 BOOST_AUTO_TEST_CASE(the_report_is_opened_by_the_desktop_or_it_says_where_it_is) {
