@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(a_run_first_says_what_it_will_do_and_about_how_long_that_ta
   const std::string moment = "rigor: 1 case by 2 runs: 2 cells; a moment with 1 job; the reports will be in out\n";
   BOOST_TEST(answer.err.starts_with(moment), answer.err);
   const Answer longer =
-      run({"run", "thrown.toml", "--engine", "ode", "--duration", "2000", "--dt", "1/1000", "--jobs", "1"});
+      run({"run", "thrown.toml", "--engine", "ode", "--duration", "300", "--dt", "1/1000", "--jobs", "1"});
   BOOST_TEST(longer.err.find(" cells; about ") != std::string::npos, longer.err);
 }
 
