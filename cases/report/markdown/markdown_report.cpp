@@ -199,6 +199,17 @@ std::string settings(const Results& results) {
   return text;
 }
 
+// An engine's own columns, of the cases that it ran; to be read as the matrix above it.
+TextTable matrix_of_engine(const Results& results, Words words, const std::vector<std::size_t>& runs) {
+  TextTable matrix = verdict_matrix(results, words, runs);
+  matrix.heading = "To be read as above.";
+  const auto is_empty = [](const std::vector<std::string>& row) {
+    return std::all_of(row.begin() + 1, row.end(), [](const std::string& cell) { return cell.empty(); });
+  };
+  std::erase_if(matrix.rows, is_empty);
+  return matrix;
+}
+
 // Of many runs one an engine, and each engine's own behind a line to open.
 std::string matrices(const Results& results, Words words) {
   std::vector<std::size_t> all(results.runs.size());
@@ -212,7 +223,7 @@ std::string matrices(const Results& results, Words words) {
     std::erase_if(own, [&](std::size_t run) { return results.runs[run].engine != engine; });
     if (own.size() == 1) continue;
     text += fmt::format("\n<details><summary>{}: all {} of its runs</summary>\n\n{}\n</details>\n", plain(engine),
-                        own.size(), table(verdict_matrix(results, words, own)));
+                        own.size(), table(matrix_of_engine(results, words, own)));
   }
   return text;
 }
