@@ -48,7 +48,7 @@ std::string cell_text(const CaseResult& result, const Cell& cell, const std::str
   if (cell.status == Status::unsupported) return sign;
   if (!has_number) return sign + word_of(cell.status);
   const std::string quantity = short_quantity(found->second.value, metric);
-  return sign + (found->second.is_held_to_itself ? fmt::format("({})", quantity) : shade_of(result, cell) + quantity);
+  return sign + shade_of(result, cell) + (found->second.is_held_to_itself ? fmt::format("({})", quantity) : quantity);
 }
 
 // A run's name in lines of a column's width, broken behind ':' and before '@', at '-', ',' and '=', else anywhere.

@@ -98,8 +98,7 @@ double size_of(const Scene& scene) {
 
 std::string shade_of(const CaseResult& result, const Cell& cell) {
   const double share = value_of(cell, "position_error") / size_of(result.definition.scene);
-  if (cell.status == Status::diverged || !(share >= 1e-3) || cell.metrics.at("position_error").is_held_to_itself)
-    return " ";
+  if (cell.status == Status::diverged || !(share >= 1e-3)) return " ";
   return share < 1e-2 ? "░" : share < 1e-1 ? "▒" : share < 1 ? "▓" : "█";
 }
 

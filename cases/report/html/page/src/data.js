@@ -189,7 +189,7 @@ const verdictKinds = {
 // How dark a cell of the matrix is: its position error in decades of the case's size, from 0 at 1e-4 of it to 1 at the
 // size itself. Nothing where there is no such error, or more to say than how large it is.
 export function shadeOf(one, cell) {
-  const error = cell?.status === "pass" ? witnessed(cell, "position_error") : null;
+  const error = cell?.status === "pass" ? metricOf(cell, "position_error") : null;
   if (error === null || !(one.size > 0)) return null;
   return Math.min(1, Math.max(0, (Math.log10(error / one.size) + 4) / 4));
 }

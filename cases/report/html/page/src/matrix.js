@@ -91,7 +91,7 @@ export class Matrix {
     const tolerance =
       state.show === "step" ? ` of ${quantity(state.tolerance, "m")} or ${quantity(state.tolerance, "rad")}` : "";
     const main =
-      "the position's; the orientation's where nothing moves away; the energy's drift where there is no truth";
+      "the position's; the orientation's where nothing moves away; the energy's drift where there is no truth; (in brackets) held to a truth that its own code makes";
     return [
       el("b", {}, `dt = ${this.dt.text} s: ${what}${tolerance}`),
       " ",
@@ -299,7 +299,7 @@ export class Matrix {
     }
     const value = metricOf(cell, name);
     if (value === null) return ["–", "not applicable"];
-    return isHeldToItself(cell, name) ? [`(${quantity(value, unit)})`, "by its own code"] : [quantity(value, unit)];
+    return [isHeldToItself(cell, name) ? `(${quantity(value, unit)})` : quantity(value, unit)];
   }
 
   go(event, one, changes) {
