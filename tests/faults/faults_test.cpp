@@ -42,8 +42,11 @@ std::vector<RunName> runs_of(const std::string& engine, const std::vector<RunNam
   return own;
 }
 
-// Stock Bullet knows how long a body has been slow, and puts it to sleep; a world made anew does not.
-bool remembers(const RunName& run) { return run.engine == "bullet" && run.settings.track == Track::stock; }
+// Stock Bullet knows how long a body has been slow, and puts it to sleep; stock Simbody knows how long a step was right
+// enough, and goes on with that. A world made anew does not.
+bool remembers(const RunName& run) {
+  return run.settings.track == Track::stock && (run.engine == "bullet" || run.engine == "simbody");
+}
 
 // Only gates whose runs are all of one engine. The twins of a broken core would be broken with it, so that no gate on
 // another engine is asked.
