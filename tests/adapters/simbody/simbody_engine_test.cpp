@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 #include "tests/adapters/free_body_measures.h"
+#include "tests/adapters/hung_rods.h"
 #include "tests/adapters/seam_runs.h"
 
 using namespace rigor;
@@ -17,34 +18,6 @@ namespace {
 
 const std::vector<std::string> kFixedSteps = {"explicit-euler",      "merson", "rk2", "rk3",
                                               "semi-explicit-euler", "verlet"};
-
-Body rod(const std::string& name, const Vec3& position) {
-  Body body;
-  body.name = name;
-  body.mass = 1.5;
-  body.inertia << 0.02, 0.004, -0.003, 0.004, 0.15, 0.002, -0.003, 0.002, 0.14;
-  body.position = position;
-  body.orientation = Quat(0.9, 0.1, -0.3, 0.2).normalized();
-  return body;
-}
-
-// Two rods, the first hung from the world by a ball, the second from the first by `joint`, at rest.
-Scene hung_by(const Joint& joint) {
-  Scene scene;
-  scene.gravity = {0.5, 0, -9.81};
-  scene.bodies = {rod("upper", {0.5, 0, 0}), rod("lower", {1.5, 0.2, 0.1})};
-  scene.joints = {{.a = kWorld, .b = 0, .type = BallJoint{{0, 0, 0}}}, joint};
-  return scene;
-}
-
-std::vector<Joint> joints_of_each_kind() {
-  const Vec3 anchor(1, 0.1, 0), axis = Vec3(0.2, 1, 0.3).normalized(), across = Vec3(1, -0.2, 0).normalized();
-  return {{.type = BallJoint{anchor}},
-          {.type = HingeJoint{anchor, axis}, .stiffness = 3, .damping = 0.2, .rest = 0.3},
-          {.type = SliderJoint{axis}, .stiffness = 40, .damping = 1.5, .rest = -0.1},
-          {.type = FixedJoint{}},
-          {.type = UniversalJoint{anchor, axis, axis.cross(across).normalized()}}};
-}
 
 // The largest difference of any number of two runs after some time [m, rad, m/s, rad/s].
 double distance(const std::string& run, const Scene& scene, const std::string& other, const Scene& other_scene,
@@ -200,8 +173,8 @@ BOOST_AUTO_TEST_CASE(rings_of_one_kind_of_joint_are_closed_by_constraints) {
   }
 }
 
-// Constraints that say no more than the tree does leave Simbody a matrix of roundings, of which it makes forces that are
-// none.
+// Constraints that say no more than the tree does leave Simbody a matrix of roundings, of which it makes forces that
+// are none.
 BOOST_AUTO_TEST_CASE(a_joint_said_twice_is_refused) {
   for (Joint joint : joints_of_each_kind()) {
     joint.a = 0, joint.b = 1;
