@@ -16,6 +16,14 @@ inline std::unique_ptr<World> load_run(const std::string& name, const Scene& sce
   return find_engine(engines(), run.engine).load(scene, run.settings);
 }
 
+// Empty if there is none of that name.
+inline std::string setting(const SettingsInForce& settings, const std::string& name) {
+  for (const auto& [key, value] : settings) {
+    if (key == name) return value;
+  }
+  return "";
+}
+
 inline BodyState body_after(World& world, double dt, int steps) {
   for (int i = 0; i < steps; ++i) world.step(dt);
   Snapshot snapshot;

@@ -38,13 +38,6 @@ double distance_after(const std::string& run, const Scene& scene, double dt, dou
   return distance;
 }
 
-std::string setting(const SettingsInForce& settings, const std::string& name) {
-  for (const auto& [key, value] : settings) {
-    if (key == name) return value;
-  }
-  return "";
-}
-
 void check_refused(const Scene& scene, const std::string& why) {
   BOOST_CHECK_EXCEPTION(load_run("dart", scene), EngineFailure, [&](const EngineFailure& failure) {
     return failure.kind() == FailureKind::unsupported && std::string(failure.what()).find(why) != std::string::npos;

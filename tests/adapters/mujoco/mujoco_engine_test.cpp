@@ -36,13 +36,6 @@ double distance_after(const std::string& run, const Scene& scene, double dt, dou
   return distance;
 }
 
-std::string setting(const SettingsInForce& settings, const std::string& name) {
-  for (const auto& [key, value] : settings) {
-    if (key == name) return value;
-  }
-  return "";
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(adapters_mujoco_mujoco_engine)

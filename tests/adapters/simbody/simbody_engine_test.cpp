@@ -52,13 +52,6 @@ Scene pushed(double from, double until) {
   return scene;
 }
 
-std::string setting(const SettingsInForce& settings, const std::string& name) {
-  for (const auto& [key, value] : settings) {
-    if (key == name) return value;
-  }
-  return "";
-}
-
 bool is_refused_for(const std::string& run, const Scene& scene, const std::string& reason) {
   try {
     load_run(run, scene);
