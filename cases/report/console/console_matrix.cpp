@@ -154,7 +154,7 @@ std::string console_matrix(const Results& results) {
   std::string text =
       wrapped(fmt::format("dt = {} s, or what stands behind a case: the largest error of the position "
                           "[m]; of the orientation [rad] where nothing moves away; of the energy [%] "
-                          "where there is no truth.",
+                          "where there is no truth; in brackets, of a truth that the run's own code makes.",
                           headline_dt(results).text),
               0) +
       "\n" + "✓ stable  ≈ drifting  ∩ overlapping  ↑ gaining energy  ↓ collapsed  ✕ blown up at that time, or\n" +

@@ -140,7 +140,8 @@ TextTable verdict_matrix(const Results& results, Words words, const std::vector<
   const StepSize headline = headline_dt(results);
   TextTable matrix{
       fmt::format("dt = {} s: the verdict, and the largest error of the position [m]; of the orientation "
-                  "[rad] where nothing moves away; of the energy [%] where there is no truth. The darker "
+                  "[rad] where nothing moves away; of the energy [%] where there is no truth; in "
+                  "brackets, of a truth that the run's own code makes. The darker "
                   "the square, the larger the position's error beside the case's size: ░ from 1e-3, ▒ 1e-2, "
                   "▓ 1e-1, █ 1{}",
                   headline.text,
