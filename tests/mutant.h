@@ -1,5 +1,5 @@
-// What tests/mutants puts behind each of its questions: the mutant whose number RIGOR_MUTANT names is on, all others are
-// off. RIGOR_MUTANT_REACH: a file of a byte each, in which those that are asked for are marked.
+// What tests/mutants puts behind each of its questions: the mutant whose number RIGOR_MUTANT names is on, all others
+// are off. RIGOR_MUTANT_REACH: a file of a byte each, in which those that are asked for are marked.
 #pragma once
 
 #include <fcntl.h>
@@ -62,10 +62,10 @@ auto plain(const T& value) {
   }
 }
 
-#define RIGOR_MUTANT_OPERATOR(name, sign, other)                 \
-  template <typename A, typename B>                              \
-  auto name(int number, const A& a, const B& b) {                \
-    return is_on(number) ? plain(a other b) : plain(a sign b);   \
+#define RIGOR_MUTANT_OPERATOR(name, sign, other)               \
+  template <typename A, typename B>                            \
+  auto name(int number, const A& a, const B& b) {              \
+    return is_on(number) ? plain(a other b) : plain(a sign b); \
   }
 RIGOR_MUTANT_OPERATOR(less, <, <=)
 RIGOR_MUTANT_OPERATOR(at_most, <=, <)

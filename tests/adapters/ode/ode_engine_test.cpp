@@ -214,14 +214,20 @@ BOOST_AUTO_TEST_CASE(no_contact_of_two_boxes_is_left_out) {
     scene.bodies.resize(2);
     for (Body& body : scene.bodies)
       body.shape = Box{{1, 1, 0.2}}, body.inertia = inertia_of(*body.shape, 1), body.collides = true;
-    scene.bodies[0].position = {0, 0, 0.2}, scene.bodies[0].orientation = rotation_by({0, 0, kPi / 4});
+    scene.bodies[0].position = {0, 0, 0.2 - 1e-6}, scene.bodies[0].orientation = rotation_by({0, 0, kPi / 4});
     scene.bodies[1].fixed = true;
     // 0.46 m from the middle; the eight corners' octagon begins at half a metre, a square of four of them at 0.38 m.
     const Vec3 point = scene.bodies[0].orientation.conjugate() * (0.46 * Vec3(std::cos(angle), std::sin(angle), 0));
     scene.forces = {{.body = 0, .force = {0, 0, -500}, .torque = Vec3::Zero(), .point = point}};
     scene.contact_default = {0, 1};
-    const BodyState after = body_after(*load_run("ode", scene), 1.0 / 240, 60);
-    BOOST_TEST(angle_between(after.orientation, scene.bodies[0].orientation) < 0.01, "pressed at " << angle << " rad");
+    // Nor does it rock, as it would on four points, of which the deepest is always one: from corner to corner at up to
+    // 4 rad/s (measured). Pressed towards a corner it does so on all eight, too.
+    const auto world = load_run("ode", scene);
+    double fastest = 0;
+    for (int step = 0; step < 60; ++step)
+      fastest = std::max(fastest, body_after(*world, 1.0 / 240, 1).angular_velocity.norm());
+    if (k % 2 == 0) BOOST_TEST(fastest < 1e-3, "pressed at " << angle << " rad it turns at " << fastest << " rad/s");
+    BOOST_TEST(angle_between(body_after(*world, 1.0 / 240, 1).orientation, scene.bodies[0].orientation) < 0.01);
   }
 }
 

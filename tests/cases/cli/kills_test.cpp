@@ -45,10 +45,12 @@ struct KilledProgram : DisturbedProgram {
   // One run over the old outputs, killed, gone on with and killed again, and gone on with to its end.
   void kill_in_a_row(Microseconds whole) {
     put_old_outputs_there();
-    std::uniform_real_distribution<double> share(0, kBeyond);
+    // Every other kill is meant for the last quarter, where results are published.
+    std::uniform_real_distribution<double> any(0, kBeyond), late(0.75, kBeyond);
     const auto row = 1 + random() % kMostInARow;
     for (std::uint64_t i = 0; i < row; ++i) {
-      const Microseconds time(static_cast<long>(share(random) * static_cast<double>(whole.count())));
+      const double share = random() % 2 == 0 ? any(random) : late(random);
+      const Microseconds time(static_cast<long>(share * static_cast<double>(whole.count())));
       const bool with_group = random() % 2 == 0;
       const Answer answer = killed_after(time, i > 0, with_group);
       const std::string where = "killed after " + std::to_string(time.count()) + " us" +
