@@ -116,6 +116,28 @@ BOOST_AUTO_TEST_CASE(a_row_that_no_gate_can_meet_is_refused) {
   check_known_deviations(rows, {definition}, infos());
 }
 
+BOOST_AUTO_TEST_CASE(a_row_of_several_runs_is_met_by_a_gate_of_one_of_them) {
+  std::string text = kRow;
+  text.replace(text.find("\"ode\""), 5, "\"ode\", \"ode:quickstep\"");
+  Case definition = drifting_body("drift");
+  Gate gate;
+  gate.metric = "position_error", gate.engines = {"ode:quickstep"};
+  definition.gates = {gate};
+  check_known_deviations(read(text), {definition}, infos());
+}
+
+// What was recorded was recorded with the deviation in it.
+BOOST_AUTO_TEST_CASE(a_regression_is_no_deviation_that_is_known) {
+  Results grid = judged(2, 0.5, {});
+  CaseResult& result = grid.cases.front();
+  result.definition.gates.front().regression = 1.25;
+  for (const GateResult& answer : result.gates) BOOST_TEST_REQUIRE(answer.gate == 0u);
+  const auto before = result.gates;
+  apply_known_deviations(result, grid, read(kRow));
+  for (std::size_t i = 0; i < before.size(); ++i) BOOST_TEST((result.gates[i].answer == before[i].answer));
+  BOOST_TEST(!all_gates_hold(grid));
+}
+
 // The shipped ones name cases of the suite, and are met by its gates.
 BOOST_AUTO_TEST_CASE(the_shipped_rows_speak_of_gates_that_there_are) {
   const auto rows = read_known_deviations(default_adapters_dir(), infos());

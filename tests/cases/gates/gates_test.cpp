@@ -115,6 +115,42 @@ BOOST_AUTO_TEST_CASE(min_and_equals_hold_on_their_side_only) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_bound_that_is_met_exactly_holds) {
+  const auto holds = [](double value, const auto& bound) {
+    Fixture run;
+    run.cell(0).metrics["position_error"].value = value;
+    Gate limit = gate("position_error");
+    limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}};
+    bound(limit);
+    return run.check(limit).front().answer == GateAnswer::held;
+  };
+  BOOST_TEST(holds(0.3, [](Gate& gate) { gate.max = 0.3; }));
+  BOOST_TEST(holds(0.3, [](Gate& gate) { gate.min = 0.3; }));
+  // A rounding is one of what is asked for, and of 1 where that is less.
+  BOOST_TEST(holds(0.1 + 0.9 * kRounding, [](Gate& gate) { gate.equals = 0.1; }));
+  BOOST_TEST(!holds(0.1 + 1.2 * kRounding, [](Gate& gate) { gate.equals = 0.1; }));
+  BOOST_TEST(holds(100 + 90 * kRounding, [](Gate& gate) { gate.equals = 100; }));
+  BOOST_TEST(!holds(100 + 120 * kRounding, [](Gate& gate) { gate.equals = 100; }));
+}
+
+BOOST_AUTO_TEST_CASE(each_run_answers_for_its_own_order) {
+  Fixture run(2);
+  for (Cell& cell : run.result().cells) {
+    if (cell.run == 1) cell.metrics["position_error"].value = cell.dt.seconds;
+  }
+  Gate least = gate("position_error");
+  least.at_least_order = 1.9;
+  const auto answers = run.check(least);
+  BOOST_TEST_REQUIRE(answers.size() == 2u);
+  for (const GateResult& answer : answers)
+    BOOST_TEST((answer.answer == (answer.engine == "a" ? GateAnswer::held : GateAnswer::failed)), answer.text);
+  // A cell that the metric says nothing of is none to fit.
+  run.result().gates.clear();
+  run.cell(0).metrics["position_error"].not_applicable = "says nothing";
+  BOOST_TEST_REQUIRE(run.check(least).size() == 1u);
+  BOOST_TEST(run.result().gates.front().engine == "b");
+}
+
 BOOST_AUTO_TEST_CASE(a_value_that_is_no_number_holds_nowhere) {
   for (const int bound : {0, 1, 2, 3}) {
     Fixture run;

@@ -51,4 +51,14 @@ BOOST_AUTO_TEST_CASE(a_case_without_quick_gates_goes_and_none_at_all_is_refused)
   BOOST_CHECK_THROW(quick_selection({slow}, {}), InputError);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_quick_counts_bodies_by_steps) {
+  for (const auto& [share, is_quick] : {std::pair(1.0, true), std::pair(1.001, false)}) {
+    Case definition = long_case();
+    definition.scene.bodies.resize(4, definition.scene.bodies.front());
+    definition.dt = {{4 * definition.duration / (share * kQuickBodySteps), "step"}, {1, "1"}};
+    definition.gates = {gate("position_error")};
+    BOOST_TEST(quick_selection({definition}, {})[0].gates[0].dt.size() == (is_quick ? 2u : 1u), share);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -103,6 +103,16 @@ BOOST_AUTO_TEST_CASE(a_run_that_blew_up_does_not_hold_what_is_recorded) {
   BOOST_TEST((result().gates.front().answer == GateAnswer::failed));
 }
 
+BOOST_AUTO_TEST_CASE(a_rounding_is_recorded_as_none) {
+  Gate gate;
+  gate.metric = "position_error", gate.regression = 1.25, gate.dt = {{0.1, "0.1"}};
+  result().definition.gates = {gate};
+  for (Cell& cell : result().cells) cell.metrics["position_error"].value = 1e-12;
+  check_gates(result(), grid);
+  BOOST_TEST(regression_text(write("results.json", json_report(grid)), "good").text ==
+             "{\"case\":\"family/case\",\"run\":\"good\",\"dt\":\"1/10\",\"position_error\":0.0}\n");
+}
+
 BOOST_AUTO_TEST_CASE(the_file_made_of_results_holds_them) {
   Gate gate, bound;
   gate.metric = "position_error", gate.regression = 1.25;
