@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cases/gates/gates.h"
+#include "cases/metrics/metric.h"
 #include "cases/report/reports.h"
 #include "core/base/error.h"
 #include "tests/cases/judged.h"
@@ -111,7 +112,46 @@ BOOST_AUTO_TEST_CASE(roundings_are_noise_however_they_grow) {
 BOOST_AUTO_TEST_CASE(what_nobody_measured_has_not_changed) {
   Results after = gated_results();
   good_cell(after).metrics["position_error"].not_applicable = "not measured";
-  both_ways(gated_results(), after, [](const Changes& changes) { BOOST_TEST(changes.shrunk.empty()); });
+  both_ways(gated_results(), after, [](const Changes& changes) {
+    BOOST_TEST(changes.shrunk.empty());
+    BOOST_TEST(changes.lost.empty());  // which it would be, had it been asked for
+  });
+}
+
+// Times are measured anew, shifts have signs, and of what is better the higher it is less is no gain.
+BOOST_AUTO_TEST_CASE(only_errors_are_compared) {
+  Results before = gated_results(), after = gated_results();
+  std::set<std::string> not_compared = {"cost", "phase_error"};
+  for (const MetricRow& row : metrics()) {
+    if (row.higher_is_better) not_compared.insert(row.name);
+  }
+  BOOST_TEST(not_compared.size() > 2u);
+  for (const std::string& name : not_compared) {
+    good_cell(before).metrics[name].value = 1, good_cell(after).metrics[name].value = 100;
+    good_cell(before).metrics[name].not_applicable = good_cell(after).metrics[name].not_applicable = "";
+  }
+  both_ways(before, after, [](const Changes& changes) {
+    BOOST_TEST(text_of(changes, 1.25) == "nothing changed by more than 1.25 times\nnot worse\n");
+  });
+}
+
+BOOST_AUTO_TEST_CASE(a_regression_that_has_nothing_recorded_is_no_answer) {
+  Results grid = sample_results();
+  Gate gate;
+  gate.metric = "position_error", gate.regression = 1.25, gate.engines = {"good"};
+  grid.cases.front().definition.gates = {gate};
+  check_gates(grid.cases.front(), grid);
+  BOOST_TEST_REQUIRE(!grid.cases.front().gates.empty());
+  BOOST_TEST(outcomes_of(grid).gates.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_case_that_cannot_be_judged_is_worse_and_a_baseline_keeps_it) {
+  const Results good = gated_results();
+  Results bad = gated_results();
+  bad.cases.front().error = "there is no truth";
+  both_ways(bad, bad, [](const Changes& changes) { BOOST_TEST(!changes.is_worse()); });
+  both_ways(good, bad, [](const Changes& changes) { BOOST_TEST(changes.is_worse()); });
+  both_ways(bad, good, [](const Changes& changes) { BOOST_TEST(!changes.newly_passing.empty()); });
 }
 
 BOOST_AUTO_TEST_CASE(a_gate_and_its_cell_that_fail_now_are_worse_and_the_other_way_better) {
