@@ -197,6 +197,20 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_gone_is_worse_and_one_that_is_new_is_not) {
   });
 }
 
+BOOST_AUTO_TEST_CASE(a_cell_that_is_gone_from_a_case_is_worse_and_one_that_is_new_is_not) {
+  Results fewer = gated_results();
+  fewer.cases.front().cells.erase(fewer.cases.front().cells.begin());
+  check_gates(fewer.cases.front(), fewer);
+  both_ways(gated_results(), fewer, [](const Changes& changes) {
+    BOOST_TEST(changes.gone == std::vector<std::string>{"family/case, good, 1/10"});
+    BOOST_TEST(changes.is_worse());
+  });
+  both_ways(fewer, gated_results(), [](const Changes& changes) {
+    BOOST_TEST(changes.added == std::vector<std::string>{"family/case, good, 1/10"});
+    BOOST_TEST(!changes.is_worse());
+  });
+}
+
 BOOST_AUTO_TEST_CASE(an_error_that_is_measured_no_longer_is_worse) {
   Results lost = gated_results(), without_reason = gated_results();
   good_cell(lost).metrics["position_error"].not_applicable = "the truth was not found";
@@ -205,6 +219,8 @@ BOOST_AUTO_TEST_CASE(an_error_that_is_measured_no_longer_is_worse) {
     both_ways(gated_results(), after, [](const Changes& changes) {
       BOOST_TEST(changes.lost ==
                  std::vector<std::string>{"family/case, good, 1/10: position_error is missing, was 0.25"});
+      BOOST_TEST((changes.grown.empty() && changes.shrunk.empty()));
+      BOOST_TEST(text_of(changes, 1.25).find("no longer measured") != std::string::npos);
       BOOST_TEST(changes.is_worse());
     });
   }
@@ -271,6 +287,7 @@ BOOST_AUTO_TEST_CASE(a_baseline_is_lines_of_json_and_says_the_same_when_written_
   bool has_cell = false;
   while (std::getline(lines, line)) {
     const auto json = nlohmann::json::parse(line);
+    BOOST_TEST(!json.contains("gate"), line);  // those of one cell that hold follow from it
     if (!json.contains("status") || json.at("engine") != "good" || json.at("dt") != "1/10") continue;
     has_cell = true;
     BOOST_TEST(json.at("case") == "family/case");
