@@ -189,6 +189,7 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_gone_is_worse_and_one_that_is_new_is_not) {
   two.cases.back().definition.id = "family/other";
   both_ways(two, gated_results(), [](const Changes& changes) {
     BOOST_TEST(changes.gone == std::vector<std::string>{"family/other"});
+    BOOST_TEST(text_of(changes, 1.25).find("gone") != std::string::npos);
     BOOST_TEST(changes.is_worse());
   });
   both_ways(gated_results(), two, [](const Changes& changes) {

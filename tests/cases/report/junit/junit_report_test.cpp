@@ -70,6 +70,18 @@ BOOST_AUTO_TEST_CASE(a_failure_says_what_the_gate_says) {
   BOOST_TEST(text.find("st|one &quot;1&quot;, &lt;i&gt;") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_cell_that_fails_twice_says_both_and_what_is_known_beside_it_hides_nothing) {
+  Results grid = gated_results();
+  for (GateResult& answer : grid.cases.front().gates) answer.answer = GateAnswer::failed;
+  BOOST_TEST(count(junit_report(grid), ">[^<\n]*&#10;bound: energy_drift[^<\n]*&#10;</failure>") == 2);  // of "good"
+  for (GateResult& answer : grid.cases.front().gates) {
+    if (answer.gate == 1) answer.answer = GateAnswer::known_deviation;
+  }
+  const std::string text = junit_report(grid);
+  BOOST_TEST(count(text, "<skipped ") == 0, text);
+  BOOST_TEST(count(text, "<failure ") == 2 + 1 + 1, text);  // "good", what blew up, the gate that met no cell
+}
+
 // Counted by hand: of the first case two failures, of the second (the same) as many again.
 BOOST_AUTO_TEST_CASE(the_whole_counts_what_all_suites_have) {
   Results grid = gated_results();
