@@ -116,6 +116,17 @@ BOOST_AUTO_TEST_CASE(plain_poses_have_plain_gaps) {
              boost::test_tools::tolerance(1e-13));
 }
 
+// Two cubes, each on an edge, one across the other: their faces' normals all lean by 45 degrees, the edges' product is
+// upright.
+BOOST_AUTO_TEST_CASE(crossed_edges_have_a_gap_of_their_own) {
+  const Shape box = Box{{1, 1, 1}};
+  const BodyPose below{Vec3::Zero(), rotation_by({0.25 * std::numbers::pi, 0, 0})};
+  for (const double gap : {0.2, -0.1}) {
+    const BodyPose above{{0, 0, std::sqrt(2) + gap}, rotation_by({0, 0.25 * std::numbers::pi, 0})};
+    BOOST_TEST(shape_gap(box, below, box, above) == gap, boost::test_tools::tolerance(1e-13));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(every_pair_in_reach_is_found_once) {
   Scene scene;
   BodyTable table(61);
