@@ -38,6 +38,15 @@ void ThreadPool::run(const std::function<void(std::size_t)>& task) {
   for (std::uint32_t ended = ended_; ended != all_ended; ended = ended_) wait_while(ended_, ended);
 }
 
+void ThreadPool::meet() {
+  if (helpers_.empty()) return;
+  const std::uint32_t meetings = meetings_.load(std::memory_order_relaxed);
+  if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 < members()) return wait_while(meetings_, meetings);
+  arrived_.store(0, std::memory_order_relaxed);
+  meetings_.fetch_add(1, std::memory_order_release);
+  meetings_.notify_all();
+}
+
 std::uint32_t ThreadPool::begin() {
   const std::uint32_t task = begun_.fetch_add(1, std::memory_order_release) + 1;
   begun_.notify_all();
