@@ -58,6 +58,8 @@ const Kernels kTable = {
 
 extern const ContactKernels kContactTable;
 const ContactKernels kContactTable = {
+    .scatter_pushed = scatter_pushed,
+    .gather_pushed = gather_pushed,
     .integrate_corrections = integrate_corrections,
     .prepare_rows = prepare_rows,
     .prepare_bias = prepare_bias,

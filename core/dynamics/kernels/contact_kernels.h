@@ -9,6 +9,10 @@
 namespace rigor {
 
 struct ContactKernels {
+  // Velocities to the state, and to `pushes` what they are more than those that were there: what all impulses of a
+  // sub-step have done. And to records with these on top, which is as if each impulse were applied to them.
+  void (*scatter_pushed)(const Bodies&, const double* velocities, double* state, double* pushes);
+  void (*gather_pushed)(const Bodies&, const double* state, const double* pushes, double* velocities);
   // Positions and orientations integrated over h with what the records' velocities differ by from the state's; and how
   // the bodies have then moved since `start`, to records.
   void (*integrate_corrections)(const Bodies&, const double* velocities, double h, double* state, const double* start,

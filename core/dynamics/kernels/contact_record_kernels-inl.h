@@ -92,6 +92,27 @@ RIGOR_INLINE Twist<T> displacement(T, const Bodies& b, std::size_t i, const doub
   return {get3(T(), state, b, kPosition, i) - get3(T(), start, b, kPosition, i), two * V3<T>{turn.x, turn.y, turn.z}};
 }
 
+void gather_pushed(const Bodies& b, const double* state, const double* pushes, double* velocities) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const Twist<T> push = twist_of(get_records(T(), pushes, i));
+    put_records(velocities, i,
+                record_of(Twist<T>{get3(T(), state, b, kVelocity, i) + push.v,
+                                   get3(T(), state, b, kAngularVelocity, i) + push.w}));
+  });
+}
+
+void scatter_pushed(const Bodies& b, const double* velocities, double* state, double* pushes) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const Twist<T> u = twist_of(get_records(T(), velocities, i));
+    put_records(
+        pushes, i,
+        record_of(Twist<T>{u.v - get3(T(), state, b, kVelocity, i), u.w - get3(T(), state, b, kAngularVelocity, i)}));
+    put3(state, b, kVelocity, i, u.v), put3(state, b, kAngularVelocity, i, u.w);
+  });
+}
+
 void integrate_corrections(const Bodies& b, const double* velocities, double h, double* state, const double* start,
                            double* displacements) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {

@@ -39,14 +39,8 @@ struct RowLanes {
 };
 
 template <class T>
-struct Angular {
-  V3<T> n, t, s;
-};
-// What unit impulses at the end of an arm add to w.
-template <class T>
-RIGOR_INLINE Angular<T> angular_of(const Record<T>& inertia, V3<T> arm, V3<T> n, V3<T> t, V3<T> s) {
-  const Symmetric<T> I = {inertia.c[0], inertia.c[1], inertia.c[2], inertia.c[3], inertia.c[4], inertia.c[5]};
-  return {I * cross(arm, n), I * cross(arm, t), I * cross(arm, s)};
+RIGOR_INLINE Symmetric<T> inertia_of(const Record<T>& r) {
+  return {r.c[0], r.c[1], r.c[2], r.c[3], r.c[4], r.c[5]};
 }
 
 // Across n, and across the axis that n leans to least.
@@ -62,29 +56,32 @@ RIGOR_INLINE V3<T> tangent_of(V3<T> n) {
   return (broadcast(T(), 1) / square_root(dot(t, t))) * t;
 }
 
-// Rows of any two bodies.
+// Rows of any two bodies, and their inverse inertias.
 template <class T>
 struct AnyRow : RowLanes<T> {
   using RowLanes<T>::get;
   using RowLanes<T>::get3;
   using RowLanes<T>::put;
   using RowLanes<T>::put3;
+  Symmetric<T> inertia_a, inertia_b;
 
-  RIGOR_INLINE void prepare(const Record<T>& inertia_a, const Record<T>& inertia_b) const {
+  RIGOR_INLINE void load_pair(const RowGroup& group, std::size_t k, const SolverBodies& bodies) {
+    inertia_a = inertia_of(get_record(T(), bodies.inverse_inertias, group.a + k));
+    inertia_b = inertia_of(get_record(T(), bodies.inverse_inertias, group.b + k));
+  }
+
+  RIGOR_INLINE void prepare(const Record<T>& of_a, const Record<T>& of_b) {
+    inertia_a = inertia_of(of_a), inertia_b = inertia_of(of_b);
     const V3<T> n = get3(kNormal), t = tangent_of(n), s = cross(n, t), arm_a = get3(kArmA), arm_b = get3(kArmB);
     const V3<T> friction = get3(kFrictionImpulse);
     put(kTangentImpulse, dot(t, friction)), put(kTangentImpulse + 1, dot(s, friction));
     put3(kTangent, t);
-    const Angular<T> angular_a = angular_of(inertia_a, arm_a, n, t, s),
-                     angular_b = angular_of(inertia_b, arm_b, n, t, s);
-    put3(kAngularA, angular_a.n), put3(kAngularA + 3, angular_a.t), put3(kAngularA + 6, angular_a.s);
-    put3(kAngularB, angular_b.n), put3(kAngularB + 3, angular_b.t), put3(kAngularB + 6, angular_b.s);
     // The inverse effective mass: d · (I⁻¹ (arm x e) x arm) is what a unit impulse along e gives of velocity along d.
-    const auto K = [&](V3<T> d, V3<T> a, V3<T> b)
-                       RIGOR_LAMBDA { return dot(d, cross(a, arm_a)) + dot(d, cross(b, arm_b)); };
-    const T free = inertia_a.c[6] + inertia_b.c[6], one = broadcast(T(), 1), half = broadcast(T(), 0.5);
-    const T nn = free + K(n, angular_a.n, angular_b.n), tt = free + K(t, angular_a.t, angular_b.t),
-            ss = free + K(s, angular_a.s, angular_b.s), ts = K(s, angular_a.t, angular_b.t);
+    const auto K = [&](V3<T> d, V3<T> e) RIGOR_LAMBDA {
+      return dot(d, cross(inertia_a * cross(arm_a, e), arm_a)) + dot(d, cross(inertia_b * cross(arm_b, e), arm_b));
+    };
+    const T one = broadcast(T(), 1), half = broadcast(T(), 0.5);
+    const T free = of_a.c[6] + of_b.c[6], nn = free + K(n, n), tt = free + K(t, t), ss = free + K(s, s), ts = K(s, t);
     const T inverse = one / (tt * ss - ts * ts), apart = half * (tt - ss);
     put(kNormalMass, one / nn);
     put(kTangentMass, ss * inverse), put(kTangentMass + 1, tt * inverse), put(kTangentMass + 2, T{} - ts * inverse);
@@ -97,19 +94,15 @@ struct AnyRow : RowLanes<T> {
   }
   RIGOR_INLINE T normal_velocity(const PairLanes<T>& pair, V3<T> n) const { return dot(n, velocity(pair)); }
 
-  RIGOR_INLINE void apply_normal(PairLanes<T>& pair, V3<T> n, T p) const {
-    this->push(pair, p * n);
-    pair.a.w = pair.a.w + p * get3(kAngularA);
-    pair.b.w = pair.b.w - p * get3(kAngularB);
+  RIGOR_INLINE void apply(PairLanes<T>& pair, V3<T> impulse) const {
+    this->push(pair, impulse);
+    pair.a.w = pair.a.w + inertia_a * cross(get3(kArmA), impulse);
+    pair.b.w = pair.b.w - inertia_b * cross(get3(kArmB), impulse);
   }
-  RIGOR_INLINE void apply_tangential(PairLanes<T>& pair, V3<T> t, V3<T> s, T p_t, T p_s) const {
-    this->push(pair, p_t * t + p_s * s);
-    pair.a.w = pair.a.w + (p_t * get3(kAngularA + 3) + p_s * get3(kAngularA + 6));
-    pair.b.w = pair.b.w - (p_t * get3(kAngularB + 3) + p_s * get3(kAngularB + 6));
-  }
+  RIGOR_INLINE void apply_normal(PairLanes<T>& pair, V3<T> n, T p) const { apply(pair, p * n); }
   RIGOR_INLINE void apply_friction(PairLanes<T>& pair, V3<T> n) const {
     const V3<T> t = get3(kTangent);
-    apply_tangential(pair, t, cross(n, t), get(kTangentImpulse), get(kTangentImpulse + 1));
+    apply(pair, get(kTangentImpulse) * t + get(kTangentImpulse + 1) * cross(n, t));
   }
 
   RIGOR_INLINE void solve_friction(PairLanes<T>& pair, V3<T> n, T p_n) const {
@@ -127,7 +120,7 @@ struct AnyRow : RowLanes<T> {
       const T onto = if_at_most(slip2, radius2, broadcast(T(), 1), radius / square_root(slip2));
       p_t = if_at_most(stick2, radius2, p_t, onto * x), p_s = if_at_most(stick2, radius2, p_s, onto * y);
     }
-    apply_tangential(pair, t, s, p_t - old_t, p_s - old_s);
+    apply(pair, (p_t - old_t) * t + (p_s - old_s) * s);
     put(kTangentImpulse, p_t), put(kTangentImpulse + 1, p_s);
   }
 };
@@ -140,10 +133,11 @@ struct BallRow : RowLanes<T> {
   using RowLanes<T>::put;
   using RowLanes<T>::put3;
 
-  RIGOR_INLINE void prepare(const Record<T>& inertia_a, const Record<T>& inertia_b) const {
+  RIGOR_INLINE void load_pair(const RowGroup&, std::size_t, const SolverBodies&) {}
+  RIGOR_INLINE void prepare(const Record<T>& of_a, const Record<T>& of_b) const {
     const V3<T> n = get3(kNormal), friction = get3(kFrictionImpulse);
     const T l_a = get(kLengthA), l_b = get(kLengthB), one = broadcast(T(), 1);
-    const T turn_a = l_a * inertia_a.c[0], turn_b = l_b * inertia_b.c[0], free = inertia_a.c[6] + inertia_b.c[6];
+    const T turn_a = l_a * of_a.c[0], turn_b = l_b * of_b.c[0], free = of_a.c[6] + of_b.c[6];
     put3(kFrictionImpulse, friction - dot(n, friction) * n);
     put(kTurnA, turn_a), put(kTurnB, turn_b);
     put(kNormalMass, one / free), put(kAcrossMass, one / (free + (l_a * turn_a + l_b * turn_b)));
@@ -172,11 +166,11 @@ struct BallRow : RowLanes<T> {
 
 template <class T>
 RIGOR_INLINE AnyRow<T> any_row(T) {
-  return {};
+  return AnyRow<T>();
 }
 template <class T>
 RIGOR_INLINE BallRow<T> ball_row(T) {
-  return {};
+  return BallRow<T>();
 }
 // Calls f(a row of its kind, group) for each group.
 template <class F>
@@ -264,6 +258,7 @@ RIGOR_INLINE void solve_rows(const RowGroup* groups, std::size_t count, const So
     for (std::size_t k = 0; k < kRowsPerBlock; k += kWidth) {
       PairLanes<T> pair(T(), group, k, bodies.velocities);
       bool is_changed = false;
+      kind.load_pair(group, k, bodies);
       for_points(kind, group, k, [&](auto row) RIGOR_LAMBDA { is_changed |= solve(row, pair); });
       if (is_changed) pair.put(group, k, bodies.velocities);
     }
@@ -341,10 +336,23 @@ RIGOR_INLINE unsigned active_lanes(const RowGroup& group, const SomeRows& some, 
   return lanes & some.lanes;
 }
 
+// So few rows of a block are solved one by one.
+inline constexpr int kFewLanes = 2;
+
+// Solves the row of lane k alone.
+template <class Row, class F>
+RIGOR_INLINE void solve_lane(Row kind, const RowGroup& group, std::int16_t point, std::size_t k,
+                             const SolverBodies& bodies, double* changes, F solve) {
+  kind.at = group.block(static_cast<std::size_t>(point)) + k;
+  kind.load_pair(group, k, bodies);
+  PairLanes<double> pair(double(), group, k, bodies.velocities);
+  if (solve(kind, pair, changes[k])) pair.put(group, k, bodies.velocities);
+}
+
 // Solves the rows of these lanes, and leaves the others as they are; writes to `changes` by how much velocities
 // changed.
 template <class Row, class F>
-RIGOR_INLINE void solve_lanes(Row kind, const RowGroup& group, const SomeRows& some, unsigned lanes,
+RIGOR_INLINE void solve_lanes(Row kind, const RowGroup& group, std::int16_t point, unsigned lanes,
                               const SolverBodies& bodies, double* changes, F solve) {
   using T = typename Row::Lanes;
   double chosen[kRowsPerBlock];
@@ -355,7 +363,8 @@ RIGOR_INLINE void solve_lanes(Row kind, const RowGroup& group, const SomeRows& s
     const auto pick3 = [&](V3<T> old, V3<T> now) RIGOR_LAMBDA -> V3<T> {
       return {pick(old.x, now.x), pick(old.y, now.y), pick(old.z, now.z)};
     };
-    kind.at = group.block(static_cast<std::size_t>(some.point)) + k;
+    kind.at = group.block(static_cast<std::size_t>(point)) + k;
+    kind.load_pair(group, k, bodies);
     const PairLanes<T> old(T(), group, k, bodies.velocities);
     const T impulse = kind.get(kImpulse);
     const V3<T> friction = kind.get3(kFrictionImpulse);
@@ -381,9 +390,20 @@ RIGOR_INLINE bool sweep_over(const RowGroup* first, const SomeRows* rows, std::s
     const unsigned lanes = active_lanes(group, *some, bodies, sweep);
     if (lanes == 0) continue;
     double changes[kRowsPerBlock];
-    for_groups(&group, 1, [&](auto kind, const RowGroup&) RIGOR_LAMBDA {
-      solve_lanes(kind, group, *some, lanes, bodies, changes, solve);
-    });
+    if (__builtin_popcount(lanes) <= kFewLanes) {
+      for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
+        if (!(lanes >> k & 1)) continue;
+        if (group.of_balls) {
+          solve_lane(ball_row(double()), group, some->point, k, bodies, changes, solve);
+        } else {
+          solve_lane(any_row(double()), group, some->point, k, bodies, changes, solve);
+        }
+      }
+    } else {
+      for_groups(&group, 1, [&](auto kind, const RowGroup&) RIGOR_LAMBDA {
+        solve_lanes(kind, group, some->point, lanes, bodies, changes, solve);
+      });
+    }
     for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
       if (!(lanes >> k & 1) || changes[k] * changes[k] <= parameters.tolerance * parameters.tolerance) continue;
       // A fixed body is written to an idle record, and so is never active.

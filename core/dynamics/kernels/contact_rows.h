@@ -33,11 +33,9 @@ enum RowColumn {
   kTangent = 15,         // one of two
   kArmA = 18,            // m, from the centre of mass to a's point
   kArmB = 21,
-  kAngularA = 24,     // I⁻¹ (arm x d), what unit impulses along d = normal and the two tangents add to w,
-  kAngularB = 33,     // and take from it
-  kTangentMass = 42,  // kg: tt, ss, ts of the inverse of the tangential inverse effective mass K_t
-  kSlipMass = 45,     // kg, 1 / the larger eigenvalue of K_t
-  kColumnsOfAny = 46,
+  kTangentMass = 24,  // kg: tt, ss, ts of the inverse of the tangential inverse effective mass K_t
+  kSlipMass = 27,     // kg, 1 / the larger eigenvalue of K_t
+  kColumnsOfAny = 28,
 
   // Of two that are balls or fixed: their arms lie along the normal, -l_a n and l_b n, and inertias are numbers I, so
   // that nothing is to be known of tangents.

@@ -164,7 +164,7 @@ void ContactRowLayout::fill(const std::vector<ContactConstraint>& constraints, d
 void ContactRowLayout::fill_group(std::size_t number, const std::vector<ContactConstraint>& constraints,
                                   double impulse_scale, std::size_t thread) {
   RowGroup& group = groups_[number];
-  clear(group);
+  if (pairs_of_group_[number].back() < 0) clear(group);
   const std::int32_t to_none = idle_ + 1 + static_cast<std::int32_t>(thread);
   for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
     group.a[k] = group.b[k] = idle_, group.to_a[k] = group.to_b[k] = to_none;

@@ -52,7 +52,7 @@ class ImpulseStepper : public ContactStepper {
         rebounds_(parts.system, SubSteps::takes_impacts_at_once(parts.settings)),
         positions_(kVelocity, parts.system.size()),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
-    for (AlignedDoubles* records : {&velocities_, &displacements_, &inverse_inertias_})
+    for (AlignedDoubles* records : {&velocities_, &displacements_, &pushes_, &inverse_inertias_})
       records->assign(kRecord * rows_.records(), 0.0);
     last_active_.assign(rows_.records(), 0);
     inverse_inertias_[kRecord * rows_.idle_body() + 6] = 1;  // 1/kg, of which rows divide by the sum
@@ -66,10 +66,10 @@ class ImpulseStepper : public ContactStepper {
       const int end = (update + 1) * count / updates;
       std::vector<ContactConstraint>& constraints = manifolds_.find(state, (end - k) * h);
       prepare(state, constraints, h);
-      for (; k < end; ++k) {
+      for (const int first = k; k < end; ++k) {
         prepare_sub_step();
         move_freely(state, t + k * h);
-        threads_->run([&](std::size_t thread) { solve_sub_step(state, thread); });
+        threads_->run([&](std::size_t thread) { solve_sub_step(state, k == first, thread); });
       }
       threads_->run([&](std::size_t thread) { rows_.store_impulses(constraints, thread); });
     }
@@ -121,17 +121,23 @@ class ImpulseStepper : public ContactStepper {
     if (are_rebounds) rebounds_.resolve(rows_.groups(), parameters_, state);
   }
 
-  // A thread's share of what the impulses do.
-  void solve_sub_step(MutableBodyColumns state, std::size_t thread) {
+  // A thread's share of what the impulses do. Between two updates of the contacts an impulse always does the same to
+  // its bodies, so that the last sub-step's need not be applied again one by one.
+  void solve_sub_step(MutableBodyColumns state, bool is_first, std::size_t thread) {
     const Bodies bodies = share_of_bodies(thread);
-    kernels().gather_velocities(bodies, state.column(0), velocities_.data());
-    threads_->meet();
-    warm_start(thread);
+    if (is_first) {
+      kernels().gather_velocities(bodies, state.column(0), velocities_.data());
+      threads_->meet();
+      warm_start(thread);
+    } else {
+      contact_kernels().gather_pushed(bodies, state.column(0), pushes_.data(), velocities_.data());
+      threads_->meet();
+    }
     solve_with_bias(thread);
     integrate_corrections(bodies, state);
     threads_->meet();
     relax(thread);
-    kernels().scatter_velocities(bodies, velocities_.data(), state.column(0));
+    contact_kernels().scatter_pushed(bodies, velocities_.data(), state.column(0), pushes_.data());
   }
 
   // Calls pass(groups, their number) for a thread's share of each colour; all threads have done one colour before any
@@ -196,6 +202,7 @@ class ImpulseStepper : public ContactStepper {
   Rebounds rebounds_;
   SolverParameters parameters_{};
   AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies
+  AlignedDoubles pushes_;  // what the impulses of the last sub-step have changed the velocities by
   std::vector<std::int64_t> last_active_;
   Columns positions_;  // the state's poses when contacts were last updated
   std::unique_ptr<Stepper> integrator_;

@@ -80,6 +80,25 @@ double approach(const ManifoldPoint& point, const FreeMotion& a, const FreeMotio
   return -point.normal.dot(a.velocity_at(point.point) - b.velocity_at(point.point));
 }
 
+bool is_round(const Collider& collider) {
+  return std::holds_alternative<Sphere>(collider.shape) || std::holds_alternative<Plane>(collider.shape);
+}
+
+// Where two balls, or a ball and a plane, are nearest.
+struct RoundTouch {
+  Vec3 normal;  // unit, from b to a
+  double gap;   // m
+};
+RoundTouch touch_of(const Collider& a, const Vec3& p_a, const Collider& b, const Vec3& p_b) {
+  if (const auto* plane = std::get_if<Plane>(&b.shape))
+    return {plane->normal, plane->normal.dot(p_a) - plane->offset - a.inradius};
+  if (const auto* plane = std::get_if<Plane>(&a.shape))
+    return {-plane->normal, plane->normal.dot(p_b) - plane->offset - b.inradius};
+  const Vec3 line = p_a - p_b;
+  const double distance = line.norm();
+  return {distance > 0 ? Vec3(line / distance) : Vec3::UnitZ(), distance - a.inradius - b.inradius};
+}
+
 // When the first of these points closes its gap: 0 if one is closed, or if none does within dt.
 double time_of_impact(const Manifold& points, const FreeMotion& a, const FreeMotion& b, double dt) {
   double first = dt;
@@ -138,7 +157,8 @@ void Manifolds::place_body(std::size_t i, BodyColumns state, double dt) {
   const Vec3 displacement = dt * state.velocity(collider.body);
   const double margin = kSpeculativeMargin * collider.inradius + rotational_displacement(collider, state, dt);
   boxes_[i] = swept_box(collider, poses_[i], displacement, margin);
-  bounding_radii_[i] = collider.bounding_radius + margin + displacement.norm();
+  const Vec3 v = collider.fixed ? Vec3::Zero() : state.velocity(collider.body);
+  places_[i] = {poses_[i].p, collider.bounding_radius + margin + displacement.norm(), v, collider.inradius};
   has_left_[i] = is_first_ || !lies_within(boxes_[i], fat_boxes_[i]);
   if (has_left_[i]) fat_boxes_[i] = is_first_ ? boxes_[i] : fattened(boxes_[i], collider, displacement);
 }
@@ -161,14 +181,12 @@ void Manifolds::update_pairs(BodyColumns state, double dt) {
   if (!moved_.empty()) pairs_ = &broad_phase_.overlaps(fat_boxes_, moved_);
 }
 
-// Whether two bodies stay apart within dt, by their bounding spheres or by their boxes. Written so that what is not a
-// number does not.
+// Whether two bodies stay apart within dt: one and a plane, or two by their boxes. Written so that what is not a number
+// does not.
 bool Manifolds::stay_apart(int a, int b) const {
   if (const auto* plane = std::get_if<Plane>(&colliders_[a].shape))
-    return plane->normal.dot(poses_[b].p) - plane->offset > bounding_radii_[b];
+    return plane->normal.dot(poses_[b].p) - plane->offset > places_[b].reach;
   if (std::holds_alternative<Plane>(colliders_[b].shape)) return stay_apart(b, a);
-  const double distance = bounding_radii_[a] + bounding_radii_[b];
-  if ((poses_[a].p - poses_[b].p).squaredNorm() > distance * distance) return true;
   return (boxes_[a].low.array() > boxes_[b].high.array()).any() ||
          (boxes_[b].low.array() > boxes_[a].high.array()).any();
 }
@@ -208,6 +226,32 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
                                 law.restitution, point.normal, point.point + to_surface - motion_a.pose.p,
                                 point.point - to_surface - motion_b.pose.p, point.gap, 0, Vec3::Zero()});
   }
+}
+
+// What add_pair() does, where a turn shows nothing and a line from centre to centre all.
+void Manifolds::add_round_pair(double dt, int at_a, int at_b, Part& part) {
+  const Collider &a = colliders_[at_a], &b = colliders_[at_b];
+  Vec3 p_a = places_[at_a].p, p_b = places_[at_b].p;
+  const Vec3 v_a = places_[at_a].v, v_b = places_[at_b].v, v = v_a - v_b;
+  const double margin = kSpeculativeMargin * smaller_inradius(a, b);
+  p_a += aside_of(a, p_a, b, p_b);
+  RoundTouch touch = touch_of(a, p_a, b, p_b);
+  const double speed = -touch.normal.dot(v);
+  const double ahead = touch.gap > 0 && touch.gap < dt * speed ? touch.gap / speed : 0;
+  double overlap = std::min(0.0, touch.gap);
+  if (ahead * v.norm() > margin) {
+    p_a += ahead * v_a, p_b += ahead * v_b;
+    touch = touch_of(a, p_a, b, p_b);
+    overlap = touch.gap;  // at their meeting
+    touch.gap -= ahead * touch.normal.dot(v);
+  }
+  if (!(touch.gap < margin + dt * std::max(0.0, -touch.normal.dot(v)))) return;
+  watch(a, b, touch.gap, part);
+  const auto to_point = [&](const Collider& c) { return std::isfinite(c.inradius) ? c.inradius + 0.5 * overlap : 0; };
+  const Vec3 arm_a = -to_point(a) * touch.normal, arm_b = to_point(b) * touch.normal;
+  const ContactLaw& law = laws_.of(a.body, b.body);
+  part.constraints.push_back({a.body, b.body, 0, is_parted_from_start(a, b, touch.gap), law.friction, law.restitution,
+                              touch.normal, arm_a, arm_b, touch.gap, 0, Vec3::Zero()});
 }
 
 bool Manifolds::is_parted_from_start(const Collider& a, const Collider& b, double gap) const {
@@ -254,9 +298,15 @@ void Manifolds::add_pairs(std::size_t first_pair, std::size_t last_pair, BodyCol
   std::size_t old = 0;
   for (std::size_t i = first_pair; i < last_pair; ++i) {
     const auto& [a, b] = (*pairs_)[i];
+    const double reach = places_[a].reach + places_[b].reach;
+    if ((places_[a].p - places_[b].p).squaredNorm() > reach * reach) continue;
     if ((colliders_[a].fixed && colliders_[b].fixed) || stay_apart(a, b)) continue;
     const std::size_t first = part.constraints.size();
-    add_pair(state, dt, colliders_[a], colliders_[b], part);
+    if (is_round(colliders_[a]) && is_round(colliders_[b])) {
+      add_round_pair(dt, a, b, part);
+    } else {
+      add_pair(state, dt, colliders_[a], colliders_[b], part);
+    }
     if (part.constraints.size() == first) continue;
     ContactConstraint* points = &part.constraints[first];
     if (first == 0) {

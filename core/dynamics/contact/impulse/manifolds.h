@@ -38,7 +38,7 @@ class Manifolds {
         laws_(scene),
         poses_(colliders_.size()),
         boxes_(colliders_.size()),
-        bounding_radii_(colliders_.size()),
+        places_(colliders_.size()),
         has_left_(colliders_.size()),
         overlaps_at_start_(scene.bodies.size()) {
     for (const Body& body : scene.bodies) names_.push_back(body.name);
@@ -56,11 +56,19 @@ class Manifolds {
     std::vector<ContactConstraint> constraints;
     std::string failure;
   };
+  // All that most pairs are judged by, in one cache line.
+  struct alignas(64) Place {
+    Vec3 p;        // m
+    double reach;  // m, from the centre, of all that the body can get to within dt
+    Vec3 v;        // m/s
+    double inradius;
+  };
   void place_body(std::size_t i, BodyColumns state, double dt);
   bool stay_apart(int a, int b) const;
   void update_pairs(BodyColumns state, double dt);
   void add_pairs(std::size_t first, std::size_t last, BodyColumns state, double dt, Part& part);
   void add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b, Part& part);
+  void add_round_pair(double dt, int a, int b, Part& part);
   bool is_parted_from_start(const Collider& a, const Collider& b, double gap) const;
   void watch(const Collider& a, const Collider& b, double gap, Part& part);
   void match_impulses(ContactConstraint* first, ContactConstraint* last, double radius, std::size_t& old);
@@ -73,9 +81,9 @@ class Manifolds {
   BroadPhase broad_phase_;
   std::vector<Pose> poses_;
   std::vector<Aabb> boxes_, fat_boxes_;
-  std::vector<double> bounding_radii_;  // m: of all that a body can reach within dt
-  std::vector<char> has_left_;          // its fat box, by collider
-  std::vector<int> moved_;              // those colliders
+  std::vector<Place> places_;
+  std::vector<char> has_left_;  // its fat box, by collider
+  std::vector<int> moved_;      // those colliders
   const std::vector<std::pair<int, int>>* pairs_ = nullptr;
   bool is_first_ = true;
   std::vector<char> overlaps_at_start_;  // by body
