@@ -95,7 +95,7 @@ void BroadPhase::enter(const std::vector<Aabb>& boxes) {
 // Those with a changed box: each of these with all that are not, and with the changed ones that come after it.
 void BroadPhase::try_pair(int place, int other, const std::vector<Aabb>& boxes) {
   if (is_changed_[other] != 0 && other <= place) return;
-  if (overlap(boxes[place], boxes[other])) unsorted_.push_back(std::minmax(place, other));
+  if (overlap(boxes[place], boxes[other])) found_.push_back(std::minmax(place, other));
 }
 
 void BroadPhase::search_grid(int grid, int place, const std::vector<Aabb>& boxes) {
@@ -133,22 +133,25 @@ void BroadPhase::pairs_with_unbounded(const std::vector<Aabb>& boxes) {
       if (is_changed_[i] == 0 && is_changed_[j] == 0) continue;
       // Of two unbounded ones, the first tells the pair.
       if (j == i || (j < i && grid_[j] < 0)) continue;
-      if (overlap(boxes[i], boxes[j])) unsorted_.emplace_back(std::min(i, j), std::max(i, j));
+      if (overlap(boxes[i], boxes[j])) found_.emplace_back(std::min(i, j), std::max(i, j));
     }
   }
 }
 
-// By the first of both, and then the few of each by the second.
+// The new ones by the first of both, and then the few of each by the second; and with them those that still hold.
 void BroadPhase::sort_pairs() {
   first_pair_.assign(is_changed_.size() + 2, 0);
-  for (const auto& pair : unsorted_) ++first_pair_[static_cast<std::size_t>(pair.first) + 2];
+  for (const auto& pair : found_) ++first_pair_[static_cast<std::size_t>(pair.first) + 2];
   std::partial_sum(first_pair_.begin(), first_pair_.end(), first_pair_.begin());
-  pairs_.resize(unsorted_.size());
-  for (const auto& pair : unsorted_) pairs_[first_pair_[static_cast<std::size_t>(pair.first) + 1]++] = pair;
-  const auto at = [&](std::size_t place) { return pairs_.begin() + static_cast<std::ptrdiff_t>(first_pair_[place]); };
+  sorted_.resize(found_.size());
+  for (const auto& pair : found_) sorted_[first_pair_[static_cast<std::size_t>(pair.first) + 1]++] = pair;
+  const auto at = [&](std::size_t place) { return sorted_.begin() + static_cast<std::ptrdiff_t>(first_pair_[place]); };
   for (std::size_t place = 0; place < is_changed_.size(); ++place) {
-    if (!std::is_sorted(at(place), at(place + 1))) std::sort(at(place), at(place + 1));
+    if (first_pair_[place + 1] - first_pair_[place] > 1) std::sort(at(place), at(place + 1));
   }
+  kept_.swap(pairs_);
+  pairs_.resize(kept_.size() + sorted_.size());
+  std::merge(kept_.begin(), kept_.end(), sorted_.begin(), sorted_.end(), pairs_.begin());
 }
 
 const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<Aabb>& boxes) {
@@ -162,10 +165,8 @@ const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<A
                                                              const std::vector<int>& changed) {
   is_changed_.assign(boxes.size(), 0);
   for (const int place : changed) is_changed_[place] = 1;
-  unsorted_.clear();
-  for (const auto& pair : pairs_) {
-    if (is_changed_[pair.first] == 0 && is_changed_[pair.second] == 0) unsorted_.push_back(pair);
-  }
+  std::erase_if(pairs_, [&](const auto& pair) { return (is_changed_[pair.first] | is_changed_[pair.second]) != 0; });
+  found_.clear();
   choose_width(boxes);
   enter(boxes);
   for (const int place : changed) search_for(place, boxes);

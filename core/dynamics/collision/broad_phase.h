@@ -49,7 +49,7 @@ class BroadPhase {
   std::vector<Entry> entries_;            // bucket by bucket
   std::vector<int> unbounded_;            // places, ascending
   std::vector<std::size_t> first_pair_;   // by place of the first of both
-  std::vector<std::pair<int, int>> pairs_, unsorted_;
+  std::vector<std::pair<int, int>> pairs_, kept_, found_, sorted_;
 };
 
 }  // namespace rigor

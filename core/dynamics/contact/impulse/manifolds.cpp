@@ -11,8 +11,8 @@ namespace rigor {
 namespace {
 
 // In inradii of the body, or of the smaller of two.
-constexpr double kFatMargin = 0.2;           // by so much its fat box is wider than itself,
-constexpr double kStepsAhead = 12;           // and by its displacement in so many steps,
+constexpr double kFatMargin = 0.1;           // by so much its fat box is wider than itself,
+constexpr double kStepsAhead = 20;           // and by its displacement in so many steps,
 constexpr double kFarthest = 1.5;            // but not by more than this
 constexpr double kSpeculativeMargin = 0.02;  // points closer than this are kept even if they do not approach
 constexpr double kMatchRadius = 0.1;         // a point this near to one of the last update is the same
