@@ -9,12 +9,12 @@ void pause() {
 #endif
 }
 
-// Looks for some hundred microseconds before it sleeps.
+// Looks for some hundred microseconds before it sleeps; soon lets others on, for what it waits for may need this core.
 void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  constexpr int kLooks = 10000;
+  constexpr int kLooks = 10000, kLooksAlone = 1000;
   for (int k = 0; k < kLooks; ++k) {
     if (value.load(std::memory_order_acquire) != old) return;
-    pause();
+    k < kLooksAlone ? pause() : std::this_thread::yield();
   }
   value.wait(old, std::memory_order_acquire);
 }

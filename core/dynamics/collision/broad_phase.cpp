@@ -39,7 +39,7 @@ std::uint64_t number_of(int grid, std::int64_t x, std::int64_t y, std::int64_t z
 
 // The finest cells hold three quarters of the boxes, by a sample of them. Whatever they are, the same pairs are found.
 void BroadPhase::choose_width(const std::vector<Aabb>& boxes) {
-  constexpr std::size_t kSample = 256;
+  constexpr std::size_t kSample = 64;
   sizes_.clear();
   for (std::size_t i = 0; i < boxes.size(); i += 1 + boxes.size() / kSample) {
     const double size = (boxes[i].high - boxes[i].low).maxCoeff();
@@ -93,19 +93,23 @@ void BroadPhase::enter(const std::vector<Aabb>& boxes) {
 }
 
 // Those with a changed box: each of these with all that are not, and with the changed ones that come after it.
-void BroadPhase::try_pair(int place, int other, const std::vector<Aabb>& boxes) {
+void BroadPhase::try_pair(int place, int other, const std::vector<Aabb>& boxes, Pairs& found) const {
   if (is_changed_[other] != 0 && other <= place) return;
-  if (overlap(boxes[place], boxes[other])) found_.push_back(std::minmax(place, other));
+  if (overlap(boxes[place], boxes[other])) found.push_back(std::minmax(place, other));
 }
 
-void BroadPhase::search_grid(int grid, int place, const std::vector<Aabb>& boxes) {
+void BroadPhase::search_all(int place, const std::vector<Aabb>& boxes, Pairs& found) const {
+  for (int other = 0; other < static_cast<int>(boxes.size()); ++other) try_pair(place, other, boxes, found);
+}
+
+void BroadPhase::search_grid(int grid, int place, const std::vector<Aabb>& boxes, Pairs& found) const {
   CellIndex low = cell_of(boxes[place].low, widths_[grid]);
   const CellIndex high = cell_of(boxes[place].high, widths_[grid]);
   double cells = 1;
   for (int axis = 0; axis < 3; ++axis) cells *= static_cast<double>(high[axis] - --low[axis] + 1);
   if (cells > static_cast<double>(boxes.size())) {
     for (const Entry& entry : entries_) {
-      if (grid_[entry.box] == grid) try_pair(place, entry.box, boxes);
+      if (grid_[entry.box] == grid) try_pair(place, entry.box, boxes, found);
     }
     return;
   }
@@ -115,25 +119,25 @@ void BroadPhase::search_grid(int grid, int place, const std::vector<Aabb>& boxes
         const std::uint64_t cell = number_of(grid, x, y, z);
         const std::size_t bucket = bucket_of(cell);
         for (std::size_t k = first_entry_[bucket]; k < first_entry_[bucket + 1]; ++k) {
-          if (entries_[k].cell == cell) try_pair(place, entries_[k].box, boxes);
+          if (entries_[k].cell == cell) try_pair(place, entries_[k].box, boxes, found);
         }
       }
 }
 
-void BroadPhase::search_for(int place, const std::vector<Aabb>& boxes) {
+void BroadPhase::search_grids(int place, const std::vector<Aabb>& boxes, Pairs& found) const {
   if (grid_[place] < 0) return;
   for (int grid = 0; grid < kGrids; ++grid) {
-    if (boxes_of_grid_[grid] > 0) search_grid(grid, place, boxes);
+    if (boxes_of_grid_[grid] > 0) search_grid(grid, place, boxes, found);
   }
 }
 
-void BroadPhase::pairs_with_unbounded(const std::vector<Aabb>& boxes) {
+void BroadPhase::pairs_with_unbounded(const std::vector<Aabb>& boxes, Pairs& found) const {
   for (const int i : unbounded_) {
     for (int j = 0; j < static_cast<int>(boxes.size()); ++j) {
       if (is_changed_[i] == 0 && is_changed_[j] == 0) continue;
       // Of two unbounded ones, the first tells the pair.
       if (j == i || (j < i && grid_[j] < 0)) continue;
-      if (overlap(boxes[i], boxes[j])) found_.emplace_back(std::min(i, j), std::max(i, j));
+      if (overlap(boxes[i], boxes[j])) found.emplace_back(std::min(i, j), std::max(i, j));
     }
   }
 }
@@ -141,10 +145,12 @@ void BroadPhase::pairs_with_unbounded(const std::vector<Aabb>& boxes) {
 // The new ones by the first of both, and then the few of each by the second; and with them those that still hold.
 void BroadPhase::sort_pairs() {
   first_pair_.assign(is_changed_.size() + 2, 0);
-  for (const auto& pair : found_) ++first_pair_[static_cast<std::size_t>(pair.first) + 2];
+  for (const Pairs& found : found_)
+    for (const auto& pair : found) ++first_pair_[static_cast<std::size_t>(pair.first) + 2];
   std::partial_sum(first_pair_.begin(), first_pair_.end(), first_pair_.begin());
-  sorted_.resize(found_.size());
-  for (const auto& pair : found_) sorted_[first_pair_[static_cast<std::size_t>(pair.first) + 1]++] = pair;
+  sorted_.resize(first_pair_.back());
+  for (const Pairs& found : found_)
+    for (const auto& pair : found) sorted_[first_pair_[static_cast<std::size_t>(pair.first) + 1]++] = pair;
   const auto at = [&](std::size_t place) { return sorted_.begin() + static_cast<std::ptrdiff_t>(first_pair_[place]); };
   for (std::size_t place = 0; place < is_changed_.size(); ++place) {
     if (first_pair_[place + 1] - first_pair_[place] > 1) std::sort(at(place), at(place + 1));
@@ -162,15 +168,24 @@ const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<A
 }
 
 const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<Aabb>& boxes,
-                                                             const std::vector<int>& changed) {
+                                                             const std::vector<int>& changed, ThreadPool* threads) {
   is_changed_.assign(boxes.size(), 0);
   for (const int place : changed) is_changed_[place] = 1;
   std::erase_if(pairs_, [&](const auto& pair) { return (is_changed_[pair.first] | is_changed_[pair.second]) != 0; });
-  found_.clear();
-  choose_width(boxes);
-  enter(boxes);
-  for (const int place : changed) search_for(place, boxes);
-  pairs_with_unbounded(boxes);
+  // To enter a box in its cell takes as long as to try twenty pairs, to look through the cells as two hundred.
+  const std::size_t all = boxes.size(), some = changed.size();
+  const bool has_grids = some * all > 20 * all + 200 * some;
+  if (has_grids) choose_width(boxes), enter(boxes);
+  found_.resize(threads ? threads->members() : 1);
+  const auto search = [&](std::size_t thread) {
+    Pairs& found = found_[thread];
+    found.clear();
+    const auto [first, last] = threads ? threads->share(some, thread) : ThreadPool::Share{0, some};
+    for (std::size_t i = first; i < last; ++i)
+      has_grids ? search_grids(changed[i], boxes, found) : search_all(changed[i], boxes, found);
+  };
+  threads ? threads->run(search) : search(0);
+  if (has_grids) pairs_with_unbounded(boxes, found_.front());
   sort_pairs();
   return pairs_;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/dynamics/collision/colliders.h"
 
 namespace rigor {
@@ -18,8 +19,10 @@ class BroadPhase {
   // Each pair (first < second by their place in `boxes`) that overlaps, in ascending order. Boxes that are not finite
   // are tried against all.
   const std::vector<std::pair<int, int>>& overlaps(const std::vector<Aabb>& boxes);
-  // Likewise, where since the last call only the boxes at these places are not the same: a search for these alone.
-  const std::vector<std::pair<int, int>>& overlaps(const std::vector<Aabb>& boxes, const std::vector<int>& changed);
+  // Likewise, where since the last call only the boxes at these places are not the same: a search for these alone,
+  // which threads may share.
+  const std::vector<std::pair<int, int>>& overlaps(const std::vector<Aabb>& boxes, const std::vector<int>& changed,
+                                                   ThreadPool* threads = nullptr);
 
  private:
   static constexpr int kGrids = 32;
@@ -31,10 +34,12 @@ class BroadPhase {
   int grid_of(const Aabb& box) const;
   std::size_t bucket_of(std::uint64_t cell) const;
   void enter(const std::vector<Aabb>& boxes);
-  void search_for(int place, const std::vector<Aabb>& boxes);
-  void search_grid(int grid, int place, const std::vector<Aabb>& boxes);
-  void try_pair(int place, int other, const std::vector<Aabb>& boxes);
-  void pairs_with_unbounded(const std::vector<Aabb>& boxes);
+  using Pairs = std::vector<std::pair<int, int>>;
+  void try_pair(int place, int other, const std::vector<Aabb>& boxes, Pairs& found) const;
+  void search_all(int place, const std::vector<Aabb>& boxes, Pairs& found) const;
+  void search_grid(int grid, int place, const std::vector<Aabb>& boxes, Pairs& found) const;
+  void search_grids(int place, const std::vector<Aabb>& boxes, Pairs& found) const;
+  void pairs_with_unbounded(const std::vector<Aabb>& boxes, Pairs& found) const;
   void sort_pairs();
 
   std::vector<int> all_;                 // places
@@ -49,7 +54,8 @@ class BroadPhase {
   std::vector<Entry> entries_;            // bucket by bucket
   std::vector<int> unbounded_;            // places, ascending
   std::vector<std::size_t> first_pair_;   // by place of the first of both
-  std::vector<std::pair<int, int>> pairs_, kept_, found_, sorted_;
+  std::vector<Pairs> found_;              // by thread
+  Pairs pairs_, kept_, sorted_;
 };
 
 }  // namespace rigor

@@ -1,7 +1,6 @@
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
 
 #include <algorithm>
-#include <bit>
 #include <tuple>
 #include <utility>
 
@@ -9,8 +8,6 @@
 
 namespace rigor {
 namespace {
-
-constexpr std::size_t kMaskedColours = 64;
 
 double& at(double* block, int column, std::size_t k) {
   return block[static_cast<std::size_t>(column) * kRowsPerBlock + k];
@@ -61,21 +58,19 @@ ContactRowLayout::ContactRowLayout(const Scene& scene, const System& system, std
     : system_(system),
       threads_(threads),
       idle_(static_cast<std::int32_t>(column_stride(system.size()))),
-      colours_of_(system.size()),
-      next_colour_(system.size()) {
+      next_level_(system.size()) {
   for (std::size_t i = 0; i < system.size(); ++i) is_round_.push_back(is_round(scene.bodies[i], system.bodies[i]));
 }
 
 void ContactRowLayout::assign(const std::vector<ContactConstraint>& constraints) {
-  colour_pairs(constraints);
+  sort_pairs_in_levels(constraints);
   form_groups();
   deep_rows_.clear();
   if (has_deep_) find_deep_rows(constraints);
 }
 
-void ContactRowLayout::colour_pairs(const std::vector<ContactConstraint>& constraints) {
-  std::fill(colours_of_.begin(), colours_of_.end(), 0);
-  std::fill(next_colour_.begin(), next_colour_.end(), kMaskedColours);
+void ContactRowLayout::sort_pairs_in_levels(const std::vector<ContactConstraint>& constraints) {
+  std::fill(next_level_.begin(), next_level_.end(), 0);
   pairs_.clear(), first_group_.clear();
   has_restitution_ = has_deep_ = false;
   for (std::size_t first = 0; first < constraints.size(); first += pairs_.back().points) {
@@ -85,24 +80,11 @@ void ContactRowLayout::colour_pairs(const std::vector<ContactConstraint>& constr
       has_deep_ = has_deep_ || constraints[last].is_deep;
     has_restitution_ = has_restitution_ || constraints[first].restitution > 0;
     const std::size_t points = last - first, kind = points == 1 && is_round_[a] && is_round_[b] ? 0 : points;
-    const std::size_t kind_of_colour = kKinds * colour_of(a, b) + kind;
-    if (kind_of_colour >= first_group_.size()) first_group_.resize(kKinds * (kind_of_colour / kKinds + 1), 0);
-    pairs_.push_back({first, points, kind_of_colour, first_group_[kind_of_colour]++});
+    const std::size_t level = std::max(next_level_[a], next_level_[b]), kind_of_level = kKinds * level + kind;
+    for (const int body : {a, b}) next_level_[body] = system_.bodies[body].fixed ? 0 : level + 1;
+    if (kind_of_level >= first_group_.size()) first_group_.resize(kKinds * (kind_of_level / kKinds + 1), 0);
+    pairs_.push_back({first, points, kind_of_level, first_group_[kind_of_level]++});
   }
-}
-
-// Bodies of very many neighbours go on after the first colours: one more than the last of either's.
-std::size_t ContactRowLayout::colour_of(int a, int b) {
-  const bool moves_a = !system_.bodies[a].fixed, moves_b = !system_.bodies[b].fixed;
-  const std::uint64_t taken = (moves_a ? colours_of_[a] : 0) | (moves_b ? colours_of_[b] : 0);
-  const auto colour = static_cast<std::size_t>(std::countr_one(taken));
-  if (colour < kMaskedColours) {
-    for (const int body : {a, b}) colours_of_[body] |= std::uint64_t{1} << colour;
-    return colour;
-  }
-  const std::size_t next = std::max(moves_a ? next_colour_[a] : 0, moves_b ? next_colour_[b] : 0);
-  for (const int body : {a, b}) next_colour_[body] = next + 1;
-  return next;
 }
 
 void ContactRowLayout::form_groups() {
@@ -113,10 +95,10 @@ void ContactRowLayout::form_groups() {
   for (auto& pairs : pairs_of_group_) pairs.fill(-1);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Pair& pair = pairs_[i];
-    const std::size_t group = first_group_[pair.kind_of_colour] + pair.place / kRowsPerBlock;
+    const std::size_t group = first_group_[pair.kind_of_level] + pair.place / kRowsPerBlock;
     pairs_of_group_[group][pair.place % kRowsPerBlock] = static_cast<std::int32_t>(i);
     groups_[group].points = static_cast<std::int32_t>(pair.points);
-    groups_[group].of_balls = pair.kind_of_colour % kKinds == 0;
+    groups_[group].of_balls = pair.kind_of_level % kKinds == 0;
   }
   std::size_t size = 0;
   for (const RowGroup& group : groups_)
@@ -129,8 +111,8 @@ void ContactRowLayout::form_groups() {
   }
 }
 
-ContactRowLayout::Share ContactRowLayout::share(std::size_t colour, std::size_t thread) const {
-  const std::size_t next = kKinds * (colour + 1), begin = first_group_[kKinds * colour],
+ContactRowLayout::Share ContactRowLayout::share(std::size_t level, std::size_t thread) const {
+  const std::size_t next = kKinds * (level + 1), begin = first_group_[kKinds * level],
                     end = next < first_group_.size() ? first_group_[next] : groups_.size();
   return {begin + (end - begin) * thread / threads_, begin + (end - begin) * (thread + 1) / threads_};
 }
@@ -138,8 +120,8 @@ ContactRowLayout::Share ContactRowLayout::share(std::size_t colour, std::size_t 
 // Calls visit(group's number, its row, the constraint's number, the point) for a thread's rows.
 template <typename Visit>
 void ContactRowLayout::for_each_row(std::size_t thread, const Visit& visit) const {
-  for (std::size_t colour = 0; colour < colours(); ++colour) {
-    const Share share = this->share(colour, thread);
+  for (std::size_t level = 0; level < levels(); ++level) {
+    const Share share = this->share(level, thread);
     for (std::size_t g = share.begin; g < share.end; ++g) {
       for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
         if (pairs_of_group_[g][k] < 0) continue;
@@ -152,8 +134,8 @@ void ContactRowLayout::for_each_row(std::size_t thread, const Visit& visit) cons
 
 void ContactRowLayout::fill(const std::vector<ContactConstraint>& constraints, double impulse_scale,
                             const SolverBodies& bodies, std::size_t thread) {
-  for (std::size_t colour = 0; colour < colours(); ++colour) {
-    const Share share = this->share(colour, thread);
+  for (std::size_t level = 0; level < levels(); ++level) {
+    const Share share = this->share(level, thread);
     for (std::size_t g = share.begin; g < share.end; ++g) {
       fill_group(g, constraints, impulse_scale, thread);
       contact_kernels().prepare_rows(&groups_[g], 1, bodies);

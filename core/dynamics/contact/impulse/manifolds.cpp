@@ -178,7 +178,7 @@ void Manifolds::update_pairs(BodyColumns state, double dt) {
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
     if (has_left_[i]) moved_.push_back(static_cast<int>(i));
   }
-  if (!moved_.empty()) pairs_ = &broad_phase_.overlaps(fat_boxes_, moved_);
+  if (!moved_.empty()) pairs_ = &broad_phase_.overlaps(fat_boxes_, moved_, &threads_);
 }
 
 // Whether two bodies stay apart within dt: one and a plane, or two by their boxes. Written so that what is not a number
@@ -300,9 +300,10 @@ void Manifolds::add_pairs(std::size_t first_pair, std::size_t last_pair, BodyCol
     const auto& [a, b] = (*pairs_)[i];
     const double reach = places_[a].reach + places_[b].reach;
     if ((places_[a].p - places_[b].p).squaredNorm() > reach * reach) continue;
-    if ((colliders_[a].fixed && colliders_[b].fixed) || stay_apart(a, b)) continue;
+    const bool are_round = is_round(colliders_[a]) && is_round(colliders_[b]);
+    if ((colliders_[a].fixed && colliders_[b].fixed) || (!are_round && stay_apart(a, b))) continue;
     const std::size_t first = part.constraints.size();
-    if (is_round(colliders_[a]) && is_round(colliders_[b])) {
+    if (are_round) {
       add_round_pair(dt, a, b, part);
     } else {
       add_pair(state, dt, colliders_[a], colliders_[b], part);

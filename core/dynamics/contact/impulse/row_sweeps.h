@@ -29,13 +29,13 @@ class RowSweeps {
 
  private:
   struct alignas(kCacheLine) Part {
-    std::vector<SomeRows> impacts;           // in the order of groups; room for all
-    std::vector<std::size_t> end_of_colour;  // among these
-    std::int64_t sweeps = 0;                 // so far; the same for all threads
-    bool is_changed[2] = {false, false};     // by the sweep of an even number, and of an odd one
-    std::size_t first_of(std::size_t colour) const { return colour == 0 ? 0 : end_of_colour[colour - 1]; }
+    std::vector<SomeRows> impacts;          // in the order of groups; room for all
+    std::vector<std::size_t> end_of_level;  // among these
+    std::int64_t sweeps = 0;                // so far; the same for all threads
+    bool is_changed[2] = {false, false};    // by the sweep of an even number, and of an odd one
+    std::size_t first_of(std::size_t level) const { return level == 0 ? 0 : end_of_level[level - 1]; }
   };
-  bool has_impacts(std::size_t colour) const;
+  bool has_impacts(std::size_t level) const;
 
   ThreadPool& threads_;
   std::vector<Part> parts_;  // by thread
