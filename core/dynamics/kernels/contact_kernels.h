@@ -20,18 +20,18 @@ struct ContactKernels {
   // Effective masses.
   void (*prepare_rows)(const RowGroup*, std::size_t count, const SolverBodies&);
   // Gaps, approach speeds and biases of a sub-step; and the rows that meet in it faster than the restitution threshold
-  // to `impacts`, which has room for all blocks: in how many blocks they are. Numbers of groups count from `first`.
+  // to `impacts`, which has room for all: how many they are. Numbers of groups count from `first`.
   std::size_t (*prepare_bias)(const RowGroup* first, std::size_t begin, std::size_t end, const SolverBodies&,
-                              const SolverParameters&, SomeRows* impacts);
+                              const SolverParameters&, RowPlace* impacts);
   // Each row's impulse as it is, the biased solve, and the solve without bias.
   void (*warm_start)(const RowGroup*, std::size_t count, const SolverBodies&);
   void (*solve_with_bias)(const RowGroup*, std::size_t count, const SolverBodies&, const SolverParameters&);
   void (*relax)(const RowGroup*, std::size_t count, const SolverBodies&);
   // One of several sweeps over some rows, biased or not; but for the first only for bodies that the sweep before, or
   // this one, has changed. Returns whether any row changed a velocity by more than the tolerance.
-  bool (*sweep_with_bias)(const RowGroup* first, const SomeRows*, std::size_t count, const SolverBodies&,
+  bool (*sweep_with_bias)(const RowGroup* first, const RowPlace*, std::size_t count, const SolverBodies&,
                           const SolverParameters&, Sweep);
-  bool (*sweep_without_bias)(const RowGroup* first, const SomeRows*, std::size_t count, const SolverBodies&,
+  bool (*sweep_without_bias)(const RowGroup* first, const RowPlace*, std::size_t count, const SolverBodies&,
                              const SolverParameters&, Sweep);
 };
 

@@ -206,22 +206,17 @@ void prepare_rows(const RowGroup* groups, std::size_t count, const SolverBodies&
   });
 }
 
-// Rows that meet in this sub-step, if they hardly speed up.
-RIGOR_INLINE unsigned lanes_that_meet(const double* block, const SolverParameters& parameters) {
-  const double *approach = block + kApproachSpeed * kRowsPerBlock, *gap = block + kGap * kRowsPerBlock;
+// Whether any row of a block comes together faster than the threshold.
+RIGOR_INLINE bool may_meet(const double* block, const SolverParameters& parameters) {
   bool is_any = false;
   for (std::size_t k = 0; k < kRowsPerBlock; k += kWidth)
-    is_any = is_any || !all_at_most(load(Lane(), approach + k), parameters.restitution_threshold);
-  unsigned lanes = 0;
-  for (std::size_t k = 0; is_any && k < kRowsPerBlock; ++k) {
-    const bool meets = approach[k] > parameters.restitution_threshold && gap[k] < 2 * parameters.h * approach[k];
-    lanes |= static_cast<unsigned>(meets) << k;
-  }
-  return lanes;
+    is_any = is_any ||
+             !all_at_most(load(Lane(), block + kApproachSpeed * kRowsPerBlock + k), parameters.restitution_threshold);
+  return is_any;
 }
 
 std::size_t prepare_bias(const RowGroup* first, std::size_t begin, std::size_t end, const SolverBodies& bodies,
-                         const SolverParameters& parameters, SomeRows* impacts) {
+                         const SolverParameters& parameters, RowPlace* impacts) {
   std::size_t found = 0;
   for_groups(first + begin, end - begin, [&](auto kind, const RowGroup& group) RIGOR_LAMBDA {
     using T = typename decltype(kind)::Lanes;
@@ -241,10 +236,15 @@ std::size_t prepare_bias(const RowGroup* first, std::size_t begin, std::size_t e
       });
     }
     for (std::int32_t point = 0; point < group.points; ++point) {
-      const unsigned lanes = lanes_that_meet(group.block(static_cast<std::size_t>(point)), parameters);
-      if (lanes != 0)
-        impacts[found++] = {static_cast<std::int32_t>(&group - first), static_cast<std::int16_t>(point),
-                            static_cast<std::uint16_t>(lanes)};
+      const double* block = group.block(static_cast<std::size_t>(point));
+      if (!may_meet(block, parameters)) continue;
+      for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
+        // It meets in this sub-step, if it hardly speeds up.
+        const double u = block[kApproachSpeed * kRowsPerBlock + k], gap = block[kGap * kRowsPerBlock + k];
+        if (u > parameters.restitution_threshold && gap < 2 * parameters.h * u)
+          impacts[found++] = {static_cast<std::int32_t>(&group - first), static_cast<std::int16_t>(point),
+                              static_cast<std::int16_t>(k)};
+      }
     }
   });
   return found;
@@ -324,104 +324,45 @@ void relax(const RowGroup* groups, std::size_t count, const SolverBodies& bodies
   });
 }
 
-// Of some rows, those whose bodies this sweep, or the one before, has changed; of the first sweep all.
-RIGOR_INLINE unsigned active_lanes(const RowGroup& group, const SomeRows& some, const SolverBodies& bodies,
-                                   Sweep sweep) {
-  if (sweep.is_first) return some.lanes;
-  unsigned lanes = 0;
-  for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
-    const std::int64_t a = bodies.last_active[group.a[k]], b = bodies.last_active[group.b[k]];
-    lanes |= static_cast<unsigned>(a >= sweep.number - 1 || b >= sweep.number - 1) << k;
-  }
-  return lanes & some.lanes;
-}
-
-// So few rows of a block are solved one by one.
-inline constexpr int kFewLanes = 2;
-
-// Solves the row of lane k alone.
+// Solves one row; returns by how much it changes the velocity along the normal.
 template <class Row, class F>
-RIGOR_INLINE void solve_lane(Row kind, const RowGroup& group, std::int16_t point, std::size_t k,
-                             const SolverBodies& bodies, double* changes, F solve) {
-  kind.at = group.block(static_cast<std::size_t>(point)) + k;
-  kind.load_pair(group, k, bodies);
+RIGOR_INLINE double solve_one(Row row, const RowGroup& group, const RowPlace& place, const SolverBodies& bodies,
+                              F solve) {
+  const auto k = static_cast<std::size_t>(place.lane);
+  row.at = group.block(static_cast<std::size_t>(place.point)) + k;
+  row.load_pair(group, k, bodies);
   PairLanes<double> pair(double(), group, k, bodies.velocities);
-  if (solve(kind, pair, changes[k])) pair.put(group, k, bodies.velocities);
-}
-
-// Solves the rows of these lanes, and leaves the others as they are; writes to `changes` by how much velocities
-// changed.
-template <class Row, class F>
-RIGOR_INLINE void solve_lanes(Row kind, const RowGroup& group, std::int16_t point, unsigned lanes,
-                              const SolverBodies& bodies, double* changes, F solve) {
-  using T = typename Row::Lanes;
-  double chosen[kRowsPerBlock];
-  for (std::size_t k = 0; k < kRowsPerBlock; ++k) chosen[k] = lanes >> k & 1 ? 1 : 0;
-  for (std::size_t k = 0; k < kRowsPerBlock; k += kWidth) {
-    const T is_chosen = load(T(), chosen + k);
-    const auto pick = [&](T old, T now) RIGOR_LAMBDA { return if_at_most(is_chosen, T{}, old, now); };
-    const auto pick3 = [&](V3<T> old, V3<T> now) RIGOR_LAMBDA -> V3<T> {
-      return {pick(old.x, now.x), pick(old.y, now.y), pick(old.z, now.z)};
-    };
-    kind.at = group.block(static_cast<std::size_t>(point)) + k;
-    kind.load_pair(group, k, bodies);
-    const PairLanes<T> old(T(), group, k, bodies.velocities);
-    const T impulse = kind.get(kImpulse);
-    const V3<T> friction = kind.get3(kFrictionImpulse);
-    PairLanes<T> pair = old;
-    T change;
-    const bool is_changed = solve(kind, pair, change);
-    store(changes + k, change);
-    if (!is_changed) continue;
-    kind.put(kImpulse, pick(impulse, kind.get(kImpulse)));
-    kind.put3(kFrictionImpulse, pick3(friction, kind.get3(kFrictionImpulse)));
-    for (auto part : {&PairLanes<T>::a, &PairLanes<T>::b})
-      pair.*part = {pick3((old.*part).v, (pair.*part).v), pick3((old.*part).w, (pair.*part).w)};
-    pair.put(group, k, bodies.velocities);
-  }
+  double change;
+  if (solve(row, pair, change)) pair.put(group, k, bodies.velocities);
+  return change;
 }
 
 template <class F>
-RIGOR_INLINE bool sweep_over(const RowGroup* first, const SomeRows* rows, std::size_t count, const SolverBodies& bodies,
+RIGOR_INLINE bool sweep_over(const RowGroup* first, const RowPlace* rows, std::size_t count, const SolverBodies& bodies,
                              const SolverParameters& parameters, Sweep sweep, F solve) {
   bool is_any_changed = false;
-  for (const SomeRows* some = rows; some != rows + count; ++some) {
-    const RowGroup& group = first[some->group];
-    const unsigned lanes = active_lanes(group, *some, bodies, sweep);
-    if (lanes == 0) continue;
-    double changes[kRowsPerBlock];
-    if (__builtin_popcount(lanes) <= kFewLanes) {
-      for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
-        if (!(lanes >> k & 1)) continue;
-        if (group.of_balls) {
-          solve_lane(ball_row(double()), group, some->point, k, bodies, changes, solve);
-        } else {
-          solve_lane(any_row(double()), group, some->point, k, bodies, changes, solve);
-        }
-      }
-    } else {
-      for_groups(&group, 1, [&](auto kind, const RowGroup&) RIGOR_LAMBDA {
-        solve_lanes(kind, group, some->point, lanes, bodies, changes, solve);
-      });
-    }
-    for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
-      if (!(lanes >> k & 1) || changes[k] * changes[k] <= parameters.tolerance * parameters.tolerance) continue;
-      // A fixed body is written to an idle record, and so is never active.
-      bodies.last_active[group.to_a[k]] = bodies.last_active[group.to_b[k]] = sweep.number;
-      is_any_changed = true;
-    }
+  for (const RowPlace* place = rows; place != rows + count; ++place) {
+    const RowGroup& group = first[place->group];
+    const auto was_active = [&](std::int32_t body) { return bodies.last_active[body] >= sweep.number - 1; };
+    if (!sweep.is_first && !was_active(group.a[place->lane]) && !was_active(group.b[place->lane])) continue;
+    const double change = group.of_balls ? solve_one(ball_row(double()), group, *place, bodies, solve)
+                                         : solve_one(any_row(double()), group, *place, bodies, solve);
+    if (change * change <= parameters.tolerance * parameters.tolerance) continue;
+    // A fixed body is written to an idle record, and so is never active.
+    bodies.last_active[group.to_a[place->lane]] = bodies.last_active[group.to_b[place->lane]] = sweep.number;
+    is_any_changed = true;
   }
   return is_any_changed;
 }
 
-bool sweep_with_bias(const RowGroup* first, const SomeRows* rows, std::size_t count, const SolverBodies& bodies,
+bool sweep_with_bias(const RowGroup* first, const RowPlace* rows, std::size_t count, const SolverBodies& bodies,
                      const SolverParameters& parameters, Sweep sweep) {
   return sweep_over(first, rows, count, bodies, parameters, sweep,
                     [&](auto row, auto& pair, auto& change)
                         RIGOR_LAMBDA { return solve_row_with_bias(row, pair, parameters, change); });
 }
 
-bool sweep_without_bias(const RowGroup* first, const SomeRows* rows, std::size_t count, const SolverBodies& bodies,
+bool sweep_without_bias(const RowGroup* first, const RowPlace* rows, std::size_t count, const SolverBodies& bodies,
                         const SolverParameters& parameters, Sweep sweep) {
   return sweep_over(first, rows, count, bodies, parameters, sweep,
                     [&](auto row, auto& pair, auto& change) RIGOR_LAMBDA { return relax_row(row, pair, change); });

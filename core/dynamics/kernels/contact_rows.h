@@ -58,11 +58,10 @@ struct alignas(64) RowGroup {
   double* block(std::size_t point) const { return rows + point * columns() * kRowsPerBlock; }
 };
 
-// Of a block, the rows whose bit is set in `lanes`.
-struct SomeRows {
+// One of the rows.
+struct RowPlace {
   std::int32_t group;
-  std::int16_t point;
-  std::uint16_t lanes;
+  std::int16_t point, lane;
 };
 
 // Records by body, and after them idle ones: rows without a constraint read the first, of a body at rest, and write one

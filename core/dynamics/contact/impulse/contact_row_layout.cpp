@@ -165,12 +165,12 @@ void ContactRowLayout::find_deep_rows(const std::vector<ContactConstraint>& cons
     for_each_row(thread, [&](std::size_t group, std::size_t k, std::size_t i, std::size_t point) {
       if (!constraints[i].is_deep) return;
       deep_rows_.push_back(
-          {static_cast<std::int32_t>(group), static_cast<std::int16_t>(point), static_cast<std::uint16_t>(1u << k)});
+          {static_cast<std::int32_t>(group), static_cast<std::int16_t>(point), static_cast<std::int16_t>(k)});
     });
   }
-  // One row an entry: their order says nothing of which thread found them.
-  std::sort(deep_rows_.begin(), deep_rows_.end(), [](const SomeRows& x, const SomeRows& y) {
-    return std::tuple(x.group, x.lanes, x.point) < std::tuple(y.group, y.lanes, y.point);
+  // Their order says nothing of which thread found them.
+  std::sort(deep_rows_.begin(), deep_rows_.end(), [](const RowPlace& x, const RowPlace& y) {
+    return std::tuple(x.group, x.lane, x.point) < std::tuple(y.group, y.lane, y.point);
   });
 }
 

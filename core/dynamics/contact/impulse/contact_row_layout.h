@@ -41,7 +41,7 @@ class ContactRowLayout {
   const std::vector<RowGroup>& groups() const { return groups_; }
   bool has_restitution() const { return has_restitution_; }
   // Of constraints that overlap deeply, in the order of groups.
-  const std::vector<SomeRows>& deep_rows() const { return deep_rows_; }
+  const std::vector<RowPlace>& deep_rows() const { return deep_rows_; }
 
  private:
   static constexpr std::size_t kKinds = 5;  // groups of a level: of balls, and of any bodies with 1, 2, 3, 4 points
@@ -67,7 +67,7 @@ class ContactRowLayout {
   std::vector<RowGroup> groups_;
   std::vector<std::array<std::int32_t, kRowsPerBlock>> pairs_of_group_;  // -1: none
   AlignedDoubles rows_;
-  std::vector<SomeRows> deep_rows_;
+  std::vector<RowPlace> deep_rows_;
   bool has_restitution_ = false, has_deep_ = false;
 };
 

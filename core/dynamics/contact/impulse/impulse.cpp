@@ -111,6 +111,7 @@ class ImpulseStepper : public ContactStepper {
   // that the last sub-step has left.
   void prepare_sub_step() {
     threads_->run([&](std::size_t thread) { impacts_.find(rows_, solver_bodies(), parameters_, thread); });
+    impacts_.deal_out(rows_);
   }
 
   // And, where bodies bounce, as the impacts of the sub-step let them.
@@ -163,7 +164,7 @@ class ImpulseStepper : public ContactStepper {
     for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
     });
-    impacts_.solve(contact_kernels().sweep_with_bias, rows_, solver_bodies(), parameters_, thread);
+    impacts_.solve(rows_, solver_bodies(), parameters_, thread);
   }
 
   // The integrator has moved the bodies; what the impulses changed of the velocities moves them further.

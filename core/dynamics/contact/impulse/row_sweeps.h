@@ -1,5 +1,6 @@
 // Sweeps over some of the rows, until none changes a velocity by more than the tolerance: those of impacts, whose
-// points must agree, and those of deep overlaps.
+// points must agree, and those of deep overlaps. Impacts that share no body, nor others in between, do not know of each
+// other, so that threads share these clusters.
 #pragma once
 
 #include <vector>
@@ -19,26 +20,32 @@ class RowSweeps {
   // A thread's share of the biases of a sub-step, and which of its rows are impacts.
   void find(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
             std::size_t thread);
+  // Deals the impacts that were found out to the threads.
+  void deal_out(const ContactRowLayout& rows);
   bool are_any() const;
-  // A thread's share of sweeps over the impacts; `sweep` is the kernel.
-  void solve(decltype(ContactKernels::sweep_with_bias) sweep, const ContactRowLayout& rows, const SolverBodies& bodies,
-             const SolverParameters& parameters, std::size_t thread);
+  // A thread's share of the sweeps over the impacts.
+  void solve(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
+             std::size_t thread);
   // Sweeps without bias over the rows that overlap deeply, which are few: by one thread.
   void relax_deep(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
                   std::size_t thread);
 
  private:
   struct alignas(kCacheLine) Part {
-    std::vector<SomeRows> impacts;          // in the order of groups; room for all
+    std::vector<RowPlace> found;            // in the order of groups; room for all
     std::vector<std::size_t> end_of_level;  // among these
-    std::int64_t sweeps = 0;                // so far; the same for all threads
-    bool is_changed[2] = {false, false};    // by the sweep of an even number, and of an odd one
+    std::vector<RowPlace> impacts;          // that this thread sweeps, in their order
+    std::int64_t sweeps = 0;                // so far
     std::size_t first_of(std::size_t level) const { return level == 0 ? 0 : end_of_level[level - 1]; }
   };
-  bool has_impacts(std::size_t level) const;
+  template <typename Visit>
+  void for_each_found(const ContactRowLayout& rows, const Visit& visit) const;
+  std::int32_t cluster_of(std::int32_t body);
 
   ThreadPool& threads_;
-  std::vector<Part> parts_;  // by thread
+  std::vector<Part> parts_;              // by thread
+  std::vector<std::int32_t> next_;       // by record: another of its cluster, nearer to the one that stands for it
+  std::vector<std::int32_t> thread_of_;  // by cluster; -1: none yet
 };
 
 }  // namespace rigor
