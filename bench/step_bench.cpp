@@ -130,8 +130,11 @@ std::vector<RunName> runs() {
         if (option.name == "iterations" && method.name == "quickstep")
           all.push_back(parse_run_name(fmt::format("{}:{},iterations=50", info.name, method.name), infos));
         const bool piles_up = std::count(option.choices.begin(), option.choices.end(), "impulse") > 0;
-        if (option.name == "contact" && piles_up)
-          all.push_back(parse_run_name(fmt::format("{}:{},contact=impulse", info.name, method.name), infos));
+        if (option.name == "contact" && piles_up) {
+          for (const char* threads : {"", ",threads=1", ",threads=2"})
+            all.push_back(
+                parse_run_name(fmt::format("{}:{},contact=impulse{}", info.name, method.name, threads), infos));
+        }
       }
     }
   }
@@ -142,7 +145,9 @@ std::vector<RunName> runs() {
 // grows is of interest. ODE's direct solver takes 3 ms for a step of 216 balls, and that grows with their cube. Sweeps
 // beyond the engine's own number are for joints.
 bool fits(const SceneRow& row, const RunName& run, int count) {
-  const bool is_jointed = row.reached == Reached::joint_gap;
+  const bool is_jointed = row.reached == Reached::joint_gap, is_heap = row.reached == Reached::penetration;
+  const auto& options = run.settings.options;
+  if (options.contains("threads") && options.contains("contact") && !is_heap) return false;
   if (run.engine == "core") return !is_jointed || run.settings.options.empty();
   if (is_jointed) return run.settings.method != "worldstep" || count <= 100;
   if (run.settings.options.contains("iterations")) return false;

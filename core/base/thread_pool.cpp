@@ -9,12 +9,12 @@ void pause() {
 #endif
 }
 
-// Looks for some hundred microseconds before it sleeps.
+// Looks for some hundred microseconds before it sleeps; soon lets others on, for what it waits for may need this core.
 void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  constexpr int kLooks = 10000;
+  constexpr int kLooks = 10000, kLooksAlone = 1000;
   for (int k = 0; k < kLooks; ++k) {
     if (value.load(std::memory_order_acquire) != old) return;
-    pause();
+    k < kLooksAlone ? pause() : std::this_thread::yield();
   }
   value.wait(old, std::memory_order_acquire);
 }
@@ -36,6 +36,15 @@ void ThreadPool::run(const std::function<void(std::size_t)>& task) {
   const auto all_ended = static_cast<std::uint32_t>(helpers_.size()) * begin();
   task(0);
   for (std::uint32_t ended = ended_; ended != all_ended; ended = ended_) wait_while(ended_, ended);
+}
+
+void ThreadPool::meet() {
+  if (helpers_.empty()) return;
+  const std::uint32_t meetings = meetings_.load(std::memory_order_relaxed);
+  if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 < members()) return wait_while(meetings_, meetings);
+  arrived_.store(0, std::memory_order_relaxed);
+  meetings_.fetch_add(1, std::memory_order_release);
+  meetings_.notify_all();
 }
 
 std::uint32_t ThreadPool::begin() {

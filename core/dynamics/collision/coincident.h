@@ -19,7 +19,7 @@ inline Vec3 direction_of_its_own(const Collider& collider) {
 inline Vec3 aside_of(const Collider& a, const Vec3& p_a, const Collider& b, const Vec3& p_b) {
   constexpr double kCoincident = 1e-9, kAside = 1e-6;  // of the smaller inradius
   const double size = std::min(a.inradius, b.inradius);
-  if (!((p_a - p_b).norm() < kCoincident * size)) return Vec3::Zero();
+  if (!((p_a - p_b).squaredNorm() < kCoincident * kCoincident * size * size)) return Vec3::Zero();
   return kAside * size * (direction_of_its_own(a) - direction_of_its_own(b));
 }
 

@@ -54,15 +54,20 @@ const Kernels kTable = {
     .gather_velocities = gather_velocities,
     .scatter_velocities = scatter_velocities,
     .gather_inverse_inertias = gather_inverse_inertias,
-    .measure_displacements = measure_displacements,
+};
+
+extern const ContactKernels kContactTable;
+const ContactKernels kContactTable = {
+    .scatter_pushed = scatter_pushed,
+    .gather_pushed = gather_pushed,
     .integrate_corrections = integrate_corrections,
     .prepare_rows = prepare_rows,
     .prepare_bias = prepare_bias,
     .warm_start = warm_start,
     .solve_with_bias = solve_with_bias,
-    .solve_some_with_bias = solve_some_with_bias,
     .relax = relax,
-    .relax_some = relax_some,
+    .sweep_with_bias = sweep_with_bias,
+    .sweep_without_bias = sweep_without_bias,
 };
 
 extern const BallKernels kBallTable;

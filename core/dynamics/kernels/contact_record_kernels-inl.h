@@ -83,19 +83,38 @@ void gather_inverse_inertias(const Bodies& b, const double* state, double* inver
   });
 }
 
-void measure_displacements(const Bodies& b, const double* state, const double* start, double* displacements) {
+// How a body has moved since `start`.
+template <class T>
+RIGOR_INLINE Twist<T> displacement(T, const Bodies& b, std::size_t i, const double* state, const double* start) {
+  const Q4<T> q0 = get4(T(), start, b, kOrientation, i);
+  const Q4<T> turn = get4(T(), state, b, kOrientation, i) * Q4<T>{q0.w, T{} - q0.x, T{} - q0.y, T{} - q0.z};
+  const T two = if_at_most(turn.w, T{}, broadcast(T(), -2), broadcast(T(), 2));
+  return {get3(T(), state, b, kPosition, i) - get3(T(), start, b, kPosition, i), two * V3<T>{turn.x, turn.y, turn.z}};
+}
+
+void gather_pushed(const Bodies& b, const double* state, const double* pushes, double* velocities) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
-    const Q4<T> q0 = get4(T(), start, b, kOrientation, i);
-    const Q4<T> turn = get4(T(), state, b, kOrientation, i) * Q4<T>{q0.w, T{} - q0.x, T{} - q0.y, T{} - q0.z};
-    const T two = if_at_most(turn.w, T{}, broadcast(T(), -2), broadcast(T(), 2));
-    put_records(displacements, i,
-                record_of(Twist<T>{get3(T(), state, b, kPosition, i) - get3(T(), start, b, kPosition, i),
-                                   two * V3<T>{turn.x, turn.y, turn.z}}));
+    const Twist<T> push = twist_of(get_records(T(), pushes, i));
+    put_records(velocities, i,
+                record_of(Twist<T>{get3(T(), state, b, kVelocity, i) + push.v,
+                                   get3(T(), state, b, kAngularVelocity, i) + push.w}));
   });
 }
 
-void integrate_corrections(const Bodies& b, const double* velocities, double* state, double h) {
+void scatter_pushed(const Bodies& b, const double* velocities, double* state, double* pushes) {
+  for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const Twist<T> u = twist_of(get_records(T(), velocities, i));
+    put_records(
+        pushes, i,
+        record_of(Twist<T>{u.v - get3(T(), state, b, kVelocity, i), u.w - get3(T(), state, b, kAngularVelocity, i)}));
+    put3(state, b, kVelocity, i, u.v), put3(state, b, kAngularVelocity, i, u.w);
+  });
+}
+
+void integrate_corrections(const Bodies& b, const double* velocities, double h, double* state, const double* start,
+                           double* displacements) {
   for_rows(b.begin, b.end, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
     using T = decltype(lane);
     const Twist<T> u = twist_of(get_records(T(), velocities, i));
@@ -108,5 +127,6 @@ void integrate_corrections(const Bodies& b, const double* velocities, double* st
     put4(state, b, kOrientation, i,
          Q4<T>{if_at_most(size, T{}, q.w, to.w), if_at_most(size, T{}, q.x, to.x), if_at_most(size, T{}, q.y, to.y),
                if_at_most(size, T{}, q.z, to.z)});
+    put_records(displacements, i, record_of(displacement(T(), b, i, state, start)));
   });
 }

@@ -1,62 +1,46 @@
-// Contact constraints, several at once; kernels.h says what comes out, contact/impulse/impulse.cpp has the method.
-// Included once by each kernels_*.cpp, on purpose without a guard.
+// Contact constraints, several at once; contact_kernels.h says what comes out, contact/impulse/impulse.cpp has the
+// method. Included once by each kernels_*.cpp, on purpose without a guard.
 
 template <class T>
 RIGOR_INLINE T at_least_zero(T x) {
   return if_at_most(x, T{}, T{}, x);
 }
 
-// As many rows of a block as T has lanes, from its k-th on, with their two bodies.
+// The bodies of as many of a group's pairs as T has lanes, from its k-th on.
 template <class T>
-struct RowLanes {
-  RowBlock& block;
-  std::size_t k;
+struct PairLanes {
   Twist<T> a, b;
 
-  RIGOR_INLINE RowLanes(T, RowBlock& of, std::size_t at, const double* records)
-      : block(of),
-        k(at),
-        a(twist_of(get_record(T(), records, of.a + at))),
-        b(twist_of(get_record(T(), records, of.b + at))) {}
+  RIGOR_INLINE PairLanes(T, const RowGroup& group, std::size_t k, const double* records)
+      : a(twist_of(get_record(T(), records, group.a + k))), b(twist_of(get_record(T(), records, group.b + k))) {}
+  RIGOR_INLINE void put(const RowGroup& group, std::size_t k, double* records) const {
+    put_record(records, group.to_a + k, record_of(a));
+    put_record(records, group.to_b + k, record_of(b));
+  }
+};
 
-  RIGOR_INLINE T get(int column) const { return load(T(), block.columns[column] + k); }
+// As many rows of a block.
+template <class T>
+struct RowLanes {
+  using Lanes = T;
+  double* at = nullptr;
+
+  RIGOR_INLINE T get(int column) const { return load(T(), at + static_cast<std::size_t>(column) * kRowsPerBlock); }
   RIGOR_INLINE V3<T> get3(int column) const { return {get(column), get(column + 1), get(column + 2)}; }
-  RIGOR_INLINE void put(int column, T x) const { store(block.columns[column] + k, x); }
-
-  // Of the points of `a` against those of `b`.
-  RIGOR_INLINE V3<T> velocity() const { return (a.v + cross(a.w, get3(kArmA))) - (b.v + cross(b.w, get3(kArmB))); }
-  RIGOR_INLINE void apply_normal(V3<T> n, T p) {
-    a.v = a.v + (get(kInverseMassA) * p) * n, a.w = a.w + p * get3(kAngularA);
-    b.v = b.v - (get(kInverseMassB) * p) * n, b.w = b.w - p * get3(kAngularB);
+  RIGOR_INLINE void put(int column, T x) const { store(at + static_cast<std::size_t>(column) * kRowsPerBlock, x); }
+  RIGOR_INLINE void put3(int column, V3<T> x) const { put(column, x.x), put(column + 1, x.y), put(column + 2, x.z); }
+  // An impulse at the bodies' centres.
+  RIGOR_INLINE void push(PairLanes<T>& pair, V3<T> impulse) const {
+    pair.a.v = pair.a.v + get(kInverseMassA) * impulse;
+    pair.b.v = pair.b.v - get(kInverseMassB) * impulse;
   }
-  RIGOR_INLINE void apply_tangential(V3<T> t, V3<T> s, T p_t, T p_s) {
-    const V3<T> p = p_t * t + p_s * s;
-    a.v = a.v + get(kInverseMassA) * p, a.w = a.w + (p_t * get3(kAngularA + 3) + p_s * get3(kAngularA + 6));
-    b.v = b.v - get(kInverseMassB) * p, b.w = b.w - (p_t * get3(kAngularB + 3) + p_s * get3(kAngularB + 6));
-  }
-  RIGOR_INLINE void put_velocities(double* records) const {
-    put_record(records, block.to_a + k, record_of(a));
-    put_record(records, block.to_b + k, record_of(b));
-  }
+  // Coulomb's disc for an impulse p_n along the normal: its radius, which may be infinite.
+  RIGOR_INLINE T most_friction(T p_n) const { return if_at_most(p_n, T{}, T{}, get(kFriction) * p_n); }
 };
 
-// Calls f(T(), block, k) for all rows.
-template <class F>
-RIGOR_INLINE void for_blocks(RowBlock* blocks, std::size_t count, F f) {
-  for (RowBlock* block = blocks; block != blocks + count; ++block) {
-    for (std::size_t k = 0; k < kRowsPerBlock; k += kWidth) f(Lane(), *block, k);
-  }
-}
-
 template <class T>
-struct Angular {
-  V3<T> n, t, s;
-};
-// What unit impulses at the end of an arm add to w.
-template <class T>
-RIGOR_INLINE Angular<T> angular_of(const Record<T>& inertia, V3<T> arm, V3<T> n, V3<T> t, V3<T> s) {
-  const Symmetric<T> I = {inertia.c[0], inertia.c[1], inertia.c[2], inertia.c[3], inertia.c[4], inertia.c[5]};
-  return {I * cross(arm, n), I * cross(arm, t), I * cross(arm, s)};
+RIGOR_INLINE Symmetric<T> inertia_of(const Record<T>& r) {
+  return {r.c[0], r.c[1], r.c[2], r.c[3], r.c[4], r.c[5]};
 }
 
 // Across n, and across the axis that n leans to least.
@@ -72,182 +56,314 @@ RIGOR_INLINE V3<T> tangent_of(V3<T> n) {
   return (broadcast(T(), 1) / square_root(dot(t, t))) * t;
 }
 
-void prepare_rows(RowBlock* blocks, std::size_t count, const SolverBodies& bodies) {
-  for_blocks(blocks, count, [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA {
-    using T = decltype(lane);
-    const RowLanes<T> row(T(), block, k, bodies.velocities);
-    const auto put3_row = [&](int column, V3<T> x) RIGOR_LAMBDA {
-      row.put(column, x.x), row.put(column + 1, x.y), row.put(column + 2, x.z);
-    };
-    const V3<T> n = row.get3(kNormal), t = tangent_of(n), s = cross(n, t), arm_a = row.get3(kArmA),
-                arm_b = row.get3(kArmB);
-    const V3<T> friction = row.get3(kAngularA);
-    row.put(kImpulse + 1, dot(t, friction)), row.put(kImpulse + 2, dot(s, friction));
-    put3_row(kTangent, t);
-    const Record<T> inertia_a = get_record(T(), bodies.inverse_inertias, block.a + k),
-                    inertia_b = get_record(T(), bodies.inverse_inertias, block.b + k);
-    const T mass_a = inertia_a.c[6], mass_b = inertia_b.c[6];
-    const Angular<T> angular_a = angular_of(inertia_a, arm_a, n, t, s),
-                     angular_b = angular_of(inertia_b, arm_b, n, t, s);
-    put3_row(kAngularA, angular_a.n), put3_row(kAngularA + 3, angular_a.t), put3_row(kAngularA + 6, angular_a.s);
-    put3_row(kAngularB, angular_b.n), put3_row(kAngularB + 3, angular_b.t), put3_row(kAngularB + 6, angular_b.s);
-    row.put(kInverseMassA, mass_a), row.put(kInverseMassB, mass_b);
+// Rows of any two bodies, and their inverse inertias.
+template <class T>
+struct AnyRow : RowLanes<T> {
+  using RowLanes<T>::get;
+  using RowLanes<T>::get3;
+  using RowLanes<T>::put;
+  using RowLanes<T>::put3;
+  Symmetric<T> inertia_a, inertia_b;
+
+  RIGOR_INLINE void load_pair(const RowGroup& group, std::size_t k, const SolverBodies& bodies) {
+    inertia_a = inertia_of(get_record(T(), bodies.inverse_inertias, group.a + k));
+    inertia_b = inertia_of(get_record(T(), bodies.inverse_inertias, group.b + k));
+  }
+
+  RIGOR_INLINE void prepare(const Record<T>& of_a, const Record<T>& of_b) {
+    inertia_a = inertia_of(of_a), inertia_b = inertia_of(of_b);
+    const V3<T> n = get3(kNormal), t = tangent_of(n), s = cross(n, t), arm_a = get3(kArmA), arm_b = get3(kArmB);
+    const V3<T> friction = get3(kFrictionImpulse);
+    put(kTangentImpulse, dot(t, friction)), put(kTangentImpulse + 1, dot(s, friction));
+    put3(kTangent, t);
     // The inverse effective mass: d · (I⁻¹ (arm x e) x arm) is what a unit impulse along e gives of velocity along d.
-    const auto K = [&](V3<T> d, V3<T> a, V3<T> b)
-                       RIGOR_LAMBDA { return dot(d, cross(a, arm_a)) + dot(d, cross(b, arm_b)); };
-    const T free = mass_a + mass_b, one = broadcast(T(), 1), half = broadcast(T(), 0.5);
-    const T nn = free + K(n, angular_a.n, angular_b.n), tt = free + K(t, angular_a.t, angular_b.t),
-            ss = free + K(s, angular_a.s, angular_b.s), ts = K(s, angular_a.t, angular_b.t);
+    const auto K = [&](V3<T> d, V3<T> e) RIGOR_LAMBDA {
+      return dot(d, cross(inertia_a * cross(arm_a, e), arm_a)) + dot(d, cross(inertia_b * cross(arm_b, e), arm_b));
+    };
+    const T one = broadcast(T(), 1), half = broadcast(T(), 0.5);
+    const T free = of_a.c[6] + of_b.c[6], nn = free + K(n, n), tt = free + K(t, t), ss = free + K(s, s), ts = K(s, t);
     const T inverse = one / (tt * ss - ts * ts), apart = half * (tt - ss);
-    row.put(kNormalMass, one / nn);
-    row.put(kTangentMass, ss * inverse), row.put(kTangentMass + 1, tt * inverse);
-    row.put(kTangentMass + 2, T{} - ts * inverse);
-    row.put(kSlipMass, one / (half * (tt + ss) + square_root(apart * apart + ts * ts)));
+    put(kNormalMass, one / nn);
+    put(kTangentMass, ss * inverse), put(kTangentMass + 1, tt * inverse), put(kTangentMass + 2, T{} - ts * inverse);
+    put(kSlipMass, one / (half * (tt + ss) + square_root(apart * apart + ts * ts)));
+  }
+
+  // Of the points of `a` against those of `b`.
+  RIGOR_INLINE V3<T> velocity(const PairLanes<T>& pair) const {
+    return (pair.a.v + cross(pair.a.w, get3(kArmA))) - (pair.b.v + cross(pair.b.w, get3(kArmB)));
+  }
+  RIGOR_INLINE T normal_velocity(const PairLanes<T>& pair, V3<T> n) const { return dot(n, velocity(pair)); }
+
+  RIGOR_INLINE void apply(PairLanes<T>& pair, V3<T> impulse) const {
+    this->push(pair, impulse);
+    pair.a.w = pair.a.w + inertia_a * cross(get3(kArmA), impulse);
+    pair.b.w = pair.b.w - inertia_b * cross(get3(kArmB), impulse);
+  }
+  RIGOR_INLINE void apply_normal(PairLanes<T>& pair, V3<T> n, T p) const { apply(pair, p * n); }
+  RIGOR_INLINE void apply_friction(PairLanes<T>& pair, V3<T> n) const {
+    const V3<T> t = get3(kTangent);
+    apply(pair, get(kTangentImpulse) * t + get(kTangentImpulse + 1) * cross(n, t));
+  }
+
+  RIGOR_INLINE void solve_friction(PairLanes<T>& pair, V3<T> n, T p_n) const {
+    const V3<T> t = get3(kTangent), s = cross(n, t), u = velocity(pair);
+    const T slip_t = dot(t, u), slip_s = dot(s, u), old_t = get(kTangentImpulse), old_s = get(kTangentImpulse + 1);
+    const T radius = this->most_friction(p_n), radius2 = radius * radius;
+    // Sticking.
+    const T cross_mass = get(kTangentMass + 2);
+    T p_t = old_t - (get(kTangentMass) * slip_t + cross_mass * slip_s);
+    T p_s = old_s - (cross_mass * slip_t + get(kTangentMass + 1) * slip_s);
+    const T stick2 = p_t * p_t + p_s * p_s;
+    if (!all_at_most(stick2 - radius2, 0)) {
+      // Sliding: the impulse must oppose the slip, which only a step with one mass for all directions converges to.
+      const T mass = get(kSlipMass), x = old_t - mass * slip_t, y = old_s - mass * slip_s, slip2 = x * x + y * y;
+      const T onto = if_at_most(slip2, radius2, broadcast(T(), 1), radius / square_root(slip2));
+      p_t = if_at_most(stick2, radius2, p_t, onto * x), p_s = if_at_most(stick2, radius2, p_s, onto * y);
+    }
+    apply(pair, (p_t - old_t) * t + (p_s - old_s) * s);
+    put(kTangentImpulse, p_t), put(kTangentImpulse + 1, p_s);
+  }
+};
+
+// Rows of balls: what acts along the normal turns nothing, and all directions across it are alike.
+template <class T>
+struct BallRow : RowLanes<T> {
+  using RowLanes<T>::get;
+  using RowLanes<T>::get3;
+  using RowLanes<T>::put;
+  using RowLanes<T>::put3;
+
+  RIGOR_INLINE void load_pair(const RowGroup&, std::size_t, const SolverBodies&) {}
+  RIGOR_INLINE void prepare(const Record<T>& of_a, const Record<T>& of_b) const {
+    const V3<T> n = get3(kNormal), friction = get3(kFrictionImpulse);
+    const T l_a = get(kLengthA), l_b = get(kLengthB), one = broadcast(T(), 1);
+    const T turn_a = l_a * of_a.c[0], turn_b = l_b * of_b.c[0], free = of_a.c[6] + of_b.c[6];
+    put3(kFrictionImpulse, friction - dot(n, friction) * n);
+    put(kTurnA, turn_a), put(kTurnB, turn_b);
+    put(kNormalMass, one / free), put(kAcrossMass, one / (free + (l_a * turn_a + l_b * turn_b)));
+  }
+
+  RIGOR_INLINE T normal_velocity(const PairLanes<T>& pair, V3<T> n) const { return dot(n, pair.a.v - pair.b.v); }
+  RIGOR_INLINE void apply_normal(PairLanes<T>& pair, V3<T> n, T p) const { this->push(pair, p * n); }
+  RIGOR_INLINE void apply_across(PairLanes<T>& pair, V3<T> n, V3<T> p) const {
+    const V3<T> turn = cross(n, p);
+    this->push(pair, p);
+    pair.a.w = pair.a.w - get(kTurnA) * turn;
+    pair.b.w = pair.b.w - get(kTurnB) * turn;
+  }
+  RIGOR_INLINE void apply_friction(PairLanes<T>& pair, V3<T> n) const { apply_across(pair, n, get3(kFrictionImpulse)); }
+
+  RIGOR_INLINE void solve_friction(PairLanes<T>& pair, V3<T> n, T p_n) const {
+    const V3<T> u = (pair.a.v - pair.b.v) + cross(n, get(kLengthA) * pair.a.w + get(kLengthB) * pair.b.w);
+    const V3<T> old = get3(kFrictionImpulse), stick = old - get(kAcrossMass) * (u - dot(n, u) * n);
+    const T radius = this->most_friction(p_n), radius2 = radius * radius, stick2 = dot(stick, stick);
+    const T onto = if_at_most(stick2, radius2, broadcast(T(), 1), radius / square_root(stick2));
+    const V3<T> p = onto * stick;
+    apply_across(pair, n, p - old);
+    put3(kFrictionImpulse, p);
+  }
+};
+
+template <class T>
+RIGOR_INLINE AnyRow<T> any_row(T) {
+  return AnyRow<T>();
+}
+template <class T>
+RIGOR_INLINE BallRow<T> ball_row(T) {
+  return BallRow<T>();
+}
+// Calls f(a row of its kind, group) for each group.
+template <class F>
+RIGOR_INLINE void for_groups(const RowGroup* groups, std::size_t count, F f) {
+  for (const RowGroup* group = groups; group != groups + count; ++group) {
+    if (group->of_balls) {
+      f(ball_row(Lane()), *group);
+    } else {
+      f(any_row(Lane()), *group);
+    }
+  }
+}
+// Calls f(row) for the rows of all points in the lanes from the k-th on.
+template <class Row, class F>
+RIGOR_INLINE void for_points(Row row, const RowGroup& group, std::size_t k, F f) {
+  for (std::int32_t point = 0; point < group.points; ++point) {
+    row.at = group.block(static_cast<std::size_t>(point)) + k;
+    f(row);
+  }
+}
+
+void prepare_rows(const RowGroup* groups, std::size_t count, const SolverBodies& bodies) {
+  for_groups(groups, count, [&](auto kind, const RowGroup& group) RIGOR_LAMBDA {
+    using T = typename decltype(kind)::Lanes;
+    for (std::size_t k = 0; k < kRowsPerBlock; k += kWidth) {
+      const Record<T> inertia_a = get_record(T(), bodies.inverse_inertias, group.a + k),
+                      inertia_b = get_record(T(), bodies.inverse_inertias, group.b + k);
+      for_points(kind, group, k, [&](auto row) RIGOR_LAMBDA {
+        row.put(kInverseMassA, inertia_a.c[6]), row.put(kInverseMassB, inertia_b.c[6]);
+        row.prepare(inertia_a, inertia_b);
+      });
+    }
   });
 }
 
-std::size_t prepare_bias(RowBlock* blocks, std::size_t count, const SolverBodies& bodies,
-                         const SolverParameters& parameters, std::int32_t* impacts) {
+// Whether any row of a block comes together faster than the threshold.
+RIGOR_INLINE bool may_meet(const double* block, const SolverParameters& parameters) {
+  bool is_any = false;
+  for (std::size_t k = 0; k < kRowsPerBlock; k += kWidth)
+    is_any = is_any ||
+             !all_at_most(load(Lane(), block + kApproachSpeed * kRowsPerBlock + k), parameters.restitution_threshold);
+  return is_any;
+}
+
+std::size_t prepare_bias(const RowGroup* first, std::size_t begin, std::size_t end, const SolverBodies& bodies,
+                         const SolverParameters& parameters, RowPlace* impacts) {
   std::size_t found = 0;
-  for_blocks(blocks, count, [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA {
-    using T = decltype(lane);
-    const RowLanes<T> row(T(), block, k, bodies.velocities), change(T(), block, k, bodies.displacements);
-    const V3<T> n = row.get3(kNormal);
-    const T gap = row.get(kInitialGap) + dot(n, change.velocity());
-    const T approach = T{} - dot(n, row.velocity());
-    row.put(kGap, gap), row.put(kApproachSpeed, approach);
-    const T push = broadcast(T(), parameters.bias_rate) * gap, fastest = broadcast(T(), -parameters.max_push_speed);
-    // Speculative: the gap closes by h (theta u' + (1 - theta) u), of which only the velocity after, u', can be chosen.
-    const T closing = broadcast(T(), 1 / (parameters.h * parameters.theta)) * gap -
-                      broadcast(T(), (1 - parameters.theta) / parameters.theta) * approach;
-    row.put(kBias, if_at_most(T{}, gap, closing, if_at_most(push, fastest, fastest, push)));
-    if (all_at_most(approach, parameters.restitution_threshold)) [[likely]]
-      return;
-    for (std::size_t j = k; j < k + width_of(T()); ++j) {
-      // It meets in this sub-step, if it hardly speeds up.
-      const double u = block.columns[kApproachSpeed][j];
-      if (u > parameters.restitution_threshold && block.columns[kGap][j] < 2 * parameters.h * u)
-        impacts[found++] = static_cast<std::int32_t>(static_cast<std::size_t>(&block - blocks) * kRowsPerBlock + j);
+  for_groups(first + begin, end - begin, [&](auto kind, const RowGroup& group) RIGOR_LAMBDA {
+    using T = typename decltype(kind)::Lanes;
+    for (std::size_t k = 0; k < kRowsPerBlock; k += kWidth) {
+      const PairLanes<T> pair(T(), group, k, bodies.velocities), change(T(), group, k, bodies.displacements);
+      for_points(kind, group, k, [&](auto row) RIGOR_LAMBDA {
+        const V3<T> n = row.get3(kNormal);
+        const T gap = row.get(kInitialGap) + row.normal_velocity(change, n);
+        const T approach = T{} - row.normal_velocity(pair, n);
+        row.put(kGap, gap), row.put(kApproachSpeed, approach);
+        const T push = broadcast(T(), parameters.bias_rate) * gap, fastest = broadcast(T(), -parameters.max_push_speed);
+        // Speculative: the gap closes by h (theta u' + (1 - theta) u), of which only the velocity after, u', can be
+        // chosen.
+        const T closing = broadcast(T(), 1 / (parameters.h * parameters.theta)) * gap -
+                          broadcast(T(), (1 - parameters.theta) / parameters.theta) * approach;
+        row.put(kBias, if_at_most(T{}, gap, closing, if_at_most(push, fastest, fastest, push)));
+      });
+    }
+    for (std::int32_t point = 0; point < group.points; ++point) {
+      const double* block = group.block(static_cast<std::size_t>(point));
+      if (!may_meet(block, parameters)) continue;
+      for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
+        // It meets in this sub-step, if it hardly speeds up.
+        const double u = block[kApproachSpeed * kRowsPerBlock + k], gap = block[kGap * kRowsPerBlock + k];
+        if (u > parameters.restitution_threshold && gap < 2 * parameters.h * u)
+          impacts[found++] = {static_cast<std::int32_t>(&group - first), static_cast<std::int16_t>(point),
+                              static_cast<std::int16_t>(k)};
+      }
     }
   });
   return found;
 }
 
-void warm_start(RowBlock* blocks, std::size_t count, const SolverBodies& bodies) {
-  for_blocks(blocks, count, [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA {
-    using T = decltype(lane);
-    if (all_at_most(load(T(), block.columns[kImpulse] + k), 0)) return;
-    RowLanes<T> row(T(), block, k, bodies.velocities);
-    const V3<T> n = row.get3(kNormal), t = row.get3(kTangent);
-    row.apply_normal(n, row.get(kImpulse));
-    row.apply_tangential(t, cross(n, t), row.get(kImpulse + 1), row.get(kImpulse + 2));
-    row.put_velocities(bodies.velocities);
+// Calls solve(row, pair) for all rows; it returns whether it has changed the pair's velocities.
+template <class F>
+RIGOR_INLINE void solve_rows(const RowGroup* groups, std::size_t count, const SolverBodies& bodies, F solve) {
+  for_groups(groups, count, [&](auto kind, const RowGroup& group) RIGOR_LAMBDA {
+    using T = typename decltype(kind)::Lanes;
+    for (std::size_t k = 0; k < kRowsPerBlock; k += kWidth) {
+      PairLanes<T> pair(T(), group, k, bodies.velocities);
+      bool is_changed = false;
+      kind.load_pair(group, k, bodies);
+      for_points(kind, group, k, [&](auto row) RIGOR_LAMBDA { is_changed |= solve(row, pair); });
+      if (is_changed) pair.put(group, k, bodies.velocities);
+    }
   });
 }
 
-// Coulomb's disc of the normal impulse p_n.
-template <class T>
-RIGOR_INLINE void solve_friction(RowLanes<T>& row, V3<T> n, T p_n) {
-  const V3<T> t = row.get3(kTangent), s = cross(n, t), u = row.velocity();
-  const T slip_t = dot(t, u), slip_s = dot(s, u), old_t = row.get(kImpulse + 1), old_s = row.get(kImpulse + 2);
-  const T radius = if_at_most(p_n, T{}, T{}, row.get(kFriction) * p_n), radius2 = radius * radius;  // may be infinite
-  // Sticking.
-  const T cross_mass = row.get(kTangentMass + 2);
-  T p_t = old_t - (row.get(kTangentMass) * slip_t + cross_mass * slip_s);
-  T p_s = old_s - (cross_mass * slip_t + row.get(kTangentMass + 1) * slip_s);
-  const T stick2 = p_t * p_t + p_s * p_s;
-  if (!all_at_most(stick2 - radius2, 0)) {
-    // Sliding: the impulse must oppose the slip, which only a step with one mass for all directions converges to.
-    const T mass = row.get(kSlipMass), x = old_t - mass * slip_t, y = old_s - mass * slip_s, slip2 = x * x + y * y;
-    const T onto = if_at_most(slip2, radius2, broadcast(T(), 1), radius / square_root(slip2));
-    p_t = if_at_most(stick2, radius2, p_t, onto * x), p_s = if_at_most(stick2, radius2, p_s, onto * y);
-  }
-  row.apply_tangential(t, s, p_t - old_t, p_s - old_s);
-  row.put(kImpulse + 1, p_t), row.put(kImpulse + 2, p_s);
+void warm_start(const RowGroup* groups, std::size_t count, const SolverBodies& bodies) {
+  solve_rows(groups, count, bodies, [&](auto row, auto& pair) RIGOR_LAMBDA {
+    const auto p = row.get(kImpulse);
+    if (all_at_most(p, 0)) return false;
+    const auto n = row.get3(kNormal);
+    row.apply_normal(pair, n, p);
+    row.apply_friction(pair, n);
+    return true;
+  });
 }
 
-// Returns by how much the impulse changes the velocity along the normal.
-template <class T>
-RIGOR_INLINE T solve_row_with_bias(T, RowBlock& block, std::size_t k, const SolverBodies& bodies,
-                                   const SolverParameters& parameters) {
-  RowLanes<T> row(T(), block, k, bodies.velocities);
+// `change`: by how much the impulse changes the velocity along the normal.
+template <class Row, class T>
+RIGOR_INLINE bool solve_row_with_bias(Row row, PairLanes<T>& pair, const SolverParameters& parameters, T& change) {
   const V3<T> n = row.get3(kNormal);
   const T gap = row.get(kGap), old = row.get(kImpulse), mass = row.get(kNormalMass);
   const T mass_scale = if_at_most(T{}, gap, broadcast(T(), 1), broadcast(T(), parameters.mass_scale));
   const T impulse_scale = if_at_most(T{}, gap, T{}, broadcast(T(), parameters.impulse_scale));
-  const T delta = T{} - mass_scale * ((dot(n, row.velocity()) + row.get(kBias)) * mass) - impulse_scale * old;
+  const T delta = T{} - mass_scale * ((row.normal_velocity(pair, n) + row.get(kBias)) * mass) - impulse_scale * old;
   const T p_n = at_least_zero(old + delta);
-  if (all_at_most(old, 0) && all_at_most(p_n, 0)) return T{};
-  row.apply_normal(n, p_n - old);
+  change = T{};
+  if (all_at_most(old, 0) && all_at_most(p_n, 0)) return false;
+  change = (p_n - old) / mass;
+  row.apply_normal(pair, n, p_n - old);
   row.put(kImpulse, p_n);
-  solve_friction(row, n, p_n);
-  row.put_velocities(bodies.velocities);
-  return (p_n - old) / mass;
+  row.solve_friction(pair, n, p_n);
+  return true;
 }
 
-void solve_with_bias(RowBlock* blocks, std::size_t count, const SolverBodies& bodies,
+void solve_with_bias(const RowGroup* groups, std::size_t count, const SolverBodies& bodies,
                      const SolverParameters& parameters) {
-  for_blocks(blocks, count, [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA {
-    solve_row_with_bias(lane, block, k, bodies, parameters);
+  solve_rows(groups, count, bodies, [&](auto row, auto& pair) RIGOR_LAMBDA {
+    typename decltype(row)::Lanes change;
+    return solve_row_with_bias(row, pair, parameters, change);
   });
 }
 
-// Sweeps over some rows, calling solve(block, k), until none changes a velocity by more than the tolerance; from the
-// second sweep on only for bodies that the sweep before, or this one, has changed.
-template <class F>
-RIGOR_INLINE void solve_until_they_agree(RowBlock* blocks, const std::int32_t* rows, std::size_t count,
-                                         const SolverBodies& bodies, const SolverParameters& parameters, F solve) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const RowBlock& block = blocks[rows[i] / kRowsPerBlock];
-    bodies.last_active[block.a[rows[i] % kRowsPerBlock]] = bodies.last_active[block.b[rows[i] % kRowsPerBlock]] = 0;
-  }
-  bool has_converged = count == 0;
-  for (int sweep = 0; sweep < parameters.max_sweeps && !has_converged; ++sweep) {
-    has_converged = true;
-    for (std::size_t i = 0; i < count; ++i) {
-      RowBlock& block = blocks[rows[i] / kRowsPerBlock];
-      const std::size_t k = rows[i] % kRowsPerBlock;
-      if (bodies.last_active[block.a[k]] < sweep - 1 && bodies.last_active[block.b[k]] < sweep - 1) continue;
-      const double change = solve(block, k);
-      if (change * change <= parameters.tolerance * parameters.tolerance) continue;
-      // A fixed body is written to the idle record, and so is never active.
-      bodies.last_active[block.to_a[k]] = bodies.last_active[block.to_b[k]] = sweep;
-      has_converged = false;
-    }
-  }
-}
-
-void solve_some_with_bias(RowBlock* blocks, const std::int32_t* rows, std::size_t count, const SolverBodies& bodies,
-                          const SolverParameters& parameters) {
-  solve_until_they_agree(blocks, rows, count, bodies, parameters, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
-    return solve_row_with_bias(double(), block, k, bodies, parameters);
-  });
-}
-
-// Returns by how much the impulse changes the velocity along the normal.
-template <class T>
-RIGOR_INLINE T relax_row(T, RowBlock& block, std::size_t k, const SolverBodies& bodies) {
-  const T old = load(T(), block.columns[kImpulse] + k);
-  if (all_at_most(old, 0)) return T{};
-  RowLanes<T> row(T(), block, k, bodies.velocities);
+template <class Row, class T>
+RIGOR_INLINE bool relax_row(Row row, PairLanes<T>& pair, T& change) {
+  const T old = row.get(kImpulse);
+  change = T{};
+  if (all_at_most(old, 0)) return false;
   const V3<T> n = row.get3(kNormal);
   const T mass = row.get(kNormalMass),
-          p_n = if_at_most(old, T{}, old, at_least_zero(old - dot(n, row.velocity()) * mass));
-  row.apply_normal(n, p_n - old);
+          p_n = if_at_most(old, T{}, old, at_least_zero(old - row.normal_velocity(pair, n) * mass));
+  change = (p_n - old) / mass;
+  row.apply_normal(pair, n, p_n - old);
   row.put(kImpulse, p_n);
-  solve_friction(row, n, p_n);
-  row.put_velocities(bodies.velocities);
-  return (p_n - old) / mass;
+  row.solve_friction(pair, n, p_n);
+  return true;
 }
 
-void relax(RowBlock* blocks, std::size_t count, const SolverBodies& bodies) {
-  for_blocks(blocks, count,
-             [&](auto lane, RowBlock& block, std::size_t k) RIGOR_LAMBDA { relax_row(lane, block, k, bodies); });
-}
-
-void relax_some(RowBlock* blocks, const std::int32_t* rows, std::size_t count, const SolverBodies& bodies,
-                const SolverParameters& parameters) {
-  solve_until_they_agree(blocks, rows, count, bodies, parameters, [&](RowBlock& block, std::size_t k) RIGOR_LAMBDA {
-    return relax_row(double(), block, k, bodies);
+void relax(const RowGroup* groups, std::size_t count, const SolverBodies& bodies) {
+  solve_rows(groups, count, bodies, [&](auto row, auto& pair) RIGOR_LAMBDA {
+    typename decltype(row)::Lanes change;
+    return relax_row(row, pair, change);
   });
+}
+
+// Solves one row; returns by how much it changes the velocity along the normal.
+template <class Row, class F>
+RIGOR_INLINE double solve_one(Row row, const RowGroup& group, const RowPlace& place, const SolverBodies& bodies,
+                              F solve) {
+  const auto k = static_cast<std::size_t>(place.lane);
+  row.at = group.block(static_cast<std::size_t>(place.point)) + k;
+  row.load_pair(group, k, bodies);
+  PairLanes<double> pair(double(), group, k, bodies.velocities);
+  double change;
+  if (solve(row, pair, change)) pair.put(group, k, bodies.velocities);
+  return change;
+}
+
+template <class F>
+RIGOR_INLINE bool sweep_over(const RowGroup* first, const RowPlace* rows, std::size_t count, const SolverBodies& bodies,
+                             const SolverParameters& parameters, Sweep sweep, F solve) {
+  bool is_any_changed = false;
+  for (const RowPlace* place = rows; place != rows + count; ++place) {
+    const RowGroup& group = first[place->group];
+    const auto was_active = [&](std::int32_t body) { return bodies.last_active[body] >= sweep.number - 1; };
+    if (!sweep.is_first && !was_active(group.a[place->lane]) && !was_active(group.b[place->lane])) continue;
+    const double change = group.of_balls ? solve_one(ball_row(double()), group, *place, bodies, solve)
+                                         : solve_one(any_row(double()), group, *place, bodies, solve);
+    if (change * change <= parameters.tolerance * parameters.tolerance) continue;
+    // A fixed body is written to an idle record, and so is never active.
+    bodies.last_active[group.to_a[place->lane]] = bodies.last_active[group.to_b[place->lane]] = sweep.number;
+    is_any_changed = true;
+  }
+  return is_any_changed;
+}
+
+bool sweep_with_bias(const RowGroup* first, const RowPlace* rows, std::size_t count, const SolverBodies& bodies,
+                     const SolverParameters& parameters, Sweep sweep) {
+  return sweep_over(first, rows, count, bodies, parameters, sweep,
+                    [&](auto row, auto& pair, auto& change)
+                        RIGOR_LAMBDA { return solve_row_with_bias(row, pair, parameters, change); });
+}
+
+bool sweep_without_bias(const RowGroup* first, const RowPlace* rows, std::size_t count, const SolverBodies& bodies,
+                        const SolverParameters& parameters, Sweep sweep) {
+  return sweep_over(first, rows, count, bodies, parameters, sweep,
+                    [&](auto row, auto& pair, auto& change) RIGOR_LAMBDA { return relax_row(row, pair, change); });
 }

@@ -1,6 +1,7 @@
 // What the contact kernels work on (contact/impulse/impulse.cpp is the method): rows, each a contact constraint of two
-// bodies, eight to a block, and records of eight doubles a body, so that a row finds a body in one cache line. The rows
-// of a block share no moving body.
+// bodies, and records of eight doubles a body, so that a row finds a body in one cache line. Eight pairs of bodies that
+// share no moving body make a group; it has a block of eight rows, one a pair, for each contact point that the pair of
+// most points has.
 #pragma once
 
 #include <cstddef>
@@ -8,45 +9,74 @@
 
 namespace rigor {
 
-inline constexpr std::size_t kRowsPerBlock = 8, kRecord = 8;
+inline constexpr std::size_t kRowsPerBlock = 8;
 
-// `a` and `b` are the two bodies; the normal points from b to a. Vectors in W.
+// `a` and `b` are the two bodies; the normal points from b to a. Vectors in W. Column c of a block begins at its double
+// c * kRowsPerBlock.
 enum RowColumn {
   kNormal = 0,
-  kTangent = 3,  // one of two
-  kArmA = 6,     // m, from the centre of mass to a's point
-  kArmB = 9,
-  kAngularA = 12,      // I⁻¹ (arm x d), what unit impulses along d = normal and the two tangents add to w; before
-                       // prepare_rows() the first holds the impulse of friction, in W
-  kAngularB = 21,      // and take from it
-  kInverseMassA = 30,  // 1/kg
-  kInverseMassB = 31,
-  kNormalMass = 32,   // kg, effective mass along the normal
-  kTangentMass = 33,  // kg: tt, ss, ts of the inverse of the tangential inverse effective mass K_t
-  kSlipMass = 36,     // kg, 1 / the larger eigenvalue of K_t
-  kFriction = 37,
-  kRestitution = 38,
-  kInitialGap = 39,     // m, when contacts were last updated
-  kGap = 40,            // m, before the sub-step
-  kApproachSpeed = 41,  // m/s, before the sub-step
-  kBias = 42,           // m/s
-  kImpulse = 43,        // N s of one sub-step: along the normal, the two tangents
-  kRowColumns = 46
+  kInverseMassA = 3,  // 1/kg
+  kInverseMassB = 4,
+  kNormalMass = 5,  // kg, effective mass along the normal
+  kFriction = 6,
+  kRestitution = 7,
+  kInitialGap = 8,      // m, when contacts were last updated
+  kGap = 9,             // m, before the sub-step
+  kApproachSpeed = 10,  // m/s, before the sub-step
+  kBias = 11,           // m/s
+  kImpulse = 12,        // N s of one sub-step, along the normal
+  // Before prepare_rows(), and after it only in rows of balls: the impulse of friction, in W.
+  kFrictionImpulse = 13,
+
+  // Of any two bodies.
+  kTangentImpulse = 13,  // N s of one sub-step, along the two tangents
+  kTangent = 15,         // one of two
+  kArmA = 18,            // m, from the centre of mass to a's point
+  kArmB = 21,
+  kTangentMass = 24,  // kg: tt, ss, ts of the inverse of the tangential inverse effective mass K_t
+  kSlipMass = 27,     // kg, 1 / the larger eigenvalue of K_t
+  kColumnsOfAny = 28,
+
+  // Of two that are balls or fixed: their arms lie along the normal, -l_a n and l_b n, and inertias are numbers I, so
+  // that nothing is to be known of tangents.
+  kLengthA = 16,  // m, l_a
+  kLengthB = 17,
+  kTurnA = 18,  // l_a / I_a, 1/(kg m)
+  kTurnB = 19,
+  kAcrossMass = 20,  // kg, effective mass across the normal
+  kColumnsOfBalls = 21
 };
 
-struct alignas(64) RowBlock {
-  double columns[kRowColumns][kRowsPerBlock];
+struct alignas(64) RowGroup {
   std::int32_t a[kRowsPerBlock], b[kRowsPerBlock];        // whose records are read
   std::int32_t to_a[kRowsPerBlock], to_b[kRowsPerBlock];  // and written: those of fixed bodies are not
+  double* rows;                                           // blocks, one after another
+  std::int32_t points;                                    // so many
+  bool of_balls;                                          // which of the two kinds
+
+  std::size_t columns() const { return of_balls ? kColumnsOfBalls : kColumnsOfAny; }
+  double* block(std::size_t point) const { return rows + point * columns() * kRowsPerBlock; }
 };
 
-// Records by body, and after them two idle ones: rows that fill a block read the first, of a body at rest, and write
-// the second.
+// One of the rows.
+struct RowPlace {
+  std::int32_t group;
+  std::int16_t point, lane;
+};
+
+// Records by body, and after them idle ones: rows without a constraint read the first, of a body at rest, and write one
+// of those after it, of which each thread has its own.
 struct SolverBodies {
   double* velocities;              // v, w
   double* displacements;           // m and rad since contacts were last updated
-  std::int32_t* last_active;       // the last sweep over the impacts in which one changed it
-  const double* inverse_inertias;  // in W, xx, yy, zz, xy, xz, yz, 1/(kg m²), when contacts were updated; 1/kg
+  std::int64_t* last_active;       // the number of the last sweep over some rows that changed it
+  const double* inverse_inertias;  // and inverse masses, when contacts were updated
+};
+
+// Sweeps are numbered on for ever, so that what an earlier one has changed is not taken for new.
+struct Sweep {
+  std::int64_t number;
+  bool is_first;
 };
 
 struct SolverParameters {

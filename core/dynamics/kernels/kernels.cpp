@@ -1,21 +1,25 @@
 #include "core/dynamics/kernels/kernels.h"
 
 #include "core/dynamics/kernels/ball_kernels.h"
+#include "core/dynamics/kernels/contact_kernels.h"
 
 namespace rigor {
 
 namespace plain {
 extern const Kernels kTable;
 extern const BallKernels kBallTable;
+extern const ContactKernels kContactTable;
 }  // namespace plain
 #ifdef __x86_64__
 namespace avx2 {
 extern const Kernels kTable;
 extern const BallKernels kBallTable;
+extern const ContactKernels kContactTable;
 }  // namespace avx2
 namespace avx512 {
 extern const Kernels kTable;
 extern const BallKernels kBallTable;
+extern const ContactKernels kContactTable;
 }  // namespace avx512
 #endif
 
@@ -39,6 +43,14 @@ const BallKernels& ball_kernels() {
   if (in_use() == &avx512::kTable) return avx512::kBallTable;
 #endif
   return plain::kBallTable;
+}
+
+const ContactKernels& contact_kernels() {
+#ifdef __x86_64__
+  if (in_use() == &avx2::kTable) return avx2::kContactTable;
+  if (in_use() == &avx512::kTable) return avx512::kContactTable;
+#endif
+  return plain::kContactTable;
 }
 
 std::size_t available_kernels(const Kernels* (&out)[kMostKernelTables]) {

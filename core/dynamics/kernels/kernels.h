@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/dynamics/kernels/contact_rows.h"
 #include "core/engine/body_column.h"
 
 namespace rigor {
@@ -31,6 +30,9 @@ enum WrenchColumn { kForce = 0, kTorque = 3, kWrenchColumns = 6 };
 
 // Columns of what a step carries beside the state: the angular momentum in W [kg m²/s], a rotation vector [rad].
 enum CarriedColumn { kMomentum = 0, kTurned = 3, kCarriedColumns = 6 };
+
+// Doubles of a record: a body's values side by side, for what looks at bodies in no order.
+inline constexpr std::size_t kRecord = 8;
 
 // A block of bodies. All tables of one system have the same stride. `begin` is a multiple of kRowsPerLine.
 struct Bodies {
@@ -148,28 +150,11 @@ struct Kernels {
   // Which spheres overlap a plane {normal, offset}, to `rows`, which has room for all: their number.
   std::size_t (*below_plane)(const Bodies&, const double* state, const double* spheres, const double* plane,
                              std::int32_t* rows);
-  // Contact by sequential impulses (contact_rows.h). Velocities from the state to records and back; inverse inertias
-  // and masses to records; how bodies have moved since `start`; positions and orientations integrated over h with what
-  // the records' velocities differ by from the state's.
+  // Between the state and records by body: v, w there and back; inverse inertias in W, xx, yy, zz, xy, xz, yz
+  // [1/(kg m²)] and the inverse mass [1/kg].
   void (*gather_velocities)(const Bodies&, const double* state, double* velocities);
   void (*scatter_velocities)(const Bodies&, const double* velocities, double* state);
   void (*gather_inverse_inertias)(const Bodies&, const double* state, double* inverse_inertias);
-  void (*measure_displacements)(const Bodies&, const double* state, const double* start, double* displacements);
-  void (*integrate_corrections)(const Bodies&, const double* velocities, double* state, double h);
-  // Effective masses; gaps, approach speeds and biases of a sub-step, with the rows that meet in it faster than the
-  // restitution threshold to `impacts`, their number returned.
-  void (*prepare_rows)(RowBlock*, std::size_t count, const SolverBodies&);
-  std::size_t (*prepare_bias)(RowBlock*, std::size_t count, const SolverBodies&, const SolverParameters&,
-                              std::int32_t* impacts);
-  // Each row's impulse as it is; the biased solve over all rows, and over some until they agree; the solve without bias
-  // over all rows, and over some until they agree.
-  void (*warm_start)(RowBlock*, std::size_t count, const SolverBodies&);
-  void (*solve_with_bias)(RowBlock*, std::size_t count, const SolverBodies&, const SolverParameters&);
-  void (*solve_some_with_bias)(RowBlock*, const std::int32_t* rows, std::size_t count, const SolverBodies&,
-                               const SolverParameters&);
-  void (*relax)(RowBlock*, std::size_t count, const SolverBodies&);
-  void (*relax_some)(RowBlock*, const std::int32_t* rows, std::size_t count, const SolverBodies&,
-                     const SolverParameters&);
 };
 
 // The table in use.

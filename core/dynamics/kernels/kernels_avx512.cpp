@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "core/dynamics/kernels/ball_kernels.h"
-#include "core/dynamics/kernels/kernels.h"
+#include "core/dynamics/kernels/contact_kernels.h"
 
 #ifdef __clang__
 #pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl"))), apply_to = function)

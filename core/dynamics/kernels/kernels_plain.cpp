@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/dynamics/kernels/ball_kernels.h"
-#include "core/dynamics/kernels/kernels.h"
+#include "core/dynamics/kernels/contact_kernels.h"
 
 #define RIGOR_LANES 2
 #define RIGOR_LANES_OF plain

@@ -9,11 +9,7 @@ BodyConstants::BodyConstants(const std::vector<Inertia>& bodies, const Vec3& gra
   for (std::size_t i = 0; i < size_; ++i) set_body(i, bodies[i]);
 }
 
-void BodyConstants::use_threads(int count) {
-  // With fewer bodies a step takes less time than threads need to meet, some microseconds.
-  constexpr std::size_t kWorthwhile = 8192;
-  thread_pool_ = count > 1 && size_ >= kWorthwhile ? std::make_shared<ThreadPool>(count) : nullptr;
-}
+void BodyConstants::use_threads(int count) { thread_pool_ = count > 1 ? std::make_shared<ThreadPool>(count) : nullptr; }
 
 void BodyConstants::set_body(std::size_t i, const Inertia& body) {
   columns_.column(kAxes)[i] = 1;

@@ -36,10 +36,12 @@ class BodyConstants {
 
   // More than one thread share the passes, where there are bodies enough for it.
   void use_threads(int count);
+  // For methods that have more to do with each body than a pass; null: this thread alone.
+  const std::shared_ptr<ThreadPool>& thread_pool() const { return thread_pool_; }
   // Calls pass(first, last) for each thread's share of `rows` bodies, springs or whatever, in that thread.
   template <typename Pass>
   void for_each_share(std::size_t rows, const Pass& pass) const {
-    if (!thread_pool_) return pass(0, rows);
+    if (!thread_pool_ || size_ < kWorthSharing) return pass(0, rows);
     const std::size_t share = (rows / thread_pool_->members() / kBlock + 1) * kBlock;
     thread_pool_->run([&](std::size_t member) {
       const std::size_t first = member * share;
@@ -49,6 +51,8 @@ class BodyConstants {
 
  private:
   static constexpr std::size_t kBlock = 64;  // rows
+  // With fewer bodies a pass takes less time than threads need to meet, some microseconds.
+  static constexpr std::size_t kWorthSharing = 8192;
   void set_body(std::size_t i, const Inertia& body);
   void set_symmetric(ConstantColumn column, std::size_t i, const Mat3& m);
 

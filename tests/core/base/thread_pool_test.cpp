@@ -25,6 +25,38 @@ BOOST_AUTO_TEST_CASE(every_member_works_once_a_task_on_what_was_written_before_i
   }
 }
 
+BOOST_AUTO_TEST_CASE(members_that_meet_see_what_all_wrote_before) {
+  for (const int members : {1, 2, 3, 5}) {
+    ThreadPool pool(members);
+    std::vector<int> made(pool.members(), 0), seen(pool.members(), 0);
+    pool.run([&](std::size_t member) {
+      for (int round = 1; round <= 2000; ++round) {
+        made[member] = round;
+        pool.meet();
+        for (const int other : made) seen[member] += other == round;
+        pool.meet();
+      }
+    });
+    for (const int count : seen) BOOST_TEST(count == 2000 * members);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(shares_are_whole_and_leave_nothing_out) {
+  ThreadPool pool(3);
+  for (const std::size_t rows : {0u, 1u, 7u, 8u, 100u}) {
+    for (const std::size_t whole : {1u, 8u}) {
+      std::size_t next = 0;
+      for (std::size_t member = 0; member < pool.members(); ++member) {
+        const auto [first, last] = pool.share(rows, member, whole);
+        BOOST_TEST(first == next);
+        BOOST_TEST(first % whole == 0u);
+        next = last;
+      }
+      BOOST_TEST(next == rows);
+    }
+  }
+}
+
 // They sleep by then, and must be woken.
 BOOST_AUTO_TEST_CASE(members_that_waited_long_still_come) {
   ThreadPool pool(3);

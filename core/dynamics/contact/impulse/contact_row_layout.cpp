@@ -1,103 +1,192 @@
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
 
 #include <algorithm>
-#include <numeric>
+#include <tuple>
 #include <utility>
+
+#include "core/dynamics/kernels/contact_kernels.h"
 
 namespace rigor {
 namespace {
 
-void set_vector(RowBlock& block, int column, std::size_t k, const Vec3& x) {
-  for (int c = 0; c < 3; ++c) block.columns[column + c][k] = x[c];
+double& at(double* block, int column, std::size_t k) {
+  return block[static_cast<std::size_t>(column) * kRowsPerBlock + k];
 }
-Vec3 vector(const RowBlock& block, int column, std::size_t k) {
-  return {block.columns[column][k], block.columns[column + 1][k], block.columns[column + 2][k]};
+void set_vector(double* block, int column, std::size_t k, const Vec3& x) {
+  for (int c = 0; c < 3; ++c) at(block, column + c, k) = x[c];
+}
+Vec3 vector(double* block, int column, std::size_t k) {
+  return {at(block, column, k), at(block, column + 1, k), at(block, column + 2, k)};
 }
 
-// With rows that nothing acts on.
-void clear(RowBlock& block, std::int32_t idle) {
-  for (auto& column : block.columns) std::fill(std::begin(column), std::end(column), 0.0);
-  std::fill(std::begin(block.columns[kNormal]), std::end(block.columns[kNormal]), 1.0);
-  for (auto* bodies : {&block.a, &block.b}) std::fill(std::begin(*bodies), std::end(*bodies), idle);
-  for (auto* bodies : {&block.to_a, &block.to_b}) std::fill(std::begin(*bodies), std::end(*bodies), idle + 1);
+// A fixed body, or one whose contact points lie where the normal leaves its centre, and that turns alike about all
+// axes.
+bool is_round(const Body& body, const Inertia& inertia) {
+  const Mat3& I = inertia.inertia_B;
+  return inertia.fixed || (body.shape && std::holds_alternative<Sphere>(*body.shape) && I.isDiagonal(0) &&
+                           I(0, 0) == I(1, 1) && I(1, 1) == I(2, 2));
+}
+
+// Rows that nothing acts on.
+void clear(const RowGroup& group) {
+  for (std::int32_t point = 0; point < group.points; ++point) {
+    double* block = group.block(static_cast<std::size_t>(point));
+    std::fill_n(block, group.columns() * kRowsPerBlock, 0.0);
+    std::fill_n(&at(block, kNormal, 0), kRowsPerBlock, 1.0);
+    std::fill_n(&at(block, kInitialGap, 0), kRowsPerBlock, ContactRowLayout::kNoPoint);
+  }
+}
+
+void fill_row(double* block, std::size_t k, bool of_balls, const ContactConstraint& constraint, double impulse_scale) {
+  set_vector(block, kNormal, k, constraint.normal);
+  set_vector(block, kFrictionImpulse, k, impulse_scale * constraint.friction_impulse);
+  at(block, kImpulse, k) = impulse_scale * constraint.normal_impulse;
+  at(block, kInitialGap, k) = constraint.gap;
+  at(block, kFriction, k) = constraint.friction;
+  at(block, kRestitution, k) = constraint.restitution;
+  if (of_balls) {
+    at(block, kLengthA, k) = -constraint.normal.dot(constraint.arm_a);
+    at(block, kLengthB, k) = constraint.normal.dot(constraint.arm_b);
+  } else {
+    set_vector(block, kArmA, k, constraint.arm_a), set_vector(block, kArmB, k, constraint.arm_b);
+  }
 }
 
 }  // namespace
 
-ContactRowLayout::ContactRowLayout(const System& system)
-    : system_(system), idle_(static_cast<std::int32_t>(column_stride(system.size()))), next_level_(system.size()) {}
+ContactRowLayout::ContactRowLayout(const Scene& scene, const System& system, std::size_t threads)
+    : system_(system),
+      threads_(threads),
+      idle_(static_cast<std::int32_t>(column_stride(system.size()))),
+      next_level_(system.size()) {
+  for (std::size_t i = 0; i < system.size(); ++i) is_round_.push_back(is_round(scene.bodies[i], system.bodies[i]));
+}
 
-void ContactRowLayout::assign(const std::vector<ContactConstraint>& constraints, double impulse_scale) {
+void ContactRowLayout::assign(const std::vector<ContactConstraint>& constraints) {
   sort_pairs_in_levels(constraints);
-  place_rows(constraints.size());
-  has_restitution_ = false;
+  form_groups();
   deep_rows_.clear();
-  for (std::size_t i = 0; i < constraints.size(); ++i) fill_row(constraints[i], row_of_constraint_[i], impulse_scale);
+  if (has_deep_) find_deep_rows(constraints);
 }
 
 void ContactRowLayout::sort_pairs_in_levels(const std::vector<ContactConstraint>& constraints) {
   std::fill(next_level_.begin(), next_level_.end(), 0);
-  pairs_.clear();
-  pairs_of_level_.clear();
+  pairs_.clear(), first_group_.clear();
+  has_restitution_ = has_deep_ = false;
   for (std::size_t first = 0; first < constraints.size(); first += pairs_.back().points) {
     const auto [a, b] = std::pair(constraints[first].a, constraints[first].b);
-    std::size_t last = first + 1;
-    while (last < constraints.size() && constraints[last].a == a && constraints[last].b == b) ++last;
-    const std::size_t level = std::max(next_level_[a], next_level_[b]);
-    if (level == pairs_of_level_.size()) pairs_of_level_.push_back(0);
+    std::size_t last = first;
+    for (; last < constraints.size() && constraints[last].a == a && constraints[last].b == b; ++last)
+      has_deep_ = has_deep_ || constraints[last].is_deep;
+    has_restitution_ = has_restitution_ || constraints[first].restitution > 0;
+    const std::size_t points = last - first, kind = points == 1 && is_round_[a] && is_round_[b] ? 0 : points;
+    const std::size_t level = std::max(next_level_[a], next_level_[b]), kind_of_level = kKinds * level + kind;
     for (const int body : {a, b}) next_level_[body] = system_.bodies[body].fixed ? 0 : level + 1;
-    pairs_.push_back({first, last - first, level, pairs_of_level_[level]++});
+    if (kind_of_level >= first_group_.size()) first_group_.resize(kKinds * (kind_of_level / kKinds + 1), 0);
+    pairs_.push_back({first, points, kind_of_level, first_group_[kind_of_level]++});
   }
 }
 
-// Up to eight pairs of one level lie side by side, the constraints of each one after another in as many blocks as the
-// pair of most constraints needs.
-void ContactRowLayout::place_rows(std::size_t constraints) {
-  std::vector<std::size_t>& first_group = pairs_of_level_;
+void ContactRowLayout::form_groups() {
   std::size_t groups = 0;
-  for (std::size_t& level : first_group) groups += (std::exchange(level, groups) + kRowsPerBlock - 1) / kRowsPerBlock;
-  const auto group_of = [&](const Pair& pair) { return first_group[pair.level] + pair.of_level / kRowsPerBlock; };
-  first_block_.assign(groups + 1, 0);
-  for (const Pair& pair : pairs_) {
-    std::size_t& height = first_block_[group_of(pair) + 1];
-    height = std::max(height, pair.points);
+  for (std::size_t& pairs : first_group_) groups += (std::exchange(pairs, groups) + kRowsPerBlock - 1) / kRowsPerBlock;
+  groups_.resize(groups);
+  pairs_of_group_.resize(groups);
+  for (auto& pairs : pairs_of_group_) pairs.fill(-1);
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const Pair& pair = pairs_[i];
+    const std::size_t group = first_group_[pair.kind_of_level] + pair.place / kRowsPerBlock;
+    pairs_of_group_[group][pair.place % kRowsPerBlock] = static_cast<std::int32_t>(i);
+    groups_[group].points = static_cast<std::int32_t>(pair.points);
+    groups_[group].of_balls = pair.kind_of_level % kKinds == 0;
   }
-  std::partial_sum(first_block_.begin(), first_block_.end(), first_block_.begin());
-  blocks_.resize(first_block_.back());
-  for (RowBlock& block : blocks_) clear(block, idle_);
-  row_of_constraint_.resize(constraints);
-  for (const Pair& pair : pairs_) {
-    const std::size_t row = kRowsPerBlock * first_block_[group_of(pair)] + pair.of_level % kRowsPerBlock;
-    for (std::size_t k = 0; k < pair.points; ++k) row_of_constraint_[pair.first + k] = row + kRowsPerBlock * k;
+  std::size_t size = 0;
+  for (const RowGroup& group : groups_)
+    size += group.columns() * kRowsPerBlock * static_cast<std::size_t>(group.points);
+  if (rows_.size() < size) rows_.resize(size + size / 4);
+  double* rows = rows_.data();
+  for (RowGroup& group : groups_) {
+    group.rows = rows;
+    rows = group.block(static_cast<std::size_t>(group.points));
   }
 }
 
-void ContactRowLayout::fill_row(const ContactConstraint& constraint, std::size_t row, double impulse_scale) {
-  RowBlock& block = blocks_[row / kRowsPerBlock];
-  const std::size_t k = row % kRowsPerBlock;
-  block.a[k] = constraint.a, block.b[k] = constraint.b;
-  block.to_a[k] = system_.bodies[constraint.a].fixed ? idle_ + 1 : constraint.a;
-  block.to_b[k] = system_.bodies[constraint.b].fixed ? idle_ + 1 : constraint.b;
-  set_vector(block, kNormal, k, constraint.normal);
-  set_vector(block, kArmA, k, constraint.arm_a), set_vector(block, kArmB, k, constraint.arm_b);
-  set_vector(block, kAngularA, k, impulse_scale * constraint.friction_impulse);  // see kAngularA
-  block.columns[kImpulse][k] = impulse_scale * constraint.normal_impulse;
-  block.columns[kInitialGap][k] = constraint.gap;
-  block.columns[kFriction][k] = constraint.friction;
-  block.columns[kRestitution][k] = constraint.restitution;
-  has_restitution_ = has_restitution_ || constraint.restitution > 0;
-  if (constraint.is_deep) deep_rows_.push_back(static_cast<std::int32_t>(row));
+ContactRowLayout::Share ContactRowLayout::share(std::size_t level, std::size_t thread) const {
+  const std::size_t next = kKinds * (level + 1), begin = first_group_[kKinds * level],
+                    end = next < first_group_.size() ? first_group_[next] : groups_.size();
+  return {begin + (end - begin) * thread / threads_, begin + (end - begin) * (thread + 1) / threads_};
 }
 
-void ContactRowLayout::store_impulses(std::vector<ContactConstraint>& constraints) const {
-  for (std::size_t i = 0; i < constraints.size(); ++i) {
+// Calls visit(group's number, its row, the constraint's number, the point) for a thread's rows.
+template <typename Visit>
+void ContactRowLayout::for_each_row(std::size_t thread, const Visit& visit) const {
+  for (std::size_t level = 0; level < levels(); ++level) {
+    const Share share = this->share(level, thread);
+    for (std::size_t g = share.begin; g < share.end; ++g) {
+      for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
+        if (pairs_of_group_[g][k] < 0) continue;
+        const Pair& pair = pairs_[static_cast<std::size_t>(pairs_of_group_[g][k])];
+        for (std::size_t point = 0; point < pair.points; ++point) visit(g, k, pair.first + point, point);
+      }
+    }
+  }
+}
+
+void ContactRowLayout::fill(const std::vector<ContactConstraint>& constraints, double impulse_scale,
+                            const SolverBodies& bodies, std::size_t thread) {
+  for (std::size_t level = 0; level < levels(); ++level) {
+    const Share share = this->share(level, thread);
+    for (std::size_t g = share.begin; g < share.end; ++g) {
+      fill_group(g, constraints, impulse_scale, thread);
+      contact_kernels().prepare_rows(&groups_[g], 1, bodies);
+    }
+  }
+}
+
+void ContactRowLayout::fill_group(std::size_t number, const std::vector<ContactConstraint>& constraints,
+                                  double impulse_scale, std::size_t thread) {
+  RowGroup& group = groups_[number];
+  if (pairs_of_group_[number].back() < 0) clear(group);
+  const std::int32_t to_none = idle_ + 1 + static_cast<std::int32_t>(thread);
+  for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
+    group.a[k] = group.b[k] = idle_, group.to_a[k] = group.to_b[k] = to_none;
+    if (pairs_of_group_[number][k] < 0) continue;
+    const Pair& pair = pairs_[static_cast<std::size_t>(pairs_of_group_[number][k])];
+    const ContactConstraint* points = &constraints[pair.first];
+    group.a[k] = points->a, group.b[k] = points->b;
+    if (!system_.bodies[points->a].fixed) group.to_a[k] = points->a;
+    if (!system_.bodies[points->b].fixed) group.to_b[k] = points->b;
+    for (std::size_t p = 0; p < pair.points; ++p) fill_row(group.block(p), k, group.of_balls, points[p], impulse_scale);
+  }
+}
+
+void ContactRowLayout::find_deep_rows(const std::vector<ContactConstraint>& constraints) {
+  for (std::size_t thread = 0; thread < threads_; ++thread) {
+    for_each_row(thread, [&](std::size_t group, std::size_t k, std::size_t i, std::size_t point) {
+      if (!constraints[i].is_deep) return;
+      deep_rows_.push_back(
+          {static_cast<std::int32_t>(group), static_cast<std::int16_t>(point), static_cast<std::int16_t>(k)});
+    });
+  }
+  // Their order says nothing of which thread found them.
+  std::sort(deep_rows_.begin(), deep_rows_.end(), [](const RowPlace& x, const RowPlace& y) {
+    return std::tuple(x.group, x.lane, x.point) < std::tuple(y.group, y.lane, y.point);
+  });
+}
+
+void ContactRowLayout::store_impulses(std::vector<ContactConstraint>& constraints, std::size_t thread) const {
+  for_each_row(thread, [&](std::size_t g, std::size_t k, std::size_t i, std::size_t point) {
     ContactConstraint& constraint = constraints[i];
-    const RowBlock& block = blocks_[row_of_constraint_[i] / kRowsPerBlock];
-    const std::size_t k = row_of_constraint_[i] % kRowsPerBlock;
-    const Vec3 t = vector(block, kTangent, k), p = vector(block, kImpulse, k);
-    constraint.normal_impulse = p.x();
-    constraint.friction_impulse = p.y() * t + p.z() * constraint.normal.cross(t);
-  }
+    double* block = groups_[g].block(point);
+    constraint.normal_impulse = at(block, kImpulse, k);
+    const Vec3 p = vector(block, kFrictionImpulse, k);
+    if (groups_[g].of_balls) {
+      constraint.friction_impulse = p;
+    } else {
+      const Vec3 t = vector(block, kTangent, k);
+      constraint.friction_impulse = p.x() * t + p.y() * constraint.normal.cross(t);
+    }
+  });
 }
 
 }  // namespace rigor

@@ -1,9 +1,10 @@
 // Contact constraints as rows of the vector kernels (kernels/contact_rows.h). Sequential impulses take the pairs of
 // bodies in their order; pairs that share no moving body are independent, so that up to eight of them are solved at
-// once with the same result. A pair's level is one more than that of the last pair before it that shares a moving body
-// with it; the pairs of one level lie side by side.
+// once, and threads share them, with the same result. A pair's level is one more than that of the last pair before it
+// that shares a moving body with it; the pairs of one level lie side by side.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/dynamics/contact/impulse/manifolds.h"
@@ -14,38 +15,60 @@ namespace rigor {
 
 class ContactRowLayout {
  public:
-  explicit ContactRowLayout(const System& system);
+  // The gap of a row that stands for no point: it never closes.
+  static constexpr double kNoPoint = 1e30;  // m
+  struct Share {
+    std::size_t begin, end;  // groups
+    std::size_t size() const { return end - begin; }
+  };
 
-  // The record (see SolverBodies) that rows without a constraint read; the one after it is what they write.
+  ContactRowLayout(const Scene& scene, const System& system, std::size_t threads);
+
+  // The record (see SolverBodies) that rows without a constraint read; after it one for each thread, which they write.
   std::size_t idle_body() const { return static_cast<std::size_t>(idle_); }
-  // Rows for these constraints, which are sorted by pair; impulses times `impulse_scale`.
-  void assign(const std::vector<ContactConstraint>& constraints, double impulse_scale);
-  // The rows' impulses back to the constraints they were assigned from.
-  void store_impulses(std::vector<ContactConstraint>& constraints) const;
+  std::size_t records() const { return idle_body() + 1 + threads_; }
 
-  RowBlock* blocks() { return blocks_.data(); }
-  std::size_t size() const { return blocks_.size(); }  // of blocks
+  // Lays these constraints out, which are sorted by pair.
+  void assign(const std::vector<ContactConstraint>& constraints);
+  // Writes the rows of a thread's groups, impulses times `impulse_scale`, with their effective masses.
+  void fill(const std::vector<ContactConstraint>& constraints, double impulse_scale, const SolverBodies& bodies,
+            std::size_t thread);
+  // Impulses of a thread's rows back to the constraints they were assigned from.
+  void store_impulses(std::vector<ContactConstraint>& constraints, std::size_t thread) const;
+
+  std::size_t levels() const { return first_group_.size() / kKinds; }
+  Share share(std::size_t level, std::size_t thread) const;
+  const std::vector<RowGroup>& groups() const { return groups_; }
   bool has_restitution() const { return has_restitution_; }
-  // Of constraints that overlap deeply.
-  const std::vector<std::int32_t>& deep_rows() const { return deep_rows_; }
+  // Of constraints that overlap deeply, in the order of groups.
+  const std::vector<RowPlace>& deep_rows() const { return deep_rows_; }
 
  private:
+  static constexpr std::size_t kKinds = 5;  // groups of a level: of balls, and of any bodies with 1, 2, 3, 4 points
   struct Pair {
-    std::size_t first, points;    // among the constraints
-    std::size_t level, of_level;  // its place among the pairs of that level
+    std::size_t first, points;         // among the constraints
+    std::size_t kind_of_level, place;  // which of all kinds of all levels; among the pairs of that
   };
   void sort_pairs_in_levels(const std::vector<ContactConstraint>& constraints);
-  void place_rows(std::size_t constraints);
-  void fill_row(const ContactConstraint& constraint, std::size_t row, double impulse_scale);
+  void form_groups();
+  void find_deep_rows(const std::vector<ContactConstraint>& constraints);
+  void fill_group(std::size_t number, const std::vector<ContactConstraint>& constraints, double impulse_scale,
+                  std::size_t thread);
+  template <typename Visit>
+  void for_each_row(std::size_t thread, const Visit& visit) const;
 
   const System& system_;
+  std::size_t threads_;
   std::int32_t idle_;
+  std::vector<char> is_round_;           // by body: fixed, or a ball
+  std::vector<std::size_t> next_level_;  // by body
   std::vector<Pair> pairs_;
-  std::vector<std::size_t> next_level_, pairs_of_level_;      // by body; then where a level's groups of eight begin
-  std::vector<std::size_t> first_block_, row_of_constraint_;  // of eight pairs; of a constraint
-  std::vector<RowBlock> blocks_;
-  std::vector<std::int32_t> deep_rows_;
-  bool has_restitution_ = false;
+  std::vector<std::size_t> first_group_;  // by kind of level
+  std::vector<RowGroup> groups_;
+  std::vector<std::array<std::int32_t, kRowsPerBlock>> pairs_of_group_;  // -1: none
+  AlignedDoubles rows_;
+  std::vector<RowPlace> deep_rows_;
+  bool has_restitution_ = false, has_deep_ = false;
 };
 
 }  // namespace rigor

@@ -16,14 +16,24 @@
 #include "core/dynamics/contact/impulse/jointed_impulse.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
 #include "core/dynamics/contact/impulse/rebounds.h"
+#include "core/dynamics/contact/impulse/row_sweeps.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
+#include "core/dynamics/kernels/contact_kernels.h"
 
 namespace rigor {
 namespace {
 
+// With fewer bodies threads would wait for each other longer than they work.
+constexpr std::size_t kWorthSharing = 128;
+
+std::shared_ptr<ThreadPool> threads_for(const BodyConstants& bodies) {
+  const bool is_worth = bodies.thread_pool() && bodies.size() >= kWorthSharing;
+  return is_worth ? bodies.thread_pool() : std::make_shared<ThreadPool>(1);
+}
+
 // What integrate_corrections() does to the orientations of an integrator that keeps matrices.
-void turn_matrices(const AlignedDoubles& velocities, double h, MutableBodyColumns state) {
-  for (std::size_t i = 0; i < state.size(); ++i) {
+void turn_matrices(const Bodies& bodies, const AlignedDoubles& velocities, double h, MutableBodyColumns state) {
+  for (std::size_t i = bodies.begin; i < bodies.end; ++i) {
     const Vec3 w = Eigen::Map<const Vec3>(velocities.data() + kRecord * i + 3);
     const Vec3 turn = h * (w - state.angular_velocity(i));
     if (!turn.isZero(0)) state.set_rotation(i, rotation_by(turn).toRotationMatrix() * state.rotation(i));
@@ -34,17 +44,18 @@ class ImpulseStepper : public ContactStepper {
  public:
   ImpulseStepper(const Scene& scene, const ContactParts& parts)
       : system_(parts.system),
+        threads_(threads_for(parts.system.constants)),
         sub_steps_(scene, parts),
-        manifolds_(scene),
-        rows_(parts.system),
+        manifolds_(scene, *threads_),
+        rows_(scene, parts.system, threads_->members()),
+        impacts_(*threads_),
         rebounds_(parts.system, SubSteps::takes_impacts_at_once(parts.settings)),
         positions_(kVelocity, parts.system.size()),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
-    const std::size_t idle = rows_.idle_body();
-    for (AlignedDoubles* records : {&velocities_, &displacements_, &inverse_inertias_})
-      records->assign(kRecord * (idle + 2), 0.0);
-    last_active_.assign(idle + 2, 0);
-    inverse_inertias_[kRecord * idle + 6] = 1;  // 1/kg, of which rows divide by the sum
+    for (AlignedDoubles* records : {&velocities_, &displacements_, &pushes_, &inverse_inertias_})
+      records->assign(kRecord * rows_.records(), 0.0);
+    last_active_.assign(rows_.records(), 0);
+    inverse_inertias_[kRecord * rows_.idle_body() + 6] = 1;  // 1/kg, of which rows divide by the sum
   }
 
   void step(MutableBodyColumns state, double t, double dt) override {
@@ -55,16 +66,12 @@ class ImpulseStepper : public ContactStepper {
       const int end = (update + 1) * count / updates;
       std::vector<ContactConstraint>& constraints = manifolds_.find(state, (end - k) * h);
       prepare(state, constraints, h);
-      for (; k < end; ++k) {
-        prepare_sub_step(state);
+      for (const int first = k; k < end; ++k) {
+        prepare_sub_step();
         move_freely(state, t + k * h);
-        warm_start(state);
-        solve_with_bias();
-        integrate_corrections(state);
-        relax();
-        store_velocities(state);
+        threads_->run([&](std::size_t thread) { solve_sub_step(state, k == first, thread); });
       }
-      rows_.store_impulses(constraints);
+      threads_->run([&](std::size_t thread) { rows_.store_impulses(constraints, thread); });
     }
   }
 
@@ -86,75 +93,119 @@ class ImpulseStepper : public ContactStepper {
   void prepare(BodyColumns state, const std::vector<ContactConstraint>& constraints, double h) {
     const double impulse_scale = parameters_.h > 0 ? h / parameters_.h : 1;
     parameters_ = sub_steps_.parameters(h);
-    for (int c = 0; c < kVelocity; ++c) std::copy_n(state.column(c), state.size(), positions_.column(c));
-    kernels().gather_velocities(all_bodies(), state.column(0), velocities_.data());
-    kernels().gather_inverse_inertias(all_bodies(), state.column(0), inverse_inertias_.data());
-    rows_.assign(constraints, impulse_scale);
-    impacts_.resize(kRowsPerBlock * rows_.size());
-    kernels().prepare_rows(rows_.blocks(), rows_.size(), solver_bodies());
+    rows_.assign(constraints);
+    impacts_.begin(rows_);
+    threads_->run([&](std::size_t thread) {
+      const Bodies bodies = share_of_bodies(thread);
+      for (int c = 0; c < kVelocity; ++c)
+        std::copy(state.column(c) + bodies.begin, state.column(c) + bodies.end, positions_.column(c) + bodies.begin);
+      std::fill(displacements_.begin() + at_record(bodies.begin), displacements_.begin() + at_record(bodies.end), 0.0);
+      kernels().gather_velocities(bodies, state.column(0), velocities_.data());
+      kernels().gather_inverse_inertias(bodies, state.column(0), inverse_inertias_.data());
+      threads_->meet();
+      rows_.fill(constraints, impulse_scale, solver_bodies(), thread);
+    });
   }
 
   // Gaps and the speeds at which they close, before the bodies move, and with them the biases. The velocities are those
   // that the last sub-step has left.
-  void prepare_sub_step(BodyColumns state) {
-    kernels().measure_displacements(all_bodies(), state.column(0), positions_.column(0), displacements_.data());
-    impact_count_ = kernels().prepare_bias(rows_.blocks(), rows_.size(), solver_bodies(), parameters_, impacts_.data());
+  void prepare_sub_step() {
+    threads_->run([&](std::size_t thread) { impacts_.find(rows_, solver_bodies(), parameters_, thread); });
+    impacts_.deal_out(rows_);
   }
 
   // And, where bodies bounce, as the impacts of the sub-step let them.
   void move_freely(MutableBodyColumns state, double t) {
-    const bool are_rebounds = rows_.has_restitution() && impact_count_ > 0;
+    const bool are_rebounds = rows_.has_restitution() && impacts_.are_any();
     if (are_rebounds) rebounds_.begin(state);
     integrator_->step(state, t, parameters_.h);
-    if (are_rebounds) rebounds_.resolve(rows_.blocks(), rows_.size(), parameters_, state);
+    if (are_rebounds) rebounds_.resolve(rows_.groups(), parameters_, state);
   }
 
-  void warm_start(BodyColumns state) {
-    kernels().gather_velocities(all_bodies(), state.column(0), velocities_.data());
-    kernels().warm_start(rows_.blocks(), rows_.size(), solver_bodies());
+  // A thread's share of what the impulses do. Between two updates of the contacts an impulse always does the same to
+  // its bodies, so that the last sub-step's need not be applied again one by one.
+  void solve_sub_step(MutableBodyColumns state, bool is_first, std::size_t thread) {
+    const Bodies bodies = share_of_bodies(thread);
+    if (is_first) {
+      kernels().gather_velocities(bodies, state.column(0), velocities_.data());
+      threads_->meet();
+      warm_start(thread);
+    } else {
+      contact_kernels().gather_pushed(bodies, state.column(0), pushes_.data(), velocities_.data());
+      threads_->meet();
+    }
+    solve_with_bias(thread);
+    integrate_corrections(bodies, state);
+    threads_->meet();
+    relax(thread);
+    contact_kernels().scatter_pushed(bodies, velocities_.data(), state.column(0), pushes_.data());
+  }
+
+  // Calls pass(groups, their number) for a thread's share of each level; all threads have done one level before any
+  // goes on to the next.
+  template <typename Pass>
+  void for_each_level(std::size_t thread, const Pass& pass) {
+    for (std::size_t level = 0; level < rows_.levels(); ++level) {
+      const auto [begin, end] = rows_.share(level, thread);
+      pass(rows_.groups().data() + begin, end - begin);
+      threads_->meet();
+    }
+  }
+
+  void warm_start(std::size_t thread) {
+    for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
+      contact_kernels().warm_start(groups, count, solver_bodies());
+    });
   }
 
   // What comes down flat must not be set turning by which of its corners is taken first: impacts are solved until they
   // agree.
-  void solve_with_bias() {
-    kernels().solve_with_bias(rows_.blocks(), rows_.size(), solver_bodies(), parameters_);
-    kernels().solve_some_with_bias(rows_.blocks(), impacts_.data(), impact_count_, solver_bodies(), parameters_);
+  void solve_with_bias(std::size_t thread) {
+    for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
+      contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
+    });
+    impacts_.solve(rows_, solver_bodies(), parameters_, thread);
   }
 
   // The integrator has moved the bodies; what the impulses changed of the velocities moves them further.
-  void integrate_corrections(MutableBodyColumns state) {
+  void integrate_corrections(const Bodies& bodies, MutableBodyColumns state) {
     const double h = parameters_.theta * parameters_.h;
-    if (state.has_rotation()) turn_matrices(velocities_, h, state);
-    kernels().integrate_corrections(all_bodies(), velocities_.data(), state.column(0), h);
+    if (state.has_rotation()) turn_matrices(bodies, velocities_, h, state);
+    contact_kernels().integrate_corrections(bodies, velocities_.data(), h, state.column(0), positions_.column(0),
+                                            displacements_.data());
   }
 
   // What is pushed out of a deep overlap must not keep what one pass leaves of that push.
-  void relax() {
-    kernels().relax(rows_.blocks(), rows_.size(), solver_bodies());
-    const std::vector<std::int32_t>& deep = rows_.deep_rows();
-    if (!deep.empty()) kernels().relax_some(rows_.blocks(), deep.data(), deep.size(), solver_bodies(), parameters_);
+  void relax(std::size_t thread) {
+    for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
+      contact_kernels().relax(groups, count, solver_bodies());
+    });
+    impacts_.relax_deep(rows_, solver_bodies(), parameters_, thread);
   }
 
-  void store_velocities(MutableBodyColumns state) {
-    kernels().scatter_velocities(all_bodies(), velocities_.data(), state.column(0));
+  static std::ptrdiff_t at_record(std::size_t body) { return static_cast<std::ptrdiff_t>(kRecord * body); }
+  Bodies share_of_bodies(std::size_t thread) const {
+    Bodies bodies = system_.constants.all();
+    const auto [first, last] = threads_->share(bodies.end, thread, kRowsPerLine);
+    bodies.begin = first, bodies.end = last;
+    return bodies;
   }
-
-  Bodies all_bodies() const { return system_.constants.all(); }
   SolverBodies solver_bodies() {
     return {velocities_.data(), displacements_.data(), last_active_.data(), inverse_inertias_.data()};
   }
 
   const System& system_;
+  std::shared_ptr<ThreadPool> threads_;
   SubSteps sub_steps_;
   Manifolds manifolds_;
   ContactRowLayout rows_;
+  RowSweeps impacts_;  // points that meet in this sub-step, faster than gravity brings them
   Rebounds rebounds_;
   SolverParameters parameters_{};
   AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies
-  std::vector<std::int32_t> last_active_;
-  Columns positions_;                  // the state's poses when contacts were last updated
-  std::vector<std::int32_t> impacts_;  // rows whose points meet in this sub-step, faster than gravity brings them
-  std::size_t impact_count_ = 0;
+  AlignedDoubles pushes_;  // what the impulses of the last sub-step have changed the velocities by
+  std::vector<std::int64_t> last_active_;
+  Columns positions_;  // the state's poses when contacts were last updated
   std::unique_ptr<Stepper> integrator_;
 };
 

@@ -17,7 +17,7 @@ class JointedImpulseStepper : public ContactStepper {
   JointedImpulseStepper(const Scene& scene, const ContactParts& parts)
       : joints_(*parts.joints),
         sub_steps_(scene, parts),
-        manifolds_(scene),
+        manifolds_(scene, alone_),
         rows_(scene, parts.system, joints_),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings, parts.joints})) {}
 
@@ -84,6 +84,7 @@ class JointedImpulseStepper : public ContactStepper {
   }
 
   Joints& joints_;
+  ThreadPool alone_{1};
   SubSteps sub_steps_;
   Manifolds manifolds_;
   JointedRows rows_;

@@ -11,8 +11,8 @@ namespace rigor {
 namespace {
 
 // In inradii of the body, or of the smaller of two.
-constexpr double kFatMargin = 0.2;           // by so much its fat box is wider than itself,
-constexpr double kStepsAhead = 12;           // and by its displacement in so many steps,
+constexpr double kFatMargin = 0.1;           // by so much its fat box is wider than itself,
+constexpr double kStepsAhead = 20;           // and by its displacement in so many steps,
 constexpr double kFarthest = 1.5;            // but not by more than this
 constexpr double kSpeculativeMargin = 0.02;  // points closer than this are kept even if they do not approach
 constexpr double kMatchRadius = 0.1;         // a point this near to one of the last update is the same
@@ -57,6 +57,8 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
   return (inner.low.array() >= outer.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
 }
 
+std::pair<int, int> pair_of(const ContactConstraint& point) { return {point.a, point.b}; }
+
 // Of a body that nothing touches.
 struct FreeMotion {
   Pose pose;
@@ -76,6 +78,25 @@ FreeMotion free_motion_of(BodyColumns state, const Collider& collider, const Pos
 
 double approach(const ManifoldPoint& point, const FreeMotion& a, const FreeMotion& b) {
   return -point.normal.dot(a.velocity_at(point.point) - b.velocity_at(point.point));
+}
+
+bool is_round(const Collider& collider) {
+  return std::holds_alternative<Sphere>(collider.shape) || std::holds_alternative<Plane>(collider.shape);
+}
+
+// Where two balls, or a ball and a plane, are nearest.
+struct RoundTouch {
+  Vec3 normal;  // unit, from b to a
+  double gap;   // m
+};
+RoundTouch touch_of(const Collider& a, const Vec3& p_a, const Collider& b, const Vec3& p_b) {
+  if (const auto* plane = std::get_if<Plane>(&b.shape))
+    return {plane->normal, plane->normal.dot(p_a) - plane->offset - a.inradius};
+  if (const auto* plane = std::get_if<Plane>(&a.shape))
+    return {-plane->normal, plane->normal.dot(p_b) - plane->offset - b.inradius};
+  const Vec3 line = p_a - p_b;
+  const double distance = line.norm();
+  return {distance > 0 ? Vec3(line / distance) : Vec3::UnitZ(), distance - a.inradius - b.inradius};
 }
 
 // When the first of these points closes its gap: 0 if one is closed, or if none does within dt.
@@ -129,82 +150,108 @@ void reduce_to_four(Manifold& points) {
 
 }  // namespace
 
-void Manifolds::place_bodies(BodyColumns state, double dt) {
-  for (std::size_t i = 0; i < colliders_.size(); ++i) {
-    const Collider& collider = colliders_[i];
-    const bool round = std::holds_alternative<Sphere>(collider.shape);
-    poses_[i] = {state.position(collider.body), round ? Mat3::Identity() : state.rotation(collider.body)};
-    const Vec3 displacement = dt * state.velocity(collider.body);
-    const double margin = kSpeculativeMargin * collider.inradius + rotational_displacement(collider, state, dt);
-    boxes_[i] = swept_box(collider, poses_[i], displacement, margin);
-    bounding_radii_[i] = collider.bounding_radius + margin + displacement.norm();
-  }
+void Manifolds::place_body(std::size_t i, BodyColumns state, double dt) {
+  const Collider& collider = colliders_[i];
+  const bool round = std::holds_alternative<Sphere>(collider.shape);
+  poses_[i] = {state.position(collider.body), round ? Mat3::Identity() : state.rotation(collider.body)};
+  const Vec3 displacement = dt * state.velocity(collider.body);
+  const double margin = kSpeculativeMargin * collider.inradius + rotational_displacement(collider, state, dt);
+  boxes_[i] = swept_box(collider, poses_[i], displacement, margin);
+  const Vec3 v = collider.fixed ? Vec3::Zero() : state.velocity(collider.body);
+  places_[i] = {poses_[i].p, collider.bounding_radius + margin + displacement.norm(), v, collider.inradius};
+  has_left_[i] = is_first_ || !lies_within(boxes_[i], fat_boxes_[i]);
+  if (has_left_[i]) fat_boxes_[i] = is_first_ ? boxes_[i] : fattened(boxes_[i], collider, displacement);
 }
 
 // Fat boxes hold for some steps; only those of bodies that leave theirs are chosen and searched anew.
 void Manifolds::update_pairs(BodyColumns state, double dt) {
-  place_bodies(state, dt);
-  const bool is_first = fat_boxes_.empty();
-  if (is_first) fat_boxes_ = boxes_;
+  fat_boxes_.resize(colliders_.size());
+  threads_.run([&](std::size_t thread) {
+    const auto [first, last] = threads_.share(colliders_.size(), thread);
+    for (std::size_t i = first; i < last; ++i) place_body(i, state, dt);
+  });
+  if (is_first_) {
+    pairs_ = &broad_phase_.overlaps(fat_boxes_);
+    return;
+  }
   moved_.clear();
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
-    if (!is_first && lies_within(boxes_[i], fat_boxes_[i])) continue;
-    moved_.push_back(static_cast<int>(i));
-    fat_boxes_[i] = fattened(boxes_[i], colliders_[i], dt * state.velocity(colliders_[i].body));
+    if (has_left_[i]) moved_.push_back(static_cast<int>(i));
   }
-  if (is_first) {
-    pairs_ = &broad_phase_.overlaps(fat_boxes_);
-  } else if (!moved_.empty()) {
-    pairs_ = &broad_phase_.overlaps(fat_boxes_, moved_);
-  }
+  if (!moved_.empty()) pairs_ = &broad_phase_.overlaps(fat_boxes_, moved_, &threads_);
 }
 
-// Whether two bodies stay apart within dt, by their bounding spheres or by their boxes. Written so that what is not a
-// number does not.
+// Whether two bodies stay apart within dt: one and a plane, or two by their boxes. Written so that what is not a number
+// does not.
 bool Manifolds::stay_apart(int a, int b) const {
   if (const auto* plane = std::get_if<Plane>(&colliders_[a].shape))
-    return plane->normal.dot(poses_[b].p) - plane->offset > bounding_radii_[b];
+    return plane->normal.dot(poses_[b].p) - plane->offset > places_[b].reach;
   if (std::holds_alternative<Plane>(colliders_[b].shape)) return stay_apart(b, a);
-  const double distance = bounding_radii_[a] + bounding_radii_[b];
-  if ((poses_[a].p - poses_[b].p).squaredNorm() > distance * distance) return true;
   return (boxes_[a].low.array() > boxes_[b].high.array()).any() ||
          (boxes_[b].low.array() > boxes_[a].high.array()).any();
 }
 
-void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b) {
+void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b, Part& part) {
+  Manifold& manifold = part.manifold;
   const double margin = kSpeculativeMargin * smaller_inradius(a, b),
                turning = rotational_displacement(a, state, dt) + rotational_displacement(b, state, dt);
   FreeMotion motion_a = free_motion_of(state, a, poses_[&a - colliders_.data()]);
   FreeMotion motion_b = free_motion_of(state, b, poses_[&b - colliders_.data()]);
   const Vec3 v = motion_a.v - motion_b.v;
   motion_a.pose.p += aside_of(a, motion_a.pose.p, b, motion_b.pose.p);
-  collide(a.shape, motion_a.pose, b.shape, motion_b.pose, manifold_);
+  collide(a.shape, motion_a.pose, b.shape, motion_b.pose, manifold);
   // What comes fast touches elsewhere, and along another normal, than where it is nearest now.
   const bool turns_far = turning > kTurnsFar * smaller_inradius(a, b);
   const double speed = rotational_speed(a, state) + rotational_speed(b, state);
   const double ahead = turns_far ? time_of_turning_impact(a, b, motion_a, motion_b, speed, margin, dt)
-                                 : time_of_impact(manifold_, motion_a, motion_b, dt);
+                                 : time_of_impact(manifold, motion_a, motion_b, dt);
   const bool looks_ahead = ahead * (v.norm() + turning / dt) > margin;
   if (looks_ahead) {
     motion_a.advance(ahead), motion_b.advance(ahead);
-    collide(a.shape, motion_a.pose, b.shape, motion_b.pose, manifold_);
-    for (ManifoldPoint& point : manifold_) point.gap += ahead * approach(point, motion_a, motion_b);
+    collide(a.shape, motion_a.pose, b.shape, motion_b.pose, manifold);
+    for (ManifoldPoint& point : manifold) point.gap += ahead * approach(point, motion_a, motion_b);
   }
   int kept = 0;
-  for (const ManifoldPoint& point : manifold_) {
-    if (point.gap < margin + turning + dt * std::max(0.0, -point.normal.dot(v))) manifold_[kept++] = point;
+  for (const ManifoldPoint& point : manifold) {
+    if (point.gap < margin + turning + dt * std::max(0.0, -point.normal.dot(v))) manifold[kept++] = point;
   }
-  manifold_.keep(kept);
-  reduce_to_four(manifold_);
-  for (const ManifoldPoint& point : manifold_) watch(a, b, point.gap);
+  manifold.keep(kept);
+  reduce_to_four(manifold);
+  for (const ManifoldPoint& point : manifold) watch(a, b, point.gap, part);
   const ContactLaw& law = laws_.of(a.body, b.body);
-  for (const ManifoldPoint& point : manifold_) {
+  for (const ManifoldPoint& point : manifold) {
     // Between points that are apart `point` is midway; each body will be met on its own surface.
     const Vec3 to_surface = looks_ahead ? Vec3::Zero() : Vec3(0.5 * std::max(0.0, point.gap) * point.normal);
-    constraints_.push_back({a.body, b.body, point.feature, point.normal, point.point + to_surface - motion_a.pose.p,
-                            point.point - to_surface - motion_b.pose.p, point.gap,
-                            is_parted_from_start(a, b, point.gap), law.friction, law.restitution, 0, Vec3::Zero()});
+    part.constraints.push_back({a.body, b.body, point.feature, is_parted_from_start(a, b, point.gap), law.friction,
+                                law.restitution, point.normal, point.point + to_surface - motion_a.pose.p,
+                                point.point - to_surface - motion_b.pose.p, point.gap, 0, Vec3::Zero()});
   }
+}
+
+// What add_pair() does, where a turn shows nothing and a line from centre to centre all.
+void Manifolds::add_round_pair(double dt, int at_a, int at_b, Part& part) {
+  const Collider &a = colliders_[at_a], &b = colliders_[at_b];
+  Vec3 p_a = places_[at_a].p, p_b = places_[at_b].p;
+  const Vec3 v_a = places_[at_a].v, v_b = places_[at_b].v, v = v_a - v_b;
+  const double margin = kSpeculativeMargin * smaller_inradius(a, b);
+  p_a += aside_of(a, p_a, b, p_b);
+  RoundTouch touch = touch_of(a, p_a, b, p_b);
+  const double speed = -touch.normal.dot(v);
+  const double ahead = touch.gap > 0 && touch.gap < dt * speed ? touch.gap / speed : 0;
+  double overlap = std::min(0.0, touch.gap);
+  if (ahead * v.norm() > margin) {
+    p_a += ahead * v_a, p_b += ahead * v_b;
+    touch = touch_of(a, p_a, b, p_b);
+    overlap = touch.gap;  // at their meeting
+    touch.gap -= ahead * touch.normal.dot(v);
+  }
+  if (!(touch.gap < margin + dt * std::max(0.0, -touch.normal.dot(v)))) return;
+  watch(a, b, touch.gap, part);
+  const auto to_point = [&](const Collider& c) { return std::isfinite(c.inradius) ? c.inradius + 0.5 * overlap : 0; };
+  const Vec3 arm_a = -to_point(a) * touch.normal, arm_b = to_point(b) * touch.normal;
+  const ContactLaw& law = laws_.of(a.body, b.body);
+  part.constraints.push_back({a.body, b.body, 0, is_parted_from_start(a, b, touch.gap), law.friction, law.restitution,
+                              touch.normal, arm_a, arm_b, touch.gap, 0, Vec3::Zero()});
 }
 
 bool Manifolds::is_parted_from_start(const Collider& a, const Collider& b, double gap) const {
@@ -213,58 +260,104 @@ bool Manifolds::is_parted_from_start(const Collider& a, const Collider& b, doubl
 }
 
 // What overlaps from the start is parted; nothing else may come to lie in each other.
-void Manifolds::watch(const Collider& a, const Collider& b, double gap) {
+void Manifolds::watch(const Collider& a, const Collider& b, double gap, Part& part) {
   const double size = smaller_inradius(a, b);
   if (is_first_ && gap < -kDeep * size) overlaps_at_start_[a.body] = overlaps_at_start_[b.body] = 1;
-  if (gap >= -kSunk * size || is_parted_from_start(a, b, gap) || !failure_.empty()) return;
-  failure_ = fmt::format(
+  if (gap >= -kSunk * size || is_parted_from_start(a, b, gap) || !part.failure.empty()) return;
+  part.failure = fmt::format(
       "{} and {} overlap by {:.2g} m, which impulses do not hold (much lighter bodies under heavier ones, or bodies "
       "with "
       "no room between others); contact=event may",
       names_[a.body], names_[b.body], -gap);
 }
 
-// Gives the constraints from `first` on, all of one pair, the impulses of that pair's old ones, which start at `old` or
-// later.
-void Manifolds::match_impulses(std::size_t first, std::size_t& old) {
-  const auto pair_of = [](const ContactConstraint& point) { return std::pair(point.a, point.b); };
-  const auto pair = pair_of(constraints_[first]);
+// Gives these constraints, all of one pair, the impulses of that pair's old ones, which start at `old` or later.
+void Manifolds::match_impulses(ContactConstraint* first, ContactConstraint* last, double radius, std::size_t& old) {
+  const auto pair = pair_of(*first);
   while (old < old_constraints_.size() && pair_of(old_constraints_[old]) < pair) ++old;
   std::size_t end = old;
   while (end < old_constraints_.size() && pair_of(old_constraints_[end]) == pair) ++end;
-  if (end == old) return;
   unsigned taken = 0;
-  for (std::size_t i = first; i < constraints_.size(); ++i) {
+  for (ContactConstraint* point = first; point < last && end > old; ++point) {
     std::size_t best = end;
-    double least = match_radius_;
+    double least = radius;
     for (std::size_t k = old; k < end; ++k) {
       if (taken >> (k - old) & 1) continue;
-      const double distance = old_constraints_[k].feature == constraints_[i].feature
-                                  ? -1
-                                  : (old_constraints_[k].arm_a - constraints_[i].arm_a).norm();
+      const double distance =
+          old_constraints_[k].feature == point->feature ? -1 : (old_constraints_[k].arm_a - point->arm_a).norm();
       if (distance < least) least = distance, best = k;
     }
     if (best == end) continue;
     taken |= 1u << (best - old);
-    constraints_[i].normal_impulse = old_constraints_[best].normal_impulse;
-    constraints_[i].friction_impulse = old_constraints_[best].friction_impulse;
+    point->normal_impulse = old_constraints_[best].normal_impulse;
+    point->friction_impulse = old_constraints_[best].friction_impulse;
   }
 }
 
+void Manifolds::add_pairs(std::size_t first_pair, std::size_t last_pair, BodyColumns state, double dt, Part& part) {
+  std::size_t old = 0;
+  for (std::size_t i = first_pair; i < last_pair; ++i) {
+    const auto& [a, b] = (*pairs_)[i];
+    const double reach = places_[a].reach + places_[b].reach;
+    if ((places_[a].p - places_[b].p).squaredNorm() > reach * reach) continue;
+    const bool are_round = is_round(colliders_[a]) && is_round(colliders_[b]);
+    if ((colliders_[a].fixed && colliders_[b].fixed) || (!are_round && stay_apart(a, b))) continue;
+    const std::size_t first = part.constraints.size();
+    if (are_round) {
+      add_round_pair(dt, a, b, part);
+    } else {
+      add_pair(state, dt, colliders_[a], colliders_[b], part);
+    }
+    if (part.constraints.size() == first) continue;
+    ContactConstraint* points = &part.constraints[first];
+    if (first == 0) {
+      const auto before = [](const ContactConstraint& x, const ContactConstraint& y) {
+        return pair_of(x) < pair_of(y);
+      };
+      old =
+          static_cast<std::size_t>(std::lower_bound(old_constraints_.begin(), old_constraints_.end(), *points, before) -
+                                   old_constraints_.begin());
+    }
+    match_impulses(points, points + (part.constraints.size() - first),
+                   kMatchRadius * smaller_inradius(colliders_[a], colliders_[b]), old);
+  }
+}
+
+// The parts' constraints, one part after another.
+void Manifolds::join(std::size_t thread) {
+  if (parts_.size() == 1) return constraints_.swap(parts_.front().constraints);
+  std::size_t size = 0, first = 0;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (i == thread) first = size;
+    size += parts_[i].constraints.size();
+  }
+  if (thread == 0) constraints_.resize(size);
+  threads_.meet();
+  std::copy(parts_[thread].constraints.begin(), parts_[thread].constraints.end(),
+            constraints_.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+// What overlaps at the start is noted while pairs are gone through, by one thread.
 std::vector<ContactConstraint>& Manifolds::find(BodyColumns state, double dt) {
   update_pairs(state, dt);
   old_constraints_.swap(constraints_);
-  constraints_.clear();
-  std::size_t old = 0;
-  for (const auto& [a, b] : *pairs_) {
-    if ((colliders_[a].fixed && colliders_[b].fixed) || stay_apart(a, b)) continue;
-    const std::size_t first = constraints_.size();
-    add_pair(state, dt, colliders_[a], colliders_[b]);
-    match_radius_ = kMatchRadius * smaller_inradius(colliders_[a], colliders_[b]);
-    if (constraints_.size() > first) match_impulses(first, old);
-  }
+  threads_.run([&](std::size_t thread) {
+    parts_[thread].constraints.clear();
+    const auto [first, last] =
+        is_first_ ? ThreadPool::Share{0, thread == 0 ? pairs_->size() : 0} : threads_.share(pairs_->size(), thread);
+    add_pairs(first, last, state, dt, parts_[thread]);
+    threads_.meet();
+    join(thread);
+  });
   is_first_ = false;
   return constraints_;
+}
+
+std::string Manifolds::failure() const {
+  for (const Part& part : parts_) {
+    if (!part.failure.empty()) return part.failure;
+  }
+  return "";
 }
 
 }  // namespace rigor

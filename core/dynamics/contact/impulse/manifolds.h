@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/dynamics/collision/broad_phase.h"
 #include "core/scene/contact_laws.h"
 
@@ -18,23 +19,27 @@ namespace rigor {
 struct ContactConstraint {
   int a, b;  // bodies
   std::uint32_t feature;
-  Vec3 normal;        // unit, in W, from b to a
-  Vec3 arm_a, arm_b;  // m, in W, from each body's centre of mass to its point
-  double gap;         // m
-  bool is_deep;       // a deep overlap that was there from the start
+  bool is_deep;  // a deep overlap that was there from the start
   double friction, restitution;
+  Vec3 normal;                           // unit, in W, from b to a
+  Vec3 arm_a, arm_b;                     // m, in W, from each body's centre of mass to its point
+  double gap;                            // m
   double normal_impulse = 0;             // N s
   Vec3 friction_impulse = Vec3::Zero();  // N s, in W
 };
 
 class Manifolds {
  public:
-  explicit Manifolds(const Scene& scene)
-      : colliders_(colliders_of(scene)),
+  // The threads share the bodies, and then the pairs.
+  Manifolds(const Scene& scene, ThreadPool& threads)
+      : threads_(threads),
+        parts_(threads.members()),
+        colliders_(colliders_of(scene)),
         laws_(scene),
         poses_(colliders_.size()),
         boxes_(colliders_.size()),
-        bounding_radii_(colliders_.size()),
+        places_(colliders_.size()),
+        has_left_(colliders_.size()),
         overlaps_at_start_(scene.bodies.size()) {
     for (const Body& body : scene.bodies) names_.push_back(body.name);
   }
@@ -42,31 +47,47 @@ class Manifolds {
   // The constraints for the next dt, sorted by pair, with the impulses of those that persist from the last update.
   std::vector<ContactConstraint>& find(BodyColumns state, double dt);
   // Of bodies that have come to lie in each other; empty if none have.
-  const std::string& failure() const { return failure_; }
+  std::string failure() const;
 
  private:
-  void place_bodies(BodyColumns state, double dt);
+  // What one thread finds: the constraints of some of the pairs, in their order.
+  struct Part {
+    Manifold manifold;
+    std::vector<ContactConstraint> constraints;
+    std::string failure;
+  };
+  // All that most pairs are judged by, in one cache line.
+  struct alignas(64) Place {
+    Vec3 p;        // m
+    double reach;  // m, from the centre, of all that the body can get to within dt
+    Vec3 v;        // m/s
+    double inradius;
+  };
+  void place_body(std::size_t i, BodyColumns state, double dt);
   bool stay_apart(int a, int b) const;
   void update_pairs(BodyColumns state, double dt);
-  void add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b);
+  void add_pairs(std::size_t first, std::size_t last, BodyColumns state, double dt, Part& part);
+  void add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b, Part& part);
+  void add_round_pair(double dt, int a, int b, Part& part);
   bool is_parted_from_start(const Collider& a, const Collider& b, double gap) const;
-  void watch(const Collider& a, const Collider& b, double gap);
-  void match_impulses(std::size_t first, std::size_t& old);
+  void watch(const Collider& a, const Collider& b, double gap, Part& part);
+  void match_impulses(ContactConstraint* first, ContactConstraint* last, double radius, std::size_t& old);
+  void join(std::size_t thread);
 
+  ThreadPool& threads_;
+  std::vector<Part> parts_;  // by thread
   std::vector<Collider> colliders_;
   ContactLaws laws_;
   BroadPhase broad_phase_;
   std::vector<Pose> poses_;
   std::vector<Aabb> boxes_, fat_boxes_;
-  std::vector<double> bounding_radii_;  // m: of all that a body can reach within dt
-  std::vector<int> moved_;              // colliders that left their fat boxes
+  std::vector<Place> places_;
+  std::vector<char> has_left_;  // its fat box, by collider
+  std::vector<int> moved_;      // those colliders
   const std::vector<std::pair<int, int>>* pairs_ = nullptr;
-  Manifold manifold_;
-  double match_radius_ = 0;  // m
   bool is_first_ = true;
   std::vector<char> overlaps_at_start_;  // by body
   std::vector<std::string> names_;
-  std::string failure_;
   std::vector<ContactConstraint> constraints_, old_constraints_;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/contact/impulse/contact_row_layout.h"
+
 namespace rigor {
 namespace {
 
@@ -48,24 +50,33 @@ double Rebounds::hit_of(const Row& row) const {
   return from + 2 * gap / twice_mean;
 }
 
-void Rebounds::find_rows(RowBlock* blocks, std::size_t count) {
+void Rebounds::find_rows(const std::vector<RowGroup>& groups) {
   rows_.clear();
-  const auto bodies = static_cast<std::int32_t>(system_.size());
   double fastest = 0;
-  for (RowBlock* block = blocks; block != blocks + count; ++block) {
+  for (const RowGroup& group : groups) {
     for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
-      if (block->a[k] >= bodies) continue;
-      const auto end = [&](int body, int arm) {
-        const auto of = [&](int c) { return block->columns[arm + c][k]; };
-        return ImpactEnd{body, system_.bodies[static_cast<std::size_t>(body)].inverse_mass, {of(0), of(1), of(2)}, {}};
-      };
-      Row row{block, k, end(block->a[k], kArmA), end(block->b[k], kArmB), Vec3::Zero(), kNever};
-      row.normal = row.get3(kNormal);
-      rows_.push_back(row);
-      fastest = std::max(fastest, row.get(kApproachSpeed));
+      for (std::size_t point = 0; point < static_cast<std::size_t>(group.points); ++point) {
+        if (group.block(point)[kInitialGap * kRowsPerBlock + k] >= ContactRowLayout::kNoPoint) continue;
+        rows_.push_back(row_of(group, point, k));
+        fastest = std::max(fastest, rows_.back().get(kApproachSpeed));
+      }
     }
   }
   threshold_ = std::max(threshold_, kLeastImpact * fastest);
+}
+
+Rebounds::Row Rebounds::row_of(const RowGroup& group, std::size_t point, std::size_t k) const {
+  Row row{group.block(point) + k,
+          {group.a[k], 0, Vec3::Zero(), {}},
+          {group.b[k], 0, Vec3::Zero(), {}},
+          Vec3::Zero(),
+          kNever};
+  for (ImpactEnd* end : {&row.a, &row.b})
+    end->inverse_mass = system_.bodies[static_cast<std::size_t>(end->body)].inverse_mass;
+  row.normal = row.get3(kNormal);
+  row.a.arm = group.of_balls ? Vec3(-row.get(kLengthA) * row.normal) : row.get3(kArmA);
+  row.b.arm = group.of_balls ? Vec3(row.get(kLengthB) * row.normal) : row.get3(kArmB);
+  return row;
 }
 
 // Of the rows whose bodies the last round has changed, or of all; and the next of each body.
@@ -112,8 +123,9 @@ void Rebounds::add_resting() {
 
 // `wanted`, at the instant: with restitution and without.
 void Rebounds::add(const Row& row, double instant, double wanted, double wanted_without) {
-  Impact impact{row.a,          row.b,       {row.normal, row.get3(kTangent), {}}, instant, row.get(kFriction), wanted,
-                wanted_without, Vec3::Zero()};
+  Impact impact{
+      row.a,          row.b,       {row.normal, row.normal.unitOrthogonal(), {}}, instant, row.get(kFriction), wanted,
+      wanted_without, Vec3::Zero()};
   impact.directions[2] = impact.directions[0].cross(impact.directions[1]);
   impact.shift = (instant - motion_time_) / h_ *
                  (relative_velocity(row.a, row.b, free_) - relative_velocity(row.a, row.b, start_));
@@ -204,11 +216,11 @@ void Rebounds::update_biases(const SolverParameters& parameters) {
     const bool is_changed =
         is_changed_[static_cast<std::size_t>(row.a.body)] || is_changed_[static_cast<std::size_t>(row.b.body)];
     if (!is_changed || row.get(kGap) <= 0) continue;
-    row.block->columns[kBias][row.k] = gap_at(row, h_) / (parameters.h * parameters.theta) - along(row, now_);
+    row.at(kBias) = gap_at(row, h_) / (parameters.h * parameters.theta) - along(row, now_);
   }
 }
 
-void Rebounds::resolve(RowBlock* blocks, std::size_t count, const SolverParameters& parameters,
+void Rebounds::resolve(const std::vector<RowGroup>& groups, const SolverParameters& parameters,
                        MutableBodyColumns state) {
   h_ = parameters.h, motion_time_ = (1.5 - parameters.theta) * h_, threshold_ = parameters.restitution_threshold;
   state_ = state;
@@ -218,7 +230,7 @@ void Rebounds::resolve(RowBlock* blocks, std::size_t count, const SolverParamete
   angular_impulse_.assign(state.size(), Vec3::Zero());
   last_.assign(state.size(), 0.0), next_.assign(state.size(), kNever);
   is_changed_.assign(state.size(), 0), is_new_.assign(state.size(), 0);
-  find_rows(blocks, count);
+  find_rows(groups);
   find_hits(true);
   int rounds = 0;
   for (; rounds < kMostRounds; ++rounds) {

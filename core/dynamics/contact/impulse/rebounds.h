@@ -29,16 +29,16 @@ class Rebounds {
   void begin(BodyColumns state);
   // The state after that, and the rows of the sub-step with their gaps: changes the state by the impacts, and the
   // biases of the rows whose bodies it has changed.
-  void resolve(RowBlock* blocks, std::size_t count, const SolverParameters& parameters, MutableBodyColumns state);
+  void resolve(const std::vector<RowGroup>& groups, const SolverParameters& parameters, MutableBodyColumns state);
 
  private:
   struct Row {
-    RowBlock* block;
-    std::size_t k;
+    double* first;   // its column 0
     ImpactEnd a, b;  // without `angular`
     Vec3 normal;
     double hit;  // s, the instant at which it does; infinite if it does not
-    double get(int column) const { return block->columns[column][k]; }
+    double& at(int column) const { return first[static_cast<std::size_t>(column) * kRowsPerBlock]; }
+    double get(int column) const { return at(column); }
     Vec3 get3(int column) const { return {get(column), get(column + 1), get(column + 2)}; }
   };
 
@@ -51,7 +51,8 @@ class Rebounds {
   double gap_at(const Row& row, double t) const;
   double hit_of(const Row& row) const;
   void load(BodyColumns state, std::vector<Motion>& out) const;
-  void find_rows(RowBlock* blocks, std::size_t count);
+  void find_rows(const std::vector<RowGroup>& groups);
+  Row row_of(const RowGroup& group, std::size_t point, std::size_t k) const;
   void find_hits(bool all);
   void choose();
   void add_resting();

@@ -35,6 +35,16 @@ Scene heap(int count, const ContactLaw& law) {
   return on_floor(bodies, law);
 }
 
+// A tray on the floor, and a hundred balls on it.
+Scene laden_tray(const ContactLaw& law) {
+  std::vector<Body> bodies = {solid("tray", Box{{2.2, 2.2, 0.1}}, {0.95, 0.95, 0.05}, 20)};
+  for (int i = 0; i < 100; ++i)
+    bodies.push_back(
+        solid("ball " + std::to_string(i), Sphere{0.1}, {0.21 * (i % 10), 0.21 * (i / 10), 0.2}, 1 + i % 3));
+  bodies[0].velocity = {0.5, 0, 0};
+  return on_floor(bodies, law);
+}
+
 struct ContactCase {
   const char* what;
   Scene scene;
@@ -69,12 +79,31 @@ BOOST_AUTO_TEST_CASE(every_instruction_set_gives_the_same_bits) {
       {"a heap that bounces and does not slide", heap(45, {0.5, kInfiniteFriction}), "impulse", "velocity-verlet"},
       {"a heap without friction", heap(45, {0.2, 0}), "impulse", "rk4"},
       {"a heap of balls", bouncing_balls(60, {0.3, 0.4}), "impulse", "semi-implicit-euler"},
+      {"balls on a floor and no impacts", bouncing_balls(60, {0, 0.4}), "impulse", "semi-implicit-euler"},
   };
   for (const ContactCase& c : cases) {
     const BodyTable plain = stepped(c, *tables[0], 120);
     BOOST_TEST(plain.columns().velocity(0).allFinite(), c.what);
     for (std::size_t k = 1; k < count; ++k)
       BOOST_TEST(same_bits(stepped(c, *tables[k], 120).columns(), plain.columns()), c.what << ": " << tables[k]->name);
+  }
+}
+
+// With impacts that are settled together, sliding, and a body that touches many others.
+BOOST_AUTO_TEST_CASE(threads_that_share_heaps_change_no_bit) {
+  Scene sunk = heap(150, {0, 0.5});
+  for (int i = 0; i < 30; ++i) sunk.bodies[static_cast<std::size_t>(i)].position.z() -= 0.1;  // overlaps at the start
+  const ContactCase cases[] = {
+      {"a laden tray", laden_tray({0, 0.3}), "impulse", "semi-implicit-euler"},
+      {"a heap", heap(150, {0, 0.5}), "impulse", "semi-implicit-euler"},
+      {"a heap of balls that bounce", bouncing_balls(200, {0.3, 0.4}), "impulse", "velocity-verlet"},
+      {"a heap that overlaps", sunk, "impulse", "semi-implicit-euler"},
+  };
+  for (const ContactCase& c : cases) {
+    const BodyTable alone = stepped(c, kernels(), 20);
+    BOOST_TEST(alone.columns().velocity(0).allFinite(), c.what);
+    for (const char* threads : {"2", "3"})
+      BOOST_TEST(same_bits(stepped(c, kernels(), 20, threads).columns(), alone.columns()), c.what << ", " << threads);
   }
 }
 
