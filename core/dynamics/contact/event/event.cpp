@@ -5,7 +5,8 @@
 // Where no forces between touching bodies obey the laws (Painlevé's paradox: a rod that slides at a steep angle), an
 // impact without collision, of a step of kInstant, leads on. Where bodies are not sure to stay apart
 // (conservative_advancement.h, acceleration_bounds.h) the time is halved, so that nothing passes through and no graze
-// is missed.
+// is missed. Limits of joints are points of contact without friction; where joints hold the bodies, impulses and forces
+// act through them.
 //
 // Where events crowd, as in the infinitely many small impacts with which a row of dominoes comes to lie, a run has a
 // budget: once it has spent it, the rest of a step is taken in steps that do not look for events (crowded_steps.h), and
@@ -56,7 +57,8 @@ class EventStepper : public ContactStepper {
       : contact_points_(scene),
         loads_(parts.system.loads),
         persistent_contact_(parts, contact_points_),
-        impacts_(parts.system, number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
+        impacts_(parts.system, number_option(parts.settings, "restitution-threshold", kRestitutionThreshold),
+                 parts.joints),
         crowded_(parts, contact_points_),
         bounds_(parts.system),
         patience_(number_option(parts.settings, "patience", 1)),
@@ -99,7 +101,8 @@ class EventStepper : public ContactStepper {
   SettingsInForce settings_in_force() const override {
     return {
         {"impacts", "at their own instants, simultaneous ones together"},
-        {"persistent contact", "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
+        {persistent_contact_.has_joints() ? "joints and persistent contact" : "persistent contact",
+         "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
         {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.restitution_threshold())},
         {"where events crowd", "inelastic steps of first order, of 1/120 s or a quarter of the run's at most"}};
   }
@@ -187,6 +190,7 @@ class EventStepper : public ContactStepper {
   bool all_stay_apart(double clear, double h) {
     if (!are_bounded(std::as_const(clear_).columns(), clear, h)) return false;
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
+    if (may_have_touched_limit(clear, h)) return false;
     return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
       const auto [a, b] = pair;
       const auto is_of_pair = [&](const PersistentPoint& point) {
@@ -198,6 +202,25 @@ class EventStepper : public ContactStepper {
       const Collider &first = contact_points_.colliders()[a], &second = contact_points_.colliders()[b];
       return stay_apart(first, second, {from, contact_points_.separating_axis(from, a, b)},
                         {to, contact_points_.separating_axis(to, a, b)}, bend_of(first), bend_of(second), h);
+    });
+  }
+
+  // Whether a joint may have come to a limit and gone back from it.
+  bool may_have_touched_limit(double clear, double h) const {
+    const JointLimits& limits = contact_points_.limits();
+    for (std::size_t k = 0; k < limits.size(); ++k) {
+      if (is_persistent_limit(k)) continue;
+      const JointLimits::Value from = limits.at(k, clear_.columns(), clear),
+                               to = limits.at(k, end_.columns(), clear + h);
+      if (peak_between(-from.gap, -from.rate, -to.gap, -to.rate, h) > 0) return true;
+    }
+    return false;
+  }
+
+  bool is_persistent_limit(std::size_t k) const {
+    const std::vector<PersistentPoint>& points = persistent_contact_.points();
+    return std::any_of(points.begin(), points.end(), [k](const PersistentPoint& point) {
+      return point.contact.is_limit() && point.contact.feature == k;
     });
   }
 
@@ -231,6 +254,7 @@ class EventStepper : public ContactStepper {
 
   // The state after h into end_. Positive before the first event, negative after it.
   double attempt(double h) {
+    reach_ = h;
     persistent_contact_.advance(start_.columns(), end_.columns(), part_.t + part_.from, h);
     return distance_from_event();
   }
@@ -240,6 +264,8 @@ class EventStepper : public ContactStepper {
   double commit(MutableBodyColumns state, double done) {
     copy_columns(std::as_const(end_).columns(), state);
     note(persistent_contact_.solver_warning());
+    contact_points_.note_turns(state, done - part_.from);
+    persistent_contact_.close_joints(state);
     if (persistent_contact_.points().empty()) return done;
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all);
@@ -261,6 +287,7 @@ class EventStepper : public ContactStepper {
     if (patience_ > 1 && longest > kInstant) note("events crowd more than its patience allows");
     if (!crowded_from_ && longest > kInstant) crowded_from_ = part_.t + part_.from;
     const double h = crowded_.take(state, part_.t + part_.from, std::min(part_.length(), longest));
+    contact_points_.note_turns(state, h);
     persistent_contact_.forget_points();
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
@@ -338,6 +365,20 @@ class EventStepper : public ContactStepper {
         if (!is_known) least = std::min(least, point.gap + drift);
       }
     }
+    return std::min(least, least_free_limit());
+  }
+
+  double least_free_limit() const {
+    double least = kInfinity;
+    const JointLimits& limits = contact_points_.limits();
+    for (std::size_t k = 0; k < limits.size(); ++k) {
+      if (is_persistent_limit(k)) continue;
+      double drift = 0;
+      for (const ContactPoint& point : touching_) {
+        if (point.is_limit() && point.feature == k) drift = std::max(0.0, kRounding - point.gap);
+      }
+      least = std::min(least, limits.at(k, end_.columns(), reach_).gap + drift);
+    }
     return least;
   }
 
@@ -357,6 +398,7 @@ class EventStepper : public ContactStepper {
   int instants_ = 0;            // skipped in this step
   bool is_smooth_ = true;
   BodyTable start_, end_, clear_;
+  double reach_ = 0;           // s, from start_ to end_
   std::vector<double> ahead_;  // s, ends of the intervals still to be looked at, the next one last
   std::vector<ContactPoint> touching_;
   std::vector<std::pair<int, int>> pairs_;
@@ -370,8 +412,8 @@ extern const ContactMethod kEventContact;
 const ContactMethod kEventContact = {
     .name = "event",
     .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
-    .features =
-        joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none", "restitution"}),
+    .features = joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none",
+                                                  "restitution", "joints-with-contacts", "joint-limit"}),
     .options = {{"restitution-threshold", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1},
                 {"patience",
                  "times of what it may spend on events by default; more than 1: invalid where they crowd",
