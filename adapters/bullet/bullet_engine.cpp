@@ -50,10 +50,10 @@ MethodInfo mlcp() {
 // Trees of joints, and no contacts.
 MethodInfo multibody() {
   return {.name = "multibody",
-          .summary = "semi-implicit Euler in the reduced coordinates of trees (Featherstone), without limits or speeds",
+          .summary = "semi-implicit Euler in the reduced coordinates of trees (Featherstone); limits do not bounce",
           .leapfrog_stagger = 0.5,
-          .lacks = joined(contacts_of_all_shapes(),
-                          {"joint-limit", "joint-loop", "joints-with-contacts", "motor:speed", "restitution"})};
+          .lacks = joined(contacts_of_all_shapes(), {"joint-limit-that-bounces", "joint-loop", "joints-with-contacts",
+                                                     "restitution", "two-speeds-at-once"})};
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ class CoreWorld : public World, public MayReduceOrder {
     stepper_->step(state_.columns(), clock_.time(), dt);
     if (joints_) joints_->end_step(state_.columns());
     clock_.advance(dt);
+    if (contact_ && !contact_->was_smooth()) passages_.interrupt();
     if (joints_) passages_.note(clock_.time(), joints_->smallest_pivot());
   }
 
