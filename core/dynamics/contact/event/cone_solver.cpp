@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/dynamics/contact/event/cone_newton.h"
-#include "core/dynamics/contact/event/islands.h"
+#include "core/dynamics/joints/islands.h"
 
 namespace rigor {
 namespace {

@@ -16,7 +16,7 @@
 
 #include "core/dynamics/contact/event/contact_features.h"
 #include "core/dynamics/contact/event/contact_points.h"
-#include "core/dynamics/contact/event/islands.h"
+#include "core/dynamics/joints/islands.h"
 #include "core/dynamics/model/constraint_forces.h"
 #include "core/engine/columns.h"
 

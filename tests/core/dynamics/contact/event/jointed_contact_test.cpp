@@ -3,6 +3,7 @@
 #include <functional>
 #include <numbers>
 
+#include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/energy.h"
 #include "tests/core/dynamics/contact/contact_runs.h"
 #include "tests/core/dynamics/joints/jointed_run.h"
@@ -170,7 +171,8 @@ BOOST_AUTO_TEST_CASE(a_ball_that_beats_a_flap_on_its_stop_adds_no_energy) {
     BOOST_TEST(highest < 0.6 + 1e-12);
     const BodyColumns end = run.step(1.0 / 120);
     BOOST_TEST(end.velocity(0).norm() < 1e-9);
-    BOOST_TEST(end.velocity(2).norm() > 1e-4);  // it rolls off, for the flap gave it a spin
+    BOOST_TEST(end.velocity(2).norm() < 1e-9);
+    BOOST_TEST(std::abs(end.position(2).y() - 0.075) < 1e-7);  // on the flap
   }
 }
 

@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/event/islands.h"
+#include "core/dynamics/joints/islands.h"
 
 #include <numeric>
 
