@@ -141,15 +141,14 @@ BulletMultibodyWorld::BulletMultibodyWorld(const Scene& scene, const Settings& s
 }
 
 // What is past a limit is pushed back, a share "erp" of it in a step, by a speed that stays: matched, none of it. As
-// shipped a limit has an impulse of at most 100 N s or N m s. Without collision objects there are no islands by which
-// Bullet would find these constraints.
+// shipped a limit has an impulse of at most 100 N s or N m s.
 void BulletMultibodyWorld::add_limits(const Scene& scene, bool matched) {
-  world_.getSimulationIslandManager()->setSplitIslands(false);
   if (matched) world_.getSolverInfo().m_erp = world_.getSolverInfo().m_erp2 = 0;
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     const Joint& joint = scene.joints[k];
     if (!joint.has_limits()) continue;
     const Coordinate& at = coordinates_[k];
+    make_findable(at);
     const double low = std::max(at.sign > 0 ? joint.lower : -joint.upper, -kNoLimit),
                  high = std::min(at.sign > 0 ? joint.upper : -joint.lower, kNoLimit);
     limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(at.tree, at.link, low, high));
@@ -158,10 +157,25 @@ void BulletMultibodyWorld::add_limits(const Scene& scene, bool matched) {
   }
 }
 
+// Bullet finds a constraint by the island that its link's collider is in.
+void BulletMultibodyWorld::make_findable(const Coordinate& coordinate) {
+  for (int link = 0; link < coordinate.tree->getNumLinks(); ++link) {
+    btMultiBodyLinkCollider*& collider = coordinate.tree->getLink(link).m_collider;
+    if (collider) continue;
+    colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(coordinate.tree, link));
+    collider = colliders_.back().get();
+    collider->setCollisionShape(&no_shape_);
+    collider->setActivationState(DISABLE_DEACTIVATION);
+    constexpr int kNone = 0;
+    world_.addCollisionObject(collider, kNone, kNone);
+  }
+}
+
 void BulletMultibodyWorld::add_motors(const Scene& scene) {
   for (const Motor& motor : scene.motors) {
     if (!motor.speed) continue;  // an effort is one of the loads
     const Coordinate& at = coordinates_[static_cast<std::size_t>(motor.joint)];
+    make_findable(at);
     drives_.push_back({motor, std::make_unique<btMultiBodyJointMotor>(at.tree, at.link, at.sign * *motor.speed, 0)});
     world_.addMultiBodyConstraint(drives_.back().row.get());
   }
@@ -177,6 +191,7 @@ void BulletMultibodyWorld::set_motors(double dt) {
 BulletMultibodyWorld::~BulletMultibodyWorld() {
   for (const Drive& drive : drives_) world_.removeMultiBodyConstraint(drive.row.get());
   for (const auto& limit : limits_) world_.removeMultiBodyConstraint(limit.get());
+  for (const auto& collider : colliders_) world_.removeCollisionObject(collider.get());
   for (const auto& tree : trees_) world_.removeMultiBody(tree.get());
 }
 

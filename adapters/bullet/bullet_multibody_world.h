@@ -17,6 +17,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <memory>
 #include <vector>
@@ -51,9 +52,16 @@ class BulletMultibodyWorld : public World {
     BodyState state;  // as last read
   };
 
+  struct Coordinate {  // of a hinge or slider
+    btMultiBody* tree = nullptr;
+    int link = -1;
+    double sign = 1;  // of Bullet's, against the scene's
+  };
+
   void add_tree(const Scene& scene, const bullet::Tree& tree, bool matched);
   void add_branch(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree, int first_link);
   void set_velocities(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree);
+  void make_findable(const Coordinate& coordinate);
   void add_limits(const Scene& scene, bool matched);
   void add_motors(const Scene& scene);
   void set_motors(double dt);
@@ -64,11 +72,6 @@ class BulletMultibodyWorld : public World {
   ExternalLoads loads_;
   Clock clock_;
   std::vector<std::unique_ptr<btMultiBody>> trees_;
-  struct Coordinate {  // of a hinge or slider
-    btMultiBody* tree = nullptr;
-    int link = -1;
-    double sign = 1;  // of Bullet's, against the scene's
-  };
   struct Drive {
     Motor motor;  // that keeps a speed
     std::unique_ptr<btMultiBodyJointMotor> row;
@@ -76,6 +79,8 @@ class BulletMultibodyWorld : public World {
   std::vector<Coordinate> coordinates_;  // by joint
   std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> limits_;
   std::vector<Drive> drives_;
+  btEmptyShape no_shape_;
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;  // that touch nothing
   std::vector<std::vector<int>> body_of_link_;  // by tree: of the base first; kWorld for what is no body of the scene
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};

@@ -3,6 +3,7 @@
 #include "adapters/bullet/bullet_joints.h"
 
 #include <boost/test/unit_test.hpp>
+#include <numbers>
 
 #include "core/base/error.h"
 #include "core/dynamics/model/joint_coordinate.h"
@@ -181,6 +182,25 @@ BOOST_AUTO_TEST_CASE(a_limit_stops_what_comes_and_sends_back_its_share) {
       BOOST_TEST(std::abs(coordinate.now.rate + 1.5 * restitution) < 0.01 * 1.5, "rate " << coordinate.now.rate);
     });
   }
+}
+
+// Half a turn and more: of 4 rad the coordinate read here says 4 - 2 pi.
+BOOST_AUTO_TEST_CASE(reduced_coordinates_count_whole_turns) {
+  for (const test::Ends ends : {test::Ends::from_world, test::Ends::to_world}) {
+    Coordinate coordinate(true, ends, 3);
+    coordinate.scene.joints[0].upper = 4;
+    coordinate.run(kReduced, 2);
+    BOOST_TEST(std::abs(coordinate.now.x - (4 - 2 * std::numbers::pi)) < 2 * 3 * coordinate.dt);
+    BOOST_TEST(std::abs(coordinate.now.rate) < 1e-9);
+    coordinate.scene.joints[0].upper = 4 + 2 * std::numbers::pi;  // at 3.4 s
+    coordinate.run(kReduced, 2);
+    BOOST_TEST(std::abs(coordinate.now.rate - 3) < 0.01 * 3);
+  }
+  Scene beyond = test::with_joint(HingeJoint{kAnchor, kAxis}, test::Ends::from_world);
+  beyond.joints[0].upper = 4;
+  BOOST_TEST(why_not(kReduced, beyond) == "");
+  for (const char* way : {"bullet", "bullet:mlcp"})
+    BOOST_TEST(why_not(way, beyond).find("has no joint-limit:beyond-half-turn") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_limit_on_one_side_leaves_the_other_free) {

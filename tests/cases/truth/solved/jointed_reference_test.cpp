@@ -18,14 +18,14 @@ const std::set<std::string> kLeftOut = {"mechanisms/slider-crank-singular", "mec
                                         "mechanisms/iftomm-a02-40",         "mechanisms/iftomm-a05",
                                         "joints/mass-ratio-chain",          "joints/cable-100"};
 
-// Ten rods of 0.2 m on ball joints, at rest in a crooked line under the ceiling, that swing and twist through each
-// other's planes.
+// Ten rods of 0.2 m on ball joints, at rest in a crooked line, a third of a radian off the vertical. Thrice as crooked
+// they whip, and roundings alone part two solutions by 4e-9 m.
 Scene ten_links() {
   Scene scene;
   scene.gravity = {0, -9.81, 0};
   Vec3 anchor = Vec3::Zero();
   for (int k = 0; k < 10; ++k) {
-    const Vec3 along = Vec3(0.3 * std::sin(k), -1, 0.3 * std::cos(2 * k)).normalized();
+    const Vec3 along = Vec3(0.3 + 0.05 * std::sin(k), -1, 0.05 * std::cos(2 * k)).normalized();
     Body rod;
     rod.name = "link" + std::to_string(k + 1);
     rod.mass = 0.2;

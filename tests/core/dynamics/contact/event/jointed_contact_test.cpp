@@ -176,6 +176,23 @@ BOOST_AUTO_TEST_CASE(a_ball_that_beats_a_flap_on_its_stop_adds_no_energy) {
   }
 }
 
+// 20 rad at 15 rad/s, and back at half of it.
+BOOST_AUTO_TEST_CASE(a_stop_three_turns_away_is_reached_after_three_turns) {
+  Scene scene = flap({0, 0});
+  scene.gravity.setZero();
+  scene.joints[0].upper = 20, scene.joints[0].restitution = 0.5;
+  scene.bodies[0].angular_velocity = {0, 0, 15};
+  scene.bodies[0].velocity = {0, 7.5, 0};
+  JointedRun run(scene);
+  double angle = 0;
+  for (int n = 1; n <= 75; ++n) {
+    const double t = n / 30.0, hit = 20.0 / 15;
+    angle = angle_about_z(run.step(1.0 / 30), 0);
+    const double expected = t < hit ? 15 * t : 20 - 7.5 * (t - hit);
+    BOOST_TEST(std::abs(std::remainder(angle - expected, 2 * std::numbers::pi)) < 1e-10, "at " << t);
+  }
+}
+
 // Ten bodies, nine joints, four of them with limits, and springs.
 BOOST_AUTO_TEST_CASE(a_doll_that_falls_keeps_its_joints_and_gains_nothing) {
   const Scene scene = suite_scene("mechanisms/ragdoll-on-floor");
