@@ -16,9 +16,19 @@ namespace {
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
-const Features kJoints = {"joint:ball",           "joint:fixed",  "joint:hinge",  "joint:slider",
-                          "joint:universal",      "joint-spring", "joint-damper", "joints-with-dampers",
-                          "joints-with-contacts", "joint-limit",  "motor:effort", "motor:speed"};
+const Features kJoints = {"joint:ball",
+                          "joint:fixed",
+                          "joint:hinge",
+                          "joint:slider",
+                          "joint:universal",
+                          "joint-spring",
+                          "joint-damper",
+                          "joints-with-dampers",
+                          "joints-with-contacts",
+                          "joint-limit",
+                          "motor:effort",
+                          "motor:speed",
+                          "joint-limit:beyond-half-turn"};
 
 std::vector<OptionInfo> options_of_rigid_bodies() {
   return {{"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
@@ -31,7 +41,7 @@ MethodInfo sequential_impulse() {
   MethodInfo method = {.name = "sequential-impulse",
                        .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
                        .leapfrog_stagger = 0.5,
-                       .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
+                       .lacks = {"joint-limit:beyond-half-turn", "speed-motor-with-limits", "two-speeds-at-once"},
                        .options = options_of_rigid_bodies()};
   method.options.insert(method.options.begin(), {"iterations", "sweeps of the solver a step", {}, 1, 10000, true});
   return method;
@@ -43,17 +53,17 @@ MethodInfo mlcp() {
               "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver, dense: a step takes "
               "the cube of its rows, 30 ms for 500",
           .leapfrog_stagger = 0.5,
-          .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
+          .lacks = {"joint-limit:beyond-half-turn", "speed-motor-with-limits", "two-speeds-at-once"},
           .options = options_of_rigid_bodies()};
 }
 
 // Trees of joints, and no contacts.
 MethodInfo multibody() {
   return {.name = "multibody",
-          .summary = "semi-implicit Euler in the reduced coordinates of trees (Featherstone), without limits or speeds",
+          .summary = "semi-implicit Euler in the reduced coordinates of trees (Featherstone); limits do not bounce",
           .leapfrog_stagger = 0.5,
-          .lacks = joined(contacts_of_all_shapes(),
-                          {"joint-limit", "joint-loop", "joints-with-contacts", "motor:speed", "restitution"})};
+          .lacks = joined(contacts_of_all_shapes(), {"joint-limit-that-bounces", "joint-loop", "joints-with-contacts",
+                                                     "restitution", "two-speeds-at-once"})};
 }
 
 }  // namespace

@@ -123,6 +123,8 @@ void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of, 
   const Make make{joint, body_of(joint.a), body_of(joint.b), scene.pose(joint.b).position, matched};
   constraints_.push_back(std::visit(make, joint.type));
   of_joint_.push_back(constraints_.back().get());
+  const bool b_moves = joint.b != kWorld && !scene.bodies[static_cast<std::size_t>(joint.b)].fixed;
+  reported_.push_back({b_moves ? joint.b : joint.a, b_moves});
   const auto* slider = std::get_if<SliderJoint>(&joint.type);
   if (slider && joint.has_limits()) constraints_.push_back(limits_along(slider->axis, make));
 }
@@ -130,6 +132,23 @@ void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of, 
 void Joints::enter(btDynamicsWorld& world) {
   constexpr bool kApart = false;  // whether what a joint connects may touch is for the scene to say (Body::collides)
   for (const auto& constraint : constraints_) world.addConstraint(constraint.get(), kApart);
+}
+
+void Joints::ask_for_reactions() {
+  feedback_.assign(of_joint_.size(), {});
+  for (std::size_t k = 0; k < of_joint_.size(); ++k) of_joint_[k]->setJointFeedback(&feedback_[k]);
+}
+
+// Bullet's, too, are in W, and its torques are about the bodies' centres of mass.
+std::vector<ReportedReaction> Joints::reactions() const {
+  std::vector<ReportedReaction> reactions;
+  for (std::size_t k = 0; k < feedback_.size(); ++k) {
+    const btJointFeedback& of = feedback_[k];
+    const auto& [body, is_b] = reported_[k];
+    reactions.push_back({body, to_rigor(is_b ? of.m_appliedForceBodyB : of.m_appliedForceBodyA),
+                         to_rigor(is_b ? of.m_appliedTorqueBodyB : of.m_appliedTorqueBodyA)});
+  }
+  return reactions;
 }
 
 void Joints::set_motors(double t, double dt) {

@@ -20,7 +20,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/engine/reported_reactions.h"
 
 namespace rigor::bullet {
 
@@ -38,6 +38,9 @@ class Joints {
   void set_motors(double t, double dt);
 
   bool empty() const { return constraints_.empty(); }
+  // From the next step on; of joints without limits, for Bullet keeps a slider's by a second constraint.
+  void ask_for_reactions();
+  std::vector<ReportedReaction> reactions() const;
 
  private:
   void add(const Scene& scene, const Joint& joint, const BodyOf& body_of, bool matched);
@@ -45,6 +48,12 @@ class Joints {
   std::vector<std::unique_ptr<btTypedConstraint>> constraints_;  // a slider's limits stand behind it
   std::vector<btTypedConstraint*> of_joint_;
   std::vector<Motor> motors_;  // that keep a speed
+  struct Reported {
+    int body;
+    bool is_b;
+  };
+  std::vector<Reported> reported_;         // by joint: an end that moves
+  std::vector<btJointFeedback> feedback_;  // by joint
 };
 
 }  // namespace rigor::bullet

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rigor {
 namespace {
 
@@ -121,7 +123,7 @@ int links_of(const Joint& joint) { return std::holds_alternative<UniversalJoint>
 }  // namespace
 
 BulletMultibodyWorld::BulletMultibodyWorld(const Scene& scene, const Settings& settings)
-    : rows_(scene.bodies.size()), loads_(scene) {
+    : rows_(scene.bodies.size()), loads_(scene), coordinates_(scene.joints.size()) {
   world_.setGravity(to_bullet(scene.gravity));
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Body& body = scene.bodies[i];
@@ -133,10 +135,63 @@ BulletMultibodyWorld::BulletMultibodyWorld(const Scene& scene, const Settings& s
     row.q_WP_start = (body.orientation * Quat(row.frame.R_BP)).normalized();
   }
   for (const bullet::Tree& tree : bullet::trees_of(scene)) add_tree(scene, tree, settings.track == Track::matched);
+  add_limits(scene, settings.track == Track::matched);
+  add_motors(scene);
   read_bodies();
 }
 
+// What is past a limit is pushed back, a share "erp" of it in a step, by a speed that stays: matched, none of it. As
+// shipped a limit has an impulse of at most 100 N s or N m s.
+void BulletMultibodyWorld::add_limits(const Scene& scene, bool matched) {
+  if (matched) world_.getSolverInfo().m_erp = world_.getSolverInfo().m_erp2 = 0;
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    const Joint& joint = scene.joints[k];
+    if (!joint.has_limits()) continue;
+    const Coordinate& at = coordinates_[k];
+    make_findable(at);
+    const double low = std::max(at.sign > 0 ? joint.lower : -joint.upper, -kNoLimit),
+                 high = std::min(at.sign > 0 ? joint.upper : -joint.lower, kNoLimit);
+    limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(at.tree, at.link, low, high));
+    if (matched) limits_.back()->setMaxAppliedImpulse(kNoLimit);
+    world_.addMultiBodyConstraint(limits_.back().get());
+  }
+}
+
+// Bullet finds a constraint by the island that its link's collider is in.
+void BulletMultibodyWorld::make_findable(const Coordinate& coordinate) {
+  for (int link = 0; link < coordinate.tree->getNumLinks(); ++link) {
+    btMultiBodyLinkCollider*& collider = coordinate.tree->getLink(link).m_collider;
+    if (collider) continue;
+    colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(coordinate.tree, link));
+    collider = colliders_.back().get();
+    collider->setCollisionShape(&no_shape_);
+    collider->setActivationState(DISABLE_DEACTIVATION);
+    constexpr int kNone = 0;
+    world_.addCollisionObject(collider, kNone, kNone);
+  }
+}
+
+void BulletMultibodyWorld::add_motors(const Scene& scene) {
+  for (const Motor& motor : scene.motors) {
+    if (!motor.speed) continue;  // an effort is one of the loads
+    const Coordinate& at = coordinates_[static_cast<std::size_t>(motor.joint)];
+    make_findable(at);
+    drives_.push_back({motor, std::make_unique<btMultiBodyJointMotor>(at.tree, at.link, at.sign * *motor.speed, 0)});
+    world_.addMultiBodyConstraint(drives_.back().row.get());
+  }
+}
+
+void BulletMultibodyWorld::set_motors(double dt) {
+  for (const Drive& drive : drives_) {
+    const double share = share_of_step(drive.motor.from, drive.motor.until, clock_.time(), dt);
+    drive.row->setMaxAppliedImpulse(drive.motor.most * share * dt);  // N s, N m s; none of 0
+  }
+}
+
 BulletMultibodyWorld::~BulletMultibodyWorld() {
+  for (const Drive& drive : drives_) world_.removeMultiBodyConstraint(drive.row.get());
+  for (const auto& limit : limits_) world_.removeMultiBodyConstraint(limit.get());
+  for (const auto& collider : colliders_) world_.removeCollisionObject(collider.get());
   for (const auto& tree : trees_) world_.removeMultiBody(tree.get());
 }
 
@@ -182,6 +237,7 @@ void BulletMultibodyWorld::add_branch(const Scene& scene, const bullet::Branch& 
   Row& row = rows_[static_cast<std::size_t>(branch.body)];
   row.tree = &tree, row.link = first_link + links_of(joint) - 1;
   body_of_link_.back()[static_cast<std::size_t>(row.link) + 1] = branch.body;
+  coordinates_[static_cast<std::size_t>(branch.joint)] = {&tree, row.link, joint.b == branch.body ? 1.0 : -1.0};
   const bool on_world = branch.parent == kWorld;
   const Row* above = on_world ? nullptr : &rows_[static_cast<std::size_t>(branch.parent)];
   const Frame child = frame_at_start(scene, branch.body, row.q_WP_start),
@@ -210,6 +266,7 @@ void BulletMultibodyWorld::set_velocities(const Scene& scene, const bullet::Bran
 
 void BulletMultibodyWorld::step(double dt) {
   if (!loads_.empty()) add_loads(dt);
+  set_motors(dt);
   world_.stepSimulation(dt, 0);  // no sub-steps
   clock_.advance(dt);
   read_bodies();
@@ -280,6 +337,14 @@ SettingsInForce BulletMultibodyWorld::settings_in_force() const {
       {"sub-steps", "none: one step of dt"},
       {"springs and timed forces", "user forces, recomputed before each step"},
   };
+  if (!limits_.empty()) {
+    // Bullet has no const getter for what its solver works with.
+    const btContactSolverInfo& solver = const_cast<btMultiBodyDynamicsWorld&>(world_).getSolverInfo();
+    in_force.emplace_back("limits",
+                          fmt::format("stop what is past them, without rebound, by at most {:g} N s or N m s; "
+                                      "pushed back a step: {:g} of it",
+                                      limits_.front()->getMaxAppliedImpulse(), solver.m_erp));
+  }
   if (trees_.empty()) return in_force;
   const btMultiBody& tree = *trees_.front();  // all are set alike
   in_force.emplace_back("gyroscopic", tree.getUseGyroTerm() ? "explicit, with the coordinates' accelerations" : "off");

@@ -5,7 +5,9 @@
 //   universal         two revolute ones with a link between them that has neither mass nor inertia; only the inertia
 //                     of all that hangs on a joint is ever divided by, and that is never zero here
 // The root of a tree that floats free is a body with six coordinates; v and w of its own are stepped in W. Link frames
-// are principal frames, for Bullet's inertias are diagonal. "parent to this" takes vectors from the parent's frame.
+// are principal frames, for Bullet's inertias are diagonal. Limits and motors that keep a speed are impulses of
+// Bullet's solver after the accelerations: a limit stops what has come past it (btMultiBodyJointLimitConstraint),
+// without rebound. "parent to this" takes vectors from the parent's frame.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -13,6 +15,9 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <memory>
 #include <vector>
@@ -47,9 +52,19 @@ class BulletMultibodyWorld : public World {
     BodyState state;  // as last read
   };
 
+  struct Coordinate {  // of a hinge or slider
+    btMultiBody* tree = nullptr;
+    int link = -1;
+    double sign = 1;  // of Bullet's, against the scene's
+  };
+
   void add_tree(const Scene& scene, const bullet::Tree& tree, bool matched);
   void add_branch(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree, int first_link);
   void set_velocities(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree);
+  void make_findable(const Coordinate& coordinate);
+  void add_limits(const Scene& scene, bool matched);
+  void add_motors(const Scene& scene);
+  void set_motors(double dt);
   void add_loads(double dt);
   void read_bodies();
 
@@ -57,6 +72,15 @@ class BulletMultibodyWorld : public World {
   ExternalLoads loads_;
   Clock clock_;
   std::vector<std::unique_ptr<btMultiBody>> trees_;
+  struct Drive {
+    Motor motor;  // that keeps a speed
+    std::unique_ptr<btMultiBodyJointMotor> row;
+  };
+  std::vector<Coordinate> coordinates_;  // by joint
+  std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> limits_;
+  std::vector<Drive> drives_;
+  btEmptyShape no_shape_;
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;  // that touch nothing
   std::vector<std::vector<int>> body_of_link_;  // by tree: of the base first; kWorld for what is no body of the scene
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};

@@ -195,6 +195,10 @@ void BulletWorld::read(Snapshot& out) const {
   }
 }
 
+std::vector<ReportedReaction> BulletWorld::reactions() const {
+  return clock_.time() > 0 ? joints_->reactions() : std::vector<ReportedReaction>();
+}
+
 const btRigidBody* BulletWorld::first_moving() const {
   for (const Row& row : rows_) {
     if (row.moves) return row.body.get();

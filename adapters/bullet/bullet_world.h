@@ -18,7 +18,7 @@
 
 namespace rigor {
 
-class BulletWorld : public World {
+class BulletWorld : public World, public ReportsReactions {
  public:
   BulletWorld(const Scene& scene, const Settings& settings);
   BulletWorld(const BulletWorld&) = delete;
@@ -28,6 +28,8 @@ class BulletWorld : public World {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return warning_; }
+  void ask_for_reactions() override { joints_->ask_for_reactions(); }
+  std::vector<ReportedReaction> reactions() const override;
 
  private:
   struct Row {

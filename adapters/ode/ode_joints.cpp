@@ -86,7 +86,7 @@ OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBody
     const Axis* axis = std::holds_alternative<HingeJoint>(joint.type)    ? &kHinge
                        : std::holds_alternative<SliderJoint>(joint.type) ? &kSlider
                                                                          : nullptr;
-    joints_.push_back({std::visit(maker, joint.type), ends.sign(), axis, joint.has_limits()});
+    joints_.push_back({std::visit(maker, joint.type), ends.sign(), axis, joint.has_limits(), ends.bodies.first});
     if (joint.has_limits()) set_limits(joint, joints_.back(), track);
   }
   for (const Motor& motor : scene.motors) {
@@ -104,6 +104,21 @@ void OdeJoints::set_limits(const Joint& joint, const Held& held, Track track) {
   if (std::isfinite(high)) held.axis->set(held.id, dParamHiStop, high);
   held.axis->set(held.id, dParamBounce, joint.restitution);
   if (track == Track::matched) held.axis->set(held.id, dParamStopERP, 0);
+}
+
+void OdeJoints::ask_for_reactions() {
+  feedback_.assign(joints_.size(), {});
+  for (std::size_t k = 0; k < joints_.size(); ++k) dJointSetFeedback(joints_[k].id, &feedback_[k]);
+}
+
+// ODE's, too, are in W, and its torque is about the body's centre of mass.
+std::vector<ReportedReaction> OdeJoints::reactions() const {
+  std::vector<ReportedReaction> reactions;
+  for (std::size_t k = 0; k < feedback_.size(); ++k) {
+    const dJointFeedback& of = feedback_[k];
+    reactions.push_back({joints_[k].first, {of.f1[0], of.f1[1], of.f1[2]}, {of.t1[0], of.t1[1], of.t1[2]}});
+  }
+  return reactions;
 }
 
 void OdeJoints::drive(double t) {

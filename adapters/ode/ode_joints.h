@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/engine/engine.h"
+#include "core/engine/reported_reactions.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
@@ -25,6 +25,9 @@ class OdeJoints {
   void set_cfm(double cfm);
 
   bool empty() const { return joints_.empty(); }
+  // From the next step on.
+  void ask_for_reactions();
+  std::vector<ReportedReaction> reactions() const;
   SettingsInForce settings_in_force() const;
 
  private:
@@ -37,13 +40,15 @@ class OdeJoints {
     double sign;  // of ODE's angle or displacement, against the scene's
     const Axis* axis;
     bool has_limits;
+    int first;  // the body that ODE counts first
   };
   struct Maker;
 
   void set_limits(const Joint& joint, const Held& held, Track track);
 
   static const Axis kHinge, kSlider;
-  std::vector<Held> joints_;   // in the scene's order
+  std::vector<Held> joints_;  // in the scene's order
+  std::vector<dJointFeedback> feedback_;
   std::vector<Motor> motors_;  // those that keep a speed
 };
 

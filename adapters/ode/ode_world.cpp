@@ -213,6 +213,10 @@ void OdeWorld::read(Snapshot& out) const {
   }
 }
 
+std::vector<ReportedReaction> OdeWorld::reactions() const {
+  return clock_.time() > 0 ? joints_->reactions() : std::vector<ReportedReaction>();
+}
+
 std::string OdeWorld::erp_in_words() const {
   std::string words = fmt::format("{:g}", dWorldGetERP(world_));
   if (!joints_->empty()) words += ": that share of a joint's gap is closed in one step, as speed, which stays";

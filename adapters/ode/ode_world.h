@@ -20,7 +20,7 @@ namespace rigor {
 // method `auto` leaves scenes of more than so many moving bodies that can touch to the sweeps.
 inline constexpr int kMostForWorldStep = 50;
 
-class OdeWorld : public World {
+class OdeWorld : public World, public ReportsReactions {
  public:
   OdeWorld(const Scene& scene, const Settings& settings);
   ~OdeWorld() override;
@@ -31,6 +31,8 @@ class OdeWorld : public World {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
+  void ask_for_reactions() override { joints_->ask_for_reactions(); }
+  std::vector<ReportedReaction> reactions() const override;
 
  private:
   void apply(const Settings& settings, const Scene& scene);

@@ -27,6 +27,8 @@ MetricRow phase_error();
 MetricRow position_error();
 MetricRow reaction_error();
 MetricRow reaction_torque_error();
+MetricRow reported_reaction_error();
+MetricRow reported_reaction_torque_error();
 MetricRow restitution_error();
 MetricRow stop_distance_error();
 MetricRow survival();
@@ -63,6 +65,8 @@ const std::vector<MetricRow>& metrics() {
       position_error(),
       reaction_error(),
       reaction_torque_error(),
+      reported_reaction_error(),
+      reported_reaction_torque_error(),
       restitution_error(),
       stop_distance_error(),
       survival(),

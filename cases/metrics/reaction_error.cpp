@@ -1,34 +1,21 @@
 // By how much the forces and couples that joints carry at the run's own states differ from those at the truth's: what a
 // designer of bearings reads from a simulation. Both are worked out from the equations of motion (joint_reactions.h),
-// none is asked of an engine, and each counts in the directions in which it is unique. At up to a hundred instants,
-// evenly through the run: a reaction takes a hundred times what a distance does.
+// none is asked of an engine (reported_reaction_error.cpp does), and each counts in the directions in which it is
+// unique. At up to a hundred instants, evenly through the run: a reaction takes a hundred times what a distance does.
 #include <algorithm>
 
 #include "cases/metrics/measures/joints/joint_reactions.h"
 #include "cases/metrics/measures/joints/joint_series.h"
-#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
-
-std::string why_not_known(const Scene& scene) {
-  if (scene.joints.empty()) return kNoJoints;
-  if (anything_can_touch(scene)) return "bodies can touch, and what contacts carry then is not known";
-  for (const Joint& joint : scene.joints) {
-    if (joint.has_limits()) return "a joint has limits, and what they carry is not known";
-  }
-  for (const Motor& motor : scene.motors) {
-    if (motor.speed) return "a motor keeps a speed, and what it gives is not known";
-  }
-  return "";
-}
 
 using Part = Vec3 JointReaction::*;
 using UniquePart = Mat3 UniqueReaction::*;
 
 MetricResult measure_reaction(const JudgedRun& run, const std::string& what, Part part, UniquePart unique_part) {
   const Scene& scene = run.scene;
-  if (const std::string why = why_not_known(scene); !why.empty()) return {{}, why};
+  if (const std::string why = why_reactions_are_unknown(scene); !why.empty()) return {{}, why};
   if (!run.truth) return {{}, kNoTruth};
   const std::size_t count = samples_within(run, kTruthNeededPosition);
   if (count == 0) return {{}, kNoSamples};

@@ -48,9 +48,10 @@ std::optional<int> body_not_finite(BodyColumns bodies) {
 }
 
 // Steps from one recorded sample to the next.
-long steps_per_sample(long steps, BodyColumns bodies) {
-  const double bytes = sizeof(Sample) + sizeof(double) * static_cast<double>(bodies.size() + 7) *
-                                            (bodies.has_rotation() ? kRotation + 9 : kRotation);
+long steps_per_sample(long steps, BodyColumns bodies, std::size_t joints) {
+  const double bytes =
+      sizeof(Sample) + static_cast<double>(joints * sizeof(ReportedReaction)) +
+      sizeof(double) * static_cast<double>(bodies.size() + 7) * (bodies.has_rotation() ? kRotation + 9 : kRotation);
   return std::max(1L, static_cast<long>(std::ceil(bytes * static_cast<double>(steps) / kLargestTrajectory)));
 }
 
@@ -66,9 +67,10 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
   Snapshot now;
   world->read(now);
   const long steps = steps_in(duration, dt),
-             every = steps_per_sample_told.value_or(steps_per_sample(steps, now.bodies()));
+             every = steps_per_sample_told.value_or(steps_per_sample(steps, now.bodies(), scene.joints.size()));
   run.steps_per_sample = every;
   expect_steps(*world, dt, steps, 1);  // each is looked at
+  ask_for_reactions(*world);
   if (!is_timed) run.cpu_seconds = std::numeric_limits<double>::quiet_NaN();
   for (long n = 0;; ++n) {
     if (const auto body = body_not_finite(now.bodies())) {
@@ -76,7 +78,8 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
       run.reduced_order = reduced_order_of(*world);
       return run;
     }
-    if (n % every == 0 || n == steps) run.trajectory.samples.push_back({now.time, BodyTable(now.bodies())});
+    if (n % every == 0 || n == steps)
+      run.trajectory.samples.push_back({now.time, BodyTable(now.bodies()), reported_reactions(*world)});
     if (n == steps) {
       run.settings = world->settings_in_force();  // some say what the run has made of them
       run.reduced_order = reduced_order_of(*world);

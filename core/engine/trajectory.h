@@ -4,12 +4,14 @@
 #include <vector>
 
 #include "core/engine/body_table.h"
+#include "core/engine/reported_reactions.h"
 
 namespace rigor {
 
 struct Sample {
   double time;  // s
   BodyTable bodies;
+  std::vector<ReportedReaction> reactions = {};  // by joint, of the step that ended then; none where no engine says
 };
 
 struct Trajectory {

@@ -47,6 +47,11 @@ std::vector<Need> joint_traits_of(const Scene& scene) {
     traits.push_back({"joint-loop", scene.joint_name(k)});
     break;
   }
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    if (!scene.joints[k].has_limits() || scene.joints[k].restitution == 0) continue;
+    traits.push_back({"joint-limit-that-bounces", scene.joint_name(k)});
+    break;
+  }
   const auto drives_limited_joint = [&](const Motor& motor) {
     return motor.speed && scene.joints[static_cast<std::size_t>(motor.joint)].has_limits();
   };

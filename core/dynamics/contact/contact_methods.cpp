@@ -20,6 +20,19 @@ const ContactMethod& contact_method(const std::string& name) {
   return *row;
 }
 
+namespace {
+
+// Slips that begin or end are stiff equations where a mechanism gives way to them: of 24 random ones two by `event`
+// with `dormand-prince` did not come to 1.2 s of motion within 8 s.
+bool rubs_through_joints(const std::vector<Need>& needs) {
+  const auto needed = [&](const char* feature) {
+    return std::any_of(needs.begin(), needs.end(), [&](const Need& need) { return need.feature == feature; });
+  };
+  return needed("joints-with-contacts") && (needed("friction:coulomb") || needed("friction:infinite"));
+}
+
+}  // namespace
+
 bool has_few_colliding_bodies(const Scene& scene) {
   const auto count = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.collides && !body.fixed; });
@@ -36,7 +49,7 @@ const ContactMethod& contact_method_for(const Scene& scene) {
       return method.features.contains(need.feature) || !of_all.contains(need.feature);
     });
   };
-  if (has_few_colliding_bodies(scene) && expresses(kEventContact)) return kEventContact;
+  if (has_few_colliding_bodies(scene) && expresses(kEventContact) && !rubs_through_joints(needs)) return kEventContact;
   const auto& table = contact_methods();
   const auto found = std::find_if(table.begin(), table.end(), expresses);
   return found == table.end() ? table.front() : *found;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/joints/joint_limits.h"
+
 namespace rigor {
 namespace {
 
@@ -237,11 +239,8 @@ bool JointStops::may_have_touched(std::size_t i, Event event, double since) cons
   const Stop& stop = stops_[i];
   if (event == Event::motor || stop.at != 0) return false;
   const double side = event == Event::upper ? 1 : -1, limit = event == Event::upper ? stop.upper : stop.lower;
-  const double going = side * stop.settled_rate, coming = -side * stop.rate;
-  if (!std::isfinite(limit) || !(going > 0 && coming > 0)) return false;
-  // A path that bends one way lies below the lines along which it begins and ends, which meet here.
-  const double from_start = side * stop.settled_x + going * since, from_end = side * stop.x + coming * since;
-  const double peak = (from_start * coming + from_end * going - going * coming * since) / (going + coming);
+  const double peak =
+      peak_between(side * stop.settled_x, side * stop.settled_rate, side * stop.x, side * stop.rate, since);
   return peak > side * limit;
 }
 

@@ -13,6 +13,8 @@ class SingularPassages {
  public:
   // The pivot of the last factorisation at t [s], later than the last time.
   void note(double t, double pivot);
+  // An impact: what follows is no continuation of what was.
+  void interrupt() { known_ = 0; }
   const std::vector<double>& times() const { return times_; }  // s, of the first of them
   std::string text() const;                                    // "at 0.2146 s, 0.985 s"; empty where there is none
 

@@ -1,6 +1,7 @@
 // The joint metrics on runs with known gaps, and what the energy metrics know of joints.
 #include <boost/test/unit_test.hpp>
 
+#include "cases/metrics/measures/joints/joint_reactions.h"
 #include "tests/cases/judged.h"
 
 using namespace rigor;
@@ -85,6 +86,36 @@ BOOST_AUTO_TEST_CASE(a_known_speed_is_a_known_reaction) {
   BOOST_TEST(found.value == 0.5 * w * w * 0.21, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(found.worst.time == run.samples[50].time);
   BOOST_TEST(found.worst.component == "force of the hinge of 'world' and 'rod'");
+}
+
+// A report of the truth's own mean over each step has no error, and one that is a tenth too large has that tenth.
+BOOST_AUTO_TEST_CASE(a_report_is_held_against_the_mean_over_its_step) {
+  const Scene scene = pendulum();
+  const auto truth = make_truth("reference", scene, 1);
+  Trajectory run = test::played(*truth, scene, 0.01, 100);
+  const TruthSamples samples = test::sampled(*truth, run, scene, 5);
+  const JudgedRun judged{scene, run, &samples, 0};
+  for (const char* metric : {"reported_reaction_error", "reported_reaction_torque_error"})
+    BOOST_TEST(test::measured(metric, judged).not_applicable == "the engine does not say what joints carry");
+  JointReactions reactions(scene);
+  for (std::size_t n = 1; n < run.samples.size(); ++n) {
+    const BodyColumns start = run.samples[n - 1].bodies.columns(), end = run.samples[n].bodies.columns();
+    const JointReaction first = (*reactions.at(start, 0))[0], last = (*reactions.at(end, 0))[0];
+    const Vec3 force = 0.5 * (first.force + last.force), couple = 0.5 * (first.couple + last.couple);
+    run.samples[n].reactions = {{0, force, couple - start.position(0).cross(force)}};
+  }
+  BOOST_TEST(value_of("reported_reaction_error", judged) < 1e-12);
+  BOOST_TEST(value_of("reported_reaction_torque_error", judged) < 1e-12);
+  ReportedReaction& spoilt = run.samples[60].reactions[0];
+  const Vec3 more = 0.1 * spoilt.force;
+  spoilt.force += more, spoilt.torque -= run.samples[59].bodies.columns().position(0).cross(more);
+  const Measurement found = *test::measured("reported_reaction_error", judged).measurement;
+  BOOST_TEST(found.value == more.norm(), boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(found.worst.time == run.samples[60].time);
+  BOOST_TEST(found.worst.component == "reported force of the hinge of 'world' and 'rod'");
+  BOOST_TEST(value_of("reported_reaction_torque_error", judged) < 1e-12);
+  spoilt.torque += Vec3(0.3, 0, 0);
+  BOOST_TEST(value_of("reported_reaction_torque_error", judged) == 0.3, boost::test_tools::tolerance(1e-9));
 }
 
 BOOST_AUTO_TEST_CASE(what_the_equations_do_not_tell_has_no_reaction_error) {

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "cases/metrics/measures/joints/joint_series.h"
+#include "core/scene/contact_laws.h"
+
 namespace rigor {
 namespace {
 
@@ -29,6 +32,18 @@ Mat3 unique_directions(const Mat3& null_loads, const Mat3& can_carry) {
 }
 
 }  // namespace
+
+std::string why_reactions_are_unknown(const Scene& scene) {
+  if (scene.joints.empty()) return kNoJoints;
+  if (anything_can_touch(scene)) return "bodies can touch, and what contacts carry then is not known";
+  for (const Joint& joint : scene.joints) {
+    if (joint.has_limits()) return "a joint has limits, and what they carry is not known";
+  }
+  for (const Motor& motor : scene.motors) {
+    if (motor.speed) return "a motor keeps a speed, and what it gives is not known";
+  }
+  return "";
+}
 
 JointReactions::JointReactions(const Scene& scene) : scene_(scene), system_(scene) {
   for (const Joint& joint : scene.joints) joints_.emplace_back(scene, joint);

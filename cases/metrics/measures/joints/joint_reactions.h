@@ -8,6 +8,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cases/metrics/measures/joints/joint_geometry.h"
@@ -27,6 +28,9 @@ struct JointReaction {
 struct UniqueReaction {
   Mat3 force = Mat3::Identity(), couple = Mat3::Identity();
 };
+
+// Why the equations of motion alone do not tell what the scene's joints carry; empty if they do.
+std::string why_reactions_are_unknown(const Scene& scene);
 
 class JointReactions {
  public:

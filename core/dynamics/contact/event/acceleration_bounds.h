@@ -51,6 +51,7 @@ class AccelerationBounds {
   void load_by_forces(const Ends& ends, const std::vector<Loading>& contacts);
   void load_by_springs(const Ends& ends, const Bounds& guess);
   double largest_spin(std::size_t body, const Ends& ends, double torque) const;
+  void guess_twice(const Ends& ends);
   void apply(const Ends& ends, const Bounds& guess, Bounds& out);
 
   const System& system_;

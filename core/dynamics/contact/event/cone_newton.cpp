@@ -23,7 +23,7 @@ bool ConeNewton::set_up(BodyColumns state, const std::vector<ConeConstraint>& po
   std::vector<int> place(system_.size(), -1);
   int count = 0;
   const auto place_of = [&](int body) {
-    if (system_.bodies[body].fixed) return -1;
+    if (body == kWorld || system_.bodies[body].fixed) return -1;
     if (place[body] < 0) {
       place[body] = count++;
       bodies_.push_back(body);
@@ -34,14 +34,21 @@ bool ConeNewton::set_up(BodyColumns state, const std::vector<ConeConstraint>& po
   rows_.clear(), bodies_.clear(), inertia_W_.clear();
   for (const ConeConstraint& point : points) {
     Row row;
-    const auto add = [&](int body, const Vec3& arm, double sign, int& index, Side& by, auto& to) {
+    const auto add = [&](int body, int end, int& index, Side& by) {
       index = place_of(body);
-      by << sign * point.frame.transpose(), sign * point.frame.transpose() * cross_matrix(arm).transpose();
+      for (int axis = 0; axis < 3; ++axis) by.row(axis) = point.row(end, point.frame.col(axis));
+      if (index < 0 || point.response >= 0) return;
+      Eigen::Matrix<double, 6, 3> to;
       to << system_.bodies[body].inverse_mass * by.leftCols<3>().transpose(),
           inverse_inertia_W_[body] * by.rightCols<3>().transpose();
+      row.to.emplace_back(index, to);
     };
-    add(point.a, point.arm_a, 1, row.a, row.by_a, row.to_a);
-    add(point.b, point.arm_b, -1, row.b, row.by_b, row.to_b);
+    add(point.a, 0, row.a, row.by_a);
+    add(point.b, 1, row.b, row.by_b);
+    if (point.response >= 0) {
+      for (const ConeSolver::Change& change : responses_[static_cast<std::size_t>(point.response)])
+        row.to.emplace_back(place_of(change.body), change.by);
+    }
     row.start = ConeSolver::velocity_at(point, state) + point.offset;
     row.known = row.centre = row.impulse = point.impulse;
     row.mass = 3 / point.inverse_mass.trace();
@@ -96,8 +103,7 @@ ConeNewton::Fit ConeNewton::assess(const std::vector<ConeConstraint>& points, co
     Row& row = rows_[i];
     const Vec3 u = velocity_of(row, change);
     fit.energy += take_impulse(points[i], row.start + u, row) + row.known.dot(u);
-    if (row.a >= 0) residual_.segment<6>(6 * row.a) -= row.to_a * (row.impulse - row.known);
-    if (row.b >= 0) residual_.segment<6>(6 * row.b) -= row.to_b * (row.impulse - row.known);
+    for (const auto& [place, to] : row.to) residual_.segment<6>(6 * place) -= to * (row.impulse - row.known);
   }
   for (const Row& row : rows_) fit.residual = std::max(fit.residual, velocity_of(row, residual_).norm());
   return fit;
@@ -107,11 +113,10 @@ ConeNewton::Fit ConeNewton::take_step(const std::vector<ConeConstraint>& points)
   const Fit before = assess(points, change_);
   derivative_ = Eigen::MatrixXd::Identity(change_.size(), change_.size());
   for (const Row& row : rows_) {
-    const auto add = [&](int of, const auto& to, int by, const Side& side) {
-      if (of >= 0 && by >= 0) derivative_.block<6, 6>(6 * of, 6 * by) += to * row.slope * side;
-    };
-    add(row.a, row.to_a, row.a, row.by_a), add(row.a, row.to_a, row.b, row.by_b);
-    add(row.b, row.to_b, row.a, row.by_a), add(row.b, row.to_b, row.b, row.by_b);
+    for (const auto& [place, to] : row.to) {
+      if (row.a >= 0) derivative_.block<6, 6>(6 * place, 6 * row.a) += to * row.slope * row.by_a;
+      if (row.b >= 0) derivative_.block<6, 6>(6 * place, 6 * row.b) += to * row.slope * row.by_b;
+    }
   }
   const Eigen::VectorXd step = derivative_.partialPivLu().solve(-residual_);
   if (!step.allFinite()) return before;

@@ -16,8 +16,9 @@ class ConeNewton {
   // Bodies at the points beyond which it is not worth it: its cost grows as their cube.
   static constexpr int kMostBodies = 64;
 
-  ConeNewton(const System& system, const std::vector<Mat3>& inverse_inertia_W)
-      : system_(system), inverse_inertia_W_(inverse_inertia_W) {}
+  ConeNewton(const System& system, const std::vector<Mat3>& inverse_inertia_W,
+             const std::vector<ConeSolver::Response>& responses)
+      : system_(system), inverse_inertia_W_(inverse_inertia_W), responses_(responses) {}
 
   // Changes the points' impulses until none would change a velocity by more than `tolerance` [m/s], or it gets no
   // further, or `steps`, which it counts down, are spent. The velocities are the caller's to change. False if the
@@ -29,10 +30,10 @@ class ConeNewton {
   struct Row {
     int a = -1, b = -1;  // of the moving bodies; -1 for a fixed one
     Side by_a = Side::Zero(), by_b = Side::Zero();
-    Eigen::Matrix<double, 6, 3> to_a, to_b;  // what an impulse makes of the speeds
-    Vec3 start, known, centre, impulse;      // m/s at first; N s: that `start` knows, of this round, now
-    double mass;                             // kg, the point's own
-    Mat3 slope = Mat3::Zero();               // kg, of the impulse, to minus the velocity
+    std::vector<std::pair<int, Eigen::Matrix<double, 6, 3>>> to;  // what an impulse makes of the speeds, by moving body
+    Vec3 start, known, centre, impulse;  // m/s at first; N s: that `start` knows, of this round, now
+    double mass;                         // kg, the point's own
+    Mat3 slope = Mat3::Zero();           // kg, of the impulse, to minus the velocity
   };
 
   struct Fit {
@@ -48,6 +49,7 @@ class ConeNewton {
 
   const System& system_;
   const std::vector<Mat3>& inverse_inertia_W_;
+  const std::vector<ConeSolver::Response>& responses_;  // through joints
   std::vector<Row> rows_;
   std::vector<int> bodies_;  // those that move
   std::vector<Mat3> inertia_W_;

@@ -5,16 +5,17 @@
 #include <cmath>
 
 #include "core/dynamics/contact/event/cone_newton.h"
-#include "core/dynamics/contact/event/islands.h"
+#include "core/dynamics/joints/islands.h"
 
 namespace rigor {
 namespace {
 
 constexpr int kSweepsAtATime = 30;
-constexpr int kMostNewtonSteps = 400;  // of an island; what settles takes some 50
-constexpr double kCreeping = 0.99;     // of a sequence whose ratio is not known yet
-constexpr double kSlow = 0.9;          // from here on Newton's method is quicker
-constexpr int kFewestSweeps = 5;       // before that is judged
+constexpr int kMostNewtonSteps = 400;    // of an island; what settles takes some 50
+constexpr double kCreeping = 0.99;       // of a sequence whose ratio is not known yet
+constexpr double kSlow = 0.9;            // from here on Newton's method is quicker
+constexpr int kFewestSweeps = 5;         // before that is judged
+constexpr double kHeldByJoints = 1e-12;  // of the free bodies' inverse mass: what joints do not let move at all
 
 double disc(double friction, double normal) {
   if (!(normal > 0)) return 0;
@@ -43,10 +44,34 @@ Mat3 contact_frame(const Vec3& n) {
   return frame;
 }
 
+namespace {
+
+// Normal and tangential parts in turn; from one sweep to the next they settle together.
+Vec3 impulse_in_turns(const ConeConstraint& point, const Vec3& free) {
+  constexpr int kTurns = 8;
+  const Mat3& W = point.inverse_mass;
+  Vec3 p = point.impulse;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const Vec3 before = p;
+    p.x() = std::max(0.0, (point.target_velocity - free.x() - W(0, 1) * p.y() - W(0, 2) * p.z()) / W(0, 0));
+    const Vec3 slip = free + W * p;
+    const double radius = point.grips ? kInfiniteFriction : disc(point.friction, p.x());
+    p.tail<2>() = onto_disc(p.tail<2>() - point.tangent_effective_mass * slip.tail<2>(), radius);
+    if (p == before) break;
+  }
+  return p;
+}
+
+}  // namespace
+
 Vec3 impulse_at(const ConeConstraint& point, const Vec3& u) {
   const Mat3& W = point.inverse_mass;
   const Vec3 free = u - W * point.impulse;  // the velocity there would be without this point's impulse
   if (free.x() >= point.target_velocity && !point.grips) return Vec3::Zero();
+  if (W(0, 0) == 0) return Vec3::Zero();
+  if (point.friction == 0 && point.response >= 0) return {(point.target_velocity - free.x()) / W(0, 0), 0, 0};
+  // Joints may leave fewer ways to move than W has rows.
+  if (point.response >= 0) return impulse_in_turns(point, free);
   // Sticking, if the cone allows it.
   const Vec3 stick = W.inverse() * (Vec3(point.target_velocity, 0, 0) - free);
   if (stick.x() > 0 && (point.grips || stick.tail<2>().norm() <= disc(point.friction, stick.x()))) return stick;
@@ -55,21 +80,12 @@ Vec3 impulse_at(const ConeConstraint& point, const Vec3& u) {
     return {0, grip.x(), grip.y()};
   }
   if (point.friction == 0) return {(point.target_velocity - free.x()) / W(0, 0), 0, 0};
-  // Sliding: normal and tangential parts in turn; from one sweep to the next they settle together.
-  constexpr int kTurns = 8;
-  Vec3 p = point.impulse;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    const Vec3 before = p;
-    p.x() = std::max(0.0, (point.target_velocity - free.x() - W(0, 1) * p.y() - W(0, 2) * p.z()) / W(0, 0));
-    const Vec3 slip = free + W * p;
-    p.tail<2>() = onto_disc(p.tail<2>() - point.tangent_effective_mass * slip.tail<2>(), disc(point.friction, p.x()));
-    if (p == before) break;
-  }
-  return p;
+  return impulse_in_turns(point, free);
 }
 
 void ConeSolver::prepare(BodyColumns state, std::vector<ConeConstraint>& points) {
   inverse_inertia_W_.resize(system_.size());
+  if (joints_) return find_responses(state, points);
   for (const ConeConstraint& point : points) {
     for (const int body : {point.a, point.b}) {
       const Mat3 R = state.rotation(body);
@@ -86,13 +102,64 @@ void ConeSolver::prepare(BodyColumns state, std::vector<ConeConstraint>& points)
   }
 }
 
+void ConeSolver::find_responses(BodyColumns state, std::vector<ConeConstraint>& points) {
+  responses_.clear();
+  if (points.empty()) return;
+  joints_->velocity_impulse(state);  // for its factor
+  through_joints_->set_pose(state);
+  for (std::size_t i = 0; i < system_.size(); ++i) {
+    const Mat3 R = state.rotation(i);
+    inverse_inertia_W_[i] = R * system_.bodies[i].inverse_inertia_B * R.transpose();
+  }
+  for (ConeConstraint& point : points) find_response(point);
+}
+
+void ConeSolver::find_response(ConeConstraint& point) {
+  const std::vector<int> moved = through_joints_->moved_by(point.a, point.b);
+  point.response = static_cast<int>(responses_.size());
+  Response& response = responses_.emplace_back();
+  for (const int body : moved) response.emplace_back().body = body;
+  double free = 0;  // the inverse mass without joints
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 direction = point.frame.col(axis);
+    const Vec6 on_a = point.row(0, direction), on_b = point.row(1, direction);
+    const std::vector<Vec6>& change = through_joints_->of(moved, point.a, on_a, point.b, on_b);
+    for (std::size_t k = 0; k < moved.size(); ++k) response[k].by.col(axis) = change[moved[k]];
+    free = std::max(free,
+                    on_a.dot(through_joints_->alone(point.a, on_a)) + on_b.dot(through_joints_->alone(point.b, on_b)));
+  }
+  point.inverse_mass.setZero();
+  for (const Change& change : response) {
+    for (const auto& [end, body] : {std::pair(0, point.a), std::pair(1, point.b)}) {
+      if (change.body != body) continue;
+      for (int axis = 0; axis < 3; ++axis)
+        point.inverse_mass.row(axis) += point.row(end, point.frame.col(axis)).transpose() * change.by;
+    }
+  }
+  if (point.inverse_mass(0, 0) <= kHeldByJoints * free) point.inverse_mass(0, 0) = 0;
+  const double tangential = larger_eigenvalue(point.inverse_mass.bottomRightCorner<2, 2>());
+  point.tangent_effective_mass = tangential > kHeldByJoints * free ? 1 / tangential : 0;
+}
+
 Vec3 ConeSolver::velocity_at(const ConeConstraint& point, BodyColumns state) {
-  const Vec3 a = state.velocity(point.a) + state.angular_velocity(point.a).cross(point.arm_a);
-  const Vec3 b = state.velocity(point.b) + state.angular_velocity(point.b).cross(point.arm_b);
+  const auto velocity = [&](int body, const Vec3& arm) -> Vec3 {
+    if (body == kWorld) return Vec3::Zero();
+    if (point.is_couple) return state.angular_velocity(body);
+    return state.velocity(body) + state.angular_velocity(body).cross(arm);
+  };
+  const Vec3 a = velocity(point.a, point.arm_a), b = velocity(point.b, point.arm_b);
   return point.frame.transpose() * (a - b);
 }
 
 void ConeSolver::push(const ConeConstraint& point, const Vec3& impulse, MutableBodyColumns state) const {
+  if (point.response >= 0) {
+    for (const Change& change : responses_[static_cast<std::size_t>(point.response)]) {
+      const Vec6 by = change.by * impulse;
+      state.set_velocity(change.body, state.velocity(change.body) + by.head<3>());
+      state.set_angular_velocity(change.body, state.angular_velocity(change.body) + by.tail<3>());
+    }
+    return;
+  }
   const Vec3 in_world = point.frame * impulse;
   const auto change = [&](int body, const Vec3& arm, double sign) {
     if (system_.bodies[body].fixed) return;
@@ -122,7 +189,7 @@ bool ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConeCon
                                    int& steps) const {
   const std::vector<ConeConstraint> before = points;
   const int before_steps = steps;
-  const bool are_few = ConeNewton(system_, inverse_inertia_W_).solve(state, points, tolerance, steps);
+  const bool are_few = ConeNewton(system_, inverse_inertia_W_, responses_).solve(state, points, tolerance, steps);
   work_ += before_steps - steps;
   if (!are_few) return false;
   for (std::size_t i = 0; i < points.size(); ++i) push(points[i], points[i].impulse - before[i].impulse, state);
@@ -132,7 +199,7 @@ bool ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConeCon
 // What roundings are relative to: the bodies' speeds at the points, and what the impulses make of them.
 double ConeSolver::size_of(BodyColumns state, const std::vector<ConeConstraint>& points) const {
   const auto speed = [&](int body, const Vec3& arm) {
-    if (system_.bodies[body].fixed) return 0.0;
+    if (body == kWorld || system_.bodies[body].fixed) return 0.0;
     return state.velocity(body).norm() + state.angular_velocity(body).norm() * arm.norm();
   };
   double size = 0;
@@ -148,7 +215,7 @@ bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& po
   for (const ConeConstraint& point : points) pairs.emplace_back(point.a, point.b);
   bool have_settled = true;
   std::vector<ConeConstraint> of_island;
-  for (const Island& island : islands_of(system_, pairs)) {
+  for (const Island& island : islands_of(system_, pairs, joints_)) {
     of_island.clear();
     for (const std::size_t i : island.points) of_island.push_back(points[i]);
     have_settled = solve_island(state, of_island) && have_settled;

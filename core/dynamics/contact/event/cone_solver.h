@@ -4,27 +4,41 @@
 //   zero
 // (Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; Jean, The non-smooth contact dynamics
 // method, 1999). Solved by block Gauss–Seidel, one point after another, and by Newton's method (cone_newton.h) where
-// that creeps, until nothing changes but rounding; each island (islands.h) by itself.
+// that creeps, until nothing changes but rounding; each island (islands.h) by itself. Where joints hold the bodies,
+// each impulse acts through them (impulse_responses.h), on all bodies that are connected with the two.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "core/dynamics/model/system.h"
+#include "core/dynamics/joints/impulse_responses.h"
 
 namespace rigor {
 
 struct ConeConstraint {
-  int a = 0, b = 0;                                 // bodies; the impulse acts on a, its opposite on b
+  int a = 0, b = 0;                                 // bodies, or the world; the impulse acts on a, its opposite on b
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  // m, from the centres of mass to the point, in W
   Mat3 frame = Mat3::Identity();                    // columns: the normal from b to a and two tangents, in W
-  double friction = 0;                              // may be kInfiniteFriction
-  bool grips = false;                               // its slip is stopped however little it is pressed
-  double target_velocity = 0;                       // m/s, normal, the least allowed afterwards
+  // Acts as torques about the frame's columns and not as forces at the point: a hinge's limit. The least velocity is
+  // then one of turning [rad/s], the impulse an angular one [N m s].
+  bool is_couple = false;
+  double friction = 0;          // may be kInfiniteFriction
+  bool grips = false;           // its slip is stopped however little it is pressed
+  double target_velocity = 0;   // m/s, normal, the least allowed afterwards
   Vec3 offset = Vec3::Zero();   // m/s, in the frame: what the velocity there has beside that of the bodies
   Vec3 impulse = Vec3::Zero();  // N s, in the frame; what it is before solving, the velocities know already
 
   Mat3 inverse_mass = Mat3::Zero();   // 1/kg, of the point, in the frame; from prepare()
   double tangent_effective_mass = 0;  // kg, 1 / the larger eigenvalue of its tangential part
+  int response = -1;                  // the place of ConeSolver::Response, where impulses act through joints
+
+  // (force, torque about the centre of mass, in W) on a body of a unit impulse along a direction in W: on a (end 0), or
+  // its opposite on b (1). The row of the relative velocity.
+  Vec6 row(int end, const Vec3& direction) const {
+    const Vec3 along = end == 0 ? direction : Vec3(-direction);
+    if (is_couple) return joined(Vec3::Zero(), along);
+    return joined(along, (end == 0 ? arm_a : arm_b).cross(along));
+  }
 };
 
 // Two unit vectors across n and each other.
@@ -41,7 +55,11 @@ struct ConeAccuracy {
 
 class ConeSolver {
  public:
-  explicit ConeSolver(const System& system, const ConeAccuracy& accuracy = {}) : system_(system), accuracy_(accuracy) {}
+  // `joints`, which may be null, must outlive it.
+  explicit ConeSolver(const System& system, const ConeAccuracy& accuracy = {}, Joints* joints = nullptr)
+      : system_(system), accuracy_(accuracy), joints_(joints) {
+    if (joints_) through_joints_.emplace(system, *joints_);
+  }
 
   // Takes the inertias from `state`.
   void prepare(BodyColumns state, std::vector<ConeConstraint>& points);
@@ -54,7 +72,16 @@ class ConeSolver {
   // Adds an impulse, in the frame, to the velocities.
   void push(const ConeConstraint& point, const Vec3& impulse, MutableBodyColumns state) const;
 
+  // What an impulse at a point, in its frame, makes of a body's velocity (v, w).
+  struct Change {
+    int body = kWorld;
+    Eigen::Matrix<double, 6, 3> by = Eigen::Matrix<double, 6, 3>::Zero();
+  };
+  using Response = std::vector<Change>;
+
  private:
+  void find_responses(BodyColumns state, std::vector<ConeConstraint>& points);
+  void find_response(ConeConstraint& point);
   bool solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points) const;
   double size_of(BodyColumns state, const std::vector<ConeConstraint>& points) const;
   bool take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points, double tolerance,
@@ -65,6 +92,9 @@ class ConeSolver {
   ConeAccuracy accuracy_;
   mutable long work_ = 0;
   std::vector<Mat3> inverse_inertia_W_;  // 1/(kg m²)
+  Joints* joints_;
+  std::optional<ImpulseResponses> through_joints_;
+  std::vector<Response> responses_;  // of the points that were prepared last, with joints
 };
 
 // The impulse at one point that meets the laws, given the velocity u that is there with `impulse` acting.

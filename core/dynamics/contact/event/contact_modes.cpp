@@ -19,16 +19,16 @@ constexpr double kSlip = 1e4;  // of the accelerations: what a slip counts as be
 
 bool ContactModes::solve(BodyColumns state, const double* wrench) {
   accelerations_ = state;
+  const double* const total = joints_ ? joints_->hold(state, wrench, ConstraintForces::Rows::chosen_anew) : wrench;
   const MutableBodyColumns table = accelerations_.columns();
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const auto [linear, angular] = persistent_.free_acceleration(state, wrench, static_cast<int>(i));
+    const auto [linear, angular] = persistent_.free_acceleration(state, total, static_cast<int>(i));
     table.set_velocity(i, linear), table.set_angular_velocity(i, angular);
   }
   cones_.clear();
   size_ = kLeastSize;
   for (const PersistentPoint& point : persistent_.points()) {
-    ConeConstraint cone = point.contact.cone;
-    cone.arm_a = point.arm_a, cone.arm_b = point.arm_b, cone.frame = point.frame;
+    ConeConstraint cone = point.cone();
     cone.offset = point.bias;
     cone.target_velocity = 0;
     cone.impulse = point.force.x() > 0 ? point.force : Vec3::Zero();

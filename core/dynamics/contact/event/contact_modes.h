@@ -11,8 +11,9 @@ namespace rigor {
 
 class ContactModes {
  public:
-  ContactModes(const System& system, PersistentForces& forces)
-      : solver_(system), system_(system), persistent_(forces) {}
+  // `joints`, which may be null, are those of the forces.
+  ContactModes(const System& system, PersistentForces& forces, Joints* joints)
+      : solver_(system, {}, joints), system_(system), joints_(joints), persistent_(forces) {}
 
   // Gives each of the persistent points its mode, and drops those that part. False if no forces were found.
   bool choose(BodyColumns state, const double* wrench);
@@ -33,6 +34,7 @@ class ContactModes {
 
   ConeSolver solver_;
   const System& system_;
+  Joints* joints_;
   PersistentForces& persistent_;
   std::vector<ConeConstraint> cones_;
   BodyTable accelerations_;

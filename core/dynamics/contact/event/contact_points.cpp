@@ -84,9 +84,34 @@ void ContactPoints::find(BodyColumns state, const std::vector<std::pair<int, int
       out.push_back(contact);
     }
   }
+  for (std::size_t k = 0; k < limits_.size(); ++k) {
+    const ContactPoint limit = limit_at(state, k);
+    if (limit.gap <= gap) out.push_back(limit);
+  }
+}
+
+ContactPoint ContactPoints::limit_at(BodyColumns state, std::size_t k) const {
+  const JointLimits::Value at = limits_.at(k, state);
+  ContactPoint limit{.a = ContactPoint::kLimit,
+                     .b = ContactPoint::kLimit,
+                     .feature = static_cast<std::uint32_t>(k),
+                     .gap = at.gap,
+                     .restitution = limits_.restitution(k),
+                     .cone = {}};
+  limit.cone.a = limits_.a(k), limit.cone.b = limits_.b(k);
+  limit.cone.arm_a = at.arm_a, limit.cone.arm_b = at.arm_b;
+  limit.cone.is_couple = at.is_of_turning;
+  limit.cone.frame = contact_frame(at.direction);
+  return limit;
 }
 
 bool ContactPoints::follow(BodyColumns state, ContactPoint& contact) {
+  if (contact.is_limit()) {
+    const Vec3 impulse = contact.cone.impulse;
+    contact = limit_at(state, contact.feature);
+    contact.cone.impulse = impulse;
+    return true;
+  }
   const Manifold& points = manifold(state, contact.a, contact.b);
   if (points.size() == 0) return false;
   const Vec3 before = state.position(contact.cone.a) + contact.cone.arm_a;

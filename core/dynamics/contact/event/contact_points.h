@@ -1,4 +1,5 @@
-// The points at which a scene's bodies touch at one instant, for the method `event`.
+// The points at which a scene's bodies touch at one instant, for the method `event`; and limits of joints, which are
+// contacts without friction.
 #pragma once
 
 #include <vector>
@@ -6,24 +7,30 @@
 #include "core/dynamics/collision/broad_phase.h"
 #include "core/dynamics/contact/event/acceleration_bounds.h"
 #include "core/dynamics/contact/event/cone_solver.h"
+#include "core/dynamics/joints/joint_limits.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
 
 struct ContactPoint {
-  int a, b;  // colliders
-  std::uint32_t feature;
-  double gap;  // m
+  int a, b;               // colliders; kLimit of a limit
+  std::uint32_t feature;  // of a limit: which
+  double gap;             // m; rad of a hinge's limit
   double restitution;
   ConeConstraint cone;
+  static constexpr int kLimit = -1;
+  bool is_limit() const { return a == kLimit; }
   bool same_place(const ContactPoint& other) const { return a == other.a && b == other.b && feature == other.feature; }
 };
 
 class ContactPoints {
  public:
-  explicit ContactPoints(const Scene& scene) : colliders_(colliders_of(scene)), laws_(scene) {}
+  explicit ContactPoints(const Scene& scene) : colliders_(colliders_of(scene)), laws_(scene), limits_(scene) {}
 
   const std::vector<Collider>& colliders() const { return colliders_; }
+  const JointLimits& limits() const { return limits_; }
+  // Where hinges are counted on from: a state that the run has come to, `since` [s] after the last.
+  void note_turns(BodyColumns state, double since) { limits_.note(state, since); }
   // The pairs that can touch while the bodies go from one state to the other within dt, accelerated by no more than the
   // bounds, one for each body.
   const std::vector<std::pair<int, int>>& candidates(BodyColumns from, BodyColumns to, double dt,
@@ -34,7 +41,7 @@ class ContactPoints {
   const Manifold& manifold(BodyColumns state, int a, int b);
   // Unit, from b to a: the separating axis of the largest gap, or the one of the least overlap.
   Vec3 separating_axis(BodyColumns state, int a, int b);
-  // Adds each point of the candidates that is closer than `gap`.
+  // Adds each point of the candidates, and each limit, that is closer than `gap`.
   void find(BodyColumns state, const std::vector<std::pair<int, int>>& pairs, double gap,
             std::vector<ContactPoint>& out);
   // The contact at the same place in another state: the same feature, or the nearest of the pair. False if the pair has
@@ -44,9 +51,11 @@ class ContactPoints {
  private:
   const std::vector<std::pair<int, int>>& overlapping_boxes();
   void place(BodyColumns state, const ManifoldPoint& point, ContactPoint& contact) const;
+  ContactPoint limit_at(BodyColumns state, std::size_t k) const;
 
   std::vector<Collider> colliders_;
   ContactLaws laws_;
+  JointLimits limits_;
   BroadPhase broad_phase_;
   std::vector<Aabb> boxes_;
   std::vector<std::pair<int, int>> pairs_;

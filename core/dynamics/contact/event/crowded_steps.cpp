@@ -33,9 +33,10 @@ void turn_and_move(MutableBodyColumns state, std::size_t i, const Vec3& way, con
 
 CrowdedSteps::CrowdedSteps(const ContactParts& parts, ContactPoints& contact_points)
     : system_(parts.system),
+      joints_(parts.joints),
       contact_points_(contact_points),
-      stepper_(parts.integrator.make({system_, nullptr, parts.orientation, parts.settings})),
-      solver_(system_, kAccuracy) {}
+      stepper_(parts.integrator.make({system_, nullptr, parts.orientation, parts.settings, parts.joints})),
+      solver_(system_, kAccuracy, parts.joints) {}
 
 double CrowdedSteps::longest(double dt) { return std::min(kLongest, kShare * dt); }
 
@@ -66,6 +67,7 @@ double CrowdedSteps::take(MutableBodyColumns state, double t, double h) {
                w = state.angular_velocity(i) - free_.columns().angular_velocity(i);
     if (!v.isZero(0) || !w.isZero(0)) turn_and_move(state, i, 0.5 * h * v, 0.5 * h * w);
   }
+  if (joints_) joints_->project(state);
   solve_where_they_came_to(state);
   seconds_ += h, ++steps_;
   length_before_ = h;

@@ -1,8 +1,9 @@
 // Steps that do not look for events, for where the method `event` would find too many of them: Moreau's time-stepping
 // (Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; Acary, Brogliato, Numerical Methods
 // for Nonsmooth Dynamical Systems, 2008, chapter 10). The bodies move as if they were free; what then overlaps is
-// stopped together, within Coulomb's cones, by impulses that acted all through the step. Of first order. A rebound that
-// would be over within a step does not take place: below the speed v* = 2 |g| h an impact is plastic.
+// stopped together, within Coulomb's cones, by impulses that acted all through the step. Of first order; joints are
+// closed at its end. A rebound that would be over within a step does not take place: below the speed v* = 2 |g| h an
+// impact is plastic.
 #pragma once
 
 #include <memory>
@@ -35,6 +36,7 @@ class CrowdedSteps {
   void solve_where_they_came_to(MutableBodyColumns state);
 
   const System& system_;
+  Joints* joints_;
   ContactPoints& contact_points_;
   std::unique_ptr<Stepper> stepper_;
   ConeSolver solver_;

@@ -5,7 +5,8 @@
 // Where no forces between touching bodies obey the laws (Painlevé's paradox: a rod that slides at a steep angle), an
 // impact without collision, of a step of kInstant, leads on. Where bodies are not sure to stay apart
 // (conservative_advancement.h, acceleration_bounds.h) the time is halved, so that nothing passes through and no graze
-// is missed.
+// is missed. Limits of joints are points of contact without friction; where joints hold the bodies, impulses and forces
+// act through them.
 //
 // Where events crowd, as in the infinitely many small impacts with which a row of dominoes comes to lie, a run has a
 // budget: once it has spent it, the rest of a step is taken in steps that do not look for events (crowded_steps.h), and
@@ -20,8 +21,8 @@
 #include <tuple>
 #include <utility>
 
-#include "core/dynamics/collision/conservative_advancement.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/dynamics/contact/event/clearance.h"
 #include "core/dynamics/contact/event/crowded_steps.h"
 #include "core/dynamics/contact/event/persistent_contact.h"
 #include "core/engine/option_values.h"
@@ -30,10 +31,9 @@ namespace rigor {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTouching = 1e-10;  // m: gaps this small are closed; at 1 m/s it is 1e-10 s
-constexpr double kRounding = 1e-15;  // m: of the gap of bodies that touched at the start
-constexpr double kInstant = 1e-6;    // s
-constexpr int kMostInstants = 100;   // in a step
+constexpr double kClosedGap = 1e-10;  // m: gaps this small are closed; at 1 m/s it is 1e-10 s
+constexpr double kInstant = 1e-6;     // s
+constexpr int kMostInstants = 100;    // in a step
 // Steps of the integrator, times the bodies that move: saved up at most, and for each step of the run. What an impact
 // costs is some ten of them; a ball that bounces with e = 0.9 comes to rest within 1700.
 constexpr double kMostSaved = 6000, kForEachStep = 200;
@@ -56,9 +56,10 @@ class EventStepper : public ContactStepper {
       : contact_points_(scene),
         loads_(parts.system.loads),
         persistent_contact_(parts, contact_points_),
-        impacts_(parts.system, number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
+        impacts_(parts.system, number_option(parts.settings, "restitution-threshold", kRestitutionThreshold),
+                 parts.joints),
         crowded_(parts, contact_points_),
-        bounds_(parts.system),
+        clearance_(parts.system, contact_points_, persistent_contact_),
         patience_(number_option(parts.settings, "patience", 1)),
         moving_(std::max<double>(
             1, static_cast<double>(std::count_if(parts.system.bodies.begin(), parts.system.bodies.end(),
@@ -99,7 +100,8 @@ class EventStepper : public ContactStepper {
   SettingsInForce settings_in_force() const override {
     return {
         {"impacts", "at their own instants, simultaneous ones together"},
-        {"persistent contact", "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
+        {persistent_contact_.has_joints() ? "joints and persistent contact" : "persistent contact",
+         "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
         {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.restitution_threshold())},
         {"where events crowd", "inelastic steps of first order, of 1/120 s or a quarter of the run's at most"}};
   }
@@ -136,7 +138,7 @@ class EventStepper : public ContactStepper {
   double take_part(MutableBodyColumns state) {
     pairs_ = contact_points_.candidates(state);
     touching_.clear();
-    contact_points_.find(state, pairs_, kTouching, touching_);
+    contact_points_.find(state, pairs_, kClosedGap, touching_);
     start_ = BodyColumns(state);
     if (impacts_.resolve(state, touching_)) is_smooth_ = false;
     if (!impacts_.solver_warning().empty()) {
@@ -157,7 +159,8 @@ class EventStepper : public ContactStepper {
     longest_ = kInfinity;
     attempt(part_.length());
     shorten_until_bounded();
-    pairs_ = contact_points_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length(), bounds_);
+    pairs_ = contact_points_.candidates(start_.columns(), std::as_const(end_).columns(), part_.length(),
+                                        clearance_.bounds());
     clear_ = std::as_const(start_).columns();
     double clear = 0;
     ahead_ = {part_.length()};
@@ -165,7 +168,7 @@ class EventStepper : public ContactStepper {
       const double h = ahead_.back(), distance = pieces == 0 ? distance_from_event() : attempt(h);
       if (distance < 0) return locate(state, clear, h, distance);
       if (pieces > patience_ * kMostPieces) return go_past_neighbours(state, clear);
-      if (!all_stay_apart(clear, h - clear)) {
+      if (!is_clear_until(clear, h)) {
         ahead_.push_back(0.5 * (clear + h));
         continue;
       }
@@ -182,35 +185,10 @@ class EventStepper : public ContactStepper {
     return commit(state, part_.from + clear);
   }
 
-  // Whether no pair can have touched between clear_, the state after `clear`, and end_, h after it. Points that are
-  // persistent are no news, and what they let their bodies do shows at the end.
-  bool all_stay_apart(double clear, double h) {
-    if (!are_bounded(std::as_const(clear_).columns(), clear, h)) return false;
+  // From clear_, the state after `clear`, to end_ after h.
+  bool is_clear_until(double clear, double h) {
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
-    return std::all_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
-      const auto [a, b] = pair;
-      const auto is_of_pair = [&](const PersistentPoint& point) {
-        return point.contact.a == a && point.contact.b == b;
-      };
-      if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair))
-        return true;
-      if (stays(a) && stays(b)) return true;
-      const Collider &first = contact_points_.colliders()[a], &second = contact_points_.colliders()[b];
-      return stay_apart(first, second, {from, contact_points_.separating_axis(from, a, b)},
-                        {to, contact_points_.separating_axis(to, a, b)}, bend_of(first), bend_of(second), h);
-    });
-  }
-
-  // Whether a collider is where it was at the part's start, whatever the part's length.
-  bool stays(int collider) const {
-    const Collider& of = contact_points_.colliders()[collider];
-    return of.fixed || persistent_contact_.rests(of.body);
-  }
-
-  Bend bend_of(const Collider& collider) const {
-    if (collider.fixed) return {};
-    const AccelerationBound& bound = bounds_.of(collider.body);
-    return {bound.linear, bound.of_point(collider.bounding_radius)};
+    return are_bounded(from, clear, h - clear) && clearance_.all_stay_apart(pairs_, {from, clear}, {to, h});
   }
 
   // Of what a stiff spring may do within a long step there is no bound.
@@ -225,21 +203,25 @@ class EventStepper : public ContactStepper {
 
   // The accelerations on the way from the state after `after` to end_, h after it.
   bool are_bounded(BodyColumns from, double after, double h) {
-    return bounds_.find(from, std::as_const(end_).columns(), part_.t + part_.from + after, h,
-                        persistent_contact_.largest_loads());
+    return clearance_.find_bounds(from, std::as_const(end_).columns(), part_.t + part_.from + after, h);
   }
+
+  double least_gap() { return clearance_.least_gap(pairs_, touching_, {std::as_const(end_).columns(), reach_}); }
 
   // The state after h into end_. Positive before the first event, negative after it.
   double attempt(double h) {
+    reach_ = h;
     persistent_contact_.advance(start_.columns(), end_.columns(), part_.t + part_.from, h);
     return distance_from_event();
   }
 
-  double distance_from_event() { return std::min(persistent_contact_.distance_from_change(), least_free_gap()); }
+  double distance_from_event() { return std::min(persistent_contact_.distance_from_change(), least_gap()); }
 
   double commit(MutableBodyColumns state, double done) {
     copy_columns(std::as_const(end_).columns(), state);
     note(persistent_contact_.solver_warning());
+    contact_points_.note_turns(state, done - part_.from);
+    persistent_contact_.close_joints(state);
     if (persistent_contact_.points().empty()) return done;
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all);
@@ -261,6 +243,7 @@ class EventStepper : public ContactStepper {
     if (patience_ > 1 && longest > kInstant) note("events crowd more than its patience allows");
     if (!crowded_from_ && longest > kInstant) crowded_from_ = part_.t + part_.from;
     const double h = crowded_.take(state, part_.t + part_.from, std::min(part_.length(), longest));
+    contact_points_.note_turns(state, h);
     persistent_contact_.forget_points();
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
@@ -279,7 +262,7 @@ class EventStepper : public ContactStepper {
     is_smooth_ = false;
     if (distance_low > 0) std::tie(low, high) = root(low, high, distance_low, distance_high);
     // What a mode ends with is chosen anew beyond its end; bodies that meet are stopped before they overlap.
-    const bool is_change = (attempt(high), persistent_contact_.distance_from_change() < 0) && least_free_gap() >= 0;
+    const bool is_change = (attempt(high), persistent_contact_.distance_from_change() < 0) && least_gap() >= 0;
     if (!is_change) attempt(low), high = low;
     return commit(state, part_.from + high);
   }
@@ -316,37 +299,12 @@ class EventStepper : public ContactStepper {
                                              distance_high, [=](double a, double b) { return b - a <= width; }, most);
   }
 
-  // The least gap of points not in persistent contact. Where others of the pair are, what these drift is allowed to
-  // them too.
-  double least_free_gap() {
-    double least = kInfinity;
-    const std::vector<PersistentPoint>& known = persistent_contact_.points();
-    for (const auto& [a, b] : pairs_) {
-      if (stays(a) && stays(b)) continue;
-      double drift = 0;
-      const auto is_of_pair = [&](const auto& point) { return point.a == a && point.b == b; };
-      for (const ContactPoint& point : touching_) {
-        if (is_of_pair(point)) drift = std::max(drift, kRounding - point.gap);
-      }
-      for (const PersistentPoint& point : known) {
-        if (is_of_pair(point.contact)) drift = std::max(drift, kRounding + 4 * std::abs(point.kinematics.gap));
-      }
-      for (const ManifoldPoint& point : contact_points_.manifold(end_.columns(), a, b)) {
-        const bool is_known = std::any_of(known.begin(), known.end(), [&](const PersistentPoint& h) {
-          return is_of_pair(h.contact) && h.contact.feature == point.feature;
-        });
-        if (!is_known) least = std::min(least, point.gap + drift);
-      }
-    }
-    return least;
-  }
-
   ContactPoints contact_points_;
   const Loads& loads_;
   PersistentContact persistent_contact_;
   Impacts impacts_;
   CrowdedSteps crowded_;
-  AccelerationBounds bounds_;
+  Clearance clearance_;
   double patience_;
   double moving_;                                      // bodies
   double saved_ = std::numeric_limits<double>::max();  // of the budget, in steps of the integrator
@@ -357,6 +315,7 @@ class EventStepper : public ContactStepper {
   int instants_ = 0;            // skipped in this step
   bool is_smooth_ = true;
   BodyTable start_, end_, clear_;
+  double reach_ = 0;           // s, from start_ to end_
   std::vector<double> ahead_;  // s, ends of the intervals still to be looked at, the next one last
   std::vector<ContactPoint> touching_;
   std::vector<std::pair<int, int>> pairs_;
@@ -370,8 +329,8 @@ extern const ContactMethod kEventContact;
 const ContactMethod kEventContact = {
     .name = "event",
     .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
-    .features =
-        joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none", "restitution"}),
+    .features = joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none",
+                                                  "restitution", "joints-with-contacts", "joint-limit"}),
     .options = {{"restitution-threshold", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1},
                 {"patience",
                  "times of what it may spend on events by default; more than 1: invalid where they crowd",

@@ -3,7 +3,7 @@
 // into a neighbour is resolved in the next round, and so on until nothing approaches. Thus a cradle passes its impulse
 // through, and a box lands on its four corners at once. Where Newton's law would create energy (Kane's paradox: an
 // oblique blow on a corner with friction), the restitution of that round is lowered until it does not. Infinite
-// friction stops slips of what touches at once, as an impact.
+// friction stops slips of what touches at once, as an impact. Impulses act through the joints.
 #pragma once
 
 #include "core/dynamics/contact/event/contact_points.h"
@@ -20,8 +20,9 @@ double kinetic_energy(const System& system, BodyColumns state);  // J
 
 class Impacts {
  public:
-  Impacts(const System& system, double restitution_threshold)
-      : system_(system), solver_(system), restitution_threshold_(restitution_threshold) {}
+  // `joints` may be null.
+  Impacts(const System& system, double restitution_threshold, Joints* joints)
+      : system_(system), solver_(system, {}, joints), restitution_threshold_(restitution_threshold) {}
 
   double restitution_threshold() const { return restitution_threshold_; }  // m/s
 

@@ -13,15 +13,29 @@ constexpr int kMostActiveSets = 10;  // of unilateral targets
 
 }  // namespace
 
-MassWeightedProjection::Side MassWeightedProjection::side_of(BodyColumns state, int body, const Vec3& arm,
-                                                             const Vec3& direction) const {
-  Side side{body, PoseStep::Zero(), PoseStep::Zero()};
-  if (system_.bodies[body].fixed) return side;
-  const Vec3 turn = arm.cross(direction);
-  side.by << direction, turn;
-  side.to << system_.bodies[body].inverse_mass * direction,
-      angular_velocity_of(system_.bodies[body], state.rotation(body), turn);
-  return side;
+MassWeightedProjection::Row MassWeightedProjection::row_of(BodyColumns state, const ProjectionTarget& target) {
+  Row row;
+  const auto along = [&](const Vec3& arm, const Vec3& direction) -> PoseStep {
+    return target.is_of_turning ? joined(Vec3::Zero(), direction) : joined(direction, arm.cross(direction));
+  };
+  const PoseStep on[] = {along(target.arm_a, target.direction), along(target.arm_b, -target.direction)};
+  for (const auto& [end, body] : {std::pair(0, target.a), std::pair(1, target.b)}) {
+    if (body == kWorld) continue;
+    const Inertia& inertia = system_.bodies[body];
+    PoseStep by = PoseStep::Zero(), to = PoseStep::Zero();
+    if (!inertia.fixed) {
+      by = on[end];
+      to << inertia.inverse_mass * by.head<3>(), angular_velocity_of(inertia, state.rotation(body), by.tail<3>());
+    }
+    row.by.push_back({body, by});
+    if (!joints_) row.to.push_back({body, to});
+    row.scale += by.dot(to);
+  }
+  if (!joints_) return row;
+  const std::vector<int> moved = through_joints_->moved_by(target.a, target.b);
+  const std::vector<Vec6>& change = through_joints_->of(moved, target.a, on[0], target.b, on[1]);
+  for (const int body : moved) row.to.push_back({body, change[body]});
+  return row;
 }
 
 // One for each place, zero where it is not used, and everywhere if there is no solution.
@@ -29,17 +43,19 @@ Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<Projection
                                                     const std::vector<bool>& is_used) {
   const auto count = static_cast<Eigen::Index>(targets.size());
   std::vector<Eigen::Triplet<double>> entries;
-  std::vector<std::vector<std::pair<Eigen::Index, const Side*>>> of_body(system_.size());
+  using Entries = std::vector<std::pair<Eigen::Index, const PoseStep*>>;
+  std::vector<Entries> by_body(system_.size()), to_body(system_.size());
   Eigen::VectorXd regularisation = Eigen::VectorXd::Ones(count), amounts = Eigen::VectorXd::Zero(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     if (!is_used[i]) continue;
     amounts[i] = targets[i].amount;
-    regularisation[i] = kRegularisation * (sides_[i][0].by.dot(sides_[i][0].to) + sides_[i][1].by.dot(sides_[i][1].to));
-    for (const Side& side : sides_[i]) of_body[side.body].emplace_back(i, &side);
+    regularisation[i] = kRegularisation * rows_[i].scale;
+    for (const Part& part : rows_[i].by) by_body[part.body].emplace_back(i, &part.of);
+    for (const Part& part : rows_[i].to) to_body[part.body].emplace_back(i, &part.of);
   }
-  for (const auto& sides : of_body) {
-    for (const auto& [i, of] : sides)
-      for (const auto& [j, by] : sides) entries.emplace_back(i, j, of->by.dot(by->to));
+  for (std::size_t body = 0; body < system_.size(); ++body) {
+    for (const auto& [i, by] : by_body[body])
+      for (const auto& [j, to] : to_body[body]) entries.emplace_back(i, j, by->dot(*to));
   }
   Eigen::SparseMatrix<double> delassus(count, count), regularised;
   delassus.setFromTriplets(entries.begin(), entries.end());
@@ -57,11 +73,12 @@ Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<Projection
 
 const std::vector<PoseStep>& MassWeightedProjection::project(BodyColumns state,
                                                              const std::vector<ProjectionTarget>& targets) {
-  sides_.clear();
-  for (const ProjectionTarget& target : targets) {
-    sides_.push_back({side_of(state, target.a, target.arm_a, target.direction),
-                      side_of(state, target.b, target.arm_b, -target.direction)});
+  rows_.clear();
+  if (joints_) {
+    joints_->velocity_impulse(state);  // for its factor
+    through_joints_->set_pose(state);
   }
+  for (const ProjectionTarget& target : targets) rows_.push_back(row_of(state, target));
   std::vector<bool> is_used(targets.size(), true);
   Eigen::VectorXd multiplier;
   for (int choice = 0; choice < kMostActiveSets && !targets.empty(); ++choice) {
@@ -75,7 +92,7 @@ const std::vector<PoseStep>& MassWeightedProjection::project(BodyColumns state,
   }
   motion_.assign(system_.size(), PoseStep::Zero());
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    for (const Side& side : sides_[i]) motion_[side.body] += multiplier[i] * side.to;
+    for (const Part& part : rows_[i].to) motion_[part.body] += multiplier[i] * part.of;
   }
   return motion_;
 }

@@ -2,23 +2,26 @@
 // the one of least dx·M dx,
 //   dx = M⁻¹ Jᵀ lambda,   (J M⁻¹ Jᵀ) lambda = b,
 // with J M⁻¹ Jᵀ the Delassus matrix; unilateral targets keep lambda >= 0. It closes gaps, and takes away what is left
-// of a speed.
+// of a speed. Where joints hold the bodies, M⁻¹ is what they leave of it (impulse_responses.h): no motion breaks them,
+// to first order.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/dynamics/model/system.h"
+#include "core/dynamics/contact/event/cone_solver.h"
 
 namespace rigor {
 
 struct ProjectionTarget {
-  int a = 0, b = 0;       // bodies
-  Vec3 arm_a, arm_b;      // m, to the point, in W
-  Vec3 direction;         // unit, in W, of a against b
-  double amount = 0;      // b: m or m/s, of the motion of a against b along it
-  bool bilateral = true;  // false: unilateral, b may push a along the direction but not pull it
+  int a = 0, b = 0;            // bodies, or the world
+  Vec3 arm_a, arm_b;           // m, to the point, in W
+  Vec3 direction;              // unit, in W, of a against b
+  bool is_of_turning = false;  // a's rotation against b's about the direction, not a motion of the point along it
+  double amount = 0;           // b: m or m/s, rad or rad/s, of the motion of a against b
+  bool bilateral = true;       // false: unilateral, b may push a along the direction but not pull it
 };
 
 // Three of a body's speeds along and three about W's axes, or what these make of its pose.
@@ -26,22 +29,31 @@ using PoseStep = Eigen::Matrix<double, 6, 1>;
 
 class MassWeightedProjection {
  public:
-  explicit MassWeightedProjection(const System& system) : system_(system) {}
+  // `joints`, which may be null, must outlive it.
+  explicit MassWeightedProjection(const System& system, Joints* joints = nullptr) : system_(system), joints_(joints) {
+    if (joints_) through_joints_.emplace(system, *joints_);
+  }
   // One step for each body of the system; none for any where that is impossible, and a solver warning.
   const std::vector<PoseStep>& project(BodyColumns state, const std::vector<ProjectionTarget>& targets);
   // Of all since the last call.
   std::string take_solver_warning() { return std::exchange(solver_warning_, {}); }
 
  private:
-  struct Side {
+  struct Part {
     int body;
-    PoseStep by, to;  // the row of J; the column of M⁻¹ Jᵀ
+    PoseStep of;
   };
-  Side side_of(BodyColumns state, int body, const Vec3& arm, const Vec3& direction) const;
+  struct Row {
+    std::vector<Part> by, to;  // the row of J; the column of M⁻¹ Jᵀ
+    double scale = 0;          // by M⁻¹ byᵀ, without joints
+  };
+  Row row_of(BodyColumns state, const ProjectionTarget& target);
   Eigen::VectorXd multipliers(const std::vector<ProjectionTarget>& targets, const std::vector<bool>& is_used);
 
   const System& system_;
-  std::vector<std::array<Side, 2>> sides_;
+  Joints* joints_;
+  std::optional<ImpulseResponses> through_joints_;
+  std::vector<Row> rows_;
   std::vector<PoseStep> motion_;
   std::string solver_warning_;
 };

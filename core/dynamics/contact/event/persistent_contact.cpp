@@ -42,15 +42,16 @@ void move(MutableBodyColumns state, std::size_t i, const PoseStep& motion) {
 
 PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& contact_points)
     : system_(parts.system),
+      joints_(parts.joints),
       in_contact_(rigor::integrator_in_contact(parts.integrator)),
       contact_points_(contact_points),
-      persistent_(system_, contact_points.colliders()),
-      modes_(system_, persistent_),
+      persistent_(system_, contact_points, parts.joints),
+      modes_(system_, persistent_, parts.joints),
       free_stepper_(parts.integrator.make({system_, nullptr, parts.orientation, parts.settings})),
       contact_stepper_(
           in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, nullptr, &persistent_})),
       loads_(system_),
-      projection_(system_),
+      projection_(system_, parts.joints),
       restitution_threshold_(number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
       rests_(parts.system.size(), 0) {}
 
@@ -60,16 +61,19 @@ bool PersistentContact::select(MutableBodyColumns state, const std::vector<Conta
   old_points_.swap(points);
   old_points_.insert(old_points_.end(), resting_points_.begin(), resting_points_.end());
   forget_points();
+  if (joints_) noted_ = joints_->noted();
   const auto& colliders = contact_points_.colliders();
   for (const ContactPoint& contact : contact_points) {
     const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
     if (u.x() > kSlow * restitution_threshold_) continue;
     PersistentPoint point;
     point.contact = contact;
-    const Collider &a = colliders[contact.a], &b = colliders[contact.b];
-    const ManifoldPoint place{contact.cone.frame.col(0), state.position(contact.cone.a) + contact.cone.arm_a,
-                              contact.gap, contact.feature};
-    point.features = features_at(place, a, pose_of(state, a.body), b, pose_of(state, b.body));
+    if (!contact.is_limit()) {
+      const Collider &a = colliders[contact.a], &b = colliders[contact.b];
+      const ManifoldPoint place{contact.cone.frame.col(0), state.position(contact.cone.a) + contact.cone.arm_a,
+                                contact.gap, contact.feature};
+      point.features = features_at(place, a, pose_of(state, a.body), b, pose_of(state, b.body));
+    }
     const bool slides = contact.cone.friction == 0 ||
                         (std::isfinite(contact.cone.friction) && u.tail<2>().norm() > ContactModes::kSliding);
     point.mode = slides ? PersistentPoint::Mode::slides : PersistentPoint::Mode::sticks;
@@ -90,9 +94,9 @@ void PersistentContact::forget_points() {
   rests_.assign(system_.size(), 0);
 }
 
-// Where only gravity acts, what rests together does so for good.
+// Where only gravity acts, what rests together does so for good. Joints would have to rest with it.
 void PersistentContact::set_resting_aside(BodyColumns state) {
-  if (!system_.loads.empty() || modes_.are_at_rest(state)) return;
+  if (joints_ || !system_.loads.empty() || modes_.are_at_rest(state)) return;
   std::vector<std::pair<int, int>> pairs;
   for (const PersistentPoint& point : points()) pairs.emplace_back(point.contact.cone.a, point.contact.cone.b);
   std::vector<char> is_aside(pairs.size(), 0);
@@ -112,13 +116,14 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
   persistent_.begin_attempt();
   copy_columns(start, end);
   ++passes_;
-  (points().empty() ? free_stepper_ : contact_stepper_)->step(end, t, dt);
+  if (joints_) joints_->note_only(noted_);
+  (is_free() ? free_stepper_ : contact_stepper_)->step(end, t, dt);
   for (std::size_t i = 0; i < end.size(); ++i) {
     if (!rests_[i]) continue;
     end.set_body(i, start.body(i));
     if (end.has_rotation()) end.set_rotation(i, start.rotation(i));
   }
-  if (points().empty()) return;
+  if (is_free()) return;
   if (end.has_rotation() && contact_stepper_ && in_contact_.default_orientation.empty()) {
     for (std::size_t i = 0; i < end.size(); ++i) end.set_rotation(i, matrix_of(end.orientation(i)));
   }
@@ -194,7 +199,7 @@ bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<s
     deepest_ = ContactPoint();
     double widest = 0;
     for (const ContactPoint& contact : open_) {
-      if (contact.gap < deepest_.gap) deepest_ = contact;
+      if (contact.gap < deepest_.gap && !contact.is_limit()) deepest_ = contact;
       const bool is_carrying = which == Closing::all && carries(contact);
       if (!(contact.gap < 0 || is_carrying)) continue;
       widest = std::max(widest, std::abs(contact.gap));
@@ -207,6 +212,7 @@ bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<s
       is_one_by_one = true, most = k + kMostSweeps;
     if (is_one_by_one) {
       part_one_by_one(state);
+      close_joints(state);
       continue;
     }
     if (has_stalled) return k > 0;  // by rounding
@@ -214,6 +220,7 @@ bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<s
     for (std::size_t i = 0; i < motion.size(); ++i) {
       if (!motion[i].isZero(0)) move(state, i, motion[i]);
     }
+    close_joints(state);
   }
   return true;
 }
@@ -229,6 +236,7 @@ const ContactPoint* PersistentContact::jam() const {
 void PersistentContact::part_one_by_one(MutableBodyColumns state) {
   moved_.assign(state.size(), Vec3::Zero());
   for (const ContactPoint& contact : open_) {
+    if (contact.is_limit()) continue;
     const int a = contact.cone.a, b = contact.cone.b;
     const Vec3 n = contact.cone.frame.col(0);
     const double left = -contact.gap - n.dot(moved_[a] - moved_[b]);
@@ -240,20 +248,25 @@ void PersistentContact::part_one_by_one(MutableBodyColumns state) {
   for (std::size_t i = 0; i < state.size(); ++i) state.set_position(i, state.position(i) + moved_[i]);
 }
 
+void PersistentContact::close_joints(MutableBodyColumns state) {
+  if (joints_) joints_->project(state);
+}
+
 void PersistentContact::stop_points(MutableBodyColumns state) {
   if (points().empty()) return;
   persistent_.place(state);
   targets_.clear();
   double most = 0, speed = 0;
   for (const PersistentPoint& point : points()) {
-    ConeConstraint cone = point.contact.cone;
-    cone.arm_a = point.arm_a, cone.arm_b = point.arm_b, cone.frame = point.frame;
+    const ConeConstraint cone = point.cone();
     const int last = point.mode == PersistentPoint::Mode::sticks ? 2 : 0;
     for (int axis = 0; axis <= last; ++axis) {
       add_target(cone, axis, -point.velocity[axis], true);
       most = std::max(most, std::abs(point.velocity[axis]));
     }
-    speed = std::max({speed, state.velocity(cone.a).norm(), state.velocity(cone.b).norm()});
+    for (const int body : {cone.a, cone.b}) {
+      if (body != kWorld) speed = std::max(speed, state.velocity(body).norm());
+    }
   }
   if (most <= kStill * (1 + speed)) return;
   const std::vector<PoseStep>& motion = projection_.project(state, targets_);
@@ -265,7 +278,7 @@ void PersistentContact::stop_points(MutableBodyColumns state) {
 }
 
 std::string PersistentContact::solver_warning() const {
-  return points().empty() ? free_stepper_->solver_warning() : contact_stepper_->solver_warning();
+  return is_free() ? free_stepper_->solver_warning() : contact_stepper_->solver_warning();
 }
 
 void PersistentContact::add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral) {
@@ -274,6 +287,7 @@ void PersistentContact::add_target(const ConeConstraint& cone, int axis, double 
                       .arm_a = cone.arm_a,
                       .arm_b = cone.arm_b,
                       .direction = cone.frame.col(axis),
+                      .is_of_turning = cone.is_couple,
                       .amount = amount,
                       .bilateral = bilateral});
 }

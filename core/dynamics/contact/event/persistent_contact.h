@@ -1,7 +1,8 @@
 // Motion in persistent contact, for the method `event`: the forces at the points in contact are part of the equations
 // of motion (persistent_forces.h), which the integrator asks at each of its stages, so that they keep its order as long
 // as each point goes on to stick or to slide. Its drift is taken back after each step. An integrator that does not ask
-// at stages hands what is in contact over to one that does, of no lower order.
+// at stages hands what is in contact over to one that does, of no lower order. So it is with joints, whether or not
+// anything touches: between two impacts they and the points are held by one system of equations.
 #pragma once
 
 #include "core/dynamics/contact/contact_method.h"
@@ -38,6 +39,8 @@ class PersistentContact {
   // whether any body had to move.
   enum class Closing { overlaps, all };
   bool close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs, Closing which);
+  // Brings the joints back to where they hold.
+  void close_joints(MutableBodyColumns state);
   // The point at which the last close_gaps() left two bodies deep in each other, for they have no room; null if there
   // is none.
   const ContactPoint* jam() const;
@@ -46,6 +49,7 @@ class PersistentContact {
 
   const std::vector<Loading>& largest_loads() const { return persistent_.largest_loads(); }
   const std::string& integrator_in_contact() const { return in_contact_.name; }
+  bool has_joints() const { return joints_ != nullptr; }
   long passes() const { return passes_; }  // steps of the integrator so far
   // What went wrong in closing gaps and stopping points since the last call; empty if nothing did.
   std::string take_projection_warning() { return projection_.take_solver_warning(); }
@@ -60,7 +64,11 @@ class PersistentContact {
   void part_one_by_one(MutableBodyColumns state);
   void add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral);
 
+  bool is_free() const { return points().empty() && !joints_; }
+
   const System& system_;
+  Joints* joints_;
+  std::string noted_;  // of the joints, before what is tried now
   const Integrator& in_contact_;
   ContactPoints& contact_points_;
   PersistentForces persistent_;

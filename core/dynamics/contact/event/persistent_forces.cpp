@@ -18,8 +18,13 @@ constexpr double kNoSlip = 1e-9;    // m/s: a slip that has no direction of its 
 
 }  // namespace
 
-PersistentForces::PersistentForces(const System& system, const std::vector<Collider>& colliders)
-    : system_(system), colliders_(colliders), place_(system.size(), -1), largest_(system.size()) {
+PersistentForces::PersistentForces(const System& system, const ContactPoints& contact_points, Joints* joints)
+    : system_(system),
+      contact_points_(contact_points),
+      joints_(joints),
+      place_(system.size(), -1),
+      largest_(system.size()) {
+  if (joints_) through_joints_.emplace(system, *joints_);
   for (const Inertia& body : system.bodies) {
     const Mat3 root = body.fixed ? Mat3::Zero().eval() : Mat3(body.inverse_inertia_B.llt().matrixL());
     inertia_root_B_.push_back(root);
@@ -39,17 +44,22 @@ void PersistentForces::find_islands() {
   }
   std::vector<std::pair<int, int>> pairs;
   for (const PersistentPoint& point : points_) pairs.emplace_back(point.contact.cone.a, point.contact.cone.b);
-  islands_ = islands_of(system_, pairs);
+  islands_ = islands_of(system_, pairs, joints_);
   for (const Island& island : islands_) {
     for (std::size_t k = 0; k < island.bodies.size(); ++k) place_[island.bodies[k]] = static_cast<int>(k);
   }
 }
 
 void PersistentForces::place(BodyColumns state) {
+  const std::vector<Collider>& colliders = contact_points_.colliders();
   for (PersistentPoint& point : points_) {
+    if (point.contact.is_limit()) {
+      place_limit(state, point);
+      continue;
+    }
     const ConeConstraint& cone = point.contact.cone;
-    const RigidMotion a = motion_of(state, colliders_[point.contact.a]),
-                      b = motion_of(state, colliders_[point.contact.b]);
+    const RigidMotion a = motion_of(state, colliders[point.contact.a]),
+                      b = motion_of(state, colliders[point.contact.b]);
     point.kinematics = contact_kinematics(point.features, a, b);
     const ContactKinematics& kinematics = point.kinematics;
     point.frame = contact_frame(kinematics.normal);
@@ -68,26 +78,50 @@ void PersistentForces::place(BodyColumns state) {
   }
 }
 
+// Its gap is not asked for: what is kept does not turn by much.
+void PersistentForces::place_limit(BodyColumns state, PersistentPoint& point) const {
+  const JointLimits::Value at = contact_points_.limits().at(point.contact.feature, state);
+  point.kinematics.normal = at.direction;
+  point.frame = contact_frame(at.direction);
+  point.arm_a = at.arm_a, point.arm_b = at.arm_b;
+  point.velocity = Vec3(at.rate, 0, 0), point.bias = Vec3(at.bias, 0, 0);
+}
+
 void PersistentForces::add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force) {
   const PersistentPoint& at = points_[point];
+  const ConeConstraint cone = at.cone();
   Row row;
   row.point = point, row.axis = axis;
   double square = 0;
   for (int end = 0; end < 2; ++end) {
-    const int body = end == 0 ? at.contact.cone.a : at.contact.cone.b, place = place_[body];
+    const int body = end == 0 ? cone.a : cone.b, place = body == kWorld ? -1 : place_[body];
     if (place < 0) continue;
-    const double sign = end == 0 ? 1 : -1, root = sign * std::sqrt(system_.bodies[body].inverse_mass);
-    const Vec3& arm = end == 0 ? at.arm_a : at.arm_b;
+    const double root = std::sqrt(system_.bodies[body].inverse_mass);
+    const auto scaled = [&](const Vec6& of) {
+      return joined(root * of.head<3>(), root_W_[place].transpose() * of.tail<3>());
+    };
     Side& side = row.side[end];
     side.place = place;
-    side.of_J << root * direction, sign * (root_W_[place].transpose() * arm.cross(direction));
-    side.of_P << root * force, sign * (root_W_[place].transpose() * arm.cross(force));
+    side.of_J = scaled(cone.row(end, direction)), side.of_P = scaled(cone.row(end, force));
     square += side.of_J.squaredNorm();
   }
   if (square == 0) return;
   row.bias = at.bias[axis];
   row.weight = kPenalty / square;
+  if (joints_) row.response = response_to(cone, force);
   rows_.push_back(row);
+}
+
+Eigen::VectorXd PersistentForces::response_to(const ConeConstraint& at, const Vec3& force) {
+  const std::vector<int> moved = through_joints_->moved_by(at.a, at.b);
+  const std::vector<Vec6>& change = through_joints_->of(moved, at.a, at.row(0, force), at.b, at.row(1, force));
+  Eigen::VectorXd response = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(island_.size()));
+  for (const int body : moved) {
+    const int place = place_[body];
+    response.segment<3>(6 * place) = std::sqrt(system_.bodies[body].mass) * change[body].head<3>();
+    response.segment<3>(6 * place + 3) = root_W_[place].inverse() * change[body].tail<3>();
+  }
+  return response;
 }
 
 void PersistentForces::list_rows(const Island& island) {
@@ -128,8 +162,10 @@ std::pair<Vec3, Vec3> PersistentForces::free_acceleration(BodyColumns state, con
 double PersistentForces::normal_acceleration(BodyColumns state, const double* total,
                                              const PersistentPoint& point) const {
   const auto along = [&](int body, const Vec3& arm) {
+    if (body == kWorld) return 0.0;
     const auto [linear, angular] = free_acceleration(state, total, body);
-    return point.kinematics.normal.dot(linear + angular.cross(arm));
+    const Vec3 of_point = point.contact.cone.is_couple ? angular : Vec3(linear + angular.cross(arm));
+    return point.kinematics.normal.dot(of_point);
   };
   return along(point.contact.cone.a, point.arm_a) - along(point.contact.cone.b, point.arm_b) + point.bias.x();
 }
@@ -150,6 +186,10 @@ double PersistentForces::largest_force() const {
 double PersistentForces::find_residuals(const Eigen::VectorXd& free) {
   acceleration_ = free;
   for (const Row& row : rows_) {
+    if (joints_) {
+      acceleration_ += row.multiplier * row.response;
+      continue;
+    }
     for (const Side& side : row.side) {
       if (side.place >= 0) acceleration_.segment<6>(6 * side.place) += row.multiplier * side.of_P;
     }
@@ -215,24 +255,35 @@ void PersistentForces::assemble_in_accelerations(Eigen::Index size) {
   }
 }
 
+// What a unit of one row's force adds to the acceleration of another.
+double PersistentForces::effect(const Row& of, const Row& by) const {
+  double sum = 0;
+  for (const Side& of_side : of.side) {
+    if (of_side.place < 0) continue;
+    if (joints_) {
+      sum += of_side.of_J.dot(by.response.segment<6>(6 * of_side.place));
+      continue;
+    }
+    for (const Side& by_side : by.side) {
+      if (of_side.place == by_side.place) sum += of_side.of_J.dot(by_side.of_P);
+    }
+  }
+  return sum;
+}
+
 void PersistentForces::assemble_in_forces() {
   const auto count = static_cast<Eigen::Index>(rows_.size());
   matrix_.setZero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    matrix_(i, i) = 1 / rows_[static_cast<std::size_t>(i)].weight;
-    for (Eigen::Index j = 0; j < count; ++j) {
-      for (const Side& of : rows_[static_cast<std::size_t>(i)].side) {
-        for (const Side& by : rows_[static_cast<std::size_t>(j)].side) {
-          if (of.place >= 0 && of.place == by.place) matrix_(i, j) += of.of_J.dot(by.of_P);
-        }
-      }
-    }
+    const Row& row = rows_[static_cast<std::size_t>(i)];
+    matrix_(i, i) = 1 / row.weight;
+    for (Eigen::Index j = 0; j < count; ++j) matrix_(i, j) += effect(row, rows_[static_cast<std::size_t>(j)]);
   }
 }
 
-// In whichever there are fewer of.
+// In whichever there are fewer of; through joints in forces.
 void PersistentForces::find_multipliers(const Eigen::VectorXd& free) {
-  if (static_cast<Eigen::Index>(rows_.size()) < free.size()) {
+  if (joints_ || static_cast<Eigen::Index>(rows_.size()) < free.size()) {
     assemble_in_forces();
     const auto by = [&](const auto& factor) { refine(free, [&] { change_ = factor.solve(residual_); }); };
     is_symmetric_ ? by(matrix_.llt()) : by(matrix_.partialPivLu());
@@ -243,6 +294,7 @@ void PersistentForces::find_multipliers(const Eigen::VectorXd& free) {
 }
 
 void PersistentForces::solve(const Island& island, BodyColumns state, const double* wrench) {
+  island_ = island.bodies;
   root_W_.resize(island.bodies.size());
   Eigen::VectorXd free(6 * island.bodies.size());
   for (std::size_t k = 0; k < island.bodies.size(); ++k) {
@@ -259,6 +311,24 @@ void PersistentForces::solve(const Island& island, BodyColumns state, const doub
   find_multipliers(free);
   for (const std::size_t i : island.points) points_[i].force.setZero();
   set_forces();
+  if (joints_) add_wrenches_through_joints(island, free.size());
+}
+
+// M times what the rows make of the accelerations: their own forces, and what these make of the joints'.
+void PersistentForces::add_wrenches_through_joints(const Island& island, Eigen::Index size) {
+  acceleration_.setZero(size);
+  for (const Row& row : rows_) acceleration_ += row.multiplier * row.response;
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+    const int body = island.bodies[k];
+    const auto at = 6 * static_cast<Eigen::Index>(k);
+    const Vec3 force = std::sqrt(system_.bodies[body].mass) * acceleration_.segment<3>(at);
+    const Vec3 torque = root_W_[k].inverse().transpose() * acceleration_.segment<3>(at + 3);
+    for (int c = 0; c < 3; ++c) {
+      wrench_.column(static_cast<std::size_t>(kForce + c))[body] += force[c];
+      wrench_.column(static_cast<std::size_t>(kTorque + c))[body] += torque[c];
+    }
+    now_[body].force += force.norm(), now_[body].torque += torque.norm();
+  }
 }
 
 void PersistentForces::set_forces() {
@@ -272,7 +342,7 @@ void PersistentForces::set_forces() {
   }
 }
 
-const double* PersistentForces::as_wrench(const double* wrench) {
+void PersistentForces::copy_wrench(const double* wrench) {
   for (std::size_t c = 0; c < kWrenchColumns; ++c) {
     double* const to = wrench_.column(c);
     if (wrench)
@@ -281,9 +351,26 @@ const double* PersistentForces::as_wrench(const double* wrench) {
       std::fill_n(to, system_.size(), 0.0);
   }
   now_.assign(system_.size(), {});
+}
+
+// What joints carry, and the springs, dampers and motors on them.
+void PersistentForces::note_loads_of_joints(const double* wrench) {
+  const bool are_driven = !system_.loads.drives().empty();
+  for (std::size_t i = 0; i < system_.size(); ++i) {
+    const int body = static_cast<int>(i);
+    if (joints_->component_of(body) < 0) continue;
+    const Vec6 load = wrench ? wrench_at(wrench, wrench_.stride(), body) : Vec6::Zero().eval();
+    const Vec6 held = wrench_at(wrench_.data(), wrench_.stride(), body) - load;
+    now_[i] = {held.head<3>().norm(), held.tail<3>().norm()};
+    if (are_driven) now_[i].force += load.head<3>().norm(), now_[i].torque += load.tail<3>().norm();
+  }
+}
+
+// Of each point on its two bodies; those through joints are there.
+void PersistentForces::add_pushes() {
   for (const PersistentPoint& point : points_) {
     const Vec3 force = point.frame * point.force;
-    for (int end = 0; end < 2; ++end) {
+    for (int end = 0; end < 2 && !joints_; ++end) {
       const int body = end == 0 ? point.contact.cone.a : point.contact.cone.b;
       if (place_[body] < 0) continue;
       const Vec3 push = end == 0 ? force : Vec3(-force), turn = (end == 0 ? point.arm_a : point.arm_b).cross(push);
@@ -298,13 +385,18 @@ const double* PersistentForces::as_wrench(const double* wrench) {
     Loading& most = largest_[i];
     most.force = std::max(most.force, now_[i].force), most.torque = std::max(most.torque, now_[i].torque);
   }
-  return wrench_.data();
 }
 
-const double* PersistentForces::hold(BodyColumns state, const double* wrench, Rows) {
+const double* PersistentForces::hold(BodyColumns state, const double* wrench, Rows rows) {
   place(state);
-  for (const Island& island : islands_) solve(island, state, wrench);
-  return as_wrench(wrench);
+  copy_wrench(joints_ ? joints_->hold(state, wrench, rows) : wrench);
+  if (joints_) {
+    note_loads_of_joints(wrench);
+    through_joints_->set_pose(state);
+  }
+  for (const Island& island : islands_) solve(island, state, wrench_.data());
+  add_pushes();
+  return wrench_.data();
 }
 
 }  // namespace rigor

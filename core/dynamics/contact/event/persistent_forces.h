@@ -7,7 +7,8 @@
 // nearly the least is taken, by rounds of
 //   (J M⁻¹ Pᵀ + 1/rho) dl = -J'V - J V',
 // each solved in forces or, where points are many, in the bodies' accelerations, of which there are six a body; each
-// island by itself.
+// island by itself. Where joints hold the bodies, V' is what they leave of the accelerations under f, and M⁻¹ what they
+// leave of the inverse masses (impulse_responses.h). A limit of a joint is a point that slides without friction.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +16,7 @@
 
 #include "core/dynamics/contact/event/contact_features.h"
 #include "core/dynamics/contact/event/contact_points.h"
-#include "core/dynamics/contact/event/islands.h"
+#include "core/dynamics/joints/islands.h"
 #include "core/dynamics/model/constraint_forces.h"
 #include "core/engine/columns.h"
 
@@ -40,11 +41,18 @@ struct PersistentPoint {
   double least_slip = 0, largest_slip = 0;            // m/s, at all instants since begin_attempt()
 
   double friction() const { return contact.cone.friction; }
+  // The contact's as it is at that instant.
+  ConeConstraint cone() const {
+    ConeConstraint now = contact.cone;
+    now.arm_a = arm_a, now.arm_b = arm_b, now.frame = frame;
+    return now;
+  }
 };
 
 class PersistentForces : public ConstraintForces {
  public:
-  PersistentForces(const System& system, const std::vector<Collider>& colliders);
+  // `joints`, which may be null, must outlive it.
+  PersistentForces(const System& system, const ContactPoints& contact_points, Joints* joints);
 
   std::vector<PersistentPoint>& points() { return points_; }
   const std::vector<PersistentPoint>& points() const { return points_; }
@@ -77,13 +85,18 @@ class PersistentForces : public ConstraintForces {
     Side side[2];
     double bias = 0, weight = 0;  // m/s², kg
     double multiplier = 0;        // N
+    Eigen::VectorXd response;     // of all bodies of the island to a unit of P, through joints; empty without
   };
 
   void find_islands();
+  void place_limit(BodyColumns state, PersistentPoint& point) const;
   void list_rows(const Island& island);
   void add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force);
+  Eigen::VectorXd response_to(const ConeConstraint& at, const Vec3& force);
+  double effect(const Row& of, const Row& by) const;
   void solve(const Island& island, BodyColumns state, const double* wrench);
   void find_multipliers(const Eigen::VectorXd& free);
+  void add_wrenches_through_joints(const Island& island, Eigen::Index size);
   void assemble_in_accelerations(Eigen::Index size);
   void assemble_in_forces();
   double find_residuals(const Eigen::VectorXd& free);
@@ -91,16 +104,21 @@ class PersistentForces : public ConstraintForces {
   void refine(const Eigen::VectorXd& free, const Change& change);
   template <typename Factor>
   void solve_in_accelerations(const Factor& factor, const Eigen::VectorXd& free);
-  const double* as_wrench(const double* wrench);
+  void copy_wrench(const double* wrench);
+  void note_loads_of_joints(const double* wrench);
+  void add_pushes();
   void set_forces();
 
   const System& system_;
-  const std::vector<Collider>& colliders_;
+  const ContactPoints& contact_points_;
+  Joints* joints_;
+  std::optional<ImpulseResponses> through_joints_;
   std::vector<Mat3> inertia_root_B_;  // G with G Gᵀ the inverse inertia, of each body
   std::vector<PersistentPoint> points_;
   std::vector<Island> islands_;
   std::vector<int> place_;    // of each body in its island, or -1
   std::vector<Mat3> root_W_;  // R G, by place
+  std::vector<int> island_;   // bodies of the island at hand, by place
   std::vector<Row> rows_;
   bool is_symmetric_ = true;
   Eigen::MatrixXd matrix_;

@@ -15,9 +15,9 @@ constexpr int kSweeps = 4;  // over all rows, in each of the two passes
 JointedRows::JointedRows(const Scene& scene, const System& system, Joints& joints)
     : system_(system),
       joints_(joints),
+      through_joints_(system, joints),
       velocities_(system.size(), Vec6::Zero()),
-      loaded_(velocities_),
-      change_(velocities_) {
+      loaded_(velocities_) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     const Joint& joint = scene.joints[k];
     std::vector<Motor> motors;
@@ -30,8 +30,8 @@ JointedRows::JointedRows(const Scene& scene, const System& system, Joints& joint
 }
 
 void JointedRows::assign(BodyColumns state, const std::vector<ContactConstraint>& contacts, double impulse_scale) {
-  pose_ = state;
   joints_.velocity_impulse(state);  // for its factor
+  through_joints_.set_pose(state);
   rows_.clear(), responses_.clear();
   for (const ContactConstraint& contact : contacts) {
     Row row = contact_row(state, contact);
@@ -92,38 +92,15 @@ JointedRows::Row JointedRows::coordinate_row(const JointCoordinate& coordinate, 
 // With what the joints leave of the row's impulses, of which those on one body alone are the ends.
 void JointedRows::add(Row row) {
   row.first_response = responses_.size();
-  std::vector<int> bodies;
-  for (const int body : row.body) {
-    if (!moves(body)) continue;
-    const int component = joints_.component_of(body);
-    const std::vector<int> connected = component < 0 ? std::vector<int>{body} : joints_.bodies_of(component);
-    if (std::find(bodies.begin(), bodies.end(), connected.front()) == bodies.end())
-      bodies.insert(bodies.end(), connected.begin(), connected.end());
-  }
+  const std::vector<int> bodies = through_joints_.moved_by(row.body[0], row.body[1]);
   for (const int body : bodies) responses_.emplace_back().body = body;
   for (int d = 0; d < row.directions; ++d) {
-    for (const int body : bodies) change_[body].setZero();
-    int last = -1;
-    for (int end = 0; end < 2; ++end) {
-      if (moves(row.body[end])) change_[row.body[end]] += velocity_by(row.body[end], row.J[d][end]);
-    }
-    for (const int body : bodies) {
-      const int component = joints_.component_of(body);
-      if (component >= 0 && component != last) joints_.restrict(component, change_), last = component;
-    }
-    for (std::size_t i = 0; i < bodies.size(); ++i) responses_[row.first_response + i].by[d] = change_[bodies[i]];
+    const std::vector<Vec6>& change = through_joints_.of(bodies, row.body[0], row.J[d][0], row.body[1], row.J[d][1]);
+    for (std::size_t i = 0; i < bodies.size(); ++i) responses_[row.first_response + i].by[d] = change[bodies[i]];
   }
   row.last_response = responses_.size();
   find_masses(row);
   rows_.push_back(row);
-}
-
-Vec6 JointedRows::velocity_by(int body, const Vec6& impulse) const {
-  if (!moves(body)) return Vec6::Zero();
-  const Inertia& inertia = system_.bodies[body];
-  const Mat3 R = pose_.rotation(body);
-  const Vec3 torque_B = R.transpose() * impulse.tail<3>();
-  return joined(inertia.inverse_mass * impulse.head<3>(), R * (inertia.inverse_inertia_B * torque_B));
 }
 
 void JointedRows::find_masses(Row& row) const {
@@ -140,7 +117,7 @@ void JointedRows::find_masses(Row& row) const {
   const auto inverse = [](double k, double scale) { return k > 1e-12 * scale ? 1 / k : 0; };
   const auto scale = [&](int d) {
     double sum = 0;
-    for (int end = 0; end < 2; ++end) sum += row.J[d][end].dot(velocity_by(row.body[end], row.J[d][end]));
+    for (int end = 0; end < 2; ++end) sum += row.J[d][end].dot(through_joints_.alone(row.body[end], row.J[d][end]));
     return sum;
   };
   row.mass = inverse(K(0, 0), scale(0));

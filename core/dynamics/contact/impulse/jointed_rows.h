@@ -8,7 +8,7 @@
 
 #include "core/dynamics/contact/impulse/coulomb_disc.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
-#include "core/dynamics/joints/joints.h"
+#include "core/dynamics/joints/impulse_responses.h"
 #include "core/dynamics/kernels/contact_rows.h"
 
 namespace rigor {
@@ -33,7 +33,7 @@ class JointedRows {
   Vec6 change(std::size_t body) const { return velocities_[body] - loaded_[body]; }
 
  private:
-  struct Response {  // of a body, to unit impulses of the row's directions
+  struct Response {  // of a body's velocity, to unit impulses of the row's directions
     int body = kWorld;
     Vec6 by[3] = {Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
   };
@@ -67,9 +67,6 @@ class JointedRows {
   Row coordinate_row(const JointCoordinate& coordinate, const JointCoordinate::Value& at, double sign,
                      double restitution) const;
   void add(Row row);
-  bool moves(int body) const { return body != kWorld && !system_.bodies[body].fixed; }
-  // What an impulse (force, torque) makes of the velocity of a body by itself; nothing of one that cannot move.
-  Vec6 velocity_by(int body, const Vec6& impulse) const;
   void find_masses(Row& row) const;
   double speed(const Row& row, int direction) const;  // of the row
   void apply(const Row& row, int direction, double impulse);
@@ -90,12 +87,12 @@ class JointedRows {
   const System& system_;
   Joints& joints_;
   std::vector<Row> rows_;
+  ImpulseResponses through_joints_;
   std::vector<Response> responses_;
   std::size_t contacts_ = 0;  // rows
   std::vector<Coordinate> coordinates_;
-  std::vector<Vec6> velocities_, loaded_, change_;  // by body
-  BodyColumns pose_;                                // that of assign(), while it runs
-  double energy_before_ = 0;                        // twice that of the loaded velocities, J
+  std::vector<Vec6> velocities_, loaded_;  // by body
+  double energy_before_ = 0;               // twice that of the loaded velocities, J
   SolverParameters parameters_{};
 };
 

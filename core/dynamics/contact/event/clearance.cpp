@@ -1,0 +1,102 @@
+#include "core/dynamics/contact/event/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rigor {
+namespace {
+
+constexpr double kNothingNear = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-15;  // m: of the gap of bodies that touched at the start
+
+}  // namespace
+
+bool Clearance::find_bounds(BodyColumns from, BodyColumns to, double t, double h) {
+  return bounds_.find(from, to, t, h, persistent_contact_.largest_loads());
+}
+
+bool Clearance::all_stay_apart(const Pairs& pairs, const Instant& from, const Instant& to) {
+  if (may_have_touched_limit(from, to)) return false;
+  return std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
+    const auto [a, b] = pair;
+    const auto is_of_pair = [a, b](const PersistentPoint& point) {
+      return point.contact.a == a && point.contact.b == b;
+    };
+    if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair)) return true;
+    if (stays(a) && stays(b)) return true;
+    const Collider &first = contact_points_.colliders()[a], &second = contact_points_.colliders()[b];
+    return stay_apart(first, second, {from.state, contact_points_.separating_axis(from.state, a, b)},
+                      {to.state, contact_points_.separating_axis(to.state, a, b)}, bend_of(first), bend_of(second),
+                      to.since - from.since);
+  });
+}
+
+// And gone back from it.
+bool Clearance::may_have_touched_limit(const Instant& from, const Instant& to) const {
+  const JointLimits& limits = contact_points_.limits();
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    if (is_persistent_limit(k)) continue;
+    const JointLimits::Value first = limits.at(k, from.state, from.since), last = limits.at(k, to.state, to.since);
+    if (peak_between(-first.gap, -first.rate, -last.gap, -last.rate, to.since - from.since) > 0) return true;
+  }
+  return false;
+}
+
+bool Clearance::is_persistent_limit(std::size_t k) const {
+  const std::vector<PersistentPoint>& points = persistent_contact_.points();
+  return std::any_of(points.begin(), points.end(), [k](const PersistentPoint& point) {
+    return point.contact.is_limit() && point.contact.feature == k;
+  });
+}
+
+// Whether a collider is where it was at the way's start, whatever its length.
+bool Clearance::stays(int collider) const {
+  const Collider& of = contact_points_.colliders()[collider];
+  return of.fixed || persistent_contact_.rests(of.body);
+}
+
+Bend Clearance::bend_of(const Collider& collider) const {
+  if (collider.fixed) return {};
+  const AccelerationBound& bound = bounds_.of(collider.body);
+  return {bound.linear, bound.of_point(collider.bounding_radius)};
+}
+
+double Clearance::least_gap(const Pairs& pairs, const std::vector<ContactPoint>& touching, const Instant& at) {
+  double least = kNothingNear;
+  const std::vector<PersistentPoint>& known = persistent_contact_.points();
+  for (const auto& [a, b] : pairs) {
+    if (stays(a) && stays(b)) continue;
+    double drift = 0;
+    const auto is_of_pair = [a = a, b = b](const ContactPoint& point) { return point.a == a && point.b == b; };
+    for (const ContactPoint& point : touching) {
+      if (is_of_pair(point)) drift = std::max(drift, kRounding - point.gap);
+    }
+    for (const PersistentPoint& point : known) {
+      if (is_of_pair(point.contact)) drift = std::max(drift, kRounding + 4 * std::abs(point.kinematics.gap));
+    }
+    for (const ManifoldPoint& point : contact_points_.manifold(at.state, a, b)) {
+      const bool is_known = std::any_of(known.begin(), known.end(), [&](const PersistentPoint& h) {
+        return is_of_pair(h.contact) && h.contact.feature == point.feature;
+      });
+      if (!is_known) least = std::min(least, point.gap + drift);
+    }
+  }
+  return std::min(least, least_gap_of_limits(touching, at));
+}
+
+double Clearance::least_gap_of_limits(const std::vector<ContactPoint>& touching, const Instant& at) const {
+  double least = kNothingNear;
+  const JointLimits& limits = contact_points_.limits();
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    if (is_persistent_limit(k)) continue;
+    double drift = 0;
+    for (const ContactPoint& point : touching) {
+      if (point.is_limit() && point.feature == k) drift = std::max(0.0, kRounding - point.gap);
+    }
+    least = std::min(least, limits.at(k, at.state, at.since).gap + drift);
+  }
+  return least;
+}
+
+}  // namespace rigor

@@ -1,0 +1,48 @@
+// The limits of hinges and sliders as unilateral constraints g >= 0, for contact methods: g = x - lower, or upper - x,
+// with the row of g' in the velocities of the joint's two bodies. A hinge's angle counts whole turns, from the state
+// that was noted last.
+#pragma once
+
+#include <vector>
+
+#include "core/dynamics/model/joint_coordinate.h"
+
+namespace rigor {
+
+// The most that x can have come to within h, if its path between two instants bends one way: where the lines along
+// which it begins and ends meet. Minus infinity unless it goes up at first and comes back.
+double peak_between(double x, double rate, double end_x, double end_rate, double h);
+
+class JointLimits {
+ public:
+  explicit JointLimits(const Scene& scene);
+
+  std::size_t size() const { return limits_.size(); }
+  int a(std::size_t k) const { return limits_[k].coordinate.b(); }  // the body that g grows with, or the world
+  int b(std::size_t k) const { return limits_[k].coordinate.a(); }
+  double restitution(std::size_t k) const { return limits_[k].restitution; }
+
+  struct Value {
+    double gap = 0, rate = 0, bias = 0;  // rad or m; its rate; what no acceleration makes of the rate's own rate
+    // Unit, in W: a's velocity along it, of turning if it is a hinge's, less b's, is the rate. A slider's is that at
+    // arms from the centres of mass [m, in W].
+    Vec3 direction = Vec3::Zero(), arm_a = Vec3::Zero(), arm_b = Vec3::Zero();
+    bool is_of_turning = false;
+  };
+  // At a state `since` [s] after the noted one.
+  Value at(std::size_t k, BodyColumns state, double since = 0) const;
+  void note(BodyColumns state, double since);  // the same
+
+ private:
+  struct Limit {
+    JointCoordinate coordinate;
+    double bound;  // rad, m
+    int side;      // 1: lower, -1: upper
+    double restitution;
+    double x = 0, rate = 0;  // as noted
+    double with_turns(const JointCoordinate::Value& at, double since) const;
+  };
+  std::vector<Limit> limits_;
+};
+
+}  // namespace rigor
