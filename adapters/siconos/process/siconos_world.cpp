@@ -1,0 +1,98 @@
+#include "adapters/siconos/process/siconos_world.h"
+
+#include <fmt/format.h>
+
+#include <SolverOptions.h>
+#include <Equality.hpp>
+#include <GenericMechanical.hpp>
+#include <NonSmoothDynamicalSystem.hpp>
+#include <TimeDiscretisation.hpp>
+#include <cmath>
+#include <utility>
+
+#include "adapters/siconos/process/siconos_joints.h"
+#include "adapters/siconos/siconos_matched.h"
+
+namespace rigor::siconos {
+
+SiconosWorld::SiconosWorld(Scene scene, const StepSettings& settings)
+    : scene_(std::move(scene)),
+      settings_(settings),
+      bodies_(std::make_unique<Bodies>(scene_)),
+      contacts_(std::make_shared<Contacts>(scene_, *bodies_)) {}
+
+std::shared_ptr<LinearOSNS> SiconosWorld::contact_problem() {
+  std::shared_ptr<LinearOSNS> problem;
+  if (scene_.joints.empty()) {  // Siconos asks for a problem where nothing can touch, too
+    problem = std::make_shared<FrictionContact>(3, SICONOS_FRICTION_3D_NSGS);
+  } else if (!contacts_->is_needed()) {
+    return std::make_shared<Equality>();
+  } else {
+    problem = std::make_shared<GenericMechanical>(SICONOS_FRICTION_3D_ONECONTACT_NSN);
+  }
+  if (settings_.has_solver) {
+    SolverOptions& options = *problem->numericsSolverOptions();
+    options.iparam[SICONOS_IPARAM_MAX_ITER] = settings_.iterations;
+    options.dparam[SICONOS_DPARAM_TOL] = settings_.tolerance;
+  }
+  problem->setKeepLambdaAndYState(true);
+  return problem;
+}
+
+// Siconos keeps one step size for the whole of a simulation: with another one a new simulation goes on from the state.
+void SiconosWorld::start(double time, double dt) {
+  constexpr double kNoEnd = 1e9;  // s
+  dt_ = dt;
+  contacts_->forget();
+  contacts_->set_step(dt);
+  bodies_->make_systems(settings_.theta, dt);
+  system_ = std::make_shared<NonSmoothDynamicalSystem>(time, kNoEnd);
+  for (const BodyPointer& body : bodies_->systems())
+    if (body) system_->insertDynamicalSystem(body);
+  link_joints(scene_, *bodies_, *system_);
+  integrator_ = std::make_shared<MoreauJeanOSI>(settings_.theta);
+  problem_ = contact_problem();
+  const auto steps = std::make_shared<TimeDiscretisation>(time, dt);
+  simulation_ = std::make_shared<TimeStepping>(system_, steps, 0);
+  simulation_->insertIntegrator(integrator_);
+  simulation_->insertNonSmoothProblem(problem_);
+  if (contacts_->is_needed()) simulation_->insertInteractionManager(contacts_);
+  if (settings_.has_solver) set_newton();
+  simulation_->initialize();
+}
+
+void SiconosWorld::set_newton() {
+  constexpr double kNever = -1, kMomentum = 1e-11;  // N s, N m s
+  simulation_->setNewtonTolerance(contacts_->is_needed() ? kMomentum : kNever);
+  simulation_->setNewtonMaxIteration(kSiconosPasses);
+  simulation_->setWarnOnNonConvergence(false);
+}
+
+void SiconosWorld::step(double dt) {
+  const double begin = clock_.time();
+  clock_.advance(dt);
+  if (lost_body() >= 0) return;
+  try {
+    if (dt != dt_) start(begin, dt);
+    simulation_->computeOneStep();
+    simulation_->nextStep();
+    bodies_->gather();
+  } catch (const std::exception&) {  // it gives up on numbers that are not finite, too
+    bodies_->gather();
+    if (lost_body() < 0) throw;
+  }
+}
+
+int SiconosWorld::lost_body() const {
+  constexpr double kBlownUp = 1e10;  // MuJoCo and Simbody draw the same line
+  for (std::size_t i = 0; i < state().size(); ++i)
+    for (int c = 0; c < 13; ++c)
+      if (!(std::abs(state().column(c)[i]) < kBlownUp)) return static_cast<int>(i);
+  return -1;
+}
+
+std::vector<std::pair<std::string, std::string>> SiconosWorld::settings_in_force() const {
+  return {{"theta", fmt::format("{}", settings_.theta)}};
+}
+
+}  // namespace rigor::siconos
