@@ -28,7 +28,7 @@ PluginStart start_of_process() {
 
 SiconosEngine::SiconosEngine() : ProcessEngine(start_of_process(), read_plugin_info(kSiconosInfo, "rigor-siconos")) {}
 
-// As it ships its iteration stops where the momentum is right, and the position is not yet at rest.
+// As it ships its iteration stops at a momentum of 1e-6 that is left over, which is no rounding.
 std::string SiconosEngine::twin(const Settings& settings) const {
   if (settings.track == Track::stock) return "";
   const auto theta = settings.options.find("theta");

@@ -3,8 +3,7 @@
 
 namespace rigor {
 
-// Passes of Newton's method in each step of a scene without contacts, whatever their residual. Siconos looks at the
-// residual of momentum alone and stops when that is small, which a free body's is long before its position is at rest.
+// The most passes of Newton's method in a step.
 inline constexpr int kSiconosPasses = 15;
 
 }  // namespace rigor

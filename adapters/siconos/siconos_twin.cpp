@@ -37,8 +37,15 @@ class SiconosTwin : public Stepper {
       : system_(parts.system), theta_(number_option(parts.settings, "theta", 0.5)) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
+    system_.loads.for_each_smooth_part(t, dt, [&](double from, double length) { step_part(state, from, length); });
+  }
+
+ private:
+  // What begins and ends is the same all through it.
+  void step_part(MutableBodyColumns state, double t, double dt) {
+    const double middle = t + 0.5 * dt;
     start_ = BodyColumns(state);
-    system_.wrenches(state, t, 0, wrenches_);
+    system_.wrenches(state, middle, 0, wrenches_);
     starts_.resize(state.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
       const Vec3 w = in_body(state, i);
@@ -46,13 +53,12 @@ class SiconosTwin : public Stepper {
     }
     for (std::size_t i = 0; i < state.size(); ++i) place(state, i, starts_[i].w, dt);
     for (int pass = 0; pass < kSiconosPasses; ++pass) {
-      system_.wrenches(state, t + dt, 0, wrenches_);
-      load_slopes(system_.loads, state, wrenches_, t + dt, theta_ * dt, slopes_);
+      system_.wrenches(state, middle, 0, wrenches_);
+      load_slopes(system_.loads, state, wrenches_, middle, theta_ * dt, slopes_);
       for (std::size_t i = 0; i < state.size(); ++i) improve(state, i, dt);
     }
   }
 
- private:
   struct Forces {
     Vec3 force, moment;  // N, in W; N m, in B, with the gyroscopic one
   };

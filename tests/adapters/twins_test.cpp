@@ -94,7 +94,7 @@ std::vector<std::string> runs_with_twins() {
     if (is_built("simbody")) names.push_back(std::string("simbody:semi-explicit-euler@") + track);
     for (const char* engine : {"ode", "ode:quickstep", "bullet"}) names.push_back(std::string(engine) + "@" + track);
   }
-  if (is_built("siconos")) {  // as shipped it stops its iteration where no position is at rest yet
+  if (is_built("siconos")) {  // as shipped its iteration stops before there are only roundings left
     for (const char* theta : {"", ",theta=0.5", ",theta=0.7", ",theta=1"}) names.push_back(std::string("siconos") + theta);
   }
   if (is_built("simbody")) {  // as shipped the others choose their own steps

@@ -14,7 +14,7 @@ LoadedBody::LoadedBody(Bodies& all, int index, SP::SiconosVector q, SP::SiconosV
 
 void LoadedBody::computeForces(double time, SP::SiconosVector q, SP::SiconosVector twist) {
   NewtonEulerDS::computeForces(time, q, twist);  // the gyroscopic moment
-  const Wrench& wrench = all_.wrench(index_, time);
+  const Wrench& wrench = all_.wrench(index_);
   const Quat turn((*q)(3), (*q)(4), (*q)(5), (*q)(6));
   const Vec3 torque_B = turn.conjugate() * wrench.torque;
   for (int k = 0; k < 3; ++k) {
@@ -25,7 +25,7 @@ void LoadedBody::computeForces(double time, SP::SiconosVector q, SP::SiconosVect
 
 void LoadedBody::computeJacobianvForces(double time) {
   NewtonEulerDS::computeJacobianvForces(time);
-  const Mat6& slope = all_.slope(index_, time);
+  const Mat6& slope = all_.slope(index_);
   for (unsigned row = 0; row < 6; ++row) {
     for (unsigned column = 0; column < 6; ++column) (*_jacobianWrenchTwist)(row, column) += slope(row, column);
   }
@@ -69,20 +69,20 @@ void Bodies::gather() {
 }
 
 // Siconos asks body by body, in their order, while none of them moves: worked out when it begins anew.
-const Wrench& Bodies::wrench(int body, double time) {
+const Wrench& Bodies::wrench(int body) {
   if (body <= last_wrench_ || wrenches_.empty()) {
     gather();
-    loads_.evaluate_with_gravity(state(), time, 0, wrenches_);
+    loads_.evaluate_with_gravity(state(), time_, 0, wrenches_);
   }
   last_wrench_ = body;
   return wrenches_[static_cast<std::size_t>(body)];
 }
 
-const Mat6& Bodies::slope(int body, double time) {
+const Mat6& Bodies::slope(int body) {
   if (body <= last_slope_ || slopes_.empty()) {
     gather();
-    loads_.evaluate_with_gravity(state(), time, 0, wrenches_);
-    load_slopes(loads_, state(), wrenches_, time, reach_, slopes_);
+    loads_.evaluate_with_gravity(state(), time_, 0, wrenches_);
+    load_slopes(loads_, state(), wrenches_, time_, reach_, slopes_);
   }
   last_slope_ = body;
   return slopes_[static_cast<std::size_t>(body)];

@@ -41,9 +41,12 @@ class Bodies {
   // What Siconos has now, in columns; fixed bodies as they are.
   void gather();
   BodyColumns state() const { return table_.columns(); }
-  // Force and torque on a body at `time` [s]; valid until the next call.
-  const Wrench& wrench(int body, double time);
-  const Mat6& slope(int body, double time);  // likewise; see siconos_slope.h
+  const Loads& loads() const { return loads_; }
+  // What begins and ends is as it is at `time` [s], from now on.
+  void set_time(double time) { time_ = time; }
+  // Force and torque on a body; valid until the next call.
+  const Wrench& wrench(int body);
+  const Mat6& slope(int body);  // likewise; see siconos_slope.h
 
  private:
   const Scene& scene_;
@@ -52,7 +55,7 @@ class Bodies {
   std::vector<BodyPointer> systems_;
   Wrenches wrenches_;
   std::vector<Mat6> slopes_;
-  double reach_ = 0;  // s
+  double reach_ = 0, time_ = 0;  // s
   int last_wrench_ = 0, last_slope_ = 0;
 };
 

@@ -32,6 +32,7 @@ class SiconosWorld {
  private:
   void start(double time, double dt);
   void set_newton();
+  void step_part(double from, double dt);
   std::shared_ptr<LinearOSNS> contact_problem();
 
   Scene scene_;
@@ -42,7 +43,7 @@ class SiconosWorld {
   std::shared_ptr<LinearOSNS> problem_;
   std::shared_ptr<TimeStepping> simulation_;
   std::shared_ptr<NonSmoothDynamicalSystem> system_;
-  double dt_ = 0;
+  double dt_ = 0, middle_ = 0;  // s, of the last step
   Clock clock_;
 };
 
