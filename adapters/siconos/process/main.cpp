@@ -42,8 +42,8 @@ StepSettings settings_of(const Json& json) {
   const bool is_matched = json.value("track", "matched") == "matched";
   settings.has_solver = is_matched;
   settings.theta = options.value("theta", 0.5);
-  settings.tolerance = options.value("tolerance", 1e-12);
-  settings.iterations = static_cast<int>(options.value("iterations", 10000.0));
+  settings.tolerance = options.value("tolerance", 1e-9);
+  settings.iterations = static_cast<int>(options.value("iterations", 2000.0));
   return settings;
 }
 
@@ -56,7 +56,10 @@ class Worlds {
     if (call == "load") return load(number, ask);
     if (call == "unload") return worlds_.erase(number), Json{{"ok", true}};
     SiconosWorld& world = worlds_.at(number);
-    if (call == "step") return world.step(ask.at("dt")), Json{{"ok", true}};
+    if (call == "step") {
+      world.step(ask.at("dt"));
+      return with_warning({{"ok", true}}, world.warning());
+    }
     if (call == "read") return sample(world, true);
     if (call == "run") return run(world, ask.at("dt"), ask.at("count"), ask.at("every"));
     return {{"ok", false}, {"status", "failed"}, {"why", "no such call: " + call}};
@@ -65,6 +68,10 @@ class Worlds {
   std::vector<double> take_columns() { return std::exchange(columns_, {}); }
 
  private:
+  static Json with_warning(Json answer, const std::string& warning) {
+    if (!warning.empty()) answer["warning"] = warning;
+    return answer;
+  }
   Json load(int number, const Json& ask) {
     const auto& [at, is_new] = worlds_.try_emplace(number, scene_of(ask.at("scene")), settings_of(ask.at("settings")));
     Json settings = Json::object();
@@ -88,14 +95,16 @@ class Worlds {
   }
   Json run(SiconosWorld& world, double dt, long count, long every) {
     Json samples = Json::array();
+    std::string warning;
     for (long n = 1; n <= count; ++n) {
       world.step(dt);
+      if (warning.empty()) warning = world.warning();
       if (n % every != 0 && n != count) continue;
       Json one = sample(world, false);
       if (one.contains("ok")) return one;
       samples.push_back(std::move(one));
     }
-    return {{"ok", true}, {"samples", samples}};
+    return with_warning({{"ok", true}, {"samples", samples}}, warning);
   }
 
   std::map<int, SiconosWorld> worlds_;

@@ -26,12 +26,15 @@ class SiconosWorld {
   void step(double dt);
   double time() const { return clock_.time(); }  // s
   BodyColumns state() const { return bodies_->state(); }
+  // Why the last step is not what the method promises; empty if it is.
+  const std::string& warning() const { return warning_; }
   int lost_body() const;  // the first whose state is not finite; -1 for none
   std::vector<std::pair<std::string, std::string>> settings_in_force() const;
 
  private:
   void start(double time, double dt);
   void set_newton();
+  void look_back();
   void step_part(double from, double dt);
   std::shared_ptr<LinearOSNS> contact_problem();
 
@@ -44,6 +47,7 @@ class SiconosWorld {
   std::shared_ptr<TimeStepping> simulation_;
   std::shared_ptr<NonSmoothDynamicalSystem> system_;
   double dt_ = 0, middle_ = 0;  // s, of the last step
+  std::string warning_;
   Clock clock_;
 };
 
