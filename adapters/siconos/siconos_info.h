@@ -13,7 +13,7 @@ inline constexpr const char* kSiconosInfo = R"({"ok": true, "rigor": 1, "name": 
   "methods": [{"name": "moreau-jean", "summary": "Moreau and Jean's theta method, Coulomb's cone by Gauss-Seidel",
     "order": 2, "options": [
     {"name": "theta", "meaning": "weight of the step's end; default 0.5", "min": 0.5, "max": 1},
-    {"name": "tolerance", "meaning": "of the contact solver; default 1e-9", "min": 1e-15, "max": 1},
-    {"name": "iterations", "meaning": "most of the contact solver; default 2000", "min": 1, "max": 1000000, "whole": true}]}]})";
+    {"name": "tolerance", "meaning": "of the contact solver; default 1e-12", "min": 1e-15, "max": 1},
+    {"name": "iterations", "meaning": "most of the contact solver; default 1000", "min": 1, "max": 1000000, "whole": true}]}]})";
 
 }  // namespace rigor

@@ -4,6 +4,6 @@
 namespace rigor {
 
 // The most passes of Newton's method in a step.
-inline constexpr int kSiconosPasses = 15;
+inline constexpr int kSiconosPasses = 15, kSiconosPassesWithContacts = 5;
 
 }  // namespace rigor

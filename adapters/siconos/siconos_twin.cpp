@@ -20,7 +20,8 @@ namespace {
 Vec3 in_body(BodyColumns state, std::size_t i) { return state.orientation(i).conjugate() * state.angular_velocity(i); }
 
 // Siconos takes the sine of a small angle, over the angle, from a series: that of the tangent (RotationQuaternion.cpp:
-// sin_x), by which a turn of less than 2e-3 rad in a step is an eighth of its third power too far.
+// sin_x), by which a turn of less than 2e-3 rad in a step is an eighth of its third power too far, and the quaternion
+// gets longer: it is not made unit again.
 Quat exponential(const Vec3& turn) {
   constexpr double kSmall = 1e-3;  // rad
   const double half = 0.5 * turn.norm();
@@ -96,7 +97,7 @@ class SiconosTwin : public Stepper {
     const BodyColumns start = start_.columns();
     state.set_position(i, start.position(i) + dt * (theta_ * state.velocity(i) + (1 - theta_) * start.velocity(i)));
     const Vec3 turn = dt * (theta_ * w + (1 - theta_) * starts_[i].w);
-    const Quat q = (start.orientation(i) * exponential(turn)).normalized();
+    const Quat q = start.orientation(i) * exponential(turn);
     state.set_orientation(i, q);
     state.set_angular_velocity(i, q * w);
   }

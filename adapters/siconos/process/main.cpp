@@ -42,8 +42,8 @@ StepSettings settings_of(const Json& json) {
   const bool is_matched = json.value("track", "matched") == "matched";
   settings.has_solver = is_matched;
   settings.theta = options.value("theta", 0.5);
-  settings.tolerance = options.value("tolerance", 1e-9);
-  settings.iterations = static_cast<int>(options.value("iterations", 2000.0));
+  settings.tolerance = options.value("tolerance", 1e-12);
+  settings.iterations = static_cast<int>(options.value("iterations", 1000.0));
   return settings;
 }
 

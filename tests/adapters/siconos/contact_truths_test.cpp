@@ -37,7 +37,8 @@ struct Opinion {
 BOOST_AUTO_TEST_SUITE(adapters_siconos_contact_truths)
 
 BOOST_AUTO_TEST_CASE(siconos_comes_to_the_truth_as_its_step_falls) {
-  for (const auto& [id, time] : {Opinion{"contact/toppling-box", 1}, {"contact/tumbling-box", 1}}) {
+  for (const auto& [id, time] :
+       {Opinion{"contact/toppling-box", 1}, {"contact/tumbling-box", 1}, {"contact/corbel-arch", 0.2}}) {
     const Case definition = select_cases({id}, default_suite_dir(), test::words()).front();
     const auto truth = make_truth(definition.truth, definition.scene, time);
     const double coarse = distance_from_truth(definition, *truth, 1.0 / 250, time),
@@ -50,13 +51,11 @@ BOOST_AUTO_TEST_CASE(siconos_comes_to_the_truth_as_its_step_falls) {
 }
 
 BOOST_AUTO_TEST_CASE(what_stands_in_the_truth_stands_in_siconos) {
-  for (const auto& [id, time] : {Opinion{"contact/card-house", 0.5}, {"contact/corbel-arch", 0.2}}) {
-    const Case definition = select_cases({id}, default_suite_dir(), test::words()).front();
-    const auto truth = make_truth(definition.truth, definition.scene, time);
-    const double found = distance_from_truth(definition, *truth, 1.0 / 240, time);
-    BOOST_TEST_MESSAGE(id << ": " << found);
-    BOOST_TEST(found < 1e-6, id);  // the contact solver's 1e-9 over a hundred steps
-  }
+  const Case house = select_cases({"contact/card-house"}, default_suite_dir(), test::words()).front();
+  const auto truth = make_truth(house.truth, house.scene, 0.5);
+  const double found = distance_from_truth(house, *truth, 1.0 / 240, 0.5);
+  BOOST_TEST_MESSAGE("card-house: " << found);
+  BOOST_TEST(found < 1e-9);  // cards that gave way would go g t^2 / 2 = 1.2 m; the solver's 1e-12 over 120 steps
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "core/dynamics/model/energy.h"
-#include "core/engine/engine_failure.h"
 #include "tests/adapters/free_body_measures.h"
 #include "tests/adapters/hung_rods.h"
 
@@ -43,7 +42,8 @@ BOOST_AUTO_TEST_CASE(friction_is_a_cone) {
   BOOST_TEST(std::abs(along - 1) < 0.006, along);
   for (const double direction : {kPi / 8, kPi / 4, kPi / 3}) {
     const double found = stop_distance_ratio("siconos", direction, 1.0 / 240);
-    BOOST_TEST(std::abs(found - along) < 1e-6,
+    // In the last step, which it stops in, it has 0.02 m/s at most: 2 v dt of the 2.5 m are 7e-5.
+    BOOST_TEST(std::abs(found - along) < 1e-4, direction << ": " << found);
                direction << ": " << found);  // the contact solver's 1e-9 in a few rounds
   }
 }
@@ -97,8 +97,8 @@ BOOST_AUTO_TEST_CASE(what_the_contact_solver_did_not_reach_is_told) {
 
 BOOST_AUTO_TEST_CASE(what_it_cannot_do_is_refused_with_the_reason) {
   Scene scene = sliding_box(1, 0, kInfiniteFriction);
-  BOOST_CHECK_EXCEPTION(load_run("siconos", scene), EngineFailure,
-                        [](const EngineFailure& failure) { return failure.kind() == FailureKind::unsupported; });
+  const std::string why = why_unsupported(engines().info_of("siconos"), scene, 1e-3);
+  BOOST_TEST(why.find("friction:infinite") != std::string::npos, why);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
