@@ -17,7 +17,13 @@
 namespace rigor {
 namespace {
 
-Vec3 in_body(BodyColumns state, std::size_t i) { return state.orientation(i).conjugate() * state.angular_velocity(i); }
+// What turns w in B into the state's, undone: of a quaternion that is longer than 1 it is no rotation.
+Vec3 in_body(BodyColumns state, std::size_t i) {
+  const Quat q = state.orientation(i);
+  Mat3 turn;
+  turn << q * Vec3::UnitX(), q * Vec3::UnitY(), q * Vec3::UnitZ();
+  return turn.partialPivLu().solve(state.angular_velocity(i));
+}
 
 // Siconos takes the sine of a small angle, over the angle, from a series: that of the tangent (RotationQuaternion.cpp:
 // sin_x), by which a turn of less than 2e-3 rad in a step is an eighth of its third power too far, and the quaternion
@@ -35,7 +41,7 @@ Quat exponential(const Vec3& turn) {
 class SiconosTwin : public Stepper {
  public:
   explicit SiconosTwin(const StepperParts& parts)
-      : system_(parts.system), theta_(number_option(parts.settings, "theta", 0.5)) {}
+      : system_(parts.system), theta_(number_option(parts.settings, "theta", kSiconosTheta)) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     system_.loads.for_each_smooth_part(t, dt, [&](double from, double length) { step_part(state, from, length); });

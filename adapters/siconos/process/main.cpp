@@ -11,6 +11,7 @@
 
 #include "adapters/siconos/process/siconos_world.h"
 #include "adapters/siconos/siconos_info.h"
+#include "adapters/siconos/siconos_matched.h"
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/table_reader.h"
 
@@ -39,11 +40,11 @@ Scene scene_of(const Json& json) {
 StepSettings settings_of(const Json& json) {
   StepSettings settings;
   const Json options = json.value("options", Json::object());
-  const bool is_matched = json.value("track", "matched") == "matched";
-  settings.has_solver = is_matched;
-  settings.theta = options.value("theta", 0.5);
-  settings.tolerance = options.value("tolerance", 1e-12);
-  settings.iterations = static_cast<int>(options.value("iterations", 1000.0));
+  settings.is_matched = json.value("track", "matched") == "matched";
+  settings.theta = options.value("theta", kSiconosTheta);
+  if (settings.is_matched) settings.tolerance = kSiconosTolerance, settings.iterations = kSiconosIterations;
+  if (options.contains("tolerance")) settings.tolerance = options["tolerance"];
+  if (options.contains("iterations")) settings.iterations = static_cast<int>(options["iterations"].get<double>());
   return settings;
 }
 

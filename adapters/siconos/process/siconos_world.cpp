@@ -42,10 +42,10 @@ std::shared_ptr<LinearOSNS> SiconosWorld::contact_problem() {
   } else {
     problem = std::make_shared<GenericMechanical>(SICONOS_FRICTION_3D_ONECONTACT_NSN);
   }
-  if (settings_.has_solver) {
-    SolverOptions& options = *problem->numericsSolverOptions();
-    options.iparam[SICONOS_IPARAM_MAX_ITER] = settings_.iterations;
-    options.dparam[SICONOS_DPARAM_TOL] = settings_.tolerance;
+  SolverOptions& options = *problem->numericsSolverOptions();
+  if (settings_.iterations) options.iparam[SICONOS_IPARAM_MAX_ITER] = *settings_.iterations;
+  if (settings_.tolerance) options.dparam[SICONOS_DPARAM_TOL] = *settings_.tolerance;
+  if (settings_.is_matched) {
     if (scene_.joints.empty()) {  // the whole law is looked at, and each contact solved to roundings, at each sweep
       options.iparam[SICONOS_FRICTION_3D_IPARAM_ERROR_EVALUATION] = SICONOS_FRICTION_3D_NSGS_ERROR_EVALUATION_FULL;
       options.iparam[SICONOS_FRICTION_3D_IPARAM_INTERNAL_ERROR_STRATEGY] =
@@ -76,7 +76,7 @@ void SiconosWorld::start(double time, double dt) {
   simulation_->insertIntegrator(integrator_);
   simulation_->insertNonSmoothProblem(problem_);
   if (contacts_->is_needed()) simulation_->insertInteractionManager(contacts_);
-  if (settings_.has_solver) set_newton();
+  if (settings_.is_matched) set_newton();
   simulation_->setCheckSolverFunction(keep_answer);
   simulation_->initialize();
 }
@@ -153,9 +153,9 @@ std::vector<std::pair<std::string, std::string>> SiconosWorld::settings_in_force
   if (!contacts_->is_needed()) return in_force;
   in_force.emplace_back("contact points", "Rigor's narrow phase; Siconos's own is in single precision");
   in_force.emplace_back("contact law", "Newton's restitution, Coulomb's cone");
-  if (settings_.has_solver)
-    in_force.emplace_back("contact solver", fmt::format("Gauss-Seidel, at most {} sweeps to {:g}", settings_.iterations,
-                                                        settings_.tolerance));
+  const auto told = [](const auto& value) { return value ? fmt::format("{:g}", 1.0 * *value) : "as shipped"; };
+  in_force.emplace_back("contact solver", "Gauss-Seidel; sweeps: " + told(settings_.iterations) +
+                                              "; tolerance: " + told(settings_.tolerance));
   return in_force;
 }
 

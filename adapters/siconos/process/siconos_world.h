@@ -5,6 +5,7 @@
 #include <MoreauJeanOSI.hpp>
 #include <TimeStepping.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "adapters/siconos/process/siconos_contacts.h"
@@ -13,10 +14,10 @@
 namespace rigor::siconos {
 
 struct StepSettings {
-  double theta = 0.5;       // weight of the step's end
-  bool has_solver = false;  // whether the two that follow were asked for
-  double tolerance = 0;
-  int iterations = 0;
+  double theta = 0.5;  // weight of the step's end
+  bool is_matched = true;
+  std::optional<double> tolerance;  // of the contact solver; none: as shipped
+  std::optional<int> iterations;    // its most; none: as shipped
 };
 
 class SiconosWorld {
