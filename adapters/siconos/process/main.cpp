@@ -8,6 +8,7 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "adapters/siconos/process/siconos_world.h"
 #include "adapters/siconos/siconos_info.h"
@@ -32,8 +33,19 @@ std::string toml_of(const Json& json) {
   return json.is_object() ? "{ " + text + " }" : "[" + text + "]";
 }
 
+// The protocol knows bodies by their order, the reader by their names: of two of one name the first keeps it.
+Json with_names_apart(Json scene) {
+  std::set<std::string> seen;
+  for (Json& body : scene.at("body")) {
+    std::string name = body.at("name");
+    while (!seen.insert(name).second) name += "'";
+    body["name"] = name;
+  }
+  return scene;
+}
+
 Scene scene_of(const Json& json) {
-  const TomlFile file = TomlFile::parse("scene = " + toml_of(json) + "\n", "the scene");
+  const TomlFile file = TomlFile::parse("scene = " + toml_of(with_names_apart(json)) + "\n", "the scene");
   return read_scene(file.root({"scene"}).at("scene"), InitialVelocities::as_given);
 }
 
