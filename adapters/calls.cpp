@@ -8,6 +8,9 @@
 #include "adapters/mujoco/mujoco_calls.h"
 #endif
 #include "adapters/ode/ode_calls.h"
+#ifdef RIGOR_WITH_SICONOS
+#include "adapters/siconos/siconos_calls.h"
+#endif
 #ifdef RIGOR_WITH_SIMBODY
 #include "adapters/simbody/simbody_calls.h"
 #endif
@@ -32,6 +35,9 @@ std::vector<std::string> engine_calls(const RunName& run, const std::string& dt)
       {"mujoco", mujoco_calls},
 #endif
       {"ode", ode_calls},
+#ifdef RIGOR_WITH_SICONOS
+      {"siconos", siconos_calls},
+#endif
 #ifdef RIGOR_WITH_SIMBODY
       {"simbody", simbody_calls},
 #endif

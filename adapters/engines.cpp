@@ -19,6 +19,10 @@
 #endif
 #include "adapters/ode/ode_engine.h"
 #include "adapters/ode/ode_twin.h"
+#ifdef RIGOR_WITH_SICONOS
+#include "adapters/siconos/siconos_engine.h"
+#include "adapters/siconos/siconos_twin.h"
+#endif
 #ifdef RIGOR_WITH_SIMBODY
 #include "adapters/simbody/simbody_engine.h"
 #include "adapters/simbody/simbody_twin.h"
@@ -36,6 +40,9 @@ std::vector<Integrator> twins() {
 #endif
 #ifdef RIGOR_WITH_MUJOCO
   rows.insert(rows.end(), {kMujocoEulerTwin, kMujocoImplicitTwin, kMujocoRk4Twin});
+#endif
+#ifdef RIGOR_WITH_SICONOS
+  rows.push_back(kSiconosTwin);
 #endif
 #ifdef RIGOR_WITH_SIMBODY
   const std::vector<Integrator> of_simbody = simbody_twins();
@@ -58,6 +65,9 @@ EngineTable built_in_engines() {
   table.add(std::make_unique<MujocoEngine>());
 #endif
   table.add(std::make_unique<OdeEngine>());
+#ifdef RIGOR_WITH_SICONOS
+  table.add(std::make_unique<SiconosEngine>());
+#endif
 #ifdef RIGOR_WITH_SIMBODY
   table.add(std::make_unique<SimbodyEngine>());
 #endif
@@ -71,6 +81,9 @@ const std::vector<MissingEngine>& missing_engines() {
 #endif
 #ifndef RIGOR_WITH_MUJOCO
       {"mujoco", "libmujoco-dev"},
+#endif
+#ifndef RIGOR_WITH_SICONOS
+      {"siconos", "libsiconos-mechanics-dev"},
 #endif
 #ifndef RIGOR_WITH_SIMBODY
       {"simbody", "libsimbody-dev"},

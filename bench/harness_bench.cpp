@@ -160,14 +160,10 @@ void register_harness() {
     const auto add = [&](const std::string& name, auto run) {
       benchmark::RegisterBenchmark(fmt::format("harness/{}/{}", name, count).c_str(), run)->UseManualTime();
     };
-    add("raw/bullet", [count](benchmark::State& s) { time_raw(s, raw_bullet, count); });
-    add("raw/ode", [count](benchmark::State& s) { time_raw(s, raw_ode, count); });
-#ifdef RIGOR_WITH_SIMBODY
-    add("raw/simbody", [count](benchmark::State& s) { time_raw(s, raw_simbody, count); });
-    add("seam/simbody", [count](benchmark::State& s) { time_seam(s, "simbody", "merson", count); });
-#endif
-    add("seam/bullet", [count](benchmark::State& s) { time_seam(s, "bullet", "sequential-impulse", count); });
-    add("seam/ode", [count](benchmark::State& s) { time_seam(s, "ode", "worldstep", count); });
+    for (const RawEngine& raw : raw_engines()) {
+      add("raw/" + raw.name, [&raw, count](benchmark::State& s) { time_raw(s, raw.make, count); });
+      add("seam/" + raw.name, [&raw, count](benchmark::State& s) { time_seam(s, raw.name, raw.method, count); });
+    }
   }
   benchmark::RegisterBenchmark("harness/cell", time_cells)->UseManualTime()->Iterations(2);
   for (const char* id : {"springs/body-springs", "contact/collision"})

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "adapters/engines.h"
+#include "bench/raw_engines.h"
 #include "cases/report/json/machine.h"
 
 namespace rigor::bench {
@@ -109,15 +110,11 @@ std::vector<RatioRow> all_rows() {
   }
   rows.push_back({"the same of copying the state: the memory's bound", "limit/copy/100000,threads=2",
                   "limit/copy/100000,threads=1", Kind::times_as_fast, 0});
-  std::vector<std::string> timed_raw = {"ode", "bullet"};
-#ifdef RIGOR_WITH_SIMBODY
-  timed_raw.push_back("simbody");
-#endif
-  for (const std::string& engine : timed_raw) {
+  for (const RawEngine& raw : raw_engines()) {
     for (const auto& [count, goal] : {std::pair(1, 10.0), std::pair(100, 5.0)}) {
-      rows.push_back({fmt::format("the seam around {}, N = {}", engine, count),
-                      fmt::format("harness/seam/{}/{}", engine, count), fmt::format("harness/raw/{}/{}", engine, count),
-                      Kind::at_most_percent_more, goal});
+      rows.push_back({fmt::format("the seam around {}, N = {}", raw.name, count),
+                      fmt::format("harness/seam/{}/{}", raw.name, count),
+                      fmt::format("harness/raw/{}/{}", raw.name, count), Kind::at_most_percent_more, goal});
     }
   }
   return rows;

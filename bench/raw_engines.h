@@ -1,7 +1,8 @@
-// ODE, Bullet and Simbody as a program of their own would call them, set as their adapters set them: what the seam is held to.
+// Engines as a program of their own would call them, set as their adapters set them: what the seam is held to.
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/scene/scene.h"
@@ -16,8 +17,11 @@ class RawWorld {
 };
 
 // Free bodies alone: no shapes, springs or forces.
-std::unique_ptr<RawWorld> raw_ode(const Scene& scene);
-std::unique_ptr<RawWorld> raw_bullet(const Scene& scene);
-std::unique_ptr<RawWorld> raw_simbody(const Scene& scene);  // where the build has Simbody
+struct RawEngine {
+  std::string name, method;  // of the run behind the seam that does the same
+  std::unique_ptr<RawWorld> (*make)(const Scene& scene);
+};
+
+const std::vector<RawEngine>& raw_engines();  // alphabetical; those that the build has
 
 }  // namespace rigor::bench

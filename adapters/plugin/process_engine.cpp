@@ -18,6 +18,8 @@ ProcessEngine::ProcessEngine(PluginStart start) : start_(std::move(start)) {
   }
 }
 
+ProcessEngine::ProcessEngine(PluginStart start, PluginInfo info) : start_(std::move(start)), info_(std::move(info)) {}
+
 ProcessEngine::~ProcessEngine() = default;
 
 std::unique_ptr<World> ProcessEngine::load(const Scene& scene, const Settings& settings) const {

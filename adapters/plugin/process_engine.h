@@ -12,6 +12,8 @@ class ProcessEngine : public RemoteEngine {
  public:
   // Starts the command once, to ask what it is. Throws InputError, in one sentence, if it does not say.
   explicit ProcessEngine(PluginStart start);
+  // One of which it is known what it is: nothing is started before its first world.
+  ProcessEngine(PluginStart start, PluginInfo info);
   ~ProcessEngine() override;
 
   EngineInfo info() const override { return info_.engine; }

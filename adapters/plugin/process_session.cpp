@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "adapters/plugin/answer.h"
+#include "adapters/plugin/in_quotes.h"
 #include "core/scene/toml/scene_writer.h"
 
 namespace rigor {
@@ -76,7 +77,7 @@ void ProcessSession::step(int world, double dt, const std::vector<double>& wrenc
   for (std::size_t i = 0; i < wrenches.size(); i += 6)
     line += (i == 0 ? R"(,"wrenches":[)" : ",") + row_of(wrenches.data() + i);
   line += wrenches.empty() ? "}" : "]}";
-  ask(line, "step", kShortAnswer, world);
+  keep_warning(ask(line, "step", kShortAnswer, world));
 }
 
 void ProcessSession::read(int world, double due, double dt, MutableBodyColumns into) {
@@ -97,6 +98,7 @@ void ProcessSession::run(int world, double begin, double dt, long count, long ev
   const std::string line =
       fmt::format(R"({{"call":"run","world":{},"dt":{},"count":{},"every":{}}})", world, dt, count, every);
   const Json answer = ask(line, "run", kShortAnswer + kLongestRow * due * (1 + bodies), world);
+  keep_warning(answer);
   checked([&] {
     const auto found = answer.find("samples");
     const bool is_list = found != answer.end() && found->is_array();
@@ -116,6 +118,11 @@ void ProcessSession::run(int world, double begin, double dt, long count, long ev
 void ProcessSession::receive_raw(const Asked& asked, std::size_t bodies) {
   raw_.resize(kColumnNames.size() * bodies);
   child_->receive(reinterpret_cast<char*>(raw_.data()), raw_.size() * sizeof(double), asked.call);
+}
+
+void ProcessSession::keep_warning(const Json& answer) {
+  const auto found = answer.find("warning");
+  warning_ = found != answer.end() && found->is_string() ? in_quotes(found->get<std::string>()) : "";
 }
 
 // Of the n-th table of as many bodies: thirteen columns, one behind the other.

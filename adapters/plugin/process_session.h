@@ -35,17 +35,21 @@ class ProcessSession {
   // `count` steps, of which each `every`-th, and the last, is sampled into one of the tables; `begin`: s.
   void run(int world, double begin, double dt, long count, long every, std::vector<BodyTable>& samples);
   void unload(int world);
+  // What the engine said of its last step or run: why it is not what the method promises.
+  const std::string& warning() const { return warning_; }
 
  private:
   nlohmann::json ask(const std::string& line, const std::string& call, std::size_t longest, int world = 0);
   // Reads an answer's parts; where that fails the conversation is out of step.
   template <typename Read>
   void checked(const Read& read);
+  void keep_warning(const nlohmann::json& answer);
   void receive_raw(const Asked& asked, std::size_t bodies);
   void copy_raw(const Asked& asked, std::size_t n, MutableBodyColumns into) const;
 
   PluginInfo info_;
   std::unique_ptr<ChildProcess> child_;
+  std::string warning_;
   bool is_sound_ = true;
   int worlds_ = 0;
   std::vector<double> raw_;

@@ -67,6 +67,7 @@ void ProcessWorld::step_alone(double dt) {
     if (!loads_.empty() && !loads_.over_step(*this, dt))
       return lose("the forces of springs and dampers are no longer finite", 0);
     session_->step(world_, dt, loads_.empty() ? std::vector<double>() : loads_.rows());
+    warning_ = session_->warning();
   } catch (const EngineDiverged& diverged) {
     lose(diverged.what(), diverged.body());
   }
@@ -82,6 +83,7 @@ void ProcessWorld::run_ahead() {
                         BodyTable(bodies()));
   try {
     session_->run(world_, clock_.time(), ahead_.dt, ahead_.count, ahead_.every, ahead_.samples);
+    warning_ = session_->warning();
     ahead_.left -= ahead_.count;
   } catch (const EngineDiverged&) {
     go_back_and_step();

@@ -19,7 +19,7 @@ class ProcessWorld : public RemoteWorld {
   void step(double dt) override;
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override { return in_force_; }
-  std::string solver_warning() const override { return lost_why_; }
+  std::string solver_warning() const override { return lost_why_.empty() ? warning_ : lost_why_; }
   void expect(double dt, long steps, long every) override;
   double remote_cpu_seconds() const override { return session_->child().cpu_seconds(); }
 
@@ -52,6 +52,7 @@ class ProcessWorld : public RemoteWorld {
   Ahead ahead_;
   mutable BodyTable state_;
   mutable bool is_read_ = false;  // state_ is of now
+  std::string warning_;           // of the last request for steps
   mutable std::string lost_why_;  // not empty: the state is no longer finite
 };
 

@@ -94,6 +94,9 @@ std::vector<std::string> runs_with_twins() {
     if (is_built("simbody")) names.push_back(std::string("simbody:semi-explicit-euler@") + track);
     for (const char* engine : {"ode", "ode:quickstep", "bullet"}) names.push_back(std::string(engine) + "@" + track);
   }
+  if (is_built("siconos")) {  // as shipped its iteration stops before there are only roundings left
+    for (const char* theta : {"", ",theta=0.5", ",theta=0.7", ",theta=1"}) names.push_back(std::string("siconos") + theta);
+  }
   if (is_built("simbody")) {  // as shipped the others choose their own steps
     for (const char* method : {"explicit-euler", "merson", "rk2", "rk3", "verlet"})
       names.push_back(std::string("simbody:") + method);
@@ -166,6 +169,7 @@ BOOST_AUTO_TEST_CASE(in_every_smooth_case_of_the_suite_an_engine_does_what_its_s
     std::vector<std::string> runs = {"ode", "ode@stock", "bullet", "bullet@stock"};
     if (is_built("dart")) runs.insert(runs.end(), {"dart", "dart@stock"});
     if (is_built("mujoco")) runs.insert(runs.end(), {"mujoco", "mujoco:implicit", "mujoco:rk4"});
+    if (is_built("siconos")) runs.push_back("siconos");
     if (is_built("simbody")) runs.insert(runs.end(), {"simbody", "simbody:semi-explicit-euler"});
     for (const std::string& text : runs) {
       const RunName name = parse_run_name(text, infos);

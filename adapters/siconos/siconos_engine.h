@@ -1,0 +1,15 @@
+// Siconos, in a process of its own (README.md of this folder): the program rigor-siconos, which stands beside this one
+// or, where it is installed, in ../libexec/rigor.
+#pragma once
+
+#include "adapters/plugin/process_engine.h"
+
+namespace rigor {
+
+class SiconosEngine : public ProcessEngine {
+ public:
+  SiconosEngine();
+  std::string twin(const Settings& settings) const override;
+};
+
+}  // namespace rigor

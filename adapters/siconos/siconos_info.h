@@ -1,0 +1,19 @@
+// What rigor-siconos says of itself, as its answer to `info`: the program that starts it need not start it to know.
+#pragma once
+
+namespace rigor {
+
+inline constexpr const char* kSiconosInfo = R"({"ok": true, "rigor": 1, "name": "siconos", "version": "4.4.0",
+  "precision": "double", "calls": ["run"], "columns": "f64le",
+  "features": ["spring", "timed-force", "fixed-body", "restitution", "friction:none", "friction:coulomb",
+    "contact:box-box", "contact:box-capsule", "contact:box-plane", "contact:box-sphere", "contact:capsule-capsule",
+    "contact:capsule-plane", "contact:capsule-sphere", "contact:plane-sphere", "contact:sphere-sphere",
+    "joint:ball", "joint:fixed", "joint:hinge", "joint:slider", "joint-spring", "joint-damper", "motor:effort",
+    "joints-with-contacts", "joints-with-dampers"],
+  "methods": [{"name": "moreau-jean", "summary": "Moreau and Jean's theta method, Coulomb's cone by Gauss-Seidel",
+    "order": 2, "options": [
+    {"name": "theta", "meaning": "weight of the step's end; default 0.5", "min": 0.5, "max": 1},
+    {"name": "tolerance", "meaning": "of the contact solver; default 1e-12", "min": 1e-15, "max": 1},
+    {"name": "iterations", "meaning": "most of the contact solver; default 1000", "min": 1, "max": 1000000, "whole": true}]}]})";
+
+}  // namespace rigor
