@@ -155,6 +155,7 @@ class Search {
       if (dt < kLargestStep && (steps_left_ -= steps_counted(dt)) < 0) return {};
       world->step(dt);
       world->read(now);
+      if (!world->solver_warning().empty()) return false;
       if (!is_bounded(energy(scene_, now.bodies()) - start, energy_in_play_, may_lose)) return false;
     }
     return true;

@@ -1,4 +1,5 @@
-// The search for the largest step at which an engine's run does not blow up.
+// The search for the largest step at which an engine's run does not blow up, and its method does what it promises: a run
+// of which World::solver_warning() says otherwise is invalid, and no step to recommend.
 #pragma once
 
 #include "cases/results/results.h"

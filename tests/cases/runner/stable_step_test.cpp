@@ -70,6 +70,14 @@ BOOST_AUTO_TEST_CASE(a_search_that_takes_too_much_says_where_it_was_cut) {
   BOOST_TEST(largest_stable_dt(test::ScriptedEngine(late), {}, scene, 30, 1).dt == 0.5);
 }
 
+// From the sixtieth step on it says that it failed: no step up to 0.5 s gets through 30 s with so few.
+BOOST_AUTO_TEST_CASE(a_step_at_which_the_method_fails_is_not_a_stable_one) {
+  test::Script failing;
+  failing.solver_warning = [](int step) { return std::string(step >= 60 ? "did not converge" : ""); };
+  const StableStep none = largest_stable_dt(test::ScriptedEngine(failing), {}, test::tumbling_body({1, 1, 1}), 30, 1);
+  BOOST_TEST(none.is_floor);
+}
+
 // A chain of rods whips about: the core's adaptive method divides each step as it needs, whatever the step is.
 BOOST_AUTO_TEST_CASE(of_jointed_bodies_a_method_that_divides_its_steps_is_asked_once) {
   const Scene scene = test::suite_scene("joints/double-pendulum");
