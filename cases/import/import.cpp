@@ -15,6 +15,7 @@
 #include "cases/import/urdf_reader.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
+#include "core/scene/contact_laws.h"
 #include "core/scene/toml/scene_writer.h"
 
 namespace rigor {
@@ -44,13 +45,11 @@ const Format& format_of(const XmlElement& root) {
   root.refuse(fmt::format("found this at the top; allowed: {}", listed(names)));
 }
 
-// Limits, contacts and motors that keep a speed are events, which no truth of joints reaches beyond.
-bool is_smooth(const Scene& scene) {
-  return std::none_of(scene.joints.begin(), scene.joints.end(),
-                      [](const Joint& joint) { return joint.has_limits(); }) &&
-         std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.collides; }) &&
-         std::none_of(scene.motors.begin(), scene.motors.end(),
-                      [](const Motor& motor) { return motor.speed.has_value(); });
+// The truth of joints reaches no further than where bodies touch.
+std::string truth_of(const Scene& scene) {
+  if (!anything_can_touch(scene)) return "\"reference\"\n";
+  return "\"none\"  # bodies may touch, and no truth of joints goes beyond that; with collides = false, "
+         "\"reference\"\n";
 }
 
 // What stands in a comment must not end it.
@@ -69,8 +68,8 @@ std::string case_text_of(const LinkModel& model, const Scene& scene, const std::
   text += fmt::format("title = {}\nsource = {}\n\n", quoted(model.name + ", as its " + format + " file has it"),
                       quoted("imported from " + std::filesystem::path(path).filename().string()));
   text += scene_toml(scene);
-  return text + fmt::format("\n[run]\nduration = 2\ndt = [\"1/30\", \"1/240\", \"1/1000\"]\n\n[truth]\nkind = \"{}\"\n",
-                            is_smooth(scene) ? "reference" : "none");
+  return text + fmt::format("\n[run]\nduration = 2\ndt = [\"1/30\", \"1/240\", \"1/1000\"]\n\n[truth]\nkind = {}",
+                            truth_of(scene));
 }
 
 // What only the whole shows is of no line.

@@ -4,6 +4,14 @@
 #include <utility>
 
 namespace rigor {
+namespace {
+
+// At the start every run is what the scene says: a comparison there alone would find no error in any of them.
+std::size_t beyond_the_start(std::size_t count, const JudgedRun& run) {
+  return count == 1 && run.trajectory.samples.size() > 1 ? 0 : count;
+}
+
+}  // namespace
 
 void TimeSeries::add(double value, const Instant& instant) {
   if (measurement_.series.empty() || value > measurement_.value) {
@@ -20,7 +28,7 @@ std::size_t samples_within(const JudgedRun& run, double needed) {
   if (!run.truth) return 0;
   std::size_t count = 0;
   while (count < run.trajectory.samples.size() && run.truth->error[count] <= needed) ++count;
-  return count;
+  return beyond_the_start(count, run);
 }
 
 std::vector<double> motion_extents(const Trajectory& trajectory) {
@@ -40,7 +48,7 @@ std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& r
   if (run.truth) count = std::min(count, samples_within(run, needed_of_truth));
   std::size_t n = 0;
   while (n < count && rounding[n] <= kRoundingShare * scale[n]) ++n;
-  return n;
+  return beyond_the_start(n, run);
 }
 
 }  // namespace rigor

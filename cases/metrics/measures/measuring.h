@@ -22,7 +22,8 @@ class TimeSeries {
 inline constexpr double kTruthNeededPosition = 1e-6;     // m
 inline constexpr double kTruthNeededOrientation = 1e-6;  // rad
 
-// The first samples of the run, all those at which the truth's own error stays within `needed`. No truth: none.
+// The first samples of the run, all those at which the truth's own error stays within `needed`. No truth: none. Nor are
+// there any where only the start would be: there nothing is off.
 std::size_t samples_within(const JudgedRun& run, double needed);
 
 // A run is held against its twin while the truth is good enough, if there is one, and while roundings alone cannot have
@@ -34,14 +35,14 @@ inline constexpr double kRoundingShare = 1e-10;
 // it.
 std::vector<double> motion_extents(const Trajectory& trajectory);
 
-// The first samples of the run, all those at which it can be held against its twin. `rounding` is the twin's, `scale`
-// what it is relative to at each sample.
+// The first samples of the run, all those at which it can be held against its twin, if more than the start. `rounding`
+// is the twin's, `scale` what it is relative to at each sample.
 std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& rounding,
                               const std::vector<double>& scale, double needed_of_truth);
 
 inline constexpr const char* kNoTwin =
     "the run has no twin: it is the core's own scheme, or bodies can touch, or its way with joints is not repeated";
 inline constexpr const char* kNoTruth = "the case has no truth";
-inline constexpr const char* kNoSamples = "there is no sample at which the truth is good enough";
+inline constexpr const char* kNoSamples = "there is no sample after the start at which the truth is good enough";
 
 }  // namespace rigor

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cstdlib>
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMagic = "rigor reference solution 2\n";  // the layout of the file
 constexpr std::size_t kMostBytes = 128'000'000;                 // larger ones are not kept
+constexpr std::uintmax_t kMostKept = 2'000'000'000;             // bytes in all
 
 class Writer {
  public:
@@ -100,20 +102,43 @@ fs::path file_for(const fs::path& folder, const std::string& content) {
   return folder / fmt::format("{}{:016x}", kPrefix, content_hash(content));
 }
 
-// Files that no run has asked for in a month: another program made them, or of a scene that is no more. Another process
-// may drop them as well, or ask for one now and find none: it is solved again.
+struct KeptFile {
+  fs::path path;
+  fs::file_time_type used;
+  std::uintmax_t bytes;
+};
+
+// Last used first. Another process may drop some meanwhile.
+std::vector<KeptFile> kept_files(const fs::path& folder) {
+  std::vector<KeptFile> kept;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code gone;
+    if (!entry->path().filename().string().starts_with(kPrefix) || !entry->is_regular_file(gone)) continue;
+    const KeptFile file{entry->path(), entry->last_write_time(gone), entry->file_size(gone)};
+    if (!gone) kept.push_back(file);
+  }
+  std::sort(kept.begin(), kept.end(), [](const KeptFile& a, const KeptFile& b) { return a.used > b.used; });
+  return kept;
+}
+
+// Files that no run has asked for in a month, which another program made, or of a scene that is no more; and those
+// unused for longest where all take more than kMostKept. Another process that asks for one now finds none: it is solved
+// again. The folder may hold ten thousand (a sweep keeps one a cell), so that it is gone through once in a while only.
 void drop_unused(const fs::path& folder) {
   constexpr auto kMonth = std::chrono::hours(30 * 24);
+  constexpr auto kWhile = std::chrono::minutes(10);
+  const fs::path last_time = folder / "last-tidied";
   const auto now = fs::file_time_type::clock::now();
   std::error_code error;
-  std::vector<fs::path> unused;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    std::error_code ignored;
-    const bool is_ours = entry->path().filename().string().starts_with(kPrefix) && entry->is_regular_file(ignored);
-    const auto used = entry->last_write_time(ignored);
-    if (is_ours && !ignored && now - used > kMonth) unused.push_back(entry->path());
+  const auto since = now - fs::last_write_time(last_time, error);
+  if (!error && since < kWhile && since > -kWhile) return;  // a clock may have been set back
+  std::ofstream(last_time) << "";
+  std::uintmax_t bytes = 0;
+  for (const KeptFile& file : kept_files(folder)) {
+    bytes += file.bytes;
+    if (now - file.used > kMonth || bytes > kMostKept) fs::remove(file.path, error);
   }
-  for (const fs::path& path : unused) fs::remove(path, error);
 }
 
 // Empty if it cannot be read.

@@ -21,6 +21,9 @@ inline constexpr double kTouch = 1e-11;     // rad, m: an event's time is locate
 inline constexpr double kSameSpeed = 1e-9;  // rad/s, m/s
 inline constexpr double kStill = 1e-11;     // rad/s, m/s: what roundings make of a coordinate that is kept
 inline constexpr double kNoShare = 1e-9;    // of the largest effort: what roundings make of none
+// And of what the weight of all bodies could ask of a joint: of a mechanism that falls freely no effort is large. A
+// limit that holds with so little too much is off by an acceleration of 1e-13 g.
+inline constexpr double kNoShareOfWeight = 1e-13;
 
 template <typename Motion>
 class Stops {
@@ -30,7 +33,10 @@ class Stops {
   using Values = std::vector<AxisMotion<Real>>;
 
   Stops(const Motion& motion, double rest_time)
-      : motion_(motion), rest_time_(rest_time), modes_(motion.axes().size()) {}
+      : motion_(motion),
+        rest_time_(rest_time),
+        least_effort_(kNoShareOfWeight * effort_of_weight(motion.scene())),
+        modes_(motion.axes().size()) {}
 
   static bool are_in(const Scene& scene) {
     return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.has_limits(); }) ||
@@ -152,7 +158,7 @@ class Stops {
       Interval here = interval(state, during);
       if (!here.project_rates(held)) return false;
       const Values at = look(here, held, t);
-      no_effort_ = kNoShare * static_cast<double>(largest_effort(at));
+      no_effort_ = std::max(least_effort_, kNoShare * static_cast<double>(largest_effort(at)));
       const std::size_t wrong = first_wrong([&](std::size_t k) { return is_wrong(modes_[k], touched_[k], at[k]); });
       if (wrong == modes_.size()) {
         state = held;
@@ -186,6 +192,16 @@ class Stops {
     }
   }
 
+  // N, or N m on the longest arm that there is, if that is more than a metre.
+  static double effort_of_weight(const Scene& scene) {
+    double mass = 0, arm = 1;
+    for (const Body& body : scene.bodies) {
+      if (!body.fixed) mass += body.mass;
+      for (const Body& other : scene.bodies) arm = std::max(arm, (body.position - other.position).norm());
+    }
+    return mass * scene.gravity.norm() * arm;
+  }
+
   template <typename IsWrong>
   std::size_t first_wrong(const IsWrong& is_wrong) const {
     std::size_t k = 0;
@@ -201,7 +217,8 @@ class Stops {
   }
 
   const Motion& motion_;
-  double rest_time_;  // s
+  double rest_time_;     // s
+  double least_effort_;  // what roundings make of none where nothing acts
   double no_effort_ = 0;
   AxisModes modes_;
   std::vector<int> touched_;  // of each axis: the limit at which it is, or 0

@@ -10,6 +10,7 @@ namespace rigor {
 namespace {
 
 constexpr int kMostEvents = 1000;         // in a step
+constexpr std::size_t kMostAtOnce = 4;    // at one instant, for each limit and motor
 constexpr double kTimeTolerance = 1e-15;  // of a step, to which events are located
 // Of a step: bounces that end sooner are none. From rest on, ten of e = 0.5 go before it, and what the last would have
 // risen is 1e-7 of what gravity does to a body in a step.
@@ -33,17 +34,22 @@ void JointEvents::step(MutableBodyColumns state, double t, double dt) {
   whole_step_ = dt;
   stops_.read(state, 0);
   double done = 0;
+  std::size_t at_once = 0;
   for (int events = 0; done < dt; ++events) {
     const double now = t + done;
     if (!stops_.settle(state, now, kShortestFlight * dt))
       warn("it could not be decided which limits and motors of the joints hold");
-    if (events == kMostEvents) {
+    if (events == kMostEvents || at_once > kMostAtOnce * (1 + stops_.size())) {
       inner_->step(state, now, dt - done);
       stops_.read(state, dt - done);
-      return warn(fmt::format("limits and motors of the joints changed {} times in one step", kMostEvents));
+      return warn(fmt::format("limits and motors of the joints changed {} times in one {}",
+                              events == kMostEvents ? events : static_cast<int>(at_once),
+                              events == kMostEvents ? "step" : "instant"));
     }
     const double until = stops_.next_switch(now, t + dt);
-    done += advance(state, now, until < t + dt ? until - now : dt - done);
+    const double way = advance(state, now, until < t + dt ? until - now : dt - done);
+    done += way;
+    at_once = way > 0 ? 0 : at_once + 1;
   }
 }
 

@@ -11,6 +11,7 @@ namespace {
 constexpr double kTouch = 1e-11;      // rad, m: from so near a limit on it is reached
 constexpr double kAtRest = 1e-9;      // rad/s, m/s: what slower comes to it, or is off a motor's speed, does not move
 constexpr double kLeaves = 1e-5;      // rad/s, m/s: faster than what closing a gap of kTouch makes of what was kept
+constexpr double kNoFlight = 4e-11;   // rad, m: what is thrown no higher off its limit does not leave it
 constexpr double kNoEffort = 1e-9;    // of the largest multiplier: ten thousand times what rounding leaves of one
 constexpr double kNoChange = 1e-9;    // of 1 + |g| [m/s², rad/s²]: an acceleration that rounding can make
 constexpr int kMostChangesEach = 16;  // of a coordinate's mode in the search for which hold
@@ -203,7 +204,9 @@ bool JointStops::change_if_violated(Stop& stop, BodyColumns state) {
   }
   const double acceleration = joints_.coordinate_acceleration(stop.joint, state);
   for (const int side : {1, -1}) {
-    if (touches(stop, side) && std::abs(stop.rate) <= kAtRest && side * acceleration > acceleration_tolerance_) {
+    const double back = side * acceleration, away = -side * stop.rate;
+    if (touches(stop, side) && back > acceleration_tolerance_ && away >= -kAtRest &&
+        (away <= kAtRest || away * away <= 2 * back * kNoFlight)) {
       stop.at = side;
       return true;
     }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <numbers>
 
+#include "cases/truth/truth.h"
 #include "core/scene/validate.h"
 #include "tests/cases/import/imported.h"
 
@@ -53,6 +54,22 @@ BOOST_AUTO_TEST_CASE(an_inertia_is_turned_into_the_frame_of_its_link_and_the_ori
   BOOST_TEST(joint_named(scene, "j").a == kWorld);
   BOOST_TEST(apart(hinge.anchor, {0, 0, 1}) < 1e-14);
   BOOST_TEST(apart(hinge.axis, Vec3::UnitX()) < 1e-14);
+}
+
+// An arm with limits is held against the truth; where links may touch there is none, and the file says why.
+BOOST_AUTO_TEST_CASE(a_model_gets_the_truth_that_there_is) {
+  const auto text = [](const std::string& of_link) {
+    const Folder folder;
+    const std::string more = "<axis xyz='0 1 0'/><limit lower='-0.4' upper='0.9' effort='10' velocity='3'/>";
+    return import_model(folder.write("r.urdf", urdf_of("revolute", more, of_link))).case_text;
+  };
+  BOOST_TEST(text("").ends_with("[truth]\nkind = \"reference\"\n"));
+  const std::string with_shape = text("<collision><geometry><sphere radius='0.1'/></geometry></collision>");
+  BOOST_TEST(with_shape.ends_with("[truth]\nkind = \"reference\"\n"));  // nothing else is there to touch
+  for (const std::string& kind : {text(""), with_shape}) {
+    const Case arm = read_case_text(kind, "arm.toml", "arm.toml", words());
+    BOOST_TEST(make_truth(arm.truth, arm.scene, 0.5)->error(0.5) < 1e-9);  // s, m: it swings onto its limit at 0.3 s
+  }
 }
 
 BOOST_AUTO_TEST_CASE(joints_bring_limits_and_damping_and_name_what_they_cannot) {

@@ -51,6 +51,18 @@ BOOST_AUTO_TEST_CASE(the_position_error_is_the_largest_distance_within_the_truth
   BOOST_TEST(m.series[2] == 0.1);
 }
 
+// At the start nothing is off, whatever the engine does: that is no error of 0.
+BOOST_AUTO_TEST_CASE(a_truth_that_is_good_at_the_start_alone_measures_nothing) {
+  AtRest made;
+  made.truth.error = {0, 1e-3, 1e-3, 1e-3};
+  made.at(1).set_position(0, {100, 0, 0});
+  for (const char* name : {"position_error", "orientation_error", "velocity_error"}) {
+    const MetricResult found = test::measured(name, made.run());
+    BOOST_TEST(!found.measurement.has_value(), name);
+    BOOST_TEST(found.not_applicable == "there is no sample after the start at which the truth is good enough");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_orientation_error_is_an_angle_whatever_the_quaternions_sign_and_length) {
   AtRest made;
   const Quat turned(Eigen::AngleAxisd(0.25, Vec3(1, 2, 2) / 3));

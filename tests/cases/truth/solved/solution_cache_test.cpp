@@ -28,10 +28,11 @@ struct CacheFolder : Folder {
   }
   static void set(const char* name, const fs::path& value) { ::setenv(name, value.c_str(), 1); }
 
+  // But that which says when the folder was last tidied.
   std::vector<fs::path> files() const {
     std::vector<fs::path> found;
     for (const auto& entry : fs::recursive_directory_iterator(path)) {
-      if (entry.is_regular_file()) found.push_back(entry.path());
+      if (entry.is_regular_file() && entry.path().filename() != "last-tidied") found.push_back(entry.path());
     }
     return found;
   }
@@ -231,9 +232,30 @@ BOOST_AUTO_TEST_CASE(what_was_not_used_for_a_month_is_dropped_and_nothing_else) 
   for (const fs::path& file : {used, unused, strange}) fs::last_write_time(file, long_ago);
   BOOST_TEST(kept_solution(kContent).has_value());  // and so it is in use
   keep_solution(reference_content(kScene, 2), solution);
+  BOOST_TEST(fs::exists(unused));  // the folder was gone through a moment ago
+  fs::last_write_time(folder / "last-tidied", long_ago);
+  keep_solution(reference_content(kScene, 3), solution);
   BOOST_TEST(fs::exists(used));
   BOOST_TEST(!fs::exists(unused));
   BOOST_TEST(fs::exists(strange));
+}
+
+BOOST_AUTO_TEST_CASE(what_was_unused_for_longest_goes_where_all_take_too_much) {
+  const ReferenceSolution solution = solve_reference(kScene, 1);
+  keep_solution(kContent, solution);
+  const fs::path folder = files().front().parent_path();
+  const auto now = fs::file_time_type::clock::now();
+  const std::vector<fs::path> large{folder / "reference-an-hour-ago", folder / "reference-two-hours-ago"};
+  for (int k = 0; k < 2; ++k) {
+    std::ofstream(large[k]) << "x";
+    fs::resize_file(large[k], 1'200'000'000);  // takes no room on the disk
+    fs::last_write_time(large[k], now - std::chrono::hours(k + 1));
+  }
+  fs::last_write_time(folder / "last-tidied", now - std::chrono::hours(1));
+  keep_solution(reference_content(kScene, 2), solution);
+  BOOST_TEST(fs::exists(large[0]));
+  BOOST_TEST(!fs::exists(large[1]));
+  BOOST_TEST(kept_solution(kContent).has_value());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

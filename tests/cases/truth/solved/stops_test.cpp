@@ -126,4 +126,23 @@ BOOST_AUTO_TEST_CASE(a_motor_keeps_its_speed_as_long_as_it_is_strong_enough) {
   BOOST_TEST(lost > 10);
 }
 
+// Falling freely nothing presses on anything: what stands at its limits stays there, and no rounding decides otherwise.
+BOOST_AUTO_TEST_CASE(a_mechanism_that_falls_freely_stays_at_its_limits) {
+  Scene scene;
+  scene.gravity = {0, 0, -9.81};
+  scene.bodies = {test::body("trunk", 4.7, {.02, .06, .06}, {.013, .002, 0}),
+                  test::body("thigh", 1.01, {.005, .006, .001}, {.18, -.11, -.03}),
+                  test::body("calf", .226, {.003, .003, 3e-5}, {.27, -.13, -.26})};
+  scene.joints.push_back({0, 1, HingeJoint{Vec3(.18, -.05, 0), Vec3::UnitX()}});
+  scene.joints.push_back({1, 2, HingeJoint{Vec3(.18, -.13, -.2), Vec3::UnitY()}});
+  scene.joints[0].upper = 0, scene.joints[1].upper = 0, scene.joints[1].lower = -1.8;
+  const auto truth = make_truth("reference", scene, 2);
+  BOOST_TEST(truth->error(2) < 1e-12);
+  const BodyTable end = test::truth_at(*truth, 2, 3);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 fallen = scene.bodies[i].position + Vec3(0, 0, -.5 * 9.81 * 4);
+    BOOST_TEST((end.columns().position(i) - fallen).norm() < 1e-12);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
