@@ -18,7 +18,8 @@ BOOST_AUTO_TEST_CASE(an_impulse_goes_with_its_corner_and_not_with_its_place) {
   set_initial_state(scene, before.columns());
   scene.bodies[0].orientation = rotation_by({0, 0, 0.5 * std::numbers::pi});
   set_initial_state(scene, after.columns());
-  Manifolds manifolds(scene);
+  ThreadPool alone(1);
+  Manifolds manifolds(scene, alone);
   std::map<std::uint32_t, double> impulses;  // N s, by corner
   for (ContactConstraint& point : manifolds.find(std::as_const(before).columns(), 1.0 / 240)) {
     point.normal_impulse = 1 + static_cast<double>(impulses.size());
