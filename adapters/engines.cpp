@@ -92,6 +92,18 @@ const std::vector<MissingEngine>& missing_engines() {
   return missing;
 }
 
+const std::vector<EngineOnRequest>& engines_on_request() {
+  static const std::vector<EngineOnRequest> named = {
+      {"siconos", "a case with joints takes it some 20 s, and many with contacts its solver does not bring to its law"},
+  };
+  return named;
+}
+
+bool is_on_request(const std::string& engine) {
+  const auto& named = engines_on_request();
+  return std::any_of(named.begin(), named.end(), [&](const EngineOnRequest& row) { return row.name == engine; });
+}
+
 const EngineTable& engines() {
   static const EngineTable table = built_in_engines();
   return table;

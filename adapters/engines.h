@@ -39,6 +39,14 @@ struct MissingEngine {
 };
 const std::vector<MissingEngine>& missing_engines();  // alphabetical
 
+// Engines of this program that take part where they are named, and not by default.
+struct EngineOnRequest {
+  std::string name;
+  std::string why;
+};
+const std::vector<EngineOnRequest>& engines_on_request();  // alphabetical, built or not
+bool is_on_request(const std::string& engine);
+
 EngineTable built_in_engines();  // alphabetical; a copy of one's own, to add others to
 const EngineTable& engines();    // the same, for those who add none
 

@@ -34,11 +34,17 @@ void expect_gates(const std::vector<Case>& cases) {
     if (definition.gates.empty()) without.push_back(definition.id);
   }
   if (without.size() == cases.size()) {
-    throw InputError(fmt::format("rigor gate: no gate stands in {}, so there is nothing to judge; rigor run simulates "
-                                 "without judging",
-                                 fmt::join(without, ", ")));
+    throw InputError(
+        fmt::format("rigor gate: no gate stands in {}, so there is nothing to judge; rigor run simulates "
+                    "without judging",
+                    fmt::join(without, ", ")));
   }
   if (!without.empty()) say(fmt::format("no gate judges {}", fmt::join(without, ", ")));
+}
+
+std::vector<RunName> without_those_on_request(std::vector<RunName> runs) {
+  std::erase_if(runs, [](const RunName& run) { return is_on_request(run.engine); });
+  return runs;
 }
 
 Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
@@ -49,7 +55,8 @@ Results planned(const CommandLine& line, const EngineTable& engines, const std::
   if (is_gate(line)) expect_gates(cases);
   const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
   // Who names engines wants these and no others.
-  const auto of_gates = line.engines.empty() ? runs_of_gates(cases, runs, engines.infos()) : std::vector<RunName>();
+  const auto of_gates = line.engines.empty() ? without_those_on_request(runs_of_gates(cases, runs, engines.infos()))
+                                             : std::vector<RunName>();
   const Scope scope{!is_gate(line), is_gate(line) && line.engines.empty() && line.dt.empty()};
   return plan_grid(cases, runs, engines, scope, of_gates);
 }
@@ -125,7 +132,7 @@ int answer_of_gate(const GridRun& run, int ending) {
 }  // namespace
 
 std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<EngineInfo>& infos) {
-  if (line.engines.empty()) return default_runs(infos);
+  if (line.engines.empty()) return without_those_on_request(default_runs(infos));
   std::vector<RunName> runs;
   for (const std::string& name : line.engines) {
     RunName run = parse_run_name(name, infos);

@@ -49,6 +49,10 @@ Rows engine_rows(const CommandLine&, const EngineTable& engines) {
       if (!engine.is_in_house) rows.emplace_back("  " + engine.name + ":" + method.name, method_text(method));
     }
     if (engine.is_in_house) rows.back().second += " (see integrators)";
+    for (const EngineOnRequest& row : engines_on_request()) {
+      if (row.name == engine.name)
+        rows.emplace_back("  " + row.name, fmt::format("runs where it is named, --engine {}: {}", row.name, row.why));
+    }
   }
   for (const MissingEngine& engine : missing_engines())
     rows.emplace_back(engine.name, fmt::format("not built: install {} and build again", engine.package));

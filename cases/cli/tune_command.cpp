@@ -108,7 +108,8 @@ int tune_command(const CommandLine& line, const EngineTable& engines) {
   options.settings = kSettingsBeside;
   std::vector<Tuning> others;
   for (const EngineInfo& engine : engines.infos()) {
-    if (engine.name != asked_for) others.push_back(tune(engine.name, cases, bounds, engines, options));
+    if (engine.name != asked_for && !is_on_request(engine.name))
+      others.push_back(tune(engine.name, cases, bounds, engines, options));
   }
   print_table(beside_text(others));
   return tuning.winner ? kGood : kGateFailed;

@@ -1,0 +1,25 @@
+// Which runs a command takes.
+#include "cases/cli/grid_run.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/cases/vocabulary.h"
+
+using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(cases_cli_grid_run)
+
+BOOST_AUTO_TEST_CASE(what_runs_on_request_takes_part_where_it_is_named) {
+  CommandLine line;
+  for (const RunName& run : runs_asked_for(line, test::words().engines)) BOOST_TEST(!is_on_request(run.engine));
+  for (const EngineOnRequest& row : engines_on_request()) {
+    BOOST_TEST(!row.why.empty());
+    const auto& infos = infos_of(engines());
+    const bool is_built = std::any_of(infos.begin(), infos.end(), [&](const auto& i) { return i.name == row.name; });
+    if (!is_built) continue;
+    line.engines = {row.name};
+    BOOST_TEST(runs_asked_for(line, test::words().engines).size() == 1u);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
