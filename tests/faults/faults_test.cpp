@@ -109,11 +109,14 @@ std::string finding(const Fault& fault, const std::string& engine) {
   return "";
 }
 
-// All that are built, or the one that RIGOR_FAULT_ENGINE names.
+// All that are built and take part by default, or the one that RIGOR_FAULT_ENGINE names. Gates on contacts and joints
+// are not yet proven on those that run on request.
 std::vector<std::string> engines_asked() {
   if (const char* only = std::getenv("RIGOR_FAULT_ENGINE")) return {only};
   std::vector<std::string> names;
-  for (const EngineInfo& info : infos_of(engines())) names.push_back(info.name);
+  for (const EngineInfo& info : infos_of(engines())) {
+    if (!is_on_request(info.name)) names.push_back(info.name);
+  }
   return names;
 }
 
