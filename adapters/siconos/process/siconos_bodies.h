@@ -3,6 +3,7 @@
 #pragma once
 
 #include <NewtonEulerDS.hpp>
+#include <SiconosVector.hpp>
 #include <memory>
 #include <vector>
 
@@ -11,6 +12,12 @@
 #include "core/scene/scene.h"
 
 namespace rigor::siconos {
+
+inline SP::SiconosVector vector_of(const Vec3& v) {
+  const auto out = std::make_shared<SiconosVector>(3);
+  for (int k = 0; k < 3; ++k) (*out)(k) = v[k];
+  return out;
+}
 
 class Bodies;
 

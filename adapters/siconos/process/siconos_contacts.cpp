@@ -12,12 +12,6 @@ namespace rigor::siconos {
 
 namespace {
 
-SP::SiconosVector vector_of(const Vec3& v) {
-  const auto out = std::make_shared<SiconosVector>(3);
-  for (int k = 0; k < 3; ++k) (*out)(k) = v[k];
-  return out;
-}
-
 // Of a point in W, in a body's frame; in W itself for a body that is fixed, which Siconos does not know.
 Vec3 in_frame(BodyColumns state, int body, bool is_fixed, const Vec3& point) {
   const auto i = static_cast<std::size_t>(body);

@@ -11,12 +11,6 @@
 namespace rigor::siconos {
 namespace {
 
-SP::SiconosVector vector_of(const Vec3& v) {
-  const auto out = std::make_shared<SiconosVector>(3);
-  for (int k = 0; k < 3; ++k) (*out)(k) = v[k];
-  return out;
-}
-
 SP::SiconosVector pose_at_start(const Scene& scene, int body) {
   const BodyPose pose = scene.pose(body);
   const auto q = std::make_shared<SiconosVector>(7);
