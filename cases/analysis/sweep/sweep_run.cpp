@@ -206,6 +206,35 @@ class SweepProgress {
   std::map<std::size_t, Open> open_;
 };
 
+// The jobs of a shard that no run before this one has been through.
+class JobsToDo : public JobSource {
+ public:
+  JobsToDo(const Sweep& sweep, std::pair<std::size_t, std::size_t> range, double limit, SweepProgress& progress)
+      : sweep_(sweep), next_(range.first), behind_(range.second), limit_(limit), progress_(progress) {}
+
+  std::optional<JobSpec> next() override {
+    while (next_ < behind_ && progress_.take_from_journal(next_)) ++next_;
+    if (next_ == behind_) return {};
+    given_.push_back(next_++);
+    return JobSpec{JobSpec::Kind::whole_case, given_.back(), limit_of(given_.back())};
+  }
+  std::size_t left() const override { return behind_ - next_; }
+  std::size_t given(std::size_t number) const { return given_[number]; }
+
+ private:
+  // One of a single row makes its truth and runs it under one limit.
+  double limit_of(std::size_t job) const {
+    const bool is_single = sweep_.first_row_of(job + 1) - sweep_.first_row_of(job) == 1;
+    return is_single ? 2 * limit_ : limit_;
+  }
+
+  const Sweep& sweep_;
+  std::size_t next_, behind_;
+  double limit_;  // s
+  SweepProgress& progress_;
+  std::vector<std::size_t> given_;  // jobs of the sweep, in the order in which they were begun
+};
+
 }  // namespace
 
 std::string answer_of(const SweepRow& row) {
@@ -238,7 +267,6 @@ std::pair<std::size_t, std::size_t> jobs_of(const Sweep& sweep, const Shard& sha
 
 void run_sweep(const Sweep& sweep, const EngineTable& engines, const SweepOptions& options,
                const std::function<void(const SweepRow& row)>& on_row) {
-  constexpr std::size_t kBatch = 5000;  // jobs known at a time
   const auto [first, behind] = jobs_of(sweep, options.shard);
   const int at_once = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(options.jobs), behind - first));
   const JobProcess process(sweep, engines, options, options.jobs / std::max(1, at_once));
@@ -246,20 +274,12 @@ void run_sweep(const Sweep& sweep, const EngineTable& engines, const SweepOption
   const Executor& executor = options.executor ? *options.executor : processes;
   const auto work = [&](const JobSpec& job, const Channel& channel) { process.run(job.of_case, channel); };
   executor.begin(build_identity() + "\n" + sweep.plan(), std::filesystem::path(options.journal).parent_path().string());
-  if (!executor.leads()) return executor.run({}, work, {}, {});
+  if (!executor.leads()) return executor.run(std::vector<JobSpec>(), work, {}, {});
   SweepProgress progress(sweep, options, on_row);
-  for (std::size_t next = first; next < behind;) {
-    std::vector<JobSpec> jobs;
-    for (; next < behind && jobs.size() < kBatch; ++next) {
-      // One of a single row makes its truth and runs it under one limit.
-      const bool is_single = sweep.first_row_of(next + 1) - sweep.first_row_of(next) == 1;
-      const double limit = is_single ? 2 * options.limit : options.limit;
-      if (!progress.take_from_journal(next)) jobs.push_back({JobSpec::Kind::whole_case, next, limit});
-    }
-    executor.run(
-        jobs, work, [&](std::size_t job, const std::string& message) { progress.hear(jobs[job].of_case, message); },
-        [&](std::size_t job, const JobEnd& end) { progress.end(jobs[job].of_case, end); });
-  }
+  JobsToDo jobs(sweep, {first, behind}, options.limit, progress);
+  executor.run(
+      jobs, work, [&](std::size_t job, const std::string& message) { progress.hear(jobs.given(job), message); },
+      [&](std::size_t job, const JobEnd& end) { progress.end(jobs.given(job), end); });
 }
 
 }  // namespace rigor

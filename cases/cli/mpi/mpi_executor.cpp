@@ -104,31 +104,25 @@ std::string sign_in(const std::string& folder) {
 // Hands the jobs of one call out, to helpers first, and hears of those. While plenty are left each may have one ahead,
 // so that it need not wait for the next: on a busy machine an answer may take as long as a time slice of each other
 // process.
-class MpiExecutor::Leading : public JobFeed {
+class MpiExecutor::Leading : public FeedOfJobs {
  public:
-  Leading(const MpiExecutor& team, const std::vector<JobSpec>& jobs, const Work& work, const OnMessage& on_message,
-          const OnEnd& on_end)
-      : team_(team), jobs_(jobs), work_(work), on_message_(on_message), on_end_(on_end) {}
+  Leading(const MpiExecutor& team, JobSource& jobs, const Work& work, const OnMessage& on_message, const OnEnd& on_end)
+      : FeedOfJobs(jobs, work), team_(team), on_message_(on_message), on_end_(on_end) {}
 
   bool is_over() override {
     while (const auto letter = next_letter()) take(*letter);
-    for (std::size_t asked = team_.hungry_.size(); asked > 0 && next_ < jobs_.size(); --asked) {
+    for (std::size_t asked = team_.hungry_.size(); asked > 0 && left() > 0; --asked) {
       const int rank = team_.hungry_.front();
       team_.hungry_.pop_front();
       if (held_[rank] > 0 && !has_plenty()) {
         team_.hungry_.push_back(rank);
         continue;
       }
-      send(rank, kJob, text_of(next_, jobs_[next_]));
-      ++next_, ++out_, ++held_[rank];
+      const auto [number, job] = give_away();
+      send(rank, kJob, text_of(number, job));
+      ++out_, ++held_[rank];
     }
-    return next_ == jobs_.size() && out_ == 0;
-  }
-  std::optional<Numbered> next() override {
-    if (next_ == jobs_.size()) return {};
-    const std::size_t number = next_++;
-    const JobSpec& job = jobs_[number];
-    return Numbered{number, {[this, &job](const Channel& channel) { work_(job, channel); }, job.limit}};
+    return FeedOfJobs::is_over() && out_ == 0;
   }
   int longest_wait() const override { return static_cast<int>(kNap.count()); }
 
@@ -136,7 +130,7 @@ class MpiExecutor::Leading : public JobFeed {
   // So many that what one rank has ahead is done before the last of them.
   bool has_plenty() const {
     constexpr std::size_t kEach = 4;
-    return jobs_.size() - next_ > kEach * static_cast<std::size_t>(team_.ranks_);
+    return left() > kEach * static_cast<std::size_t>(team_.ranks_);
   }
 
   void take(const Letter& letter) {
@@ -153,11 +147,9 @@ class MpiExecutor::Leading : public JobFeed {
   }
 
   const MpiExecutor& team_;
-  const std::vector<JobSpec>& jobs_;
-  const Work& work_;
   const OnMessage& on_message_;
   const OnEnd& on_end_;
-  std::size_t next_ = 0, out_ = 0;
+  std::size_t out_ = 0;
   std::map<int, int> held_;  // by rank: jobs that it has and that have not ended
 };
 
@@ -274,8 +266,7 @@ void MpiExecutor::stay_out(const std::string& why) const {
   }
 }
 
-void MpiExecutor::run(const std::vector<JobSpec>& jobs, const Work& work, const OnMessage& on_message,
-                      const OnEnd& on_end) const {
+void MpiExecutor::run(JobSource& jobs, const Work& work, const OnMessage& on_message, const OnEnd& on_end) const {
   if (leads()) {
     Leading feed(*this, jobs, work, on_message, on_end);
     return run_jobs(feed, 1, on_message, on_end);

@@ -17,8 +17,8 @@ class MpiExecutor : public Executor {
   ~MpiExecutor() override;  // of the leader: dismisses the others
   bool leads() const override { return rank_ == 0; }
   void begin(const std::string& plan, const std::string& folder) const override;
-  void run(const std::vector<JobSpec>& jobs, const Work& work, const OnMessage& on_message,
-           const OnEnd& on_end) const override;
+  using Executor::run;
+  void run(JobSource& jobs, const Work& work, const OnMessage& on_message, const OnEnd& on_end) const override;
   void stay_out(const std::string& why) const override;
 
  private:

@@ -315,10 +315,10 @@ BOOST_AUTO_TEST_CASE(any_executor_can_run_the_cases_and_is_told_each_as_data) {
   class Recording : public ProcessExecutor {
    public:
     Recording() : ProcessExecutor(1) {}
-    void run(const std::vector<JobSpec>& jobs, const Work& work, const OnMessage& on_message,
-             const OnEnd& on_end) const override {
-      told = jobs;
-      ProcessExecutor::run(jobs, work, on_message, on_end);
+    void run(JobSource& jobs, const Work& work, const OnMessage& on_message, const OnEnd& on_end) const override {
+      while (const auto job = jobs.next()) told.push_back(*job);
+      ListedJobs again(told);
+      ProcessExecutor::run(again, work, on_message, on_end);
     }
     mutable std::vector<JobSpec> told;
   };
