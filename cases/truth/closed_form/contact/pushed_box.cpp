@@ -137,14 +137,17 @@ class PushedBox {
     }
   }
 
-  // The plane's pressure must hold the moment of all friction, and of the balls off the middle, from within the face.
+  // The plane's pressure must hold the moment of all friction, and of the balls off the middle, from within the face;
+  // and the balls must lie evenly on both sides of the push.
   void check_that_it_stands() const {
     Extended moment = half()[up_] * (friction_force_ + acceleration_.norm() * normal_force_ / ground_.pressing());
     ExtendedVec3 off = ExtendedVec3::Zero();
+    Extended size = 0;
     for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
       if (!is_ball(i)) continue;
       const Body& ball = scene_.bodies[i];
-      off += ball.mass * ground_.pressing() * (extended(ball.position) - extended(scene_.bodies[box_].position));
+      const ExtendedVec3 arm = extended(ball.position) - extended(scene_.bodies[box_].position);
+      off += ball.mass * ground_.pressing() * arm, size += ball.mass * ground_.pressing() * arm.norm();
       moment += ball.mass * ground_.pressing() * acceleration_.norm() * duration_ * duration_ / 2;
     }
     Extended least = std::numeric_limits<Extended>::infinity();
@@ -153,6 +156,10 @@ class PushedBox {
     }
     if (ground_.part_along(off).norm() + moment > least * normal_force_)
       ground_.refuse(scene_.bodies[box_], "might tip over");
+    // Friction above and below it acts where the balls press: beside the push it would turn the box.
+    const Extended beside = std::abs(ground_.normal().cross(push()).dot(off));
+    if (beside > 64 * static_cast<Extended>(kEpsilon) * size * push().norm())
+      ground_.refuse(scene_.bodies[box_], "is loaded to one side of its push, which would turn it");
   }
 
   const Scene& scene_;

@@ -50,7 +50,7 @@ class Toppling final : public BodyMotion {
   Toppling(const Scene& scene, const Body& box, double duration)
       : ground_(scene, kName, kIsFor), box_(box), q_(extended(box.orientation)) {
     if (ground_.along().norm() > 0) ground_.refuse(box, "is on a slope");
-    if (!std::holds_alternative<Box>(*box.shape)) ground_.refuse(box, "is no box");
+    if (!box.collides || !std::holds_alternative<Box>(*box.shape)) ground_.refuse(box, "is no box that collides");
     gap_ = static_cast<double>(std::abs(ground_.gap_under(box)));
     if (gap_ > kTouching) ground_.refuse(box, "does not touch the plane");
     find_edge();

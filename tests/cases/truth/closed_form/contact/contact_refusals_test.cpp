@@ -58,6 +58,7 @@ const Row kRows[] = {
     {"pushed", test::pushed_box(0), [](Scene& s) { s.forces[0].until = 1; }, "constant level push"},
     {"pushed", test::pushed_box(0), [](Scene& s) { s.bodies[5].position.z() += 1; }, "does not lie on"},
     {"pushed", test::pushed_box(0), [](Scene& s) { s.bodies[5].position = s.bodies[6].position; }, "could touch"},
+    {"pushed", test::pushed_box(0), [](Scene& s) { s.bodies[5].position.y() += 0.011; }, "to one side of its push"},
 };
 
 }  // namespace

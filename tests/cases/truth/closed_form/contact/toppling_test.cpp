@@ -91,6 +91,9 @@ BOOST_AUTO_TEST_CASE(what_is_no_pendulum_is_refused_with_the_reason) {
   Scene high = toppling(1.6, 1);
   high.bodies[0].position.z() += 1e-6;
   refuses(high, 0.8, "does not touch the plane");
+  Scene ghost = toppling(1.6, 1);
+  ghost.bodies[0].collides = false;
+  refuses(ghost, 0.8, "is no box that collides");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
