@@ -57,7 +57,9 @@ class SweepFiles {
   void add(const SweepRow& row) {
     csv_ << sweep_csv_row(sweep_, row), lines_ << sweep_json_row(sweep_, row);
     page_.add(row);
-    ++counts_[{row.of_case, row.run}][row.status == Status::pass ? row.verdict : word_of(row.status)];
+    const bool has_run = row.status == Status::pass;
+    Count& count = counts_[{row.of_case, row.run}][has_run ? row.verdict : word_of(row.status)];
+    if (++count.cells == 1 && !has_run && row.status != Status::diverged) count.why = row.reason;
     has_broken_ |= is_broken(row);
   }
   void finish(OutputFolder& folder) {
@@ -73,17 +75,25 @@ class SweepFiles {
     for (const auto& [of, counts] : counts_) {
       text += fmt::format("{}  {}:", sweep_.cases()[of.first].id, sweep_.runs()[of.second].text);
       for (const auto& [word, count] : counts)
-        text += fmt::format(" {} {}", count, word) + (word == counts.rbegin()->first ? "" : ",");
+        text += fmt::format(" {} {}", count.cells, word) + (word == counts.rbegin()->first ? "" : ",");
       text += "\n";
+      for (const auto& [word, count] : counts) {
+        if (!count.why.empty())
+          text += fmt::format("  {}{}: {}\n", word, count.cells > 1 ? ", the first" : "", count.why);
+      }
     }
     return text;
   }
 
  private:
+  struct Count {
+    std::size_t cells = 0;
+    std::string why;  // of the first, where it came to no result
+  };
   const Sweep& sweep_;
   SweepPage page_;
   std::ofstream csv_, lines_;
-  std::map<std::pair<std::size_t, std::size_t>, std::map<std::string, std::size_t>> counts_;
+  std::map<std::pair<std::size_t, std::size_t>, std::map<std::string, Count>> counts_;  // by case and run; by word
   bool has_broken_ = false;
 };
 

@@ -82,22 +82,24 @@ std::vector<double> costs_of(const std::vector<Probe>& probes, Prober& prober) {
   return medians;
 }
 
-// The cheapest of the grid that keep the bound.
+// The cheapest of the grid that keep the bound; some hundred runs at a time, whose results are kept meanwhile.
 std::vector<Probe> best_of_grid(const std::vector<std::string>& settings, Prober& prober) {
   constexpr std::size_t kMost = 5;
+  std::vector<std::pair<double, Probe>> good;  // with their cost
   std::vector<Probe> probes;
   for (const std::string& run : settings) {
     for (std::size_t step = 0; step < tuned_steps().size(); ++step) probes.push_back({run, step});
+    if (probes.size() < 500 && run != settings.back()) continue;
+    const auto answers = prober.run(probes, 1, true, 2);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      if (answers[i].error <= 1) good.emplace_back(answers[i].cost, probes[i]);
+    }
+    probes.clear();
   }
-  const auto answers = prober.run(probes, 1, true, 2);
-  std::vector<std::size_t> good;
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    if (answers[i].error <= 1) good.push_back(i);
-  }
-  std::sort(good.begin(), good.end(), [&](auto a, auto b) { return answers[a].cost < answers[b].cost; });
+  std::sort(good.begin(), good.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   good.resize(std::min(good.size(), kMost));
   std::vector<Probe> best;
-  for (const std::size_t i : good) best.push_back(probes[i]);
+  for (const auto& [cost, probe] : good) best.push_back(probe);
   return best;
 }
 

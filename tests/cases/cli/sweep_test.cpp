@@ -90,6 +90,7 @@ BOOST_AUTO_TEST_CASE(an_option_that_a_method_does_not_have_is_unsupported_there)
     BOOST_TEST(!row.contains("energy_drift"));
   }
   BOOST_TEST(unsupported == 3);
+  BOOST_TEST(answer.out.find("unsupported, the first: ") != std::string::npos, answer.out);
 }
 
 BOOST_AUTO_TEST_CASE(a_sample_follows_from_its_seed_however_many_jobs_there_are) {
