@@ -5,7 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <iterator>
 
+#include "adapters/mujoco/mujoco_mjcf.h"
 #include "adapters/mujoco/mujoco_model.h"
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {
@@ -65,7 +67,7 @@ class Exporter {
     for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
       if (scene_.bodies[i].fixed) add_fixed(i);
     }
-    for (const int root : tree_.roots) add_body(root, 4);
+    for (const int root : tree_.roots) add_body(root);
     add("  </worldbody>\n");
     add_springs();
     add_loops();
@@ -90,8 +92,13 @@ class Exporter {
     add("    </body>\n");
   }
 
-  void add_body(int index, int indent) {
+  void add_body(int index, int depth = 1) {
     const Body& body = scene_.bodies[index];
+    if (depth > kDeepestBody)
+      throw InputError(
+          fmt::format("body '{}' hangs on {} others; no file of MJCF holds it, for its readers go no deeper", body.name,
+                      kDeepestBody));
+    const int indent = 2 + 2 * depth;
     const SpanningTree::Link& link = tree_.links[index];
     const BodyPose in_parent = inverse(scene_.pose(link.parent)) * scene_.pose(index);
     add("{:{}}<body name=\"{}\" pos=\"{}\" quat=\"{}\">\n", "", indent, escaped(body.name), numbers(in_parent.position),
@@ -104,7 +111,7 @@ class Exporter {
     }
     add_geom(body, indent + 2);
     add_sites(index, indent + 2);
-    for (const int below : tree_.below[index]) add_body(below, indent + 2);
+    for (const int below : tree_.below[index]) add_body(below, depth + 1);
     add("{:{}}</body>\n", "", indent);
   }
 

@@ -14,7 +14,6 @@ namespace {
 std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 std::string text_of(const Quat& q) { return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z()); }
 
-constexpr int kDeepest = 95;  // bodies: TinyXML-2, which reads for it, nests a hundred elements
 
 std::string name_of(int body) { return fmt::format("b{}", body); }
 
@@ -105,10 +104,10 @@ class Writer {
   }
 
   void write_body(int index, int depth = 1) {
-    if (depth > kDeepest) {
+    if (depth > kDeepestBody) {
       throw EngineFailure(FailureKind::unsupported,
                           fmt::format("body '{}' hangs on {} others, and MuJoCo's reader of scenes goes no deeper",
-                                      scene_.bodies[index].name, kDeepest));
+                                      scene_.bodies[index].name, kDeepestBody));
     }
     const Body& body = scene_.bodies[index];
     const SpanningTree::Link& link = tree_.links[index];

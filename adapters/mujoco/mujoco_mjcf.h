@@ -13,6 +13,9 @@
 
 namespace rigor {
 
+// Bodies that hang on each other: TinyXML-2, which reads for MuJoCo, nests a hundred elements.
+inline constexpr int kDeepestBody = 95;
+
 std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings);
 
 }  // namespace rigor

@@ -244,7 +244,11 @@ XmlFile::XmlFile(const std::string& path) : path_(path), document_(std::make_uni
   if (const std::size_t at = text.find('\0'); at != std::string::npos)
     throw InputError(fmt::format("{}:{}: found a zero byte", path,
                                  1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n')));
-  if (document_->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+  const tinyxml2::XMLError found = document_->Parse(text.data(), text.size());
+  if (found == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED)
+    throw InputError(fmt::format("{}:{}: found elements nested deeper than {}, which is as deep as any is read", path,
+                                 std::max(1, document_->ErrorLineNum()), TINYXML2_MAX_ELEMENT_DEPTH));
+  if (found != tinyxml2::XML_SUCCESS) {
     throw InputError(fmt::format("{}:{}: is not XML: {}", path, std::max(1, document_->ErrorLineNum()),
                                  error_in_words(document_->ErrorName())));
   }

@@ -10,6 +10,7 @@
 #include "adapters/mujoco/mujoco_library.h"
 #include "tests/adapters/free_body_measures.h"
 #include "tests/cases/import/imported.h"
+#include "tests/cases/judged.h"
 
 using namespace rigor;
 using namespace rigor::test;
@@ -118,6 +119,13 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_exported_starts_and_moves_there_as_it_does_h
     }
     check_alike(id, apart_after(own, scene, 1));
   }
+}
+
+// MuJoCo's own reader would not take the file either.
+BOOST_AUTO_TEST_CASE(a_chain_that_mjcf_cannot_nest_is_refused) {
+  const Scene scene = read_case(RIGOR_SOURCE_DIR "/cases/suite/joints/cable-100.toml", "cable", words()).scene;
+  LeftOut left_out;
+  BOOST_CHECK_EXCEPTION(mjcf_of(scene, left_out), InputError, says("hangs on 95 others; no file of MJCF holds it"));
 }
 
 BOOST_AUTO_TEST_CASE(the_compiled_model_comes_with_all_that_a_scene_can_say) {

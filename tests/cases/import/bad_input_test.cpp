@@ -41,6 +41,7 @@ std::vector<Bad> bad_files() {
   return {
       {"a.urdf", "", "a.urdf:1: "},
       {"a.urdf", "<robot name='r'>\n<link name='a'>\n</robot>", "a.urdf:2: is not XML: mismatched element"},
+      {"a.xml", "<mujoco>\n" + repeated("<body>", 6 * 120), "a.xml:2: found elements nested deeper than 100"},
       {"a.urdf", kBomb + robot(link("&b;")), "a.urdf:1: found a document type"},
       {"a.xml", kBomb + "<mujoco/>", "a.xml:1: found a document type"},
       {"a.urdf", robot("") + robot(""), "a second element at the top"},
