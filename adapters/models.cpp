@@ -12,7 +12,9 @@ namespace rigor {
 
 #ifdef RIGOR_WITH_MUJOCO
 
-LinkModel mujoco_link_model(const std::string& path) { return read_with_mujoco(path); }
+LinkModel mujoco_link_model(const std::string& path, const std::string& keyframe) {
+  return read_with_mujoco(path, keyframe);
+}
 
 std::string mjcf_of(const Scene& scene, LeftOut& left_out) { return mjcf_for_others(scene, left_out); }
 
@@ -22,7 +24,7 @@ namespace {
 constexpr const char* kWithout = "MuJoCo, without which this program was built; install libmujoco-dev and build again";
 }
 
-LinkModel mujoco_link_model(const std::string& path) {
+LinkModel mujoco_link_model(const std::string& path, const std::string&) {
   throw InputError(fmt::format("{}:1: MJCF is read by {}", path, kWithout));
 }
 

@@ -1,5 +1,5 @@
-// MuJoCo's conventions and ours: a body's pose is that in its parent's frame where its joints are at qpos0, and so is
-// each joint's anchor and axis in the body's; a scene's joint counts from there. Quaternions (w, x, y, z); a capsule by
+// MuJoCo's conventions and ours: a joint's anchor and axis are given in its body's frame; a scene's joint counts from
+// where it is at t = 0, MuJoCo's from qpos0. Quaternions (w, x, y, z); a capsule by
 // its half length along z, a box by half edges, a plane by a frame whose z is the normal.
 #include "adapters/mujoco/mujoco_import.h"
 
@@ -10,6 +10,7 @@
 
 #include "adapters/mujoco/mujoco_library.h"
 #include "core/base/error.h"
+#include "core/base/near_match.h"
 
 namespace rigor {
 namespace {
@@ -40,7 +41,9 @@ std::string refusal(const std::string& path, std::string text) {
 
 class Importer {
  public:
-  Importer(const std::string& path, const mjModel& compiled) : path_(path), m_(compiled) {}
+  // `state`: the positions to start from, with the bodies where they are there and their velocities.
+  Importer(const std::string& path, const mjModel& compiled, const mjData& state)
+      : path_(path), m_(compiled), start_(state) {}
 
   LinkModel read() {
     model_.name = *m_.names ? m_.names : "model";
@@ -88,8 +91,6 @@ class Importer {
     leave_out_if((option.disableflags & ~mjDSBL_GRAVITY) != 0, path_, "<flag>", "switches off parts of one engine");
     leave_out_if(option.density != 0 || option.viscosity != 0, path_, "density and viscosity",
                  "are of a medium, which a scene does not have");
-    leave_out_if(m_.nkey > 0, path_, fmt::format("{} keyframes", m_.nkey),
-                 "are states to begin from; the model's own is taken");
     leave_out_if(m_.nsensor > 0, path_, fmt::format("{} sensors", m_.nsensor), "measure and move nothing");
     leave_out_if(m_.npair > 0, path_, fmt::format("{} contact pairs", m_.npair),
                  "have surfaces of their own; those of their geoms are taken");
@@ -97,9 +98,11 @@ class Importer {
   }
 
   void read_body(int body) {
-    const int parent = m_.body_parentid[body];
     Link link{name_of(mjOBJ_BODY, body, fmt::format("body{}", body)), at("body", mjOBJ_BODY, body), {}};
-    link.pose = pose_of(parent) * BodyPose{vector_at(m_.body_pos, body), turn_at(m_.body_quat, body)};
+    link.pose = {vector_at(start_.xpos, body), turn_at(start_.xquat, body)};
+    mjtNum velocity[6];  // angular, then linear, of the body's origin
+    mj_objectVelocity(&m_, &start_, mjOBJ_XBODY, body, velocity, 0);
+    link.angular_velocity = vector_at(velocity, 0), link.velocity = vector_at(velocity, 1);
     link.touches_own_model = true;
     link.is_static = m_.body_mocapid[body] >= 0;
     leave_out_if(link.is_static, link.where, "its being mocap", "is moved by a program: it stays where it is");
@@ -170,9 +173,10 @@ class Importer {
     if (m_.jnt_type[k] == mjJNT_SLIDE) row.joint.type = SliderJoint{axis_of(k)};
     const int q = m_.jnt_qposadr[k];
     row.joint.stiffness = m_.jnt_stiffness[k], row.joint.damping = m_.dof_damping[m_.jnt_dofadr[k]];
-    row.joint.rest = m_.qpos_spring[q] - m_.qpos0[q];
+    row.joint.rest = m_.qpos_spring[q] - start_.qpos[q];
     if (m_.jnt_limited[k])
-      row.joint.lower = m_.jnt_range[2 * k] - m_.qpos0[q], row.joint.upper = m_.jnt_range[2 * k + 1] - m_.qpos0[q];
+      row.joint.lower = m_.jnt_range[2 * k] - start_.qpos[q],
+      row.joint.upper = m_.jnt_range[2 * k + 1] - start_.qpos[q];
   }
 
   bool read_several(int first, int count, LinkJoint& row) {
@@ -242,6 +246,7 @@ class Importer {
     row.where = where, row.joint.name = name_of(mjOBJ_EQUALITY, k, "");
     row.joint.a = link_of(m_.eq_obj2id[k]), row.joint.b = link_of(m_.eq_obj1id[k]);
     const mjtNum* data = m_.eq_data + mjNEQDATA * k;
+    if (m_.eq_type[k] == mjEQ_CONNECT || m_.eq_type[k] == mjEQ_WELD) check_that_it_is_closed(k, where);
     if (m_.eq_type[k] == mjEQ_CONNECT) {
       row.joint.type = BallJoint{(pose_of(m_.eq_obj1id[k]) * BodyPose{Vec3(data[0], data[1], data[2])}).position};
     } else if (m_.eq_type[k] == mjEQ_WELD) {
@@ -254,6 +259,25 @@ class Importer {
     }
     leave_out(where, "its softness", "is of one engine: in a scene joints do not give way");
     model_.joints.push_back(std::move(row));
+  }
+
+  // A scene's joints hold what they find at t = 0. MuJoCo's hold what the file says, and pull it together.
+  void check_that_it_is_closed(int k, const std::string& where) const {
+    constexpr double kClosed = 1e-6;  // m, and as a share of a turn; digits of a file that a person wrote
+    const int one = m_.eq_obj1id[k], other = m_.eq_obj2id[k];
+    const mjtNum* data = m_.eq_data + mjNEQDATA * k;
+    const bool is_weld = m_.eq_type[k] == mjEQ_WELD;
+    // Of a weld: its point in the second body's frame, and in the first's; of a connection the other way round.
+    const Vec3 first(data[is_weld ? 3 : 0], data[is_weld ? 4 : 1], data[is_weld ? 5 : 2]),
+        second(data[is_weld ? 0 : 3], data[is_weld ? 1 : 4], data[is_weld ? 2 : 5]);
+    const BodyPose a = pose_of(one), b = pose_of(other);
+    double gap = ((a * BodyPose{first}).position - (b * BodyPose{second}).position).norm();
+    if (is_weld) gap = std::max(gap, angle_between(a.orientation * turn_at(data + 6, 0), b.orientation));
+    if (gap > kClosed)
+      throw InputError(
+          fmt::format("{}: is open by {:.3g} (m or rad) where the model starts; allowed: a start, as a "
+                      "keyframe, at which it is closed",
+                      where, gap));
   }
 
   struct Ends {
@@ -301,7 +325,7 @@ class Importer {
     if (!free_axis(driven)) return leave_out(where, "it", "drives a joint without an axis of its own");
     // gear (bias0 + bias1 gear q + bias2 gear q'), q = x + qpos0: a second spring beside the joint's own.
     const double stiffness = -bias[1] * gear * gear,
-                 rest = stiffness > 0 ? bias[0] / (-bias[1] * gear) - m_.qpos0[m_.jnt_qposadr[joint]] : 0;
+                 rest = stiffness > 0 ? bias[0] / (-bias[1] * gear) - start_.qpos[m_.jnt_qposadr[joint]] : 0;
     driven.damping += -bias[2] * gear * gear;
     if (stiffness > 0) {
       driven.rest = (driven.stiffness * driven.rest + stiffness * rest) / (driven.stiffness + stiffness);
@@ -316,13 +340,38 @@ class Importer {
 
   std::string path_;
   const mjModel& m_;
+  const mjData& start_;
   LinkModel model_;
   std::vector<int> row_of_joint_;  // by MuJoCo's joint: that of model_.joints which it alone is, or -1
 };
 
+std::vector<std::string> keyframes_of(const mjModel& model) {
+  std::vector<std::string> names;
+  for (int key = 0; key < model.nkey; ++key) {
+    const char* name = mj_id2name(&model, mjOBJ_KEY, key);
+    names.push_back(name && *name ? name : std::to_string(key));
+  }
+  return names;
+}
+
+// A keyframe without a name goes by its number, from 0.
+mujoco_library::Data start_of(const mjModel& model, const std::string& path, const std::string& keyframe) {
+  mujoco_library::Data data(mj_makeData(&model));
+  if (!keyframe.empty()) {
+    const std::vector<std::string> names = keyframes_of(model);
+    const auto found = std::find(names.begin(), names.end(), keyframe);
+    if (found == names.end())
+      throw InputError(fmt::format("{}:1: has no keyframe '{}'{}; it has: {}", path, keyframe,
+                                   did_you_mean(keyframe, names), listed(names)));
+    mj_resetDataKeyframe(&model, data.get(), static_cast<int>(found - names.begin()));
+  }
+  mj_kinematics(&model, data.get()), mj_comPos(&model, data.get()), mj_comVel(&model, data.get());
+  return data;
+}
+
 }  // namespace
 
-LinkModel read_with_mujoco(const std::string& path) {
+LinkModel read_with_mujoco(const std::string& path, const std::string& keyframe) {
   mujoco_library::start();
   std::array<char, 1000> error{};
   mujoco_library::Model model;
@@ -334,7 +383,13 @@ LinkModel read_with_mujoco(const std::string& path) {
     throw InputError(refusal(path, failure.what()));
   }
   if (!model) throw InputError(refusal(path, error.data()));
-  LinkModel read = Importer(path, *model).read();
+  const mujoco_library::Data start = start_of(*model, path, keyframe);
+  LinkModel read = Importer(path, *model, *start).read();
+  if (model->nkey > 0 && keyframe.empty())
+    read.left_out.add(
+        path, fmt::format("{} keyframes", model->nkey),
+        fmt::format("are states to begin from; the model's own is taken. To import another: --keyframe {}",
+                    keyframes_of(*model).front()));
   if (const std::string warnings = mujoco_library::take_warnings(); !warnings.empty())
     read.left_out.add(path, "MuJoCo's warning", warnings);
   return read;

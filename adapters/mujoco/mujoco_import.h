@@ -8,7 +8,8 @@
 
 namespace rigor {
 
-// An MJCF file, by MuJoCo's own parser. The caller has seen to it that the file names no other that may not be read.
-LinkModel read_with_mujoco(const std::string& path);
+// An MJCF file, by MuJoCo's own parser, in the state of the keyframe of this name; "": in the model's own. The caller
+// has seen to it that the file names no other that may not be read.
+LinkModel read_with_mujoco(const std::string& path, const std::string& keyframe);
 
 }  // namespace rigor

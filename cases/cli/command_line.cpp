@@ -162,6 +162,9 @@ struct Options {
           ->type_name("ENGINE");
     }
     if (takes("--json")) command.add_flag("--json", line.json, "print JSON instead");
+    if (takes("--keyframe"))
+      command.add_option("--keyframe", line.keyframe, "of an MJCF file: start from this one, not from the model's own")
+          ->type_name("NAME");
     if (takes("--format")) {
       command
           .add_option("--format", line.format,

@@ -35,6 +35,7 @@ struct CommandLine {
   std::vector<std::string> within;     // of tune: bounds, "1mm"
   std::string file = "history.jsonl";  // of history
   std::string page;                    // of history: where it is drawn; empty: nowhere
+  std::string keyframe;                // of import; empty: the model's own state
   std::string format;                  // of trace and export; empty: the default
   std::vector<std::string> arguments;  // as typed, without where to, how many at once, and which shard
   const Executor* executor = nullptr;  // of a grid's cases and a sweep's; null: processes of this machine

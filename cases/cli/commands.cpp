@@ -79,7 +79,7 @@ const std::vector<CommandRow>& commands() {
        "print a robot's file, URDF, SDF or MJCF, as a case file, and on stderr what was left out",
        "FILE",
        "a file that ends in .urdf, .sdf, .mjcf or .xml",
-       {},
+       {"--keyframe"},
        import_command},
       {"export",
        "print a case's scene for other programs, and on stderr what was left out",

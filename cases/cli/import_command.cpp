@@ -11,7 +11,7 @@ namespace rigor {
 int import_command(const CommandLine& line, const EngineTable& engines) {
   if (line.words.size() != 1) throw InputError("rigor import: takes one file, URDF, SDF or MJCF");
   const std::string& path = line.words.front();
-  const Import made = import_model(path);
+  const Import made = import_model(path, line.keyframe);
   // What is printed is what `rigor run` reads.
   read_case_text(made.case_text, path, path, vocabulary_of(engines.infos()));
   for (const std::string& sentence : made.left_out) say(harmless("left out: " + sentence));

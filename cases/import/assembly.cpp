@@ -69,13 +69,19 @@ class Assembler {
       add_part(*own, shapes.size(), inertial, parts, part_sources);
       own = nullptr;
     }
-    body_[index] = add_body(main_body(link, inertial, own), link.name);
+    body_[index] = add_body(moving_with(link, main_body(link, inertial, own)), link.name);
     if (own) keep_source(*own, body_[index]);
     for (std::size_t k = 0; k < parts.size(); ++k) {
-      const int part = add_body(parts[k], link.name);
+      const int part = add_body(moving_with(link, parts[k]), link.name);
       keep_source(part_sources[k], part);
       scene_.joints.push_back({body_[index], part, FixedJoint{}});
     }
+  }
+
+  static Body moving_with(const Link& link, Body body) {
+    body.velocity = link.velocity + link.angular_velocity.cross(body.position - link.pose.position);
+    body.angular_velocity = link.angular_velocity;
+    return body;
   }
 
   // Of the link and of what hangs on it without mass.

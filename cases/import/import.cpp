@@ -24,17 +24,25 @@ namespace {
 constexpr const char* kLeftOut = "# left out: ";
 constexpr std::size_t kMostMemory = std::size_t{900} << 20;  // bytes, beside what the program has already
 
-LinkModel read_mjcf(const XmlFile& file) {
+LinkModel read_mjcf(const XmlFile& file, const std::string& keyframe) {
   check_files_of_mjcf(file);
-  return mujoco_link_model(file.path());
+  return mujoco_link_model(file.path(), keyframe);
+}
+
+template <LinkModel (*kRead)(const XmlFile&)>
+LinkModel read_without_keyframes(const XmlFile& file, const std::string& keyframe) {
+  if (!keyframe.empty())
+    file.root().refuse(fmt::format("found no keyframe '{}': a file of this format has none; MJCF has", keyframe));
+  return kRead(file);
 }
 
 struct Format {
   std::string root, name;
-  LinkModel (*read)(const XmlFile& file);
+  LinkModel (*read)(const XmlFile& file, const std::string& keyframe);
 };
-const std::vector<Format> kFormats = {
-    {"mujoco", "MJCF", read_mjcf}, {"robot", "URDF", read_urdf}, {"sdf", "SDF", read_sdf}};
+const std::vector<Format> kFormats = {{"mujoco", "MJCF", read_mjcf},
+                                      {"robot", "URDF", read_without_keyframes<read_urdf>},
+                                      {"sdf", "SDF", read_without_keyframes<read_sdf>}};
 
 const Format& format_of(const XmlElement& root) {
   std::vector<std::string> names;
@@ -89,11 +97,11 @@ bool is_model_file(const std::string& path) {
   return std::find(endings.begin(), endings.end(), std::filesystem::path(path).extension().string()) != endings.end();
 }
 
-Import import_model(const std::string& path) {
+Import import_model(const std::string& path, const std::string& keyframe) {
   return within_memory(kMostMemory, path, [&] {
     const XmlFile file(path);
     const Format& format = format_of(file.root());
-    LinkModel model = format.read(file);
+    LinkModel model = format.read(file, keyframe);
     const Scene scene = scene_of_file(model, path);
     return Import{case_text_of(model, scene, format.name, path), model.left_out.sentences()};
   });

@@ -15,8 +15,9 @@ struct Import {
   std::vector<std::string> left_out;  // a sentence each: what a scene cannot say, or says otherwise
 };
 
-// Throws InputError, "file:line: what".
-Import import_model(const std::string& path);
+// `keyframe`: of an MJCF file, the name of the one to start from; empty: the model's own state. Throws InputError,
+// "file:line: what".
+Import import_model(const std::string& path, const std::string& keyframe = "");
 
 // Those of a text that import_model() made; none of any other case file's.
 std::vector<std::string> left_out_of(const std::string& case_text);

@@ -54,6 +54,7 @@ struct Link {
   bool is_static = false;          // part of the world
   int model = 0;                   // links of one model
   bool touches_own_model = false;  // may touch other links of it, but those it is joined to
+  Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();  // m/s, of the pose's origin; rad/s; in W
 };
 
 struct LinkJoint {

@@ -45,6 +45,16 @@ struct Own {
   }
 };
 
+void check_start(const Own& own, const Scene& scene) {
+  for (const Body& body : scene.bodies) {
+    BOOST_TEST((own.centre(body.name) - body.position).norm() < 1e-14, body.name);
+    mjtNum velocity[6];  // angular, then linear, of the centre of mass
+    mj_objectVelocity(own.model.get(), own.data.get(), mjOBJ_BODY, own.body(body.name), velocity, 0);
+    BOOST_TEST((Eigen::Map<Vec3>(velocity) - body.angular_velocity).norm() < 1e-12, body.name);
+    BOOST_TEST((Eigen::Map<Vec3>(velocity + 3) - body.velocity).norm() < 1e-12, body.name);
+  }
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(adapters_mujoco_import)
@@ -69,14 +79,53 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_exported_starts_and_moves_there_as_it_does_h
     Own own(path);
     if (own.model->nkey > 0) mj_resetDataKeyframe(own.model.get(), own.data.get(), 0);
     mj_forward(own.model.get(), own.data.get());
-    for (const Body& body : scene.bodies) {
-      BOOST_TEST((own.centre(body.name) - body.position).norm() < 1e-14, id);
-      mjtNum velocity[6];  // angular, then linear
-      mj_objectVelocity(own.model.get(), own.data.get(), mjOBJ_BODY, own.body(body.name), velocity, 0);
-      BOOST_TEST((Eigen::Map<Vec3>(velocity) - body.angular_velocity).norm() < 1e-12, id);
-      BOOST_TEST((Eigen::Map<Vec3>(velocity + 3) - body.velocity).norm() < 1e-12, id);
-    }
+    check_start(own, scene);
     check_alike(id, apart_after(own, "mujoco", scene, 1));
+  }
+}
+
+const std::string kBent = R"(<mujoco><compiler angle="radian" autolimits="false"/><worldbody>
+  <body name="upper" pos="0 0 2"><joint name="shoulder" axis="0 1 0" range="-1 2" limited="true" stiffness="3"/>
+    <inertial pos="0.1 0 -0.5" mass="2" fullinertia="0.2 0.25 0.1 0.01 0 0"/>
+    <body name="lower" pos="0 0 -1"><joint name="elbow" type="ball" damping="0"/>
+      <inertial pos="0 0.05 -0.4" mass="1" diaginertia="0.1 0.12 0.02"/></body></body>
+  <body name="free" pos="3 0 1"><freejoint/><inertial pos="0 0 0" mass="1" diaginertia="0.1 0.2 0.25"/></body>
+</worldbody>
+<keyframe><key name="home"/><key name="bent" qpos="0.4 0.9 0.3 -0.2 0.1 4 1 2 0.8 0 0.6 0" qvel="1 0.5 -0.3 0.2 1 2 3 0.4 0.5 0.6"/>
+</keyframe></mujoco>)";
+
+// Positions and velocities, of a body that is free and of some that hang together; a scene's joint counts from there.
+BOOST_AUTO_TEST_CASE(a_keyframe_is_a_state_to_start_from) {
+  const Folder folder;
+  const std::string path = folder.write("bent.xml", kBent);
+  const Scene scene = read_case_text(import_model(path, "bent").case_text, path, path, words()).scene;
+  Own own(path);
+  mj_resetDataKeyframe(own.model.get(), own.data.get(), 1);
+  mj_forward(own.model.get(), own.data.get());
+  check_start(own, scene);
+  BOOST_TEST(body_named(scene, "free").angular_velocity.norm() > 0.5);
+  BOOST_TEST(std::abs(joint_named(scene, "shoulder").upper - 1.6) < 1e-15);
+  BOOST_TEST(std::abs(joint_named(scene, "shoulder").rest + 0.4) < 1e-15);
+  check_alike("bent", apart_after(own, "mujoco", without_limits(scene), 1));
+  BOOST_TEST(scene_of_file(path).bodies[0].velocity.isZero(0));  // the model's own is at rest
+  BOOST_CHECK_EXCEPTION(import_model(path, "bend"), InputError, says("has no keyframe 'bend' (did you mean 'bent'?)"));
+  BOOST_CHECK_EXCEPTION(import_model(kModels + "arm.urdf", "home"), InputError, says("a file of this format has none"));
+}
+
+// A scene's joints would hold the bodies as they find them, apart.
+BOOST_AUTO_TEST_CASE(a_keyframe_at_which_a_loop_is_open_is_refused) {
+  const auto with = [](const std::string& equality) {
+    return R"(<mujoco><worldbody><body name="a"><joint axis="0 1 0"/><inertial pos="0 0 -1" mass="1" diaginertia="1 1 1"/></body>
+      <body name="b" pos="0 0 -2"><joint axis="1 0 0"/><inertial pos="0 0 -1" mass="1" diaginertia="1 1 1"/></body></worldbody>
+      <equality>)" +
+           equality +
+           R"(</equality><keyframe><key name="shut" qpos="0 0"/><key name="open" qpos="0.1 0"/></keyframe></mujoco>)";
+  };
+  for (const char* equality : {R"(<connect body1="a" body2="b" anchor="0 0 -2"/>)", R"(<weld body1="a" body2="b"/>)"}) {
+    const Folder folder;
+    const std::string path = folder.write("loop.xml", with(equality));
+    BOOST_CHECK_NO_THROW(import_model(path, "shut"));
+    BOOST_CHECK_EXCEPTION(import_model(path, "open"), InputError, says("is open by"));
   }
 }
 
