@@ -9,8 +9,8 @@
 #include <array>
 
 #include "adapters/mujoco/mujoco_library.h"
+#include "adapters/mujoco/mujoco_start.h"
 #include "core/base/error.h"
-#include "core/base/near_match.h"
 
 namespace rigor {
 namespace {
@@ -246,7 +246,12 @@ class Importer {
     row.where = where, row.joint.name = name_of(mjOBJ_EQUALITY, k, "");
     row.joint.a = link_of(m_.eq_obj2id[k]), row.joint.b = link_of(m_.eq_obj1id[k]);
     const mjtNum* data = m_.eq_data + mjNEQDATA * k;
-    if (m_.eq_type[k] == mjEQ_CONNECT || m_.eq_type[k] == mjEQ_WELD) check_that_it_is_closed(k, where);
+    constexpr double kClosed = 1e-6;  // digits of a file that a person wrote
+    if (const double gap = opening_of(m_, start_, k); gap > kClosed)
+      throw InputError(
+          fmt::format("{}: is open by {:.3g} (m or rad) where the model starts, and a scene's joints hold "
+                      "what they find; allowed: a start, as a keyframe, at which it is closed",
+                      where, gap));
     if (m_.eq_type[k] == mjEQ_CONNECT) {
       row.joint.type = BallJoint{(pose_of(m_.eq_obj1id[k]) * BodyPose{Vec3(data[0], data[1], data[2])}).position};
     } else if (m_.eq_type[k] == mjEQ_WELD) {
@@ -259,25 +264,6 @@ class Importer {
     }
     leave_out(where, "its softness", "is of one engine: in a scene joints do not give way");
     model_.joints.push_back(std::move(row));
-  }
-
-  // A scene's joints hold what they find at t = 0. MuJoCo's hold what the file says, and pull it together.
-  void check_that_it_is_closed(int k, const std::string& where) const {
-    constexpr double kClosed = 1e-6;  // m, and as a share of a turn; digits of a file that a person wrote
-    const int one = m_.eq_obj1id[k], other = m_.eq_obj2id[k];
-    const mjtNum* data = m_.eq_data + mjNEQDATA * k;
-    const bool is_weld = m_.eq_type[k] == mjEQ_WELD;
-    // Of a weld: its point in the second body's frame, and in the first's; of a connection the other way round.
-    const Vec3 first(data[is_weld ? 3 : 0], data[is_weld ? 4 : 1], data[is_weld ? 5 : 2]),
-        second(data[is_weld ? 0 : 3], data[is_weld ? 1 : 4], data[is_weld ? 2 : 5]);
-    const BodyPose a = pose_of(one), b = pose_of(other);
-    double gap = ((a * BodyPose{first}).position - (b * BodyPose{second}).position).norm();
-    if (is_weld) gap = std::max(gap, angle_between(a.orientation * turn_at(data + 6, 0), b.orientation));
-    if (gap > kClosed)
-      throw InputError(
-          fmt::format("{}: is open by {:.3g} (m or rad) where the model starts; allowed: a start, as a "
-                      "keyframe, at which it is closed",
-                      where, gap));
   }
 
   struct Ends {
@@ -345,30 +331,6 @@ class Importer {
   std::vector<int> row_of_joint_;  // by MuJoCo's joint: that of model_.joints which it alone is, or -1
 };
 
-std::vector<std::string> keyframes_of(const mjModel& model) {
-  std::vector<std::string> names;
-  for (int key = 0; key < model.nkey; ++key) {
-    const char* name = mj_id2name(&model, mjOBJ_KEY, key);
-    names.push_back(name && *name ? name : std::to_string(key));
-  }
-  return names;
-}
-
-// A keyframe without a name goes by its number, from 0.
-mujoco_library::Data start_of(const mjModel& model, const std::string& path, const std::string& keyframe) {
-  mujoco_library::Data data(mj_makeData(&model));
-  if (!keyframe.empty()) {
-    const std::vector<std::string> names = keyframes_of(model);
-    const auto found = std::find(names.begin(), names.end(), keyframe);
-    if (found == names.end())
-      throw InputError(fmt::format("{}:1: has no keyframe '{}'{}; it has: {}", path, keyframe,
-                                   did_you_mean(keyframe, names), listed(names)));
-    mj_resetDataKeyframe(&model, data.get(), static_cast<int>(found - names.begin()));
-  }
-  mj_kinematics(&model, data.get()), mj_comPos(&model, data.get()), mj_comVel(&model, data.get());
-  return data;
-}
-
 }  // namespace
 
 LinkModel read_with_mujoco(const std::string& path, const std::string& keyframe) {
@@ -383,7 +345,7 @@ LinkModel read_with_mujoco(const std::string& path, const std::string& keyframe)
     throw InputError(refusal(path, failure.what()));
   }
   if (!model) throw InputError(refusal(path, error.data()));
-  const mujoco_library::Data start = start_of(*model, path, keyframe);
+  const mujoco_library::Data start = mujoco_start(*model, path, keyframe);
   LinkModel read = Importer(path, *model, *start).read();
   if (model->nkey > 0 && keyframe.empty())
     read.left_out.add(
