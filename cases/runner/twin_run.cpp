@@ -1,7 +1,10 @@
 #include "cases/runner/twin_run.h"
 
 #include <algorithm>
+#include <memory>
 
+#include "cases/metrics/measures/measuring.h"
+#include "core/engine/remote.h"
 #include "core/scene/contact_laws.h"
 #include "core/scene/turned.h"
 
@@ -18,23 +21,70 @@ Simulation simulate_twin(const EngineTable& engines, const RunName& twin, const 
   return simulate(find_engine(engines, twin.engine), twin.settings, scene, dt, duration, steps_per_sample, false);
 }
 
-// Raises the twin's roundings to how far it is, at each sample, from itself in a world turned by `turn`. The twin ends
-// where that one does.
-void compare_with_turned(const Trajectory& turned_twin, const Quat& turn, TwinRun& twin) {
-  auto& samples = twin.trajectory.samples;
-  samples.resize(std::min(samples.size(), turned_twin.samples.size()));
-  twin.position_rounding.resize(samples.size()), twin.orientation_rounding.resize(samples.size());
-  double position = 0, orientation = 0;
-  for (std::size_t n = 0; n < samples.size(); ++n) {
-    const BodyColumns here = samples[n].bodies.columns(), there = turned_twin.samples[n].bodies.columns();
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      position = std::max(position, (turn * here.position(i) - there.position(i)).norm());
-      orientation = std::max(orientation, angle_between(turn * here.orientation(i), there.orientation(i)));
-    }
-    twin.position_rounding[n] = std::max(twin.position_rounding[n], position);
-    twin.orientation_rounding[n] = std::max(twin.orientation_rounding[n], orientation);
+// A world and where it stands, step by step.
+class SteppedWorld {
+ public:
+  SteppedWorld(const Engine& engine, const Settings& settings, const Scene& scene, double dt, long steps)
+      : world_(engine.load(scene, settings)), dt_(dt) {
+    expect_steps(*world_, dt, steps, 1);
+    world_->read(now_);
   }
-}
+  void step() { world_->step(dt_), world_->read(now_); }
+  bool is_finite() const { return !body_not_finite(now_.bodies()); }
+  double time() const { return now_.time; }
+  BodyColumns bodies() const { return now_.bodies(); }
+
+ private:
+  std::unique_ptr<World> world_;
+  double dt_;
+  Snapshot now_;
+};
+
+// A twin beside itself in turned worlds, all at the same instant.
+class TwinInTurnedWorlds {
+ public:
+  TwinInTurnedWorlds(const Engine& engine, const Settings& settings, const Scene& scene, double dt, long steps)
+      : twin_(engine, settings, scene, dt, steps) {
+    for (const Quat& turn : kTurns)
+      turned_.push_back(std::make_unique<SteppedWorld>(engine, settings, rigor::turned(scene, turn), dt, steps));
+  }
+
+  void step() {
+    twin_.step();
+    for (const auto& turned : turned_) turned->step();
+  }
+  bool is_finite() const {
+    return twin_.is_finite() &&
+           std::all_of(turned_.begin(), turned_.end(), [](const auto& turned) { return turned->is_finite(); });
+  }
+
+  // Adds this instant, and how far the twin is from itself in the turned worlds, or has been before.
+  void add_sample(TwinRun& out) {
+    out.trajectory.samples.push_back({twin_.time(), BodyTable(twin_.bodies())});
+    if (turned_.empty()) return;
+    const BodyColumns here = twin_.bodies();
+    for (std::size_t k = 0; k < turned_.size(); ++k) {
+      const BodyColumns there = turned_[k]->bodies();
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        position_ = std::max(position_, (kTurns[k] * here.position(i) - there.position(i)).norm());
+        orientation_ = std::max(orientation_, angle_between(kTurns[k] * here.orientation(i), there.orientation(i)));
+      }
+    }
+    out.position_rounding.push_back(position_), out.orientation_rounding.push_back(orientation_);
+    for (std::size_t i = 0; i < here.size(); ++i) extent_ = std::max(extent_, here.position(i).norm());
+  }
+
+  // Roundings have parted the twin from itself by more than any comparison allows, see samples_with_twin().
+  bool is_past_comparing() const {
+    return !(position_ <= kRoundingShare * extent_) && !(orientation_ <= kRoundingShare);
+  }
+  void leave_turned_worlds() { turned_.clear(); }
+
+ private:
+  SteppedWorld twin_;
+  std::vector<std::unique_ptr<SteppedWorld>> turned_;
+  double position_ = 0, orientation_ = 0, extent_ = 0;  // m, rad, m
+};
 
 MetricValue measured(const std::string& name, const JudgedRun& run) {
   const auto row = std::find_if(metrics().begin(), metrics().end(), [&](const auto& r) { return r.name == name; });
@@ -60,15 +110,27 @@ std::optional<RunName> twin_of(const EngineTable& engines, const RunName& run, c
 }
 
 TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& scene, const Simulation& run,
-                 double duration) {
-  const auto simulated = [&](const Scene& which) {
-    return simulate_twin(engines, twin, which, run.trajectory.dt, duration, run.steps_per_sample).trajectory;
-  };
+                 double duration, TwinLength length) {
+  const double dt = run.trajectory.dt;
+  const long steps = steps_in(duration, dt), every = run.steps_per_sample;
+  TwinInTurnedWorlds worlds(find_engine(engines, twin.engine), twin.settings, scene, dt, steps);
   TwinRun out;
-  out.trajectory = simulated(scene);
+  out.trajectory.dt = dt;
   auto& samples = out.trajectory.samples;
-  samples.resize(std::min(samples.size(), run.trajectory.samples.size()));
-  for (const Quat& turn : kTurns) compare_with_turned(simulated(turned(scene, turn)), turn, out);
+  bool is_compared = true;
+  for (long n = 0; worlds.is_finite(); ++n) {
+    if (n % every == 0 || n == steps) {
+      if (samples.size() == run.trajectory.samples.size()) break;
+      worlds.add_sample(out);
+      if (is_compared && (worlds.is_past_comparing() || samples.size() >= length.compared)) {
+        if (!length.is_whole) break;
+        is_compared = false;
+        worlds.leave_turned_worlds();
+      }
+    }
+    if (n == steps) break;
+    worlds.step();
+  }
   return out;
 }
 
