@@ -96,9 +96,9 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
 }
 
 double timed_again(const Engine& engine, const Settings& settings, const Scene& scene, const Simulation& run) {
-  constexpr double kLongStep = 20e-6, kEnough = 10e-3;  // s; a hundred times what the clock costs; of timing in all
-  constexpr double kLongRun = 1;                        // s: so long a run is not repeated for its clock's share
-  constexpr int kMost = 100;                            // repeats
+  constexpr double kLongStep = 20e-6, kEnough = 4e-3;  // s; a hundred times what the clock costs; of timing in all
+  constexpr double kLongRun = 1;                       // s: so long a run is not repeated for its clock's share
+  constexpr int kMost = 100;                           // repeats
   const double dt = run.trajectory.dt;
   const auto& samples = run.trajectory.samples;
   const long steps = samples.empty() ? 0 : std::lround(samples.back().time / dt);

@@ -12,7 +12,8 @@ namespace rigor {
 namespace {
 
 // No axis of the old world lies along one of a new; all else about them is arbitrary. Several, for two runs' roundings
-// can cancel by chance, and one pair would then show too little of them.
+// can cancel by chance, and one pair would then show too little of them: the first alone counts only where a hundred
+// times what it shows would still not matter.
 const Quat kTurns[] = {Quat(0.7, 0.3, -0.5, 0.4).normalized(), Quat(-0.2, 0.6, 0.5, 0.3).normalized(),
                        Quat(0.4, -0.3, 0.2, 0.8).normalized()};
 
@@ -40,50 +41,40 @@ class SteppedWorld {
   Snapshot now_;
 };
 
-// A twin beside itself in turned worlds, all at the same instant.
-class TwinInTurnedWorlds {
+// A twin beside itself in one turned world after another: what the two are apart by.
+class TurnedTwin {
  public:
-  TwinInTurnedWorlds(const Engine& engine, const Settings& settings, const Scene& scene, double dt, long steps)
-      : twin_(engine, settings, scene, dt, steps) {
-    for (const Quat& turn : kTurns)
-      turned_.push_back(std::make_unique<SteppedWorld>(engine, settings, rigor::turned(scene, turn), dt, steps));
-  }
+  TurnedTwin(std::unique_ptr<SteppedWorld> world, const Quat& turn) : world_(std::move(world)), turn_(turn) {}
 
-  void step() {
-    twin_.step();
-    for (const auto& turned : turned_) turned->step();
-  }
-  bool is_finite() const {
-    return twin_.is_finite() &&
-           std::all_of(turned_.begin(), turned_.end(), [](const auto& turned) { return turned->is_finite(); });
-  }
+  SteppedWorld& world() { return *world_; }
 
-  // Adds this instant, and how far the twin is from itself in the turned worlds, or has been before.
-  void add_sample(TwinRun& out) {
-    out.trajectory.samples.push_back({twin_.time(), BodyTable(twin_.bodies())});
-    if (turned_.empty()) return;
-    const BodyColumns here = twin_.bodies();
-    for (std::size_t k = 0; k < turned_.size(); ++k) {
-      const BodyColumns there = turned_[k]->bodies();
-      for (std::size_t i = 0; i < here.size(); ++i) {
-        position_ = std::max(position_, (kTurns[k] * here.position(i) - there.position(i)).norm());
-        orientation_ = std::max(orientation_, angle_between(kTurns[k] * here.orientation(i), there.orientation(i)));
-      }
+  // Raises the twin's roundings at its n-th sample. Whether they are still within what a comparison allows, see
+  // samples_with_twin(): beyond, neither positions nor orientations are compared any more.
+  bool raise_rounding(std::size_t n, TwinRun& twin) {
+    const BodyColumns here = twin.trajectory.samples[n].bodies.columns(), there = world_->bodies();
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      position_ = std::max(position_, (turn_ * here.position(i) - there.position(i)).norm());
+      orientation_ = std::max(orientation_, angle_between(turn_ * here.orientation(i), there.orientation(i)));
+      extent_ = std::max(extent_, here.position(i).norm());
     }
-    out.position_rounding.push_back(position_), out.orientation_rounding.push_back(orientation_);
-    for (std::size_t i = 0; i < here.size(); ++i) extent_ = std::max(extent_, here.position(i).norm());
+    if (twin.position_rounding.size() == n) twin.position_rounding.push_back(0), twin.orientation_rounding.push_back(0);
+    double &position = twin.position_rounding[n], &orientation = twin.orientation_rounding[n];
+    position = std::max(position, position_), orientation = std::max(orientation, orientation_);
+    largest_share_ = std::max({largest_share_, orientation, extent_ > 0 ? position / extent_ : 0});
+    return position <= kRoundingShare * extent_ || orientation <= kRoundingShare;
   }
 
-  // Roundings have parted the twin from itself by more than any comparison allows, see samples_with_twin().
-  bool is_past_comparing() const {
-    return !(position_ <= kRoundingShare * extent_) && !(orientation_ <= kRoundingShare);
+  // A hundred times what it found would end no comparison, and it found something: another turn need not be asked.
+  bool is_far_from_mattering() const {
+    constexpr double kFar = 0.01;
+    return largest_share_ > 0 && largest_share_ < kFar * kRoundingShare;
   }
-  void leave_turned_worlds() { turned_.clear(); }
 
  private:
-  SteppedWorld twin_;
-  std::vector<std::unique_ptr<SteppedWorld>> turned_;
+  std::unique_ptr<SteppedWorld> world_;
+  Quat turn_;
   double position_ = 0, orientation_ = 0, extent_ = 0;  // m, rad, m
+  double largest_share_ = 0;                            // of the roundings, of the extent and of one radian
 };
 
 MetricValue measured(const std::string& name, const JudgedRun& run) {
@@ -113,23 +104,37 @@ TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& s
                  double duration, TwinLength length) {
   const double dt = run.trajectory.dt;
   const long steps = steps_in(duration, dt), every = run.steps_per_sample;
-  TwinInTurnedWorlds worlds(find_engine(engines, twin.engine), twin.settings, scene, dt, steps);
+  const auto world_in = [&](const Scene& which) {
+    return std::make_unique<SteppedWorld>(find_engine(engines, twin.engine), twin.settings, which, dt, steps);
+  };
+  const auto is_sample = [&](long n) { return n % every == 0 || n == steps; };
   TwinRun out;
   out.trajectory.dt = dt;
   auto& samples = out.trajectory.samples;
+  const auto own = world_in(scene);
+  std::optional<TurnedTwin> first(std::in_place, world_in(turned(scene, kTurns[0])), kTurns[0]);
   bool is_compared = true;
-  for (long n = 0; worlds.is_finite(); ++n) {
-    if (n % every == 0 || n == steps) {
+  for (long n = 0; own->is_finite() && (!is_compared || first->world().is_finite()); ++n) {
+    if (is_sample(n)) {
       if (samples.size() == run.trajectory.samples.size()) break;
-      worlds.add_sample(out);
-      if (is_compared && (worlds.is_past_comparing() || samples.size() >= length.compared)) {
-        if (!length.is_whole) break;
-        is_compared = false;
-        worlds.leave_turned_worlds();
-      }
+      samples.push_back({own->time(), BodyTable(own->bodies())});
+      if (is_compared) is_compared = first->raise_rounding(samples.size() - 1, out) && samples.size() < length.compared;
+      if (!is_compared && !length.is_whole) break;
     }
     if (n == steps) break;
-    worlds.step();
+    own->step();
+    if (is_compared) first->world().step();
+  }
+  if (first->is_far_from_mattering()) return out;
+  for (std::size_t k = 1; k < std::size(kTurns); ++k) {
+    TurnedTwin other(world_in(turned(scene, kTurns[k])), kTurns[k]);
+    std::size_t compared = 0;
+    for (long n = 0; compared < out.position_rounding.size() && other.world().is_finite(); ++n) {
+      if (is_sample(n) && !other.raise_rounding(compared++, out)) break;
+      if (n < steps) other.world().step();
+    }
+    out.position_rounding.resize(compared), out.orientation_rounding.resize(compared);
+    if (!length.is_whole || !other.world().is_finite()) samples.resize(std::min(samples.size(), compared));
   }
   return out;
 }

@@ -108,6 +108,25 @@ BOOST_AUTO_TEST_CASE(a_broken_engine_costs_its_own_cells_and_says_how) {
   BOOST_TEST(aborted.reason.find("solver: matrix is singular") != std::string::npos, aborted.reason);
 }
 
+// A finer step would take longer; among bodies that can touch it may take less.
+BOOST_AUTO_TEST_CASE(where_a_run_was_out_of_time_a_finer_step_is_not_tried) {
+  EngineTable table;
+  table.add(std::make_unique<FaultyEngine>("hangs", [](double&) { spin(); }));
+  Case touching = drifting_body("touching");
+  touching.scene.bodies.push_back(touching.scene.bodies.front());
+  touching.scene.bodies.back().name = "other", touching.scene.bodies.back().position = Vec3(5, 0, 0);
+  for (Body& body : touching.scene.bodies) body.shape = Sphere{0.1}, body.collides = true;
+  const Results grid = run({drifting_body("a"), touching}, table, {1, 0.1, {}, false});
+  const std::string out_of_time = "no result within the limit of 0.1 s";
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) BOOST_TEST((cell.status == Status::timed_out), word_of(cell.status));
+    BOOST_TEST(result.cells[0].reason == out_of_time);
+  }
+  BOOST_TEST(grid.cases[0].cells[1].reason ==
+             "not tried: at 1/10 s there was " + out_of_time + ", and this step takes longer");
+  BOOST_TEST(grid.cases[1].cells[1].reason == out_of_time);
+}
+
 BOOST_AUTO_TEST_CASE(a_garbled_answer_costs_its_cell_and_no_other) {
   const Case definition = drifting_body("a");
   Cell passing;
