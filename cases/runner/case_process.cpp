@@ -65,8 +65,8 @@ bool searches_steps(const CaseResult& planned, const GridOptions& options) {
          });
 }
 
-// The jobs of one case: first the stable steps, which take longest, then the cells. A run that was out of time at one
-// step is not begun at a finer one.
+// The jobs of one case: first the cells, then the searches for stable steps. A run that was out of time at one step is
+// not begun at a finer one, and no stable step is searched for where it was at the coarsest.
 class CaseJobs {
  public:
   CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
@@ -81,14 +81,14 @@ class CaseJobs {
     const Case& definition = planned.definition;
     if (searches_steps(planned, options)) stable_energy_ = energy_of_stable_runs(definition);
     const std::size_t of_case = static_cast<std::size_t>(&planned - grid.cases.data());
-    for (std::size_t run = 0; run < planned.stable_steps.size(); ++run) {
-      if (planned.stable_steps[run].status != Status::unsupported)
-        jobs_.push_back({JobSpec::Kind::stable_step, of_case, options.limit, run, grid.runs[run].text});
-    }
     for (std::size_t i = 0; i < planned.cells.size(); ++i) {
       const Cell& cell = planned.cells[i];
       if (cell.status != Status::unsupported)
         jobs_.push_back({JobSpec::Kind::cell, of_case, options.limit, i, grid.runs[cell.run].text, cell.dt});
+    }
+    for (std::size_t run = 0; run < planned.stable_steps.size(); ++run) {
+      if (planned.stable_steps[run].status != Status::unsupported)
+        jobs_.push_back({JobSpec::Kind::stable_step, of_case, options.limit, run, grid.runs[run].text});
     }
   }
 
@@ -160,9 +160,14 @@ class CaseJobs {
   // Why a job is not begun; empty if it is.
   std::string why_hopeless(const JobSpec& job) const {
     const auto known = out_of_time_.find(job.run);
-    if (!is_cell(job) || known == out_of_time_.end() || !(job.dt.seconds < known->second.seconds)) return "";
-    return fmt::format("not tried: at {} s there was no result within the limit of {:g} s, and this step takes longer",
-                       known->second.text, job.limit);
+    if (known == out_of_time_.end()) return "";
+    const double limit = known->second.seconds;
+    const auto& steps = planned_.definition.dt;
+    const bool was_coarsest =
+        std::none_of(steps.begin(), steps.end(), [&](const auto& dt) { return dt.seconds > limit; });
+    if (is_cell(job) ? !(job.dt.seconds < limit) : !was_coarsest) return "";
+    return fmt::format("not tried: at {} s there was no result within the limit of {:g} s{}", known->second.text,
+                       job.limit, is_cell(job) ? ", and this step takes longer" : "");
   }
 
   // At the steps that two cells or more are left to do at.
@@ -256,7 +261,7 @@ class CaseJobs {
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<JobSpec> jobs_;
   std::map<std::string, StepSize> out_of_time_;  // by run: the coarsest step at which it was
-  CaseResult heard_;  // of what is heard, to see whether it can be read
+  CaseResult heard_;                             // of what is heard, to see whether it can be read
   PathsOfCells paths_;
 };
 
