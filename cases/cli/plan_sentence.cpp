@@ -12,9 +12,9 @@ namespace {
 constexpr double kPerBodyStep = 3e-6;                             // s
 constexpr double kPerJointedStep = 6e-6, kPerJointedBody = 4e-6;  // s, of a step, and of each body in it
 constexpr double kPerCell = 0.03;                                 // s
-constexpr double kPerSearch = 0.5, kPerJointedSearch = 0.2, kPerSearchWithLimits = 1.5;  // s, for a stable step
-constexpr double kPerSolvedTruth = 1, kPerClosedForm = 0.05;                             // s
-constexpr double kTimingAndTwin = 2;  // a run of everything runs each cell again
+constexpr double kPerSearch = 0.1, kPerSearchWithLimits = 0.4;    // s, for a stable step
+constexpr double kPerSolvedTruth = 1, kPerClosedForm = 0.05;      // s
+constexpr double kTimingAndTwin = 2;                              // a run of everything runs each cell again
 
 bool is_run(const Cell& cell) { return cell.status != Status::unsupported; }
 
@@ -29,7 +29,7 @@ double seconds_of(const Case& definition, const Cell& cell) {
 double seconds_of_search(const Scene& scene) {
   const bool has_limits =
       std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.has_limits(); });
-  return has_limits ? kPerSearchWithLimits : scene.joints.empty() ? kPerSearch : kPerJointedSearch;
+  return has_limits ? kPerSearchWithLimits : kPerSearch;
 }
 
 double seconds_of_truth(const std::string& truth) {

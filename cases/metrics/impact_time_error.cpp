@@ -5,6 +5,7 @@
 
 #include "cases/metrics/measures/impacts.h"
 #include "cases/metrics/measures/measuring.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -20,6 +21,7 @@ MetricResult measure_impact_time_error(const JudgedRun& run) {
   if (!run.truth) return {{}, kNoTruth};
   const std::size_t count = samples_within(run, kTruthNeededPosition);
   if (count == 0) return {{}, kNoSamples};
+  if (!anything_can_touch(run.scene)) return {{}, kNoImpact};
   const Trajectory truth = truth_of(run, count);
   const auto expected = impacts_of(run.scene, truth, 0);
   if (expected.empty()) return {{}, kNoImpact};

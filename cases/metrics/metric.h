@@ -22,11 +22,12 @@ struct TruthSamples {
 };
 
 // The run's twin: its own scheme, repeated by the core (Engine::twin), at the instants of the run's samples; fewer if
-// the twin blew up before.
+// the twin blew up before, or was wanted no further than it can be compared with the run (runner/twin_run.h).
 struct TwinRun {
   Trajectory trajectory;
   // What roundings alone may have made of the twin up to each sample: the largest distance from the same twin in
-  // worlds turned about, where the motion is the same and every rounding another. Never falls.
+  // worlds turned about, where the motion is the same and every rounding another. Never falls. Of the first samples, as
+  // many as can be compared.
   std::vector<double> position_rounding;     // m
   std::vector<double> orientation_rounding;  // rad
 };

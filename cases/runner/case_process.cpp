@@ -16,6 +16,7 @@
 #include "cases/runner/stable_step.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -64,7 +65,8 @@ bool searches_steps(const CaseResult& planned, const GridOptions& options) {
          });
 }
 
-// The jobs of one case: first the stable steps, which take longest, then the cells.
+// The jobs of one case: first the cells, then the searches for stable steps. A run that was out of time at one step is
+// not begun at a finer one, and no stable step is searched for where it was at the coarsest.
 class CaseJobs {
  public:
   CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
@@ -79,14 +81,14 @@ class CaseJobs {
     const Case& definition = planned.definition;
     if (searches_steps(planned, options)) stable_energy_ = energy_of_stable_runs(definition);
     const std::size_t of_case = static_cast<std::size_t>(&planned - grid.cases.data());
-    for (std::size_t run = 0; run < planned.stable_steps.size(); ++run) {
-      if (planned.stable_steps[run].status != Status::unsupported)
-        jobs_.push_back({JobSpec::Kind::stable_step, of_case, options.limit, run, grid.runs[run].text});
-    }
     for (std::size_t i = 0; i < planned.cells.size(); ++i) {
       const Cell& cell = planned.cells[i];
       if (cell.status != Status::unsupported)
         jobs_.push_back({JobSpec::Kind::cell, of_case, options.limit, i, grid.runs[cell.run].text, cell.dt});
+    }
+    for (std::size_t run = 0; run < planned.stable_steps.size(); ++run) {
+      if (planned.stable_steps[run].status != Status::unsupported)
+        jobs_.push_back({JobSpec::Kind::stable_step, of_case, options.limit, run, grid.runs[run].text});
     }
   }
 
@@ -117,15 +119,19 @@ class CaseJobs {
         flaws[job] = fmt::format("its message could not be read: {}", error.what());
         return;
       }
-      channel.send(record.message), journal.add(job, record);
+      channel.send(record.message);
+      if (why_hopeless(jobs_[job]).empty()) journal.add(job, record);  // with more time it is tried
     };
     const auto on_end = [&](std::size_t index, JobEnd end) {
       const auto flaw = flaws.find(left[index]);
       if (flaw != flaws.end() && flaw->second.empty()) return;
       if (flaw != flaws.end()) end.how = Ending::threw, end.text = flaw->second;
+      if (end.how == Ending::timed_out) note_time_out(jobs_[left[index]]);
       channel.send(message_of_failure(jobs_[left[index]], end));
     };
     const auto work = [&](const JobSpec& job, const Channel& to) {
+      if (const std::string why = why_hopeless(job); !why.empty())
+        return to.send(joined({message_of_failure(job, Status::timed_out, why), ""}));
       try {
         is_cell(job) ? do_cell(job, to) : do_stable_step(job, to);
       } catch (const EngineFailure& failure) {
@@ -143,6 +149,25 @@ class CaseJobs {
   static bool is_cell(const JobSpec& job) { return job.kind == JobSpec::Kind::cell; }
   static MessageSubject subject_of(const JobSpec& job) {
     return {is_cell(job) ? MessageSubject::Part::cell : MessageSubject::Part::stable_step, job.part};
+  }
+
+  // Where nothing touches a finer step takes longer; among bodies that are deep in each other a coarse one may.
+  void note_time_out(const JobSpec& job) {
+    if (!is_cell(job) || anything_can_touch(planned_.definition.scene)) return;
+    const auto [known, is_new] = out_of_time_.try_emplace(job.run, job.dt);
+    if (!is_new && known->second.seconds < job.dt.seconds) known->second = job.dt;
+  }
+  // Why a job is not begun; empty if it is.
+  std::string why_hopeless(const JobSpec& job) const {
+    const auto known = out_of_time_.find(job.run);
+    if (known == out_of_time_.end()) return "";
+    const double limit = known->second.seconds;
+    const auto& steps = planned_.definition.dt;
+    const bool was_coarsest =
+        std::none_of(steps.begin(), steps.end(), [&](const auto& dt) { return dt.seconds > limit; });
+    if (is_cell(job) ? !(job.dt.seconds < limit) : !was_coarsest) return "";
+    return fmt::format("not tried: at {} s there was no result within the limit of {:g} s{}", known->second.text,
+                       job.limit, is_cell(job) ? ", and this step takes longer" : "");
   }
 
   // At the steps that two cells or more are left to do at.
@@ -235,7 +260,8 @@ class CaseJobs {
   TruthFacts facts_;
   double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
   std::vector<JobSpec> jobs_;
-  CaseResult heard_;  // of what is heard, to see whether it can be read
+  std::map<std::string, StepSize> out_of_time_;  // by run: the coarsest step at which it was
+  CaseResult heard_;                             // of what is heard, to see whether it can be read
   PathsOfCells paths_;
 };
 

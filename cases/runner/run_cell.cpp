@@ -5,6 +5,7 @@
 #include <chrono>
 #include <set>
 
+#include "cases/metrics/measures/measuring.h"
 #include "cases/runner/case_process.h"
 #include "cases/runner/ensemble.h"
 #include "cases/runner/simulate.h"
@@ -93,11 +94,14 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   }
   std::optional<RunName> twin_name;
   if (is_asked_for(kOfTwins, definition, options)) twin_name = twin_of(engines, run_name, scene);
+  JudgedRun judged{scene, run.trajectory, samples ? &*samples : nullptr, leapfrog_stagger, nullptr, cell.cpu_seconds};
   std::optional<TwinRun> twin;
-  if (twin_name) twin = run_twin(engines, *twin_name, scene, run, definition.duration);
-  JudgedRun judged{
-      scene,           run.trajectory, samples ? &*samples : nullptr, leapfrog_stagger, twin ? &*twin : nullptr,
-      cell.cpu_seconds};
+  if (twin_name) {
+    TwinLength length{.is_whole = options.is_thorough};
+    if (judged.truth) length.compared = samples_within(judged, kTruthNeededPosition);
+    twin = run_twin(engines, *twin_name, scene, run, definition.duration, length);
+    judged.twin = &*twin;
+  }
   judged.duration = definition.duration;
   cell.stability = judge_stability(judged, run.not_finite, facts.largest_kinetic_energy, facts.largest_energy_change);
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;

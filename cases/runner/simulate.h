@@ -12,6 +12,9 @@ inline constexpr double kLargestTrajectory = 512e6;
 Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
                     std::optional<long> steps_per_sample = {}, bool is_timed = true);
 
+// The first body with a number that is not finite.
+std::optional<int> body_not_finite(BodyColumns bodies);
+
 // CPU seconds of the run's steps, for comparing engines. Steps of a few microseconds are run again without a pause,
 // from the start and as many as the run had, and the quickest of the repeats counts: reading the clock before and after
 // each would be a good part of them, and whatever else the machine does only ever adds. A run of more than a second is

@@ -19,7 +19,7 @@ namespace {
 constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
 constexpr double kStepPrecision = 1.01;                     // 1 %
 constexpr double kCoarsePrecision = 1.05;                   // where steps are tried 20 % apart
-constexpr double kMostWork = 15e6;                          // steps of one free body: some five seconds
+constexpr double kMostWork = 10e6;                          // steps of one free body: some three seconds
 constexpr double kMostJointedWork = 1e6;                    // likewise in jointed scenes, which are many and dear
 // s: a method that divides its own steps counts as taking one of them in each; it takes any number.
 constexpr double kInnerStep = 1e-3;
@@ -70,22 +70,13 @@ class Search {
     if (divides_steps_ && !scene_.joints.empty() && survives(kLargestStep) == true)
       return {kLargestStep, true, false,
               fmt::format("its method divides each step: {:g} s alone was tried", kLargestStep)};
-    if (!bracket()) return found_;
-    const double sweep = sweep_of(scene_), steps_of_sweep = horizon_ / good_ / (sweep - 1);
-    if (steps_of_sweep > steps_left_ / 2) {
+    if (!bracket() || !bisect()) return found_;
+    if (steps_of_sweep() > steps_left_ / 2) {
       found_.cut = fmt::format("by bisection from {:.3g} s up: a sweep would take too many steps", doubled_);
-      good_ = doubled_;
-      if (good_ == kLargestStep) return {kLargestStep, true, false, found_.cut};
-    } else if (!rise_by(sweep)) {
+    } else if (!sweep()) {
       return found_;
     }
-    while (unstable_ > precision_of(scene_) * good_) {
-      const double middle = std::sqrt(unstable_ * good_);
-      const auto holds = survives(middle);
-      if (!holds) return ended_beyond(good_);
-      (*holds ? good_ : unstable_) = middle;
-    }
-    found_.dt = good_;
+    found_.dt = good_, found_.is_cap = good_ == kLargestStep;
     return found_;
   }
 
@@ -108,26 +99,50 @@ class Search {
       found_ = {kSmallestStep, false, true, ""};
       return false;
     }
-    good_ = 2 * dt;  // the last one tried
-    doubled_ = stable_in_a_row == 2 ? 2 * good_ : good_;
+    held_ = 2 * dt;  // the last one tried
+    good_ = doubled_ = stable_in_a_row == 2 ? 2 * held_ : held_;
     unstable_ = 2 * doubled_;
     return true;
   }
 
-  // Up by small steps to the first that is not stable. False if the search ends here.
-  bool rise_by(double sweep) {
-    for (unstable_ = good_ * sweep; unstable_ <= kLargestStep; unstable_ *= sweep) {
-      const auto holds = survives(unstable_);
+  // Between the largest known to hold and the smallest known not to. False if the search ends here.
+  bool bisect() {
+    while (good_ < kLargestStep && unstable_ > precision_of(scene_) * good_) {
+      const double middle = std::sqrt(unstable_ * good_);
+      const auto holds = survives(middle);
       if (!holds) return ended_beyond(good_), false;
-      if (!*holds) return true;
-      good_ = unstable_;
+      (*holds ? good_ : unstable_) = middle;
     }
-    unstable_ = kLargestStep;
-    const auto holds = survives(kLargestStep);
-    if (!holds) return ended_beyond(good_), false;
-    if (!*holds) return true;
-    found_ = {kLargestStep, true, false, ""};
-    return false;
+    return true;
+  }
+
+  // By small steps from the smallest that was tried: the nearest to half of what holds.
+  double start_of_sweep() const {
+    double dt = held_;
+    while (2 * dt * sweep_of(scene_) <= good_) dt *= sweep_of(scene_);
+    return dt;
+  }
+
+  double steps_of_sweep() const {
+    double steps = 0;
+    for (double dt = start_of_sweep(); dt < good_; dt *= sweep_of(scene_)) steps += steps_counted(dt) * horizon_ / dt;
+    return steps;
+  }
+
+  // Up by small steps, from half of what holds to what does: where one does not, the limit is below it. False if the
+  // search ends here.
+  bool sweep() {
+    const double top = good_;
+    for (double dt = start_of_sweep(); dt < top; dt *= sweep_of(scene_)) {
+      const auto holds = survives(dt);
+      if (!holds) return ended_beyond(held_), false;
+      if (!*holds) {
+        good_ = held_, unstable_ = dt;
+        return bisect();
+      }
+      held_ = dt;
+    }
+    return true;
   }
 
   std::string out_of_work() const {
@@ -167,7 +182,9 @@ class Search {
   double horizon_, energy_in_play_;
   double steps_left_;  // but those of the first run, which is to be whole
   bool divides_steps_;
-  double good_ = 0, doubled_ = 0, unstable_ = 0;  // s; the double holds too, and is the same where it was not tried
+  // s: known to hold; twice the smallest that does, which holds too, or that itself; the best so far; the best that
+  // does not.
+  double held_ = 0, doubled_ = 0, good_ = 0, unstable_ = 0;
   StableStep found_;
 };
 

@@ -1,7 +1,10 @@
 #include "cases/runner/twin_run.h"
 
 #include <algorithm>
+#include <memory>
 
+#include "cases/metrics/measures/measuring.h"
+#include "core/engine/remote.h"
 #include "core/scene/contact_laws.h"
 #include "core/scene/turned.h"
 
@@ -9,7 +12,8 @@ namespace rigor {
 namespace {
 
 // No axis of the old world lies along one of a new; all else about them is arbitrary. Several, for two runs' roundings
-// can cancel by chance, and one pair would then show too little of them.
+// can cancel by chance, and one pair would then show too little of them: the first alone counts only where a hundred
+// times what it shows would still not matter.
 const Quat kTurns[] = {Quat(0.7, 0.3, -0.5, 0.4).normalized(), Quat(-0.2, 0.6, 0.5, 0.3).normalized(),
                        Quat(0.4, -0.3, 0.2, 0.8).normalized()};
 
@@ -18,23 +22,60 @@ Simulation simulate_twin(const EngineTable& engines, const RunName& twin, const 
   return simulate(find_engine(engines, twin.engine), twin.settings, scene, dt, duration, steps_per_sample, false);
 }
 
-// Raises the twin's roundings to how far it is, at each sample, from itself in a world turned by `turn`. The twin ends
-// where that one does.
-void compare_with_turned(const Trajectory& turned_twin, const Quat& turn, TwinRun& twin) {
-  auto& samples = twin.trajectory.samples;
-  samples.resize(std::min(samples.size(), turned_twin.samples.size()));
-  twin.position_rounding.resize(samples.size()), twin.orientation_rounding.resize(samples.size());
-  double position = 0, orientation = 0;
-  for (std::size_t n = 0; n < samples.size(); ++n) {
-    const BodyColumns here = samples[n].bodies.columns(), there = turned_twin.samples[n].bodies.columns();
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      position = std::max(position, (turn * here.position(i) - there.position(i)).norm());
-      orientation = std::max(orientation, angle_between(turn * here.orientation(i), there.orientation(i)));
-    }
-    twin.position_rounding[n] = std::max(twin.position_rounding[n], position);
-    twin.orientation_rounding[n] = std::max(twin.orientation_rounding[n], orientation);
+// A world and where it stands, step by step.
+class SteppedWorld {
+ public:
+  SteppedWorld(const Engine& engine, const Settings& settings, const Scene& scene, double dt, long steps)
+      : world_(engine.load(scene, settings)), dt_(dt) {
+    expect_steps(*world_, dt, steps, 1);
+    world_->read(now_);
   }
-}
+  void step() { world_->step(dt_), world_->read(now_); }
+  bool is_finite() const { return !body_not_finite(now_.bodies()); }
+  double time() const { return now_.time; }
+  BodyColumns bodies() const { return now_.bodies(); }
+
+ private:
+  std::unique_ptr<World> world_;
+  double dt_;
+  Snapshot now_;
+};
+
+// A twin beside itself in one turned world after another: what the two are apart by.
+class TurnedTwin {
+ public:
+  TurnedTwin(std::unique_ptr<SteppedWorld> world, const Quat& turn) : world_(std::move(world)), turn_(turn) {}
+
+  SteppedWorld& world() { return *world_; }
+
+  // Raises the twin's roundings at its n-th sample. Whether they are still within what a comparison allows, see
+  // samples_with_twin(): beyond, neither positions nor orientations are compared any more.
+  bool raise_rounding(std::size_t n, TwinRun& twin) {
+    const BodyColumns here = twin.trajectory.samples[n].bodies.columns(), there = world_->bodies();
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      position_ = std::max(position_, (turn_ * here.position(i) - there.position(i)).norm());
+      orientation_ = std::max(orientation_, angle_between(turn_ * here.orientation(i), there.orientation(i)));
+      extent_ = std::max(extent_, here.position(i).norm());
+    }
+    if (twin.position_rounding.size() == n) twin.position_rounding.push_back(0), twin.orientation_rounding.push_back(0);
+    double &position = twin.position_rounding[n], &orientation = twin.orientation_rounding[n];
+    position = std::max(position, position_), orientation = std::max(orientation, orientation_);
+    largest_share_ = std::max({largest_share_, orientation, extent_ > 0 ? position / extent_ : 0});
+    return position <= kRoundingShare * extent_ || orientation <= kRoundingShare;
+  }
+
+  // A hundred times what it found would end no comparison, and it found something: another turn need not be asked.
+  bool is_far_from_mattering() const {
+    constexpr double kFar = 0.01;
+    return largest_share_ > 0 && largest_share_ < kFar * kRoundingShare;
+  }
+
+ private:
+  std::unique_ptr<SteppedWorld> world_;
+  Quat turn_;
+  double position_ = 0, orientation_ = 0, extent_ = 0;  // m, rad, m
+  double largest_share_ = 0;                            // of the roundings, of the extent and of one radian
+};
 
 MetricValue measured(const std::string& name, const JudgedRun& run) {
   const auto row = std::find_if(metrics().begin(), metrics().end(), [&](const auto& r) { return r.name == name; });
@@ -60,15 +101,41 @@ std::optional<RunName> twin_of(const EngineTable& engines, const RunName& run, c
 }
 
 TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& scene, const Simulation& run,
-                 double duration) {
-  const auto simulated = [&](const Scene& which) {
-    return simulate_twin(engines, twin, which, run.trajectory.dt, duration, run.steps_per_sample).trajectory;
+                 double duration, TwinLength length) {
+  const double dt = run.trajectory.dt;
+  const long steps = steps_in(duration, dt), every = run.steps_per_sample;
+  const auto world_in = [&](const Scene& which) {
+    return std::make_unique<SteppedWorld>(find_engine(engines, twin.engine), twin.settings, which, dt, steps);
   };
+  const auto is_sample = [&](long n) { return n % every == 0 || n == steps; };
   TwinRun out;
-  out.trajectory = simulated(scene);
+  out.trajectory.dt = dt;
   auto& samples = out.trajectory.samples;
-  samples.resize(std::min(samples.size(), run.trajectory.samples.size()));
-  for (const Quat& turn : kTurns) compare_with_turned(simulated(turned(scene, turn)), turn, out);
+  const auto own = world_in(scene);
+  std::optional<TurnedTwin> first(std::in_place, world_in(turned(scene, kTurns[0])), kTurns[0]);
+  bool is_compared = true;
+  for (long n = 0; own->is_finite() && (!is_compared || first->world().is_finite()); ++n) {
+    if (is_sample(n)) {
+      if (samples.size() == run.trajectory.samples.size()) break;
+      samples.push_back({own->time(), BodyTable(own->bodies())});
+      if (is_compared) is_compared = first->raise_rounding(samples.size() - 1, out) && samples.size() < length.compared;
+      if (!is_compared && !length.is_whole) break;
+    }
+    if (n == steps) break;
+    own->step();
+    if (is_compared) first->world().step();
+  }
+  if (first->is_far_from_mattering()) return out;
+  for (std::size_t k = 1; k < std::size(kTurns); ++k) {
+    TurnedTwin other(world_in(turned(scene, kTurns[k])), kTurns[k]);
+    std::size_t compared = 0;
+    for (long n = 0; compared < out.position_rounding.size() && other.world().is_finite(); ++n) {
+      if (is_sample(n) && !other.raise_rounding(compared++, out)) break;
+      if (n < steps) other.world().step();
+    }
+    out.position_rounding.resize(compared), out.orientation_rounding.resize(compared);
+    if (!length.is_whole || !other.world().is_finite()) samples.resize(std::min(samples.size(), compared));
+  }
   return out;
 }
 

@@ -94,20 +94,21 @@ class SeriesSet {
 
   std::size_t count() const { return count_; }
 
-  double deviation(std::size_t n, std::size_t a, std::size_t b) const {
-    const double share = static_cast<double>(n - a) / static_cast<double>(b - a);
-    double worst = 0;
+  // Series by series, for each of them lies in one piece.
+  KeptSample worst_between(std::size_t a, std::size_t b) const {
+    std::vector<double> shares(b - a - 1), off(b - a - 1, 0.0);  // of the samples from a + 1 on
+    for (std::size_t k = 0; k < shares.size(); ++k) shares[k] = static_cast<double>(k + 1) / static_cast<double>(b - a);
     for (const Seen& seen : seen_) {
       const std::size_t length = seen.linear.size();
-      if (n >= length) continue;
-      if (b >= length) {  // it ends in this stretch, and its end is kept
-        if (n + 1 == length) return std::numeric_limits<double>::max();
-        continue;
+      if (b < length) {
+        raise_to_deviations(seen.linear, a, b, shares, off), raise_to_deviations(seen.decades, a, b, shares, off);
+      } else if (length >= a + 2) {  // it ends in this stretch, and its end is kept
+        off[length - a - 2] = std::numeric_limits<double>::max();
       }
-      const auto off = [&](const std::vector<double>& values) {
-        return std::abs(values[n] - (1 - share) * values[a] - share * values[b]);
-      };
-      worst = std::max({worst, off(seen.linear), off(seen.decades)});
+    }
+    KeptSample worst{a, 0};
+    for (std::size_t k = 0; k < off.size(); ++k) {
+      if (off[k] > worst.deviation) worst = {a + 1 + k, off[k]};
     }
     return worst;
   }
@@ -128,6 +129,14 @@ class SeriesSet {
   }
 
  private:
+  static void raise_to_deviations(const std::vector<double>& values, std::size_t a, std::size_t b,
+                                  const std::vector<double>& shares, std::vector<double>& off) {
+    const double first = values[a], last = values[b];
+    const double* between = &values[a] + 1;
+    for (std::size_t k = 0; k < off.size(); ++k)
+      off[k] = std::max(off[k], std::abs(between[k] - (1 - shares[k]) * first - shares[k] * last));
+  }
+
   // A series on the two scales of a plot, in what can just be seen there.
   struct Seen {
     std::vector<double> linear, decades;
@@ -187,8 +196,8 @@ class Packer {
 
   static Ranked ranked(std::vector<NamedSeries> named) {
     Ranked out{SeriesSet(std::move(named)), {}};
-    out.points = ranked_samples(out.series.count(), kMostPoints, [&](std::size_t n, std::size_t a, std::size_t b) {
-      return out.series.deviation(n, a, b);
+    out.points = ranked_samples(out.series.count(), kMostPoints, [&](std::size_t first, std::size_t last) {
+      return out.series.worst_between(first, last);
     });
     return out;
   }

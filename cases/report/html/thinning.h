@@ -17,9 +17,13 @@ struct KeptSample {
   double deviation;
 };
 
+// The first of the samples between two that deviates most; the first of the two, by 0, if none does.
+using WorstBetween = std::function<KeptSample(std::size_t first, std::size_t last)>;
+
 // The first and the last of `count` samples, then at most `limit` in all in the order of what they are worth, as far as
 // they deviate by more than 1.
 std::vector<KeptSample> ranked_samples(std::size_t count, std::size_t limit, const Deviation& deviation);
+std::vector<KeptSample> ranked_samples(std::size_t count, std::size_t limit, const WorstBetween& worst_between);
 
 // The indices of the first `number` of them, ascending.
 std::vector<std::size_t> first_samples(const std::vector<KeptSample>& ranked, std::size_t number);

@@ -66,6 +66,16 @@ EngineTable faulty_engines(bool with_one_that_hangs = true) {
   return table;
 }
 
+class HangingWithContacts : public FaultyEngine {
+ public:
+  HangingWithContacts() : FaultyEngine("hangs", [](double&) { spin(); }) {}
+  EngineInfo info() const override {
+    EngineInfo info = FaultyEngine::info();
+    info.features = joined(contacts_of_all_shapes(), {"restitution", "friction:none", "friction:coulomb"});
+    return info;
+  }
+};
+
 std::vector<RunName> runs_of(const EngineTable& table) {
   std::vector<RunName> runs;
   for (const EngineInfo& info : infos_of(table)) runs.push_back(parse_run_name(info.name, infos_of(table)));
@@ -106,6 +116,26 @@ BOOST_AUTO_TEST_CASE(a_broken_engine_costs_its_own_cells_and_says_how) {
   }
   const Cell& aborted = grid.cases.front().cells.front();
   BOOST_TEST(aborted.reason.find("solver: matrix is singular") != std::string::npos, aborted.reason);
+}
+
+// A finer step would take longer; among bodies that can touch it may take less.
+BOOST_AUTO_TEST_CASE(where_a_run_was_out_of_time_a_finer_step_is_not_tried) {
+  EngineTable table;
+  table.add(std::make_unique<HangingWithContacts>());
+  Case touching = drifting_body("touching");
+  touching.scene.bodies.push_back(touching.scene.bodies.front());
+  touching.scene.bodies.back().name = "other", touching.scene.bodies.back().position = Vec3(5, 0, 0);
+  for (Body& body : touching.scene.bodies) body.shape = Sphere{0.1}, body.collides = true;
+  const Results grid = run({drifting_body("a"), touching}, table, {1, 0.1, {}, true});
+  const std::string out_of_time = "no result within the limit of 0.1 s", not_tried = "not tried: at 1/10 s there was ";
+  for (const CaseResult& result : grid.cases) {
+    for (const Cell& cell : result.cells) BOOST_TEST((cell.status == Status::timed_out), word_of(cell.status));
+    BOOST_TEST(result.cells[0].reason == out_of_time);
+  }
+  BOOST_TEST(grid.cases[0].cells[1].reason == not_tried + out_of_time + ", and this step takes longer");
+  BOOST_TEST((grid.cases[0].stable_steps[0].status == Status::timed_out));
+  BOOST_TEST(grid.cases[0].stable_steps[0].reason == not_tried + out_of_time);
+  BOOST_TEST(grid.cases[1].cells[1].reason == out_of_time);
 }
 
 BOOST_AUTO_TEST_CASE(a_garbled_answer_costs_its_cell_and_no_other) {
