@@ -1,7 +1,8 @@
 #include "adapters/twin_joint_solver.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
+
+#include "core/base/factors.h"
 
 namespace rigor {
 namespace {
@@ -48,12 +49,12 @@ TwinJointSolver::Sparse TwinJointSolver::inverse_mass(BodyColumns state) {
 
 // p of A p = b with A = S + softness, and whether it has one; once refined, for rows that repeat others are nearly
 // singular.
-template <typename Factor, typename Matrix>
-Eigen::VectorXd TwinJointSolver::solved(const Factor& factor, const Matrix& matrix, const Eigen::VectorXd& right) {
-  const bool is_regular = factor.info() == Eigen::Success && factor.vectorD().cwiseAbs().minCoeff() > 0;
+template <typename Factors, typename Matrix>
+Eigen::VectorXd TwinJointSolver::solved(const Factors& factors, bool is_regular, const Matrix& matrix,
+                                        const Eigen::VectorXd& right) {
   warning_ = is_regular ? "" : "the joints' equations have no single solution, and cfm is zero";
-  const Eigen::VectorXd impulses = factor.solve(right);
-  return impulses + factor.solve(right - matrix * impulses);
+  const Eigen::VectorXd impulses = factors.solve(right);
+  return impulses + factors.solve(right - matrix * impulses);
 }
 
 void TwinJointSolver::push(MutableBodyColumns state, double dt) {
@@ -68,12 +69,15 @@ void TwinJointSolver::push(MutableBodyColumns state, double dt) {
   if (count <= kMostDense) {
     Eigen::MatrixXd system = J * by_impulse;
     system.diagonal().array() += softness;
-    impulses = solved(Eigen::LDLT<Eigen::MatrixXd>(system), system, right);
+    const Eigen::LDLT<Eigen::MatrixXd> factors(system);
+    const bool is_regular = factors.info() == Eigen::Success && factors.vectorD().cwiseAbs().minCoeff() > 0;
+    impulses = solved(factors, is_regular, system, right);
   } else {
     Sparse identity(count, count);
     identity.setIdentity();
     const Sparse system = Sparse(J * by_impulse) + softness * identity;
-    impulses = solved(Eigen::SimplicialLDLT<Sparse>(system), system, right);
+    const SparseFactors factors(system);
+    impulses = solved(factors, factors.is_regular(), system, right);
   }
   const Eigen::VectorXd change = by_impulse * impulses;
   for (std::size_t i = 0; i < state.size(); ++i) {

@@ -33,8 +33,8 @@ class TwinJointSolver {
   using Sparse = Eigen::SparseMatrix<double>;
   void enter(int body, const Vec6& share);
   Sparse inverse_mass(BodyColumns state);
-  template <typename Factor, typename Matrix>
-  Eigen::VectorXd solved(const Factor& factor, const Matrix& matrix, const Eigen::VectorXd& right);
+  template <typename Factors, typename Matrix>
+  Eigen::VectorXd solved(const Factors& factors, bool is_regular, const Matrix& matrix, const Eigen::VectorXd& right);
 
   const System& system_;
   double erp_;

@@ -104,7 +104,7 @@ Eigen::Isometry3d pose_of_plane(const Plane& plane) {
   return dart_transform((plane.offset - kDartPlaneReach) * plane.normal, turn);
 }
 
-double reach_of(const Shape& shape) {
+double bounding_radius_of(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
   if (const auto* box = std::get_if<Box>(&shape)) return box->size.norm() / 2;
   return 0;
@@ -141,7 +141,7 @@ DartPlaneEdges::DartPlaneEdges(const Scene& scene) {
     if (const auto* plane = std::get_if<Plane>(&*body.shape)) {
       planes_.push_back(*plane), names_.push_back(body.name);
     } else if (!body.fixed) {
-      solids_.push_back({i, body.name, reach_of(*body.shape)});
+      solids_.push_back({i, body.name, bounding_radius_of(*body.shape)});
     }
   }
 }
@@ -153,7 +153,7 @@ void DartPlaneEdges::check(BodyColumns bodies) const {
       const Vec3 position = bodies.position(solid.body);
       const double height = normal.dot(position) - planes_[p].offset;
       const double beside = (position - normal.dot(position) * normal).norm();
-      if (height > solid.reach || beside + solid.reach < kDartPlaneReach) continue;
+      if (height > solid.bounding_radius || beside + solid.bounding_radius < kDartPlaneReach) continue;
       throw EngineFailure(
           beside > 2 * kDartPlaneReach ? FailureKind::diverged : FailureKind::unsupported,
           fmt::format("body '{}' is {:.0f} m from the point of plane '{}' next to the origin, and the box that stands "

@@ -28,7 +28,7 @@ class DartPlaneEdges {
   struct Solid {
     std::size_t body;
     std::string name;
-    double reach;  // m, of its farthest point from its centre
+    double bounding_radius;  // m, about its centre
   };
   std::vector<Plane> planes_;
   std::vector<std::string> names_;  // of the planes

@@ -47,6 +47,12 @@ std::vector<RunName> without_those_on_request(std::vector<RunName> runs) {
   return runs;
 }
 
+// A line of a run's table.
+std::string left_out_text(const GridRun& run) {
+  const std::string names = left_out_by_default(run.line, run.engines.infos());
+  return names.empty() ? "" : fmt::format("on request (--engine NAME): {}\n", names);
+}
+
 Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
   std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
   if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
@@ -124,7 +130,7 @@ int answer_of_gate(const GridRun& run, int ending) {
   std::vector<Failure> rows = failures(run.grid);
   const std::vector<Failure> unmet = unmet_of_whole_suite(run.line, run.grid);
   rows.insert(rows.end(), unmet.begin(), unmet.end());
-  print_table(console_table(run.grid) + gate_summary(run.grid) + failures_text(rows));
+  print_table(console_table(run.grid) + left_out_text(run) + gate_summary(run.grid) + failures_text(rows));
   tell_the_runner(run.grid, rows);
   return ending == kGood && !(all_gates_hold(run.grid) && unmet.empty()) ? int{kGateFailed} : ending;
 }
@@ -140,6 +146,14 @@ std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<E
     if (std::none_of(runs.begin(), runs.end(), is_it)) runs.push_back(std::move(run));
   }
   return runs;
+}
+
+std::string left_out_by_default(const CommandLine& line, const std::vector<EngineInfo>& infos) {
+  std::vector<std::string> names;
+  for (const EngineInfo& info : infos) {
+    if (line.engines.empty() && is_on_request(info.name)) names.push_back(info.name);
+  }
+  return listed(names);
 }
 
 GridRun plan_run(const CommandLine& line, const EngineTable& engines) {
@@ -211,7 +225,7 @@ int ending_of(const Results& grid, bool is_whole) {
 int answer(const GridRun& run, bool is_whole) {
   const int ending = ending_of(run.grid, is_whole);
   if (is_gate(run.line)) return answer_of_gate(run, ending);
-  print_table(console_table(run.grid));
+  print_table(console_table(run.grid) + left_out_text(run));
   return ending;
 }
 

@@ -22,6 +22,9 @@ struct GridRun {
   Results grid;
 };
 
+// The engines of this program that a run leaves out for it names none: those that take part on request. Empty: none.
+std::string left_out_by_default(const CommandLine& line, const std::vector<EngineInfo>& infos);
+
 // The runs that --engine names, each once; without any, the default runs.
 std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<EngineInfo>& infos);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "cases/gates/gates.h"
 
@@ -67,6 +68,22 @@ std::vector<Failure> failures(const Results& results) {
     }
   }
   return rows;
+}
+
+std::vector<Gate> unmet_family_gates(const Results& grid) {
+  std::map<std::string, const Gate*> unmet;  // by where it stands and its metric
+  const auto key = [](const Gate& gate) { return gate.where + " " + gate.metric; };
+  for (const CaseResult& result : grid.cases) {
+    for (const Gate& gate : result.definition.gates) {
+      if (gate.is_of_family) unmet.emplace(key(gate), &gate);
+    }
+  }
+  for (const CaseResult& result : grid.cases) {
+    for (const GateResult& answer : result.gates) unmet.erase(key(result.definition.gates[answer.gate]));
+  }
+  std::vector<Gate> gates;
+  for (const auto& [name, gate] : unmet) gates.push_back(*gate);
+  return gates;
 }
 
 }  // namespace rigor

@@ -20,4 +20,7 @@ struct Failure {
 
 std::vector<Failure> failures(const Results& results);
 
+// Gates of families that no cell of any case met: of a whole suite there should be none.
+std::vector<Gate> unmet_family_gates(const Results& grid);
+
 }  // namespace rigor

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "cases/case/selection.h"
 #include "cases/gates/single_precision.h"
@@ -336,22 +335,6 @@ bool all_gates_hold(const Results& grid) {
     return result.error.empty() && std::none_of(result.gates.begin(), result.gates.end(),
                                                 [](const GateResult& gate) { return is_failure(gate.answer); });
   });
-}
-
-std::vector<Gate> unmet_family_gates(const Results& grid) {
-  std::map<std::string, const Gate*> unmet;  // by where it stands and its metric
-  const auto key = [](const Gate& gate) { return gate.where + " " + gate.metric; };
-  for (const CaseResult& result : grid.cases) {
-    for (const Gate& gate : result.definition.gates) {
-      if (gate.is_of_family) unmet.emplace(key(gate), &gate);
-    }
-  }
-  for (const CaseResult& result : grid.cases) {
-    for (const GateResult& answer : result.gates) unmet.erase(key(result.definition.gates[answer.gate]));
-  }
-  std::vector<Gate> gates;
-  for (const auto& [name, gate] : unmet) gates.push_back(*gate);
-  return gates;
 }
 
 std::string unit_after(const std::string& metric) {

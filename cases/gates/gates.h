@@ -12,7 +12,7 @@ inline constexpr double kRounding = 1e-9;
 
 // Fills in result.gates, and turns a cell that did `pass` into `fail` where a gate says so. A gate on a cell that
 // crashed, timed out or is invalid fails; one that is unsupported or has no such metric it does not meet. A gate that
-// met no cell is `not_checked`, once; a family's says nothing then, see unmet_family_gates.
+// met no cell is `not_checked`, once; a family's says nothing then, see unmet_family_gates (failures.h).
 void check_gates(CaseResult& result, const Results& grid, const RecordedValues& recorded = {});
 
 // Whether every gate was checked and held, and every case could be judged.
@@ -20,8 +20,5 @@ bool all_gates_hold(const Results& grid);
 
 // " m": the unit that stands after a value of this metric; "" where it has none.
 std::string unit_after(const std::string& metric);
-
-// Those of families that no cell of any case met: of a whole suite there should be none.
-std::vector<Gate> unmet_family_gates(const Results& grid);
 
 }  // namespace rigor

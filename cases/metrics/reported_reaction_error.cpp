@@ -1,12 +1,9 @@
 // By how much the forces and couples that an engine itself says its joints carry differ from the truth's: what a user
 // reads from its feedback. An engine's is the mean over a step, for it holds velocities at the step's end; the truth's
-// is taken as the mean of those at the step's two ends, which is right to second order. Steps, directions and what has
-// no value are those of reaction_error.cpp.
-#include <algorithm>
-#include <cmath>
-
-#include "cases/metrics/measures/joints/joint_reactions.h"
+// is taken as the mean of those at the step's two ends, which is right to second order. Directions and what has no
+// value are those of reaction_error.cpp.
 #include "cases/metrics/measures/joints/joint_series.h"
+#include "cases/metrics/measures/joints/reaction_difference.h"
 
 namespace rigor {
 namespace {
@@ -27,28 +24,20 @@ class ReportedReactions {
     for (const Joint& joint : run.scene.joints) geometry_.emplace_back(run.scene, joint);
   }
 
-  // Adds what a part of each joint's reaction is off by in the step that ends with a sample. Whether there was any.
-  bool compare(std::size_t n, const std::string& what, Vec3 JointReaction::*part, Mat3 UniqueReaction::*unique_part,
-               TimeSeries& series) {
-    const Sample& sample = run_.trajectory.samples[n];
+  // In the step that ends with a sample.
+  std::optional<ComparedReactions> at(std::size_t n) {
+    const Sample &before = run_.trajectory.samples[n - 1], &sample = run_.trajectory.samples[n];
     const BodyColumns start = run_.truth->bodies[n - 1].columns(), end = run_.truth->bodies[n].columns();
     const auto unique = reactions_.unique_at(end);
-    const auto first = reactions_.at(start, run_.trajectory.samples[n - 1].time),
-               last = reactions_.at(end, sample.time);
-    if (!unique || !first || !last) return false;
-    bool is_any = false;
+    const auto first = reactions_.at(start, before.time), last = reactions_.at(end, sample.time);
+    if (!unique || !first || !last) return std::nullopt;
+    ComparedReactions all{*unique, {}, {}};
     for (std::size_t k = 0; k < geometry_.size(); ++k) {
-      const Joint& joint = run_.scene.joints[k];
-      const Mat3& counts = (*unique)[k].*unique_part;
-      if (counts.isZero(0)) continue;
-      const JointReaction found =
-          at_joint(joint, geometry_[k], sample.reactions[k], run_.trajectory.samples[n - 1].bodies.columns());
-      const Vec3 mine = counts * (found.*part), its = 0.5 * (counts * ((*first)[k].*part + (*last)[k].*part));
-      series.add((mine - its).norm(), {sample.time, joint.b == kWorld ? joint.a : joint.b,
-                                       what + " of " + run_.scene.joint_name(k), mine.norm(), its.norm()});
-      is_any = true;
+      const JointReaction &at_start = (*first)[k], &at_end = (*last)[k];
+      all.found.push_back(at_joint(run_.scene.joints[k], geometry_[k], sample.reactions[k], before.bodies.columns()));
+      all.expected.push_back({0.5 * (at_start.force + at_end.force), 0.5 * (at_start.couple + at_end.couple)});
     }
-    return is_any;
+    return all;
   }
 
  private:
@@ -57,28 +46,16 @@ class ReportedReactions {
   std::vector<JointGeometry> geometry_;
 };
 
-MetricResult measure_reports(const JudgedRun& run, const std::string& what, Vec3 JointReaction::*part,
-                             Mat3 UniqueReaction::*unique_part) {
+MetricResult measure_reports(const JudgedRun& run, const ReactionPart& part) {
   if (const std::string why = why_reactions_are_unknown(run.scene); !why.empty()) return {{}, why};
   const std::vector<Sample>& samples = run.trajectory.samples;
   if (samples.size() < 2 || samples.back().reactions.empty()) return {{}, "the engine does not say what joints carry"};
-  if (!run.truth) return {{}, kNoTruth};
-  const std::size_t count = samples_within(run, kTruthNeededPosition);
-  if (count < 3) return {{}, kNoSamples};
   constexpr double kOneStep = 1.5;
   if (samples[1].time > kOneStep * run.trajectory.dt) return {{}, "steps are not recorded one by one"};
   ReportedReactions reported(run);
-  TimeSeries series;
-  bool is_any = false;
-  constexpr std::size_t kInstants = 100;
   // Not in the first step: it begins with velocities of its own instant and not of the step before, so that an engine
   // that holds them at steps' ends carries nothing yet of what turning takes.
-  for (std::size_t n = 2; n < count; n += std::max<std::size_t>(1, count / kInstants))
-    is_any = reported.compare(n, what, part, unique_part, series) || is_any;
-  if (!is_any) return {{}, "the equations of motion leave no joint's " + what + " unique"};
-  Measurement measurement = std::move(series).finish();
-  measurement.series.clear();
-  return {std::move(measurement), ""};
+  return largest_reaction_difference(run, part, 2, [&](std::size_t n) { return reported.at(n); });
 }
 
 }  // namespace
@@ -87,7 +64,7 @@ MetricRow reported_reaction_error() {
   return {"reported_reaction_error", "N",
           "largest difference of the force that the engine says a joint carries from the truth's",
           [](const JudgedRun& run) {
-            return measure_reports(run, "reported force", &JointReaction::force, &UniqueReaction::force);
+            return measure_reports(run, {"reported force", &JointReaction::force, &UniqueReaction::force});
           }};
 }
 
@@ -96,7 +73,7 @@ MetricRow reported_reaction_torque_error() {
           "largest difference of the couple that the engine says a joint carries, about its point, from the truth's",
           [](const JudgedRun& run) {
             if (!run.scene.joints.empty() && !any_holds_angle(run.scene)) return MetricResult{{}, kNoAngle};
-            return measure_reports(run, "reported couple", &JointReaction::couple, &UniqueReaction::couple);
+            return measure_reports(run, {"reported couple", &JointReaction::couple, &UniqueReaction::couple});
           }};
 }
 

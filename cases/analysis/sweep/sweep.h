@@ -25,8 +25,9 @@ struct SweepRow {
   std::vector<std::string> values;  // of each axis
   Status status = Status::crashed;
   std::string reason = "it did not run";
-  std::string verdict;          // "stable", ...; empty where there is none
-  std::vector<double> metrics;  // of Sweep::metrics; not a number where there is none
+  std::string verdict;                      // "stable", ...; empty where there is none
+  std::vector<double> metrics;              // of Sweep::metrics; not a number where there is none
+  std::vector<std::string> held_to_itself;  // those whose truth the run's own code makes (truth/provenance.h)
 };
 
 struct SweepInput {

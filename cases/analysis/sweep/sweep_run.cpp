@@ -86,7 +86,9 @@ class JobProcess {
     row.status = cell.status, row.reason = cell.reason, row.verdict = word_of(cell.stability.verdict);
     for (std::size_t i = 0; i < row.metrics.size(); ++i) {
       const auto found = cell.metrics.find(sweep_.metrics()[i]);
-      if (found != cell.metrics.end() && found->second.not_applicable.empty()) row.metrics[i] = found->second.value;
+      if (found == cell.metrics.end() || !found->second.not_applicable.empty()) continue;
+      row.metrics[i] = found->second.value;
+      if (found->second.is_held_to_itself) row.held_to_itself.push_back(found->first);
     }
   }
 
@@ -238,7 +240,7 @@ class JobsToDo : public JobSource {
 }  // namespace
 
 std::string answer_of(const SweepRow& row) {
-  return text_of(Json::array({word_of(row.status), row.reason, row.verdict, row.metrics}), -1);
+  return text_of(Json::array({word_of(row.status), row.reason, row.verdict, row.metrics, row.held_to_itself}), -1);
 }
 
 void apply_answer(SweepRow& row, const std::string& answer) {
@@ -248,6 +250,7 @@ void apply_answer(SweepRow& row, const std::string& answer) {
   heard.reason = json.at(1).get<std::string>(), heard.verdict = json.at(2).get<std::string>();
   if (json.at(3).size() != heard.metrics.size()) throw std::runtime_error("it has other metrics");
   for (std::size_t i = 0; i < heard.metrics.size(); ++i) heard.metrics[i] = number_of(json.at(3).at(i));
+  heard.held_to_itself = json.at(4).get<std::vector<std::string>>();
   row = std::move(heard);
 }
 

@@ -32,7 +32,7 @@ std::string series_text(const std::string& name, const CellSeries& series, const
   return text + "\n";
 }
 
-std::string text_of(const CellHistory& cell, const std::vector<HistoryEntry>& history) {
+std::string lines_of(const CellHistory& cell, const std::vector<HistoryEntry>& history) {
   std::string text = "  " + cell.name + "\n";
   if (!cell.status_change.empty()) text += fmt::format("    {:<28} * {}\n", "status", cell.status_change);
   if (!cell.metric.empty()) text += series_text(cell.metric, cell.error, history);
@@ -75,7 +75,7 @@ std::string history_table(const std::vector<HistoryEntry>& history, const std::v
   std::size_t unchanged = 0, shown = 0;
   for (const CellHistory& cell : cells) {
     unchanged += !cell.has_changed(), shown += shows_all || cell.has_changed();
-    if (shows_all || cell.has_changed()) text += text_of(cell, history);
+    if (shows_all || cell.has_changed()) text += lines_of(cell, history);
   }
   std::string head = fmt::format("{} entries, from {} ({}) to {} ({}); costs on {}\n", history.size(),
                                  history.front().commit, history.front().date.substr(0, 10), history.back().commit,

@@ -35,7 +35,7 @@ std::string sweep_csv_header(const Sweep& sweep) {
   }
   line += ",status,verdict";
   for (const std::string& metric : sweep.metrics()) line += "," + with_unit(metric, unit_of_metric(metric));
-  return line + ",reason\n";
+  return line + ",reason,held_to_itself\n";
 }
 
 std::string sweep_csv_row(const Sweep& sweep, const SweepRow& row) {
@@ -46,7 +46,7 @@ std::string sweep_csv_row(const Sweep& sweep, const SweepRow& row) {
   }
   line += fmt::format(",{},{}", word_of(row.status), row.verdict);
   for (const double value : row.metrics) line += std::isnan(value) ? "," : fmt::format(",{}", value);
-  return line + "," + csv_field(row.reason) + "\n";
+  return line + fmt::format(",{},{}\n", csv_field(row.reason), fmt::join(row.held_to_itself, " "));
 }
 
 std::string sweep_json_row(const Sweep& sweep, const SweepRow& row) {
@@ -59,6 +59,7 @@ std::string sweep_json_row(const Sweep& sweep, const SweepRow& row) {
   for (std::size_t i = 0; i < row.metrics.size(); ++i)
     json[sweep.metrics()[i]] = std::isnan(row.metrics[i]) ? Json(nullptr) : Json(row.metrics[i]);
   json["reason"] = row.reason;
+  json["held_to_itself"] = row.held_to_itself;
   return text_of(std::move(json), -1) + "\n";
 }
 

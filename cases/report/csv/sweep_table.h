@@ -1,4 +1,6 @@
-// The table of a sweep, a row a cell: as CSV, with units in its header, and as JSON lines of the same columns.
+// The table of a sweep, a row a cell: as CSV, with units in its header, and as JSON lines of the same columns. The
+// last, `held_to_itself`, names the metrics whose truth the run's own code makes: these are no witness of how right it
+// is.
 #pragma once
 
 #include <string>

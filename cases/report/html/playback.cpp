@@ -25,7 +25,7 @@ constexpr double kNoise = 1e-12;           // of a series in any unit: what is s
 constexpr std::size_t kMostKeys = 6000;    // of a motion
 constexpr std::size_t kMostPoints = 1500;  // of the series
 constexpr std::size_t kMost = 300000, kLeast = 200;  // characters of a packing
-constexpr double kOfAllRuns = 6e6, kShares = 6;      // characters; even shares of them that a run may ask for
+constexpr double kOfAllRuns = 6e6, kEvenShares = 6;  // characters; even shares of them that a run may ask for
 constexpr double kCoarser = 0.7;                     // of the keys and points, from one packing to the next
 
 // What the page always plots.
@@ -303,7 +303,7 @@ PlaybackLimit::PlaybackLimit(const Results& grid) {
 
 std::size_t PlaybackLimit::of(const Case& definition, const StepSize* dt) const {
   const double even = kOfAllRuns * weight_of(definition, dt ? dt->seconds : kTruth) / weights_;
-  return static_cast<std::size_t>(std::min(kShares * even, static_cast<double>(kMost)));
+  return static_cast<std::size_t>(std::min(kEvenShares * even, static_cast<double>(kMost)));
 }
 
 Recording PlaybackRecorder::of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts) const {

@@ -84,7 +84,7 @@ SweepPage::SweepPage(const Sweep& sweep) : sweep_(sweep) {
 bool SweepPage::has_key_of_steps() const { return keys_.size() > sweep_.axes().size(); }
 
 void SweepPage::add(const SweepRow& row) {
-  Point point{row.of_case, row.run, {}, kind_of(row), {kNothing, kNothing, kNothing}};
+  Point point{row.of_case, row.run, {}, kind_of(row), {kNothing, kNothing, kNothing}, {}};
   const auto number_of_value = [](const Key& key, const std::string& value) {
     return static_cast<float>(std::find(key.values.begin(), key.values.end(), value) - key.values.begin());
   };
@@ -99,6 +99,8 @@ void SweepPage::add(const SweepRow& row) {
     const auto found = std::find(names.begin(), names.end(), error_names_[i]);
     if (found != names.end())
       point.errors[i] = static_cast<float>(row.metrics[static_cast<std::size_t>(found - names.begin())]);
+    const auto& own = row.held_to_itself;
+    point.is_held_to_itself[i] = std::find(own.begin(), own.end(), error_names_[i]) != own.end();
   }
   points_.push_back(std::move(point));
 }
@@ -147,7 +149,11 @@ std::string SweepPage::hint(const Point& point, std::size_t error) const {
                         is_value ? keys_[i].values[static_cast<std::size_t>(point.at[i])] : tick(point.at[i]));
   }
   text += kKinds[point.kind].word;
-  if (!std::isnan(point.errors[error])) text += fmt::format(", {} {}", error_names_[error], tick(point.errors[error]));
+  if (!std::isnan(point.errors[error])) {
+    const std::string number = tick(point.errors[error]);
+    text += fmt::format(", {} {}", error_names_[error],
+                        point.is_held_to_itself[error] ? fmt::format("({})", number) : number);
+  }
   return "<title>" + escaped(text) + "</title>";
 }
 

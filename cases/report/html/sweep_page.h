@@ -31,6 +31,7 @@ class SweepPage {
     std::vector<float> at;  // of each key: the number of its value in a grid, or the value itself
     unsigned char kind;     // a row of the table of kinds
     std::array<float, kErrors> errors;
+    std::array<bool, kErrors> is_held_to_itself;  // of errors: stands in brackets
   };
   using Points = std::vector<const Point*>;
   struct Range {

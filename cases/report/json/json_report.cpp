@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSchema = 2;
+constexpr int kSchemaVersion = 2;
 
 Json machine_json() {
   const Machine machine = this_machine();
@@ -134,7 +134,7 @@ Json cell_json(const Cell& cell, const CaseResult& result, const std::string& ru
 }  // namespace
 
 Json results_json(const Results& results) {
-  Json json = {{"schema", kSchema},
+  Json json = {{"schema", kSchemaVersion},
                {"program", {{"name", "rigor"}, {"version", this_machine().program_version}}},
                {"machine", machine_json()},
                {"wall_seconds", results.wall_seconds},

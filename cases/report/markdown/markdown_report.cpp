@@ -199,14 +199,19 @@ std::string settings(const Results& results) {
   return text;
 }
 
-// An engine's own columns, of the cases that it ran; to be read as the matrix above it.
+// An engine's runs beside its first, which the matrix above has. What ends as that one did is not told again.
 TextTable matrix_of_engine(const Results& results, Words words, const std::vector<std::size_t>& runs) {
   TextTable matrix = verdict_matrix(results, words, runs);
-  matrix.heading = "To be read as above.";
-  const auto is_empty = [](const std::vector<std::string>& row) {
-    return std::all_of(row.begin() + 1, row.end(), [](const std::string& cell) { return cell.empty(); });
+  matrix.heading = fmt::format("To be read as above; = is as {}, and cases in which all are so are left out.",
+                               results.runs[runs.front()].text);
+  for (std::vector<std::string>& row : matrix.rows) {
+    std::replace(row.begin() + 2, row.end(), std::string(row[1]), std::string("="));
+    row.erase(row.begin() + 1);
+  }
+  const auto says_nothing = [](const std::vector<std::string>& row) {
+    return std::all_of(row.begin() + 1, row.end(), [](const std::string& cell) { return cell.empty() || cell == "="; });
   };
-  std::erase_if(matrix.rows, is_empty);
+  std::erase_if(matrix.rows, says_nothing);
   return matrix;
 }
 
@@ -222,8 +227,11 @@ std::string matrices(const Results& results, Words words) {
     std::vector<std::size_t> own = all;
     std::erase_if(own, [&](std::size_t run) { return results.runs[run].engine != engine; });
     if (own.size() == 1) continue;
-    text += fmt::format("\n<details><summary>{}: all {} of its runs</summary>\n\n{}\n</details>\n", plain(engine),
-                        own.size(), table(matrix_of_engine(results, words, own)));
+    const TextTable others = matrix_of_engine(results, words, own);
+    const std::string beside = fmt::format("{}: {} runs beside {}", engine, own.size() - 1, results.runs[first].text);
+    text += others.rows.size() == 1
+                ? fmt::format("\n{}, which all end as it does in every case.\n", plain(beside))
+                : fmt::format("\n<details><summary>{}</summary>\n\n{}\n</details>\n", plain(beside), table(others));
   }
   return text;
 }

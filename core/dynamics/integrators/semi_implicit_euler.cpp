@@ -4,7 +4,7 @@
 // oscillation of frequency f it is stable while f dt < 2. The gyroscopic term is explicit, so that a free body's spin
 // is not symplectic. With joints the velocities also get the impulses that close all joints at the step's end (SHAKE);
 // where bodies turn by so much in a step that there are none, those that the velocities need at its start, and the
-// least motion back at its end.
+// mass-weighted least-norm projection at its end.
 #include <optional>
 
 #include "core/dynamics/integrators/euler_passes.h"

@@ -101,7 +101,7 @@ void BlockSystem::add(std::size_t row, std::size_t column, const Mat6& block) {
 
 bool BlockSystem::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solution) {
   if (!is_dense()) return sparse_->solve(right_side, solution);
-  dense_lu_.compute(dense_);
+  dense_lu_.factorise(dense_, DenseFactors::Kind::general);
   return solve_by(dense_, dense_lu_, right_side, solution);
 }
 

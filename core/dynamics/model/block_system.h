@@ -2,9 +2,9 @@
 // small, sparse where there are many bodies of which each meets few others.
 #pragma once
 
-#include <Eigen/LU>
 #include <memory>
 
+#include "core/base/factors.h"
 #include "core/dynamics/model/load_jacobian.h"
 
 namespace rigor {
@@ -26,7 +26,7 @@ class BlockSystem {
   bool is_dense() const { return !sparse_; }
 
   Eigen::MatrixXd dense_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> dense_lu_;  // kept, so that its space is
+  DenseFactors dense_lu_;
   std::unique_ptr<Sparse> sparse_;
 };
 

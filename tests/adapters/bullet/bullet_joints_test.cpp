@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/dynamics/model/joint_coordinate.h"
 #include "core/engine/run_name.h"
+#include "tests/adapters/free_body_measures.h"
 #include "tests/adapters/ode/jointed_scenes.h"
 #include "tests/adapters/seam_runs.h"
 
@@ -18,15 +19,8 @@ namespace {
 constexpr const char* kReduced = "bullet:multibody";
 constexpr const char* kWays[] = {"bullet", "bullet:mlcp", kReduced};
 
-RunName named(const std::string& text) { return parse_run_name(text, engines().infos()); }
-
-std::unique_ptr<World> load_named(const std::string& text, const Scene& scene) {
-  const RunName run = named(text);
-  return find_engine(engines(), run.engine).load(scene, run.settings);
-}
-
 std::string why_not(const std::string& text, const Scene& scene) {
-  const RunName run = named(text);
+  const RunName run = parse_run_name(text, engines().infos());
   return why_unsupported(engines().info_of(run.engine), run.settings, scene, 0.001);
 }
 
@@ -40,18 +34,8 @@ bool stands(const Scene& scene) {
 }
 
 BodyTable end_of(const std::string& run, const Scene& scene, double dt, int steps) {
-  const auto world = load_named(run, scene);
+  const auto world = load_run(run, scene);
   return state_after(*world, dt, steps);
-}
-
-// The largest distance and angle of a body from where the other has it.
-double pose_difference(const BodyTable& one, const BodyTable& other) {
-  double largest = 0;
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    const BodyState a = one.columns().body(i), b = other.columns().body(i);
-    largest = std::max({largest, (a.position - b.position).norm(), angle_between(a.orientation, b.orientation)});
-  }
-  return largest;
 }
 
 const Vec3 kAnchor(0.3, 0.1, 0.2), kAxis = Vec3(2, -1, 2) / 3;
@@ -78,7 +62,7 @@ struct Coordinate {
     return axis_B.dot(body.inertia * axis_B) + body.mass * kAxis.cross(body.position - kAnchor).squaredNorm();
   }
   void run(const std::string& name, double until) {
-    const auto world = load_named(name, scene);
+    const auto world = load_run(name, scene);
     const JointCoordinate coordinate(scene, scene.joints[0]);
     Snapshot snapshot;
     for (world->read(snapshot); snapshot.time < until - 0.5 * dt; world->read(snapshot)) {
@@ -125,7 +109,7 @@ BOOST_AUTO_TEST_CASE(each_joint_converges_to_the_cores_with_first_order_in_every
     for (const char* way : kWays) {
       double last = 0;
       for (const int steps : {240, 480, 960}) {
-        const double error = pose_difference(end_of(way, jointed.scene, kEnd / steps, steps), truth);
+        const double error = test::pose_difference(end_of(way, jointed.scene, kEnd / steps, steps), truth);
         const std::string what = jointed.name + ", " + way + ", " + std::to_string(steps) + " steps";
         BOOST_TEST_MESSAGE(what << ": " << error);
         if (stands(jointed.scene)) BOOST_TEST(error < 9.5 * std::pow(kEnd / steps, 2), what << ": " << error);
@@ -145,9 +129,9 @@ BOOST_AUTO_TEST_CASE(the_twins_do_what_the_engine_does_with_each_joint_to_roundi
     if (has_distance(jointed.scene)) continue;
     for (const std::string way : {"bullet:mlcp", "bullet:mlcp,erp=1", "bullet:mlcp,cfm=0.001",
                                   "bullet:mlcp,gyroscopic=explicit", "bullet:multibody"}) {
-      const std::string twin = find_engine(engines(), "bullet").twin(named(way).settings);
+      const std::string twin = find_engine(engines(), "bullet").twin(parse_run_name(way, engines().infos()).settings);
       const double apart =
-          pose_difference(end_of(way, jointed.scene, 1.0 / 60, 100), end_of(twin, jointed.scene, 1.0 / 60, 100));
+          test::pose_difference(end_of(way, jointed.scene, 1.0 / 60, 100), end_of(twin, jointed.scene, 1.0 / 60, 100));
       BOOST_TEST(apart < 1e-12, jointed.name << ", " << way << ": " << apart);
       ++checked;
     }
@@ -162,7 +146,7 @@ BOOST_AUTO_TEST_CASE(a_twin_with_another_erp_or_cfm_is_not_the_engine) {
     if (has_distance(jointed.scene) || jointed.name.find("slider") == 0 || stands(jointed.scene)) continue;
     const BodyTable engine = end_of("bullet:mlcp", jointed.scene, 1.0 / 60, 100);
     for (const char* other : {"core:bullet-twin,erp=0.2", "core:bullet-twin,cfm=0.001"}) {
-      const double apart = pose_difference(engine, end_of(other, jointed.scene, 1.0 / 60, 100));
+      const double apart = test::pose_difference(engine, end_of(other, jointed.scene, 1.0 / 60, 100));
       BOOST_TEST(apart > 1e-6, jointed.name << ", " << other << ": " << apart);
     }
   }
@@ -238,8 +222,8 @@ BOOST_AUTO_TEST_CASE(springs_and_dampers_of_joints_converge_to_the_cores) {
     scene.joints[0].stiffness = 2, scene.joints[0].damping = 0.1, scene.joints[0].rest = 0.4;
     const BodyTable truth = end_of("core:dormand-prince", scene, 0.01, 50);
     for (const char* way : kWays) {
-      const double coarse = pose_difference(end_of(way, scene, 1.0 / 480, 240), truth),
-                   fine = pose_difference(end_of(way, scene, 1.0 / 960, 480), truth);
+      const double coarse = test::pose_difference(end_of(way, scene, 1.0 / 480, 240), truth),
+                   fine = test::pose_difference(end_of(way, scene, 1.0 / 960, 480), truth);
       BOOST_TEST(std::log2(coarse / fine) > 0.85, way << ", " << test::name_of(ends) << ": " << coarse << ", " << fine);
     }
   }
@@ -268,7 +252,7 @@ BOOST_AUTO_TEST_CASE(what_a_way_cannot_do_is_refused_with_the_reason) {
   Scene distance = test::with_joint(DistanceJoint{{0.1, 0, 0}, {0, 0.1, 0}}, test::Ends::two_bodies);
   for (const char* way : kWays) {
     BOOST_TEST(why_not(way, distance) == "bullet has no joint:distance, which the distance of 'a' and 'b' asks for");
-    BOOST_CHECK_THROW(load_named(way, distance), InputError);
+    BOOST_CHECK_THROW(load_run(way, distance), InputError);
   }
   Scene loop = pair_of_links();
   BOOST_TEST(why_not("bullet:multibody", loop) == "");
@@ -278,7 +262,7 @@ BOOST_AUTO_TEST_CASE(what_a_way_cannot_do_is_refused_with_the_reason) {
       why_not("bullet:multibody", loop) ==
       "bullet:multibody has no joint-loop, which the ball of 'b' and 'world' asks for; its method: semi-implicit "
       "Euler in the reduced coordinates of trees (Featherstone); limits do not bounce");
-  BOOST_CHECK_THROW(load_named("bullet:multibody", loop), InputError);
+  BOOST_CHECK_THROW(load_run("bullet:multibody", loop), InputError);
 
   Scene limited = test::with_joint(HingeJoint{kAnchor, kAxis}, test::Ends::from_world);
   limited.joints[0].upper = 1;
@@ -300,7 +284,7 @@ BOOST_AUTO_TEST_CASE(what_a_way_cannot_do_is_refused_with_the_reason) {
 
 BOOST_AUTO_TEST_CASE(settings_are_read_back_from_bullet) {
   const auto value = [](const std::string& run, const std::string& key) -> std::string {
-    for (const auto& [name, setting] : load_named(run, pair_of_links())->settings_in_force())
+    for (const auto& [name, setting] : load_run(run, pair_of_links())->settings_in_force())
       if (name == key) return setting;
     return "missing";
   };

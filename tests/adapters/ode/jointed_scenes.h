@@ -1,9 +1,11 @@
 // Each kind of joint between bodies of full inertia, in every order of its ends.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
 namespace rigor::test {
@@ -76,6 +78,16 @@ inline std::vector<JointedScene> jointed_scenes() {
     }
   }
   return scenes;
+}
+
+// The largest distance and angle of a body from where the other has it.
+inline double pose_difference(const BodyTable& one, const BodyTable& other) {
+  double largest = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const BodyState a = one.columns().body(i), b = other.columns().body(i);
+    largest = std::max({largest, (a.position - b.position).norm(), angle_between(a.orientation, b.orientation)});
+  }
+  return largest;
 }
 
 }  // namespace rigor::test

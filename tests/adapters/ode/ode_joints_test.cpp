@@ -24,16 +24,6 @@ BodyTable end_of(const std::string& run, const Scene& scene, double dt, double e
   return state_after(*world, dt, static_cast<int>(std::lround(end / dt)));
 }
 
-// The largest distance and angle of a body from where the other has it.
-double pose_difference(const BodyTable& one, const BodyTable& other) {
-  double largest = 0;
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    const BodyState a = one.columns().body(i), b = other.columns().body(i);
-    largest = std::max({largest, (a.position - b.position).norm(), angle_between(a.orientation, b.orientation)});
-  }
-  return largest;
-}
-
 // A hinge or slider without any load, and what is seen of its coordinate.
 struct Driven {
   Scene scene;
@@ -102,7 +92,7 @@ BOOST_AUTO_TEST_CASE(each_kind_of_joint_comes_to_the_cores_motion_at_first_order
     const BodyTable truth = end_of("core", scene, 0.1, kEnd);
     for (const char* run : {"ode:worldstep", "ode:quickstep,iterations=500", "ode@stock"}) {
       double errors[3];
-      for (int k = 0; k < 3; ++k) errors[k] = pose_difference(end_of(run, scene, 1.0 / (800 << k), kEnd), truth);
+      for (int k = 0; k < 3; ++k) errors[k] = test::pose_difference(end_of(run, scene, 1.0 / (800 << k), kEnd), truth);
       BOOST_TEST_CONTEXT(name << ", " << run << ": " << errors[0] << ", " << errors[1] << ", " << errors[2]) {
         // Of first order, but for the next term. A body that is fixed to the world only sags, by the softness and dt².
         BOOST_TEST(errors[0] / errors[1] > 1.9);
@@ -119,7 +109,7 @@ BOOST_AUTO_TEST_CASE(a_joint_told_from_its_other_end_moves_the_same) {
     const BodyTable one = end_of("ode", scenes[k].scene, 1e-3, 0.4),
                     other = end_of("ode", scenes[k + 1].scene, 1e-3, 0.4);
     // Rows of the other end differ where the joint has a gap, by a gap squared, 1e-7 m here.
-    BOOST_TEST(pose_difference(one, other) < 1e-5, scenes[k].name << ": " << pose_difference(one, other));
+    BOOST_TEST(test::pose_difference(one, other) < 1e-5, scenes[k].name << ": " << test::pose_difference(one, other));
   }
 }
 
@@ -266,8 +256,8 @@ BOOST_AUTO_TEST_CASE(a_spring_and_damper_of_a_joint_act_as_in_the_core) {
     Joint& joint = driven.scene.joints[0];
     joint.stiffness = 4, joint.damping = 0.3, joint.rest = 0.25;
     const BodyTable truth = end_of("core", driven.scene, 0.1, 1);
-    const double coarse = pose_difference(end_of(run, driven.scene, 1.0 / 500, 1), truth),
-                 fine = pose_difference(end_of(run, driven.scene, 1.0 / 1000, 1), truth);
+    const double coarse = test::pose_difference(end_of(run, driven.scene, 1.0 / 500, 1), truth),
+                 fine = test::pose_difference(end_of(run, driven.scene, 1.0 / 1000, 1), truth);
     BOOST_TEST(std::abs(coarse / fine - 2) < 0.1, coarse << ", " << fine);
     BOOST_TEST(fine < 1e-3);
   });
@@ -347,7 +337,7 @@ BOOST_AUTO_TEST_CASE(a_joint_told_twice_moves_as_told_once) {
     twice.joints.push_back(twice.joints[0]);
     const BodyTable once = end_of("ode", scene, 1e-3, 0.4), doubled = end_of("ode", twice, 1e-3, 0.4);
     // Two soft rows are half as soft: 1e-4 of an impulse, and of what it does.
-    BOOST_TEST(pose_difference(once, doubled) < 1e-5, name << ": " << pose_difference(once, doubled));
+    BOOST_TEST(test::pose_difference(once, doubled) < 1e-5, name << ": " << test::pose_difference(once, doubled));
   }
 }
 

@@ -22,4 +22,15 @@ BOOST_AUTO_TEST_CASE(what_runs_on_request_takes_part_where_it_is_named) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_run_that_names_no_engine_says_which_it_leaves_out) {
+  CommandLine line;
+  std::vector<EngineInfo> infos(2);
+  infos[0].name = "ode", infos[1].name = engines_on_request().front().name;
+  BOOST_TEST(left_out_by_default(line, infos) == infos[1].name);
+  line.engines = {"ode"};
+  BOOST_TEST(left_out_by_default(line, infos) == "");
+  line.engines.clear(), infos.pop_back();
+  BOOST_TEST(left_out_by_default(line, infos) == "");  // a build without it
+}
+
 BOOST_AUTO_TEST_SUITE_END()

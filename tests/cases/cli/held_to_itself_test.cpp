@@ -1,6 +1,7 @@
 // A run whose truth is made by its own code, by the program itself: its errors stand in brackets, and it wins nothing.
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/cases/cli/program.h"
 
@@ -56,6 +57,35 @@ BOOST_AUTO_TEST_CASE(its_errors_are_marked_and_compared_with_no_engine) {
     }
   }
   BOOST_TEST(is_any_compared);
+}
+
+// A sweep's tables say it of each metric by its name, whole or in parts.
+BOOST_AUTO_TEST_CASE(a_sweep_marks_its_errors) {
+  const std::vector<std::string> sweep = {
+      "sweep",  "ball.toml",     "--engine", "core:rk4,contact=event", "--engine", "ode",
+      "--vary", "dt=1/30,1/240", "--metric", "position_error",         "--metric", "penetration"};
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    return words.insert(words.end(), more.begin(), more.end()), words;
+  };
+  const Answer answer = run(with(sweep, {"--out", "whole"}));
+  BOOST_TEST_REQUIRE(answer.code == 0, answer.err);
+  std::istringstream lines(content("whole/sweep.jsonl")), csv(content("whole/sweep.csv"));
+  std::string line, of_csv;
+  std::getline(csv, of_csv);
+  BOOST_TEST(of_csv.ends_with(",reason,held_to_itself"), of_csv);
+  int rows = 0;
+  for (; std::getline(lines, line) && std::getline(csv, of_csv); ++rows) {
+    const Json row = Json::parse(line);
+    const bool is_itself = row.at("engine") == "core:rk4,contact=event";
+    BOOST_TEST(row.at("held_to_itself") == (is_itself ? Json::array({"position_error"}) : Json::array()), line);
+    BOOST_TEST(of_csv.ends_with(",position_error") == is_itself, of_csv);
+  }
+  BOOST_TEST(rows == 4);
+  BOOST_TEST(content("whole/sweep.html").find("position_error (") != std::string::npos);
+  for (const std::string part : {"1", "2"})
+    BOOST_TEST(run(with(sweep, {"--shard", part + "/2", "--out", "part" + part})).code == 0);
+  BOOST_TEST(run({"merge", "part1", "part2", "--out", "merged"}).code == 0);
+  BOOST_TEST(content("merged/sweep.csv") == content("whole/sweep.csv"));
 }
 
 BOOST_AUTO_TEST_CASE(it_is_no_winner_of_a_tuning) {

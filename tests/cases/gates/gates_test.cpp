@@ -1,68 +1,24 @@
 #include "cases/gates/gates.h"
 
 #include <boost/test/unit_test.hpp>
-#include <cmath>
 #include <limits>
 
-#include "tests/cases/runner/faulty_engine.h"
+#include "cases/gates/failures.h"
+#include "tests/cases/gates/gated_grid.h"
 
 using namespace rigor;
+using namespace rigor::test;
 
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-// Two engines at two steps; position_error is c dt^order with c = 1 for "a", 10 for "b".
-struct Fixture {
-  Results grid;
-
-  explicit Fixture(double order = 2) {
-    EngineTable table;
-    for (const char* name : {"a", "b"}) table.add(std::make_unique<FaultyEngine>(name, [](double&) {}));
-    grid.engines = infos_of(table);
-    for (const char* name : {"a", "b"}) grid.runs.push_back(parse_run_name(name, grid.engines));
-    CaseResult result;
-    result.definition = drifting_body("case");
-    for (std::size_t run = 0; run < 2; ++run) {
-      for (const StepSize& dt : result.definition.dt) {
-        Cell cell;
-        cell.run = run, cell.dt = dt, cell.status = Status::pass, cell.reason = "";
-        MetricValue value;
-        value.value = (run == 0 ? 1 : 10) * std::pow(dt.seconds, order);
-        value.worst = {0.25, 0, "position.x", 1.5, 1.25};
-        cell.metrics["position_error"] = value;
-        result.cells.push_back(cell);
-      }
-    }
-    grid.cases.push_back(result);
-  }
-
-  CaseResult& result() { return grid.cases.front(); }
-  Cell& cell(std::size_t index) { return result().cells[index]; }
-  const std::vector<GateResult>& check(const Gate& gate) {
-    result().definition.gates = {gate};
-    check_gates(result(), grid);
-    return result().gates;
-  }
-};
-
-Gate gate(const std::string& metric) {
-  Gate out;
-  out.metric = metric, out.because = "a reason", out.where = "case.toml:7:1";
-  return out;
-}
-
-int count(const std::vector<GateResult>& results, GateAnswer answer) {
-  return static_cast<int>(
-      std::count_if(results.begin(), results.end(), [&](const auto& r) { return r.answer == answer; }));
-}
 
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(cases_gates_gates)
 
 BOOST_AUTO_TEST_CASE(a_limit_is_held_against_every_cell_it_selects) {
-  Fixture run;  // a: .01 .0025; b: .1 .025
+  GatedGrid run;  // a: .01 .0025; b: .1 .025
   Gate limit = gate("position_error");
   limit.max = 0.05;
   const auto answers = run.check(limit);
@@ -77,7 +33,7 @@ BOOST_AUTO_TEST_CASE(a_limit_is_held_against_every_cell_it_selects) {
 }
 
 BOOST_AUTO_TEST_CASE(a_gate_passes_over_the_runs_that_the_truth_is_made_like) {
-  Fixture run;
+  GatedGrid run;
   run.grid.runs[1].engine = "core", run.grid.runs[1].settings.options["contact"] = "event";
   run.result().definition.truth = "events";
   Gate limit = gate("position_error");
@@ -90,7 +46,7 @@ BOOST_AUTO_TEST_CASE(a_gate_passes_over_the_runs_that_the_truth_is_made_like) {
 }
 
 BOOST_AUTO_TEST_CASE(engines_and_steps_narrow_a_gate) {
-  Fixture run;
+  GatedGrid run;
   Gate limit = gate("position_error");
   limit.max = 0.05, limit.engines = {"b"}, limit.dt = {{0.05, "0.05"}};  // the cell's is written "1/20"
   const auto answers = run.check(limit);
@@ -108,7 +64,7 @@ BOOST_AUTO_TEST_CASE(min_and_equals_hold_on_their_side_only) {
   // The value is .01; a rounding of 1e-12 is forgiven, an error of 1e-8 is not.
   for (const Row& row :
        {Row{0.009, {}, true}, Row{0.011, {}, false}, Row{{}, 0.01 + 1e-12, true}, Row{{}, 0.01 + 1e-8, false}}) {
-    Fixture run;
+    GatedGrid run;
     Gate limit = gate("position_error");
     limit.min = row.min, limit.equals = row.equals, limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}};
     BOOST_TEST((run.check(limit).front().answer == GateAnswer::held) == row.holds);
@@ -117,7 +73,7 @@ BOOST_AUTO_TEST_CASE(min_and_equals_hold_on_their_side_only) {
 
 BOOST_AUTO_TEST_CASE(a_bound_that_is_met_exactly_holds) {
   const auto holds = [](double value, const auto& bound) {
-    Fixture run;
+    GatedGrid run;
     run.cell(0).metrics["position_error"].value = value;
     Gate limit = gate("position_error");
     limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}};
@@ -133,27 +89,9 @@ BOOST_AUTO_TEST_CASE(a_bound_that_is_met_exactly_holds) {
   BOOST_TEST(!holds(100 + 120 * kRounding, [](Gate& gate) { gate.equals = 100; }));
 }
 
-BOOST_AUTO_TEST_CASE(each_run_answers_for_its_own_order) {
-  Fixture run(2);
-  for (Cell& cell : run.result().cells) {
-    if (cell.run == 1) cell.metrics["position_error"].value = cell.dt.seconds;
-  }
-  Gate least = gate("position_error");
-  least.at_least_order = 1.9;
-  const auto answers = run.check(least);
-  BOOST_TEST_REQUIRE(answers.size() == 2u);
-  for (const GateResult& answer : answers)
-    BOOST_TEST((answer.answer == (answer.engine == "a" ? GateAnswer::held : GateAnswer::failed)), answer.text);
-  // A cell that the metric says nothing of is none to fit.
-  run.result().gates.clear();
-  run.cell(0).metrics["position_error"].not_applicable = "says nothing";
-  BOOST_TEST_REQUIRE(run.check(least).size() == 1u);
-  BOOST_TEST(run.result().gates.front().engine == "b");
-}
-
 BOOST_AUTO_TEST_CASE(a_value_that_is_no_number_holds_nowhere) {
   for (const int bound : {0, 1, 2, 3}) {
-    Fixture run;
+    GatedGrid run;
     for (Cell& cell : run.result().cells) cell.metrics["position_error"].value = kNan;
     Gate limit = gate("position_error");
     (bound == 0 ? limit.max : bound == 1 ? limit.min : bound == 2 ? limit.equals : limit.at_least_order) = 0.01;
@@ -161,35 +99,15 @@ BOOST_AUTO_TEST_CASE(a_value_that_is_no_number_holds_nowhere) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_order_is_fitted_over_the_steps) {
-  for (const double order : {1.0, 2.0, 4.0}) {
-    Fixture run(order);
-    Gate least = gate("position_error");
-    least.at_least_order = order - 0.01;
-    BOOST_TEST(count(run.check(least), GateAnswer::held) == 2);
-    least.at_least_order = order + 0.01;
-    BOOST_TEST(count(run.check(least), GateAnswer::failed) == 2);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(an_order_of_one_step_cannot_be_checked) {
-  Fixture run;
-  Gate least = gate("position_error");
-  least.at_least_order = 1, least.dt = {{0.1, "1/10"}};
-  const auto answers = run.check(least);
-  BOOST_TEST_REQUIRE(answers.size() == 1u);
-  BOOST_TEST((answers.front().answer == GateAnswer::not_checked));
-}
-
 BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold) {
-  const auto check = [](Fixture& run, const Gate& limit) {
+  const auto check = [](GatedGrid& run, const Gate& limit) {
     const auto answers = run.check(limit);
     BOOST_TEST_REQUIRE(answers.size() == 1u);
     BOOST_TEST((answers.front().answer == GateAnswer::not_checked));
     BOOST_TEST(answers.front().text.find("case.toml:7:1") != std::string::npos);
     BOOST_TEST(!all_gates_hold(run.grid));
   };
-  Fixture other_step, no_metric, unsupported;
+  GatedGrid other_step, no_metric, unsupported;
   Gate limit = gate("position_error");
   limit.max = 1;
   for (Cell& cell : no_metric.result().cells) cell.metrics["position_error"].not_applicable = "there is no truth";
@@ -202,7 +120,7 @@ BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold)
 
 BOOST_AUTO_TEST_CASE(a_cell_without_a_result_fails_every_gate_that_selects_it) {
   for (const Status status : {Status::crashed, Status::timed_out, Status::invalid}) {
-    Fixture run;
+    GatedGrid run;
     run.cell(0).status = status, run.cell(0).reason = "it broke", run.cell(0).metrics.clear();
     for (const bool order : {false, true}) {
       Gate limit = gate("position_error");
@@ -215,7 +133,7 @@ BOOST_AUTO_TEST_CASE(a_cell_without_a_result_fails_every_gate_that_selects_it) {
 }
 
 BOOST_AUTO_TEST_CASE(a_blown_up_run_never_passes_a_limit_but_may_be_asked_for) {
-  Fixture run;
+  GatedGrid run;
   run.cell(0).status = Status::diverged, run.cell(0).reason = "blown up at 0.1 s: stone";
   Gate limit = gate("position_error");
   limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}}, limit.max = 1e9;
@@ -226,7 +144,7 @@ BOOST_AUTO_TEST_CASE(a_blown_up_run_never_passes_a_limit_but_may_be_asked_for) {
 }
 
 BOOST_AUTO_TEST_CASE(a_blown_up_run_is_never_good_where_more_is_better) {
-  Fixture run;
+  GatedGrid run;
   run.cell(0).status = Status::diverged, run.cell(0).reason = "blown up at 0.1 s: stone";
   run.cell(0).metrics["tube"].value = 1;  // until it blew up
   Gate limit = gate("tube");
@@ -234,28 +152,8 @@ BOOST_AUTO_TEST_CASE(a_blown_up_run_is_never_good_where_more_is_better) {
   BOOST_TEST((run.check(limit).front().answer == GateAnswer::failed));
 }
 
-BOOST_AUTO_TEST_CASE(an_observed_order_is_held_against_its_bounds) {
-  struct Row {
-    std::optional<double> min, max;
-    GateAnswer answer;
-  };
-  for (const Row& row :
-       {Row{1.99, 2.01, GateAnswer::held}, Row{2.01, {}, GateAnswer::failed}, Row{{}, 1.99, GateAnswer::failed}}) {
-    Fixture run(2);
-    for (Cell& cell : run.result().cells) cell.metrics["cost"].value = 1;
-    Gate limit = gate("observed_order");
-    limit.min = row.min, limit.max = row.max;
-    const auto answers = run.check(limit);
-    BOOST_TEST_REQUIRE(answers.size() == 2u);
-    for (const GateResult& answer : answers) BOOST_TEST((answer.answer == row.answer), answer.text);
-    run.cell(3).status = Status::crashed;
-    BOOST_TEST(run.check(limit).size() == 2u);  // a's order, and b's cell
-    BOOST_TEST(count(run.check(limit), GateAnswer::failed) >= 1);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(a_spread_is_held_against_every_pair_a_gate_selects) {
-  Fixture run;
+  GatedGrid run;
   run.result().spreads = {{0, 1, {0.1, "1/10"}, {0.5, 0.3, 0}, {0.01, 0.2, 0}, 0.1, 0.5},
                           {0, 1, {0.05, "1/20"}, {0.125, 0.3, 0}, {0.02, 0.2, 0}, 0.1, 0.5}};
   Gate limit = gate("spread");
@@ -277,86 +175,8 @@ BOOST_AUTO_TEST_CASE(a_spread_is_held_against_every_pair_a_gate_selects) {
   BOOST_TEST(count(run.check(limit), GateAnswer::held) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(a_ranking_holds_each_run_against_another_at_the_same_step) {
-  Fixture run;  // a: .01 .0025; b: .1 .025
-  Gate ranking = gate("position_error");
-  ranking.engines = {"a"}, ranking.better_than = "b";
-  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 2);
-  ranking.engines = {"b"}, ranking.better_than = "a";
-  const auto answers = run.check(ranking);
-  BOOST_TEST(count(answers, GateAnswer::failed) == 2);
-  BOOST_TEST(answers.front().text.find("0.1 m, not better than the 0.01 m of a") != std::string::npos,
-             answers.front().text);
-  BOOST_TEST((run.cell(2).status == Status::fail));
-}
-
-BOOST_AUTO_TEST_CASE(who_blew_up_is_better_than_nobody) {
-  Fixture run;
-  Gate ranking = gate("position_error");
-  ranking.engines = {"b"}, ranking.better_than = "a";
-  run.cell(0).status = Status::diverged;  // a at the first step: its small error means nothing
-  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 1);
-  run.cell(2).status = Status::diverged;  // and so does b
-  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 0);
-  run.cell(0).status = Status::pass;
-  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 0);
-}
-
-BOOST_AUTO_TEST_CASE(a_ranking_against_a_run_that_came_to_nothing_fails) {
-  Fixture run;
-  Gate ranking = gate("position_error");
-  ranking.engines = {"a"}, ranking.better_than = "b";
-  run.cell(2).status = Status::crashed;
-  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 1);
-  run.cell(2).status = Status::unsupported;  // that is nobody's fault
-  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 0);
-}
-
-BOOST_AUTO_TEST_CASE(an_order_is_fitted_over_all_of_the_steps) {
-  Fixture run(2);
-  CaseResult& result = run.result();
-  for (const std::size_t of : {0u, 1u}) {
-    Cell third = result.cells[of == 0 ? 1 : 3];
-    third.dt = {0.025, "1/40"};  // the error falls no more: over the first two steps alone the order is 2
-    result.cells.push_back(third);
-  }
-  Gate least = gate("position_error");
-  least.at_least_order = 1.5;
-  BOOST_TEST(count(run.check(least), GateAnswer::failed) == 2);
-  least.at_least_order = 0.99;  // by least squares over dt, dt/2, dt/4: (2 + 0)/2
-  BOOST_TEST(count(run.check(least), GateAnswer::held) == 2);
-}
-
-BOOST_AUTO_TEST_CASE(a_ranking_does_not_hold_where_both_are_the_same) {
-  Fixture run;
-  for (Cell& cell : run.result().cells) cell.metrics["position_error"].value = 0.01;
-  Gate ranking = gate("position_error");
-  ranking.engines = {"a"}, ranking.better_than = "b";
-  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 2);
-}
-
-BOOST_AUTO_TEST_CASE(a_method_is_held_to_the_order_that_it_declares_where_its_errors_show_one) {
-  const auto answers_of = [](double order, int declared, double scale, bool adaptive) {
-    Fixture run(order);
-    for (EngineInfo& engine : run.grid.engines)
-      engine.methods.front().order = declared, engine.methods.front().adaptive = adaptive;
-    for (Cell& cell : run.result().cells) cell.metrics["position_error"].value *= scale;
-    Gate declares = gate("position_error");
-    declares.at_least_order = 0.1, declares.declares_order = true, declares.is_of_family = true;
-    declares.engines = {"a"};
-    return run.check(declares);
-  };
-  BOOST_TEST(count(answers_of(2, 2, 1, false), GateAnswer::held) == 1);
-  BOOST_TEST(count(answers_of(1.91, 2, 1, false), GateAnswer::held) == 1);
-  BOOST_TEST(count(answers_of(1.89, 2, 1, false), GateAnswer::failed) == 1);
-  BOOST_TEST(count(answers_of(2, 3, 1, false), GateAnswer::failed) == 1);
-  BOOST_TEST(answers_of(1, 2, 100, false).empty());    // 10 and 5 m: not yet near the limit
-  BOOST_TEST(answers_of(1, 2, 1e-10, false).empty());  // roundings
-  BOOST_TEST(answers_of(1, 8, 0.1, true).empty());     // an adaptive method's errors do not follow from dt
-}
-
 BOOST_AUTO_TEST_CASE(a_familys_gate_says_nothing_of_a_case_that_it_does_not_meet_but_of_a_whole_suite) {
-  Fixture run;
+  GatedGrid run;
   Gate limit = gate("creep");  // which no cell has
   limit.max = 1, limit.is_of_family = true;
   BOOST_TEST(run.check(limit).empty());
@@ -374,7 +194,7 @@ BOOST_AUTO_TEST_CASE(limits_are_wider_for_single_precision_by_its_roundings_and_
   Gate limit = gate("position_error");
   limit.max = 1e-9;
   const auto answers_of = [&](double error) {
-    Fixture run;
+    GatedGrid run;
     run.grid.engines[1].precision = "single";
     for (std::size_t n = 0; n < 4; ++n) run.cell(n).metrics["position_error"].value = error;
     return run.check(limit);
@@ -391,7 +211,7 @@ BOOST_AUTO_TEST_CASE(limits_are_wider_for_single_precision_by_its_roundings_and_
 
 // A run may go on by steps of less than its method's order: what it was held to then says nothing of the method.
 BOOST_AUTO_TEST_CASE(a_gate_that_held_over_a_time_of_reduced_order_says_so) {
-  Fixture fixture;
+  GatedGrid fixture;
   Gate limit = gate("position_error"), order = gate("position_error");
   limit.max = 1, order.at_least_order = 1.9;
   for (std::size_t i = 0; i < 4; ++i) fixture.cell(i).metrics["position_error"].compared_until = 0.5;

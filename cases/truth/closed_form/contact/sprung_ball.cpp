@@ -24,7 +24,7 @@ constexpr const char* kSprungBallIsFor = "one ball on one spring without damping
 }
 
 // The scene as the line sees it: x counts from where the spring is at rest, towards the wall.
-struct Swing {
+struct SwingAtWall {
   ExtendedVec3 middle, line;  // m, in W; unit, in W
   Extended frequency;         // rad/s, w
   Extended wall;              // m, of the ball's centre when it touches: d
@@ -57,7 +57,7 @@ ExtendedVec3 along_spring(const Scene& scene, int ball) {
   return extended(scene.bodies[ball].position) - extended(holds_a ? spring.point_b : spring.point_a);
 }
 
-Swing find_swing(const Scene& scene) {
+SwingAtWall find_swing(const Scene& scene) {
   if (!scene.gravity.isZero(0)) refuse_swing("there is gravity");
   const int ball = only_one(scene, false, "body that moves"), wall = only_one(scene, true, "wall");
   const Body& body = scene.bodies[ball];
@@ -72,13 +72,13 @@ Swing find_swing(const Scene& scene) {
   if (!are_along(reach, line) || !are_along(extended(body.velocity), line))
     refuse_swing("the spring, or the ball's velocity, is not square to the wall");
   const Extended length = reach.norm(), outward = reach.dot(line) > 0 ? 1 : -1, rest = spring.rest_length;
-  Swing swing{.middle = extended(body.position) - (length - rest) / length * reach,
-              .line = line,
-              .frequency = std::sqrt(Extended(spring.stiffness) / Extended(body.mass)),
-              .wall = 0,
-              .restitution = scene.contact_law(ball, wall).restitution,
-              .start = outward * (length - rest),
-              .speed = extended(body.velocity).dot(line)};
+  SwingAtWall swing{.middle = extended(body.position) - (length - rest) / length * reach,
+                    .line = line,
+                    .frequency = std::sqrt(Extended(spring.stiffness) / Extended(body.mass)),
+                    .wall = 0,
+                    .restitution = scene.contact_law(ball, wall).restitution,
+                    .start = outward * (length - rest),
+                    .speed = extended(body.velocity).dot(line)};
   swing.wall = -Extended(plane->offset) - swing.middle.dot(line) - Extended(sphere->radius);
   if (!(swing.wall > 0)) refuse_swing("the wall stands where the spring would rest, or presses it");
   if (swing.start > swing.wall + kTouching) refuse_swing("the ball is in the wall");
@@ -95,7 +95,8 @@ struct Arc {
 
 class SprungBall final : public BodyMotion {
  public:
-  SprungBall(const Body& body, const Swing& swing, Extended duration) : orientation_(body.orientation), swing_(swing) {
+  SprungBall(const Body& body, const SwingAtWall& swing, Extended duration)
+      : orientation_(body.orientation), swing_(swing) {
     arcs_.push_back({0, swing.start, swing.speed});
     for (Extended t = time_to_wall(arcs_.back()); arcs_.back().from + t <= duration; t = time_to_wall(arcs_.back())) {
       const Arc hit = moved(arcs_.back(), t);
@@ -139,7 +140,7 @@ class SprungBall final : public BodyMotion {
   }
 
   Quat orientation_;
-  Swing swing_;
+  SwingAtWall swing_;
   std::vector<Arc> arcs_;
 };
 
@@ -151,7 +152,7 @@ TruthRow sprung_ball_truth() {
             check_needs(scene, kSprungBall, kSprungBallIsFor,
                         {"spring", "contact:plane-sphere", "restitution", "friction:none", "friction:coulomb",
                          "friction:infinite"});
-            const Swing swing = find_swing(scene);
+            const SwingAtWall swing = find_swing(scene);
             return closed_form(scene,
                                [&](const Body& body) { return std::make_unique<SprungBall>(body, swing, duration); });
           }};

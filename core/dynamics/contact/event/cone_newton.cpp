@@ -1,6 +1,5 @@
 #include "core/dynamics/contact/event/cone_newton.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -118,7 +117,8 @@ ConeNewton::Fit ConeNewton::take_step(const std::vector<ConeConstraint>& points)
       if (row.b >= 0) derivative_.block<6, 6>(6 * place, 6 * row.b) += to * row.slope * row.by_b;
     }
   }
-  const Eigen::VectorXd step = derivative_.partialPivLu().solve(-residual_);
+  factors_.factorise(derivative_, DenseFactors::Kind::general);
+  const Eigen::VectorXd step = factors_.solve(-residual_);
   if (!step.allFinite()) return before;
   double share = 1;
   for (int k = 0;; ++k, share *= 0.5) {

@@ -7,6 +7,7 @@
 // apart, what it cannot tell stays as it was, for nothing there is ever divided by what is nearly zero.
 #pragma once
 
+#include "core/base/factors.h"
 #include "core/dynamics/contact/event/cone_solver.h"
 
 namespace rigor {
@@ -57,6 +58,7 @@ class ConeNewton {
   bool is_coupled_ = false;            // friction is bounded by this step's normal impulse, not by the round's
   Eigen::VectorXd change_, residual_;  // of the moving bodies' speeds, six each
   Eigen::MatrixXd derivative_;
+  DenseFactors factors_;  // of it
 };
 
 }  // namespace rigor

@@ -1,6 +1,6 @@
 #include "core/dynamics/contact/event/mass_weighted_projection.h"
 
-#include <Eigen/SparseCholesky>
+#include "core/base/factors.h"
 
 namespace rigor {
 namespace {
@@ -61,12 +61,11 @@ Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<Projection
   delassus.setFromTriplets(entries.begin(), entries.end());
   regularised = delassus;
   for (Eigen::Index i = 0; i < count; ++i) regularised.coeffRef(i, i) += regularisation[i];
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(regularised);
+  const SparseFactors factors(regularised);
   Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(count);
-  if (solver.info() == Eigen::Success) {
-    for (int round = 0; round < kRounds; ++round) multiplier += solver.solve(amounts - delassus * multiplier);
-  }
-  if (solver.info() == Eigen::Success && multiplier.allFinite()) return multiplier;
+  for (int round = 0; round < kRounds && factors.is_regular(); ++round)
+    multiplier += factors.solve(amounts - delassus * multiplier);
+  if (factors.is_regular() && multiplier.allFinite()) return multiplier;
   solver_warning_ = "no motion of touching bodies closes the gaps between them: its equations are singular";
   return Eigen::VectorXd::Zero(count);
 }

@@ -1,7 +1,6 @@
 #include "core/dynamics/contact/event/persistent_forces.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -205,41 +204,24 @@ double PersistentForces::find_residuals(const Eigen::VectorXd& free) {
   return rows_.empty() ? 0 : residual_.cwiseAbs().maxCoeff();
 }
 
-template <typename Change>
-void PersistentForces::refine(const Eigen::VectorXd& free, const Change& change) {
-  double size = 0;
-  for (int round = 0; round < kMostForceRounds; ++round) {
-    const double largest = find_residuals(free);
-    if (round == 0) size = largest;
-    if (!(largest > kSettled * size)) break;
-    change();
-    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].multiplier += change_[static_cast<Eigen::Index>(i)];
-  }
-}
-
 // dl = rho (r - J dV'),   (M + Pᵀ rho J) dV' = Pᵀ rho r.
-template <typename Factor>
-void PersistentForces::solve_in_accelerations(const Factor& factor, const Eigen::VectorXd& free) {
-  Eigen::VectorXd right_side(free.size());
-  change_.resize(static_cast<Eigen::Index>(rows_.size()));
-  refine(free, [&] {
-    right_side.setZero();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      for (const Side& side : rows_[i].side) {
-        if (side.place >= 0)
-          right_side.segment<6>(6 * side.place) +=
-              rows_[i].weight * residual_[static_cast<Eigen::Index>(i)] * side.of_P;
-      }
+Eigen::VectorXd PersistentForces::change_through_accelerations(Eigen::Index size) const {
+  Eigen::VectorXd right_side = Eigen::VectorXd::Zero(size), change(residual_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double weighed = rows_[i].weight * residual_[static_cast<Eigen::Index>(i)];
+    for (const Side& side : rows_[i].side) {
+      if (side.place >= 0) right_side.segment<6>(6 * side.place) += weighed * side.of_P;
     }
-    const Eigen::VectorXd by = factor.solve(right_side);
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      double r = residual_[static_cast<Eigen::Index>(i)];
-      for (const Side& side : rows_[i].side) {
-        if (side.place >= 0) r -= side.of_J.dot(by.segment<6>(6 * side.place));
-      }
-      change_[static_cast<Eigen::Index>(i)] = rows_[i].weight * r;
+  }
+  const Eigen::VectorXd by = factors_.solve(right_side);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    double r = residual_[static_cast<Eigen::Index>(i)];
+    for (const Side& side : rows_[i].side) {
+      if (side.place >= 0) r -= side.of_J.dot(by.segment<6>(6 * side.place));
     }
-  });
+    change[static_cast<Eigen::Index>(i)] = rows_[i].weight * r;
+  }
+  return change;
 }
 
 void PersistentForces::assemble_in_accelerations(Eigen::Index size) {
@@ -283,14 +265,17 @@ void PersistentForces::assemble_in_forces() {
 
 // In whichever there are fewer of; through joints in forces.
 void PersistentForces::find_multipliers(const Eigen::VectorXd& free) {
-  if (joints_ || static_cast<Eigen::Index>(rows_.size()) < free.size()) {
-    assemble_in_forces();
-    const auto by = [&](const auto& factor) { refine(free, [&] { change_ = factor.solve(residual_); }); };
-    is_symmetric_ ? by(matrix_.llt()) : by(matrix_.partialPivLu());
-    return;
+  const bool in_forces = joints_ || static_cast<Eigen::Index>(rows_.size()) < free.size();
+  in_forces ? assemble_in_forces() : assemble_in_accelerations(free.size());
+  factors_.factorise(matrix_, is_symmetric_ ? DenseFactors::Kind::positive_definite : DenseFactors::Kind::general);
+  double size = 0;
+  for (int round = 0; round < kMostForceRounds; ++round) {
+    const double largest = find_residuals(free);
+    if (round == 0) size = largest;
+    if (!(largest > kSettled * size)) break;
+    const Eigen::VectorXd change = in_forces ? factors_.solve(residual_) : change_through_accelerations(free.size());
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].multiplier += change[static_cast<Eigen::Index>(i)];
   }
-  assemble_in_accelerations(free.size());
-  is_symmetric_ ? solve_in_accelerations(matrix_.llt(), free) : solve_in_accelerations(matrix_.partialPivLu(), free);
 }
 
 void PersistentForces::solve(const Island& island, BodyColumns state, const double* wrench) {

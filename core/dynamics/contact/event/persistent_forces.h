@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/base/factors.h"
 #include "core/dynamics/contact/event/contact_features.h"
 #include "core/dynamics/contact/event/contact_points.h"
 #include "core/dynamics/joints/islands.h"
@@ -100,10 +101,7 @@ class PersistentForces : public ConstraintForces {
   void assemble_in_accelerations(Eigen::Index size);
   void assemble_in_forces();
   double find_residuals(const Eigen::VectorXd& free);
-  template <typename Change>
-  void refine(const Eigen::VectorXd& free, const Change& change);
-  template <typename Factor>
-  void solve_in_accelerations(const Factor& factor, const Eigen::VectorXd& free);
+  Eigen::VectorXd change_through_accelerations(Eigen::Index size) const;
   void copy_wrench(const double* wrench);
   void note_loads_of_joints(const double* wrench);
   void add_pushes();
@@ -122,7 +120,8 @@ class PersistentForces : public ConstraintForces {
   std::vector<Row> rows_;
   bool is_symmetric_ = true;
   Eigen::MatrixXd matrix_;
-  Eigen::VectorXd acceleration_, residual_, change_;
+  DenseFactors factors_;
+  Eigen::VectorXd acceleration_, residual_;
   Columns wrench_;
   std::vector<Loading> now_, largest_;  // by body
 };

@@ -5,6 +5,7 @@
 #include "cases/report/json/leave_out_details.h"
 #include "cases/report/markdown/said_before.h"
 #include "cases/report/reports.h"
+#include "cases/report/wording/verdict_matrix.h"
 #include "tests/cases/report/sample_results.h"
 
 using namespace rigor;
@@ -33,6 +34,34 @@ BOOST_AUTO_TEST_CASE(of_many_cases_there_is_the_matrix_alone) {
   BOOST_TEST(text.find("| family/case |") != std::string::npos);
   BOOST_TEST(text.find("| dt = 1/10 s |") == std::string::npos);
   BOOST_TEST(text.find("rigor run CASE") != std::string::npos);
+}
+
+// Of more runs than fit side by side each engine's first stands in the matrix; of the others what is not as that one.
+BOOST_AUTO_TEST_CASE(an_engines_other_runs_are_told_by_what_they_set_apart) {
+  Results grid = sample_results();
+  CaseResult& alike = grid.cases.front();
+  alike.definition.id = "family/alike";
+  const auto add_run = [&](const std::string& name) {
+    grid.runs.push_back(grid.runs[0]);
+    grid.runs.back().text = name;
+    alike.stable_steps.push_back(alike.stable_steps[0]);
+    Cell cell = alike.cells[0];
+    cell.run = grid.runs.size() - 1;
+    alike.cells.push_back(cell);
+  };
+  for (std::size_t i = grid.runs.size(); i <= kMostMatrixColumns; ++i) add_run("good,option=" + std::to_string(i));
+  BOOST_TEST(markdown_report(grid).find("good: 6 runs beside good, which all end as it does") != std::string::npos);
+  CaseResult apart = alike;
+  apart.definition.id = "family/apart";
+  apart.cells.back().metrics["position_error"].value = 0.125;
+  grid.cases.push_back(apart);
+  const std::string text = markdown_report(grid), open = "<summary>good: 6 runs beside good</summary>";
+  const std::size_t begin = text.find(open), end = text.find("</details>", begin);
+  BOOST_TEST_REQUIRE(begin != std::string::npos, text);
+  const std::string table = text.substr(begin, end - begin);
+  BOOST_TEST(table.find("alike") == std::string::npos, table);
+  BOOST_TEST(table.find("| family/apart | = | = | = | = | = | ✓ stable 0.125 m") != std::string::npos, table);
+  BOOST_TEST(text.find("runs beside wild") == std::string::npos);  // it has no other
 }
 
 // A gate's reason, and why a deviation is known, stand once for all runs that they hold for.

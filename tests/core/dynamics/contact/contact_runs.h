@@ -3,6 +3,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -77,5 +78,17 @@ inline Scene on_floor(std::vector<Body> bodies, const ContactLaw& law, const Vec
   scene.contact_default = law;
   return scene;
 }
+
+// A box on the floor, and the same a quarter of a turn on, where each corner stands where another one stood.
+struct QuarterTurn {
+  QuarterTurn() {
+    set_initial_state(scene, before.columns());
+    scene.bodies[0].orientation = turn;
+    set_initial_state(scene, after.columns());
+  }
+  const Quat turn = rotation_by({0, 0, 0.5 * std::numbers::pi});
+  Scene scene = on_floor({solid("box", Box{{1, 1, 1}}, {0, 0, 0.5})}, {0, 0.5});
+  BodyTable before{scene.bodies.size()}, after{scene.bodies.size()};
+};
 
 }  // namespace rigor::test

@@ -1,0 +1,35 @@
+// What the metrics of joints' reactions share: what joints carry, found in one way or another, held against the truth's
+// in the directions in which it is unique, at up to a hundred instants, evenly through the run: a reaction takes a
+// hundred times what a distance does.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/metrics/measures/joints/joint_reactions.h"
+#include "cases/metrics/measures/measuring.h"
+
+namespace rigor {
+
+// The force or the couple, and what it is called: "reported force".
+struct ReactionPart {
+  std::string what;
+  Vec3 JointReaction::*of;
+  Mat3 UniqueReaction::*unique;
+};
+
+// Of all joints.
+struct ComparedReactions {
+  std::vector<UniqueReaction> unique;
+  std::vector<JointReaction> found, expected;
+};
+// At a sample, by its number; nothing where the equations of motion do not tell.
+using CompareReactions = std::function<std::optional<ComparedReactions>(std::size_t sample)>;
+
+// From the sample `first` on; with the reason where there is none.
+MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPart& part, std::size_t first,
+                                         const CompareReactions& compare);
+
+}  // namespace rigor

@@ -1,0 +1,191 @@
+// The rows of joints on bodies with velocities v, w in W, for any number type: for points p, arms r = p - centre and
+// directions fixed in a or b, with their second derivatives (Haug, Computer Aided Kinematics and Dynamics of Mechanical
+// Systems, 1989, chapter 9):
+//   shared point    p_b - p_a = 0                   bias  w_b x (w_b x r_b) - w_a x (w_a x r_a)
+//   right angle     u_a . u_b = c                   bias  (w_a x (w_a x u_a)) . u_b + 2 (w_a x u_a) . (w_b x u_b) + ..
+//   no way across   n_a . (x_b - x_a) = c           bias  (w_a x (w_a x n)) . d + 2 (w_a x n) . d'
+//   distance        (d . d - L^2) / 2 = 0           bias  d' . d' + d . (centripetal accelerations)
+// and, where a limit or a motor keeps the coordinate of a joint (axis_modes.h),
+//   an angle        n . (w_b - w_a) = speed         bias  (w_a x n) . w_b
+//   a way           as no way across, with the slider's axis
+#pragma once
+
+#include <array>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "cases/truth/solved/constraint_rows.h"
+#include "cases/truth/solved/equations_of_motion.h"
+
+namespace rigor {
+
+template <typename Real>
+class NewtonEulerJoints {
+ public:
+  using Pose = typename EquationsOfMotion<Real>::Pose;
+  using Vector = typename EquationsOfMotion<Real>::Vector;
+  using Row = ConstraintRow<Real, 6>;
+
+  // `order`: of each body, its place among those that move; -1 if it is fixed.
+  explicit NewtonEulerJoints(std::vector<int> order) : order_(std::move(order)) {}
+
+  // As the bodies stand in `start`.
+  void add(const Joint& joint, const std::vector<Pose>& start) {
+    const Pose &a = pose(start, joint.a), &b = pose(start, joint.b);
+    const auto in = [](const Pose& body, const Vector& point) {
+      return Vector(body.R.transpose() * (point - body.position));
+    };
+    const auto share = [&](const Vec3& anchor) {
+      const Vector point = anchor.template cast<Real>();
+      points_.push_back({joint.a, joint.b, in(a, point), in(b, point)});
+    };
+    const auto keep_angle = [&](const Vector& u, const Vector& v) {
+      angles_.push_back({joint.a, joint.b, a.R.transpose() * u, b.R.transpose() * v, u.dot(v)});
+    };
+    const auto keep_turn = [&] {  // of b against a: each of three axes of one at right angles to one of the other
+      for (int k = 0; k < 3; ++k) keep_angle(Vector::Unit(k), Vector::Unit((k + 1) % 3));
+    };
+    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
+      share(ball->anchor);
+    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
+      share(hinge->anchor);
+      const Vector axis = hinge->axis.template cast<Real>().normalized();
+      for (const Vector& u : across(axis)) keep_angle(u, axis);
+    } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
+      share(universal->anchor);
+      keep_angle(universal->axis.template cast<Real>(), universal->axis2.template cast<Real>());
+    } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
+      keep_turn();
+      for (const Vector& u : across(slider->axis.template cast<Real>().normalized())) {
+        offsets_.push_back({joint.a, joint.b, a.R.transpose() * u, u.dot(b.position - a.position)});
+      }
+    } else if (std::holds_alternative<FixedJoint>(joint.type)) {
+      keep_turn();
+      points_.push_back({joint.a, joint.b, in(a, b.position), Vector::Zero()});
+    } else {
+      const auto& distance = std::get<DistanceJoint>(joint.type);
+      const Vector at_a = distance.point_a.template cast<Real>(), at_b = distance.point_b.template cast<Real>();
+      const Real length = (b.position + b.R * at_b - a.position - a.R * at_a).norm();
+      distances_.push_back({joint.a, joint.b, at_a, at_b, length});
+    }
+  }
+
+  void add_rows(const std::vector<Pose>& poses, std::vector<Row>& rows) const {
+    rows.reserve(3 * points_.size() + angles_.size() + offsets_.size() + distances_.size());
+    for (const SharedPoint& point : points_) add_rows(point, poses, rows);
+    for (const RightAngle& angle : angles_) add_row(angle, poses, rows);
+    for (const Across& offset : offsets_) add_row(offset, poses, rows);
+    for (const Distance& distance : distances_) add_row(distance, poses, rows);
+  }
+
+  // Of the rate of an axis; its gap is the coordinate, which is `turned` but for less than half a turn.
+  Row axis_row(const JointAxis<Real>& axis, const Joint& joint, const std::vector<Pose>& poses, Real turned) const {
+    const Pose &a = pose(poses, joint.a), &b = pose(poses, joint.b);
+    if (!axis.is_hinge) {
+      std::vector<Row> rows;
+      add_row(Across{joint.a, joint.b, axis.direction_a, axis.way_start}, poses, rows);
+      return rows.front();
+    }
+    const Vector n = a.R * axis.direction_a;
+    Row row;
+    set(row, 0, joint.a, Vector::Zero(), -n);
+    set(row, 1, joint.b, Vector::Zero(), n);
+    row.gap = axis.coordinate(a.position, a.R, b.position, b.R, turned);
+    row.bias = a.w.cross(n).dot(b.w);
+    return row;
+  }
+
+ private:
+  struct SharedPoint {
+    int a, b;
+    Vector at_a, at_b;  // in the bodies' frames
+  };
+  struct RightAngle {
+    int a, b;
+    Vector of_a, of_b;  // in the bodies' frames
+    Real product;       // kept
+  };
+  struct Across {
+    int a, b;
+    Vector of_a;
+    Real offset;
+  };
+  struct Distance {
+    int a, b;
+    Vector at_a, at_b;
+    Real length;
+  };
+
+  static const Pose& pose(const std::vector<Pose>& poses, int body) {
+    static const Pose world;
+    return body == kWorld ? world : poses[body];
+  }
+
+  static std::array<Vector, 2> across(const Vector& axis) {
+    int smallest = 0;
+    axis.cwiseAbs().minCoeff(&smallest);
+    const Vector first = axis.cross(Vector(Vector::Unit(smallest))).normalized();
+    return {first, axis.cross(first)};
+  }
+
+  void set(Row& row, int end, int body, const Vector& linear, const Vector& angular) const {
+    if (body == kWorld || order_[body] < 0) return;
+    row.body[end] = order_[body];
+    row.block[end] << linear, angular;
+  }
+
+  static Vector centripetal(const Pose& body, const Vector& arm) { return body.w.cross(body.w.cross(arm)); }
+
+  void add_rows(const SharedPoint& point, const std::vector<Pose>& poses, std::vector<Row>& rows) const {
+    const Pose &a = pose(poses, point.a), &b = pose(poses, point.b);
+    const Vector arm_a = a.R * point.at_a, arm_b = b.R * point.at_b, gap = b.position + arm_b - a.position - arm_a,
+                 bias = centripetal(b, arm_b) - centripetal(a, arm_a);
+    for (int k = 0; k < 3; ++k) {
+      const Vector axis = Vector::Unit(k);
+      Row& row = rows.emplace_back();
+      set(row, 0, point.a, -axis, -arm_a.cross(axis));
+      set(row, 1, point.b, axis, arm_b.cross(axis));
+      row.gap = gap[k], row.bias = bias[k];
+    }
+  }
+
+  void add_row(const RightAngle& angle, const std::vector<Pose>& poses, std::vector<Row>& rows) const {
+    const Pose &a = pose(poses, angle.a), &b = pose(poses, angle.b);
+    const Vector u = a.R * angle.of_a, v = b.R * angle.of_b, turn = u.cross(v);
+    Row& row = rows.emplace_back();
+    set(row, 0, angle.a, Vector::Zero(), turn);
+    set(row, 1, angle.b, Vector::Zero(), -turn);
+    row.gap = u.dot(v) - angle.product;
+    row.bias = centripetal(a, u).dot(v) + 2 * a.w.cross(u).dot(b.w.cross(v)) + u.dot(centripetal(b, v));
+  }
+
+  void add_row(const Across& offset, const std::vector<Pose>& poses, std::vector<Row>& rows) const {
+    const Pose &a = pose(poses, offset.a), &b = pose(poses, offset.b);
+    const Vector n = a.R * offset.of_a, apart = b.position - a.position;
+    Row& row = rows.emplace_back();
+    set(row, 0, offset.a, -n, n.cross(apart));
+    set(row, 1, offset.b, n, Vector::Zero());
+    row.gap = n.dot(apart) - offset.offset;
+    row.bias = centripetal(a, n).dot(apart) + 2 * a.w.cross(n).dot(b.velocity - a.velocity);
+  }
+
+  void add_row(const Distance& distance, const std::vector<Pose>& poses, std::vector<Row>& rows) const {
+    const Pose &a = pose(poses, distance.a), &b = pose(poses, distance.b);
+    const Vector arm_a = a.R * distance.at_a, arm_b = b.R * distance.at_b, d = b.position + arm_b - a.position - arm_a,
+                 rate = b.velocity + b.w.cross(arm_b) - a.velocity - a.w.cross(arm_a);
+    Row& row = rows.emplace_back();
+    set(row, 0, distance.a, -d, -arm_a.cross(d));
+    set(row, 1, distance.b, d, arm_b.cross(d));
+    row.gap = (d.dot(d) - distance.length * distance.length) / 2;
+    row.bias = rate.dot(rate) + d.dot(centripetal(b, arm_b) - centripetal(a, arm_a));
+  }
+
+  std::vector<int> order_;
+  std::vector<SharedPoint> points_;
+  std::vector<RightAngle> angles_;
+  std::vector<Across> offsets_;
+  std::vector<Distance> distances_;
+};
+
+}  // namespace rigor

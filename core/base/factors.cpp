@@ -1,0 +1,34 @@
+#include "core/base/factors.h"
+
+namespace rigor {
+namespace {
+
+template <typename Factors>
+Factors& kept_or_new(auto& factors) {
+  if (auto* kept = std::get_if<Factors>(&factors)) return *kept;
+  return factors.template emplace<Factors>();
+}
+
+}  // namespace
+
+void DenseFactors::factorise(const Eigen::MatrixXd& A, Kind kind) {
+  if (kind == Kind::general) {
+    kept_or_new<Eigen::PartialPivLU<Eigen::MatrixXd>>(factors_).compute(A);
+  } else {
+    kept_or_new<Eigen::LLT<Eigen::MatrixXd>>(factors_).compute(A);
+  }
+}
+
+Eigen::VectorXd DenseFactors::solve(const Eigen::VectorXd& right_side) const {
+  return std::visit([&](const auto& factors) -> Eigen::VectorXd { return factors.solve(right_side); }, factors_);
+}
+
+SparseFactors::SparseFactors(const Eigen::SparseMatrix<double>& A) : factors_(A) {}
+
+bool SparseFactors::is_regular() const {
+  return factors_.info() == Eigen::Success && factors_.vectorD().cwiseAbs().minCoeff() > 0;
+}
+
+Eigen::VectorXd SparseFactors::solve(const Eigen::VectorXd& right_side) const { return factors_.solve(right_side); }
+
+}  // namespace rigor

@@ -1,0 +1,147 @@
+// Gates over several cells of a run, or over two runs: the order of its error, and which of two errs less.
+#include <boost/test/unit_test.hpp>
+
+#include "tests/cases/gates/gated_grid.h"
+
+using namespace rigor;
+using namespace rigor::test;
+
+BOOST_AUTO_TEST_SUITE(cases_gates_orders_and_rankings)
+
+BOOST_AUTO_TEST_CASE(each_run_answers_for_its_own_order) {
+  GatedGrid run(2);
+  for (Cell& cell : run.result().cells) {
+    if (cell.run == 1) cell.metrics["position_error"].value = cell.dt.seconds;
+  }
+  Gate least = gate("position_error");
+  least.at_least_order = 1.9;
+  const auto answers = run.check(least);
+  BOOST_TEST_REQUIRE(answers.size() == 2u);
+  for (const GateResult& answer : answers)
+    BOOST_TEST((answer.answer == (answer.engine == "a" ? GateAnswer::held : GateAnswer::failed)), answer.text);
+  // A cell that the metric says nothing of is none to fit.
+  run.result().gates.clear();
+  run.cell(0).metrics["position_error"].not_applicable = "says nothing";
+  BOOST_TEST_REQUIRE(run.check(least).size() == 1u);
+  BOOST_TEST(run.result().gates.front().engine == "b");
+}
+
+BOOST_AUTO_TEST_CASE(the_order_is_fitted_over_the_steps) {
+  for (const double order : {1.0, 2.0, 4.0}) {
+    GatedGrid run(order);
+    Gate least = gate("position_error");
+    least.at_least_order = order - 0.01;
+    BOOST_TEST(count(run.check(least), GateAnswer::held) == 2);
+    least.at_least_order = order + 0.01;
+    BOOST_TEST(count(run.check(least), GateAnswer::failed) == 2);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_order_of_one_step_cannot_be_checked) {
+  GatedGrid run;
+  Gate least = gate("position_error");
+  least.at_least_order = 1, least.dt = {{0.1, "1/10"}};
+  const auto answers = run.check(least);
+  BOOST_TEST_REQUIRE(answers.size() == 1u);
+  BOOST_TEST((answers.front().answer == GateAnswer::not_checked));
+}
+
+BOOST_AUTO_TEST_CASE(an_observed_order_is_held_against_its_bounds) {
+  struct Row {
+    std::optional<double> min, max;
+    GateAnswer answer;
+  };
+  for (const Row& row :
+       {Row{1.99, 2.01, GateAnswer::held}, Row{2.01, {}, GateAnswer::failed}, Row{{}, 1.99, GateAnswer::failed}}) {
+    GatedGrid run(2);
+    for (Cell& cell : run.result().cells) cell.metrics["cost"].value = 1;
+    Gate limit = gate("observed_order");
+    limit.min = row.min, limit.max = row.max;
+    const auto answers = run.check(limit);
+    BOOST_TEST_REQUIRE(answers.size() == 2u);
+    for (const GateResult& answer : answers) BOOST_TEST((answer.answer == row.answer), answer.text);
+    run.cell(3).status = Status::crashed;
+    BOOST_TEST(run.check(limit).size() == 2u);  // a's order, and b's cell
+    BOOST_TEST(count(run.check(limit), GateAnswer::failed) >= 1);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_order_is_fitted_over_all_of_the_steps) {
+  GatedGrid run(2);
+  CaseResult& result = run.result();
+  for (const std::size_t of : {0u, 1u}) {
+    Cell third = result.cells[of == 0 ? 1 : 3];
+    third.dt = {0.025, "1/40"};  // the error falls no more: over the first two steps alone the order is 2
+    result.cells.push_back(third);
+  }
+  Gate least = gate("position_error");
+  least.at_least_order = 1.5;
+  BOOST_TEST(count(run.check(least), GateAnswer::failed) == 2);
+  least.at_least_order = 0.99;  // by least squares over dt, dt/2, dt/4: (2 + 0)/2
+  BOOST_TEST(count(run.check(least), GateAnswer::held) == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_method_is_held_to_the_order_that_it_declares_where_its_errors_show_one) {
+  const auto answers_of = [](double order, int declared, double scale, bool adaptive) {
+    GatedGrid run(order);
+    for (EngineInfo& engine : run.grid.engines)
+      engine.methods.front().order = declared, engine.methods.front().adaptive = adaptive;
+    for (Cell& cell : run.result().cells) cell.metrics["position_error"].value *= scale;
+    Gate declares = gate("position_error");
+    declares.at_least_order = 0.1, declares.declares_order = true, declares.is_of_family = true;
+    declares.engines = {"a"};
+    return run.check(declares);
+  };
+  BOOST_TEST(count(answers_of(2, 2, 1, false), GateAnswer::held) == 1);
+  BOOST_TEST(count(answers_of(1.91, 2, 1, false), GateAnswer::held) == 1);
+  BOOST_TEST(count(answers_of(1.89, 2, 1, false), GateAnswer::failed) == 1);
+  BOOST_TEST(count(answers_of(2, 3, 1, false), GateAnswer::failed) == 1);
+  BOOST_TEST(answers_of(1, 2, 100, false).empty());    // 10 and 5 m: not yet near the limit
+  BOOST_TEST(answers_of(1, 2, 1e-10, false).empty());  // roundings
+  BOOST_TEST(answers_of(1, 8, 0.1, true).empty());     // an adaptive method's errors do not follow from dt
+}
+
+BOOST_AUTO_TEST_CASE(a_ranking_holds_each_run_against_another_at_the_same_step) {
+  GatedGrid run;  // a: .01 .0025; b: .1 .025
+  Gate ranking = gate("position_error");
+  ranking.engines = {"a"}, ranking.better_than = "b";
+  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 2);
+  ranking.engines = {"b"}, ranking.better_than = "a";
+  const auto answers = run.check(ranking);
+  BOOST_TEST(count(answers, GateAnswer::failed) == 2);
+  BOOST_TEST(answers.front().text.find("0.1 m, not better than the 0.01 m of a") != std::string::npos,
+             answers.front().text);
+  BOOST_TEST((run.cell(2).status == Status::fail));
+}
+
+BOOST_AUTO_TEST_CASE(who_blew_up_is_better_than_nobody) {
+  GatedGrid run;
+  Gate ranking = gate("position_error");
+  ranking.engines = {"b"}, ranking.better_than = "a";
+  run.cell(0).status = Status::diverged;  // a at the first step: its small error means nothing
+  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 1);
+  run.cell(2).status = Status::diverged;  // and so does b
+  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 0);
+  run.cell(0).status = Status::pass;
+  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_ranking_against_a_run_that_came_to_nothing_fails) {
+  GatedGrid run;
+  Gate ranking = gate("position_error");
+  ranking.engines = {"a"}, ranking.better_than = "b";
+  run.cell(2).status = Status::crashed;
+  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 1);
+  run.cell(2).status = Status::unsupported;  // that is nobody's fault
+  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_ranking_does_not_hold_where_both_are_the_same) {
+  GatedGrid run;
+  for (Cell& cell : run.result().cells) cell.metrics["position_error"].value = 0.01;
+  Gate ranking = gate("position_error");
+  ranking.engines = {"a"}, ranking.better_than = "b";
+  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 2);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
