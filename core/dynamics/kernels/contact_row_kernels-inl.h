@@ -14,8 +14,8 @@ struct PairLanes {
   RIGOR_INLINE PairLanes(T, const RowGroup& group, std::size_t k, const double* records)
       : a(twist_of(get_record(T(), records, group.a + k))), b(twist_of(get_record(T(), records, group.b + k))) {}
   RIGOR_INLINE void put(const RowGroup& group, std::size_t k, double* records) const {
-    put_record(records, group.to_a + k, record_of(a));
-    put_record(records, group.to_b + k, record_of(b));
+    put_record(records, group.to_a + k, record_of(a), kTwist);
+    put_record(records, group.to_b + k, record_of(b), kTwist);
   }
 };
 

@@ -64,6 +64,14 @@ struct RowPlace {
   std::int16_t point, lane;
 };
 
+// Eight contacts of two balls each, a from b.
+struct alignas(64) BallContacts {
+  double normal[3][kRowsPerBlock];  // unit, from b to a
+  double gap[kRowsPerBlock];        // m
+  double overlap[kRowsPerBlock];    // m: 0 or less; where they meet first what is left of their gap there
+  double excess[kRowsPerBlock];     // m, of the gap over what is kept
+};
+
 // Records by body, and after them idle ones: rows without a constraint read the first, of a body at rest, and write one
 // of those after it, of which each thread has its own.
 struct SolverBodies {

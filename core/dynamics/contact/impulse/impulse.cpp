@@ -141,19 +141,19 @@ class ImpulseStepper : public ContactStepper {
     contact_kernels().scatter_pushed(bodies, velocities_.data(), state.column(0), pushes_.data());
   }
 
-  // Calls pass(groups, their number) for a thread's share of each level; all threads have done one level before any
+  // Calls pass(groups, their number) for a thread's share of each colour; all threads have done one colour before any
   // goes on to the next.
   template <typename Pass>
-  void for_each_level(std::size_t thread, const Pass& pass) {
-    for (std::size_t level = 0; level < rows_.levels(); ++level) {
-      const auto [begin, end] = rows_.share(level, thread);
+  void for_each_colour(std::size_t thread, const Pass& pass) {
+    for (std::size_t colour = 0; colour < rows_.colours(); ++colour) {
+      const auto [begin, end] = rows_.share(colour, thread);
       pass(rows_.groups().data() + begin, end - begin);
       threads_->meet();
     }
   }
 
   void warm_start(std::size_t thread) {
-    for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
+    for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().warm_start(groups, count, solver_bodies());
     });
   }
@@ -161,7 +161,7 @@ class ImpulseStepper : public ContactStepper {
   // What comes down flat must not be set turning by which of its corners is taken first: impacts are solved until they
   // agree.
   void solve_with_bias(std::size_t thread) {
-    for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
+    for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
     });
     impacts_.solve(rows_, solver_bodies(), parameters_, thread);
@@ -177,7 +177,7 @@ class ImpulseStepper : public ContactStepper {
 
   // What is pushed out of a deep overlap must not keep what one pass leaves of that push.
   void relax(std::size_t thread) {
-    for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
+    for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().relax(groups, count, solver_bodies());
     });
     impacts_.relax_deep(rows_, solver_bodies(), parameters_, thread);

@@ -8,8 +8,8 @@ namespace rigor {
 void RowSweeps::begin(const ContactRowLayout& rows) {
   for (std::size_t thread = 0; thread < parts_.size(); ++thread) {
     std::size_t most = 0;
-    for (std::size_t level = 0; level < rows.levels(); ++level) {
-      const auto [begin, end] = rows.share(level, thread);
+    for (std::size_t colour = 0; colour < rows.colours(); ++colour) {
+      const auto [begin, end] = rows.share(colour, thread);
       for (std::size_t g = begin; g < end; ++g)
         most += kRowsPerBlock * static_cast<std::size_t>(rows.groups()[g].points);
     }
@@ -20,22 +20,22 @@ void RowSweeps::begin(const ContactRowLayout& rows) {
 void RowSweeps::find(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
                      std::size_t thread) {
   Part& part = parts_[thread];
-  part.end_of_level.clear();
+  part.end_of_colour.clear();
   std::size_t found = 0;
-  for (std::size_t level = 0; level < rows.levels(); ++level) {
-    const auto [begin, end] = rows.share(level, thread);
+  for (std::size_t colour = 0; colour < rows.colours(); ++colour) {
+    const auto [begin, end] = rows.share(colour, thread);
     found +=
         contact_kernels().prepare_bias(rows.groups().data(), begin, end, bodies, parameters, part.found.data() + found);
-    part.end_of_level.push_back(found);
+    part.end_of_colour.push_back(found);
   }
 }
 
 // In the order of groups.
 template <typename Visit>
 void RowSweeps::for_each_found(const ContactRowLayout& rows, const Visit& visit) const {
-  for (std::size_t level = 0; level < rows.levels(); ++level) {
+  for (std::size_t colour = 0; colour < rows.colours(); ++colour) {
     for (const Part& part : parts_) {
-      for (std::size_t i = part.first_of(level); i < part.end_of_level[level]; ++i)
+      for (std::size_t i = part.first_of(colour); i < part.end_of_colour[colour]; ++i)
         visit(part.found[i], rows.groups()[static_cast<std::size_t>(part.found[i].group)]);
     }
   }

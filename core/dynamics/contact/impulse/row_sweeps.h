@@ -32,11 +32,11 @@ class RowSweeps {
 
  private:
   struct alignas(kCacheLine) Part {
-    std::vector<RowPlace> found;            // in the order of groups; room for all
-    std::vector<std::size_t> end_of_level;  // among these
-    std::vector<RowPlace> impacts;          // that this thread sweeps, in their order
-    std::int64_t sweeps = 0;                // so far
-    std::size_t first_of(std::size_t level) const { return level == 0 ? 0 : end_of_level[level - 1]; }
+    std::vector<RowPlace> found;             // in the order of groups; room for all
+    std::vector<std::size_t> end_of_colour;  // among these
+    std::vector<RowPlace> impacts;           // that this thread sweeps, in their order
+    std::int64_t sweeps = 0;                 // so far
+    std::size_t first_of(std::size_t colour) const { return colour == 0 ? 0 : end_of_colour[colour - 1]; }
   };
   template <typename Visit>
   void for_each_found(const ContactRowLayout& rows, const Visit& visit) const;
