@@ -57,26 +57,26 @@ RIGOR_INLINE V3<T> velocity_in(const Record<T>& place) {
 
 std::size_t near_pairs(const double* places, const std::pair<int, int>* pairs, std::size_t count, std::int32_t* near) {
   std::size_t found = 0;
-  for (std::size_t i = 0; i < count; i += kWidth) {
-    using T = Lane;
+  for_rows(0, count, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
     const PlacesOfPairs<T> at(T(), i, count, [&](std::size_t k) RIGOR_LAMBDA { return pairs + k; });
     const Record<T> a = get_record(T(), places, at.first), b = get_record(T(), places, at.second);
     const V3<T> line = centre_in(a) - centre_in(b);
     const T reach = a.c[3] + b.c[3], reach2 = reach * reach, distance2 = dot(line, line), one = broadcast(T(), 1);
-    double are_near[kWidth];  // so are those of which it is not known
+    double are_near[width_of(T())];  // so are those of which it is not known
     store(are_near, if_at_most(distance2, reach2, one, if_at_most(reach2, distance2, T{}, one)));
-    for (std::size_t k = 0; k < kWidth && i + k < count; ++k) {
+    for (std::size_t k = 0; k < width_of(T()) && i + k < count; ++k) {
       near[found] = static_cast<std::int32_t>(i + k);
       found += are_near[k] != 0;
     }
-  }
+  });
   return found;
 }
 
 void ball_contacts(const double* places, const std::pair<int, int>* pairs, const std::int32_t* near, std::size_t count,
                    double dt, double margin_of_size, BallContacts* contacts) {
-  for (std::size_t i = 0; i < count; i += kWidth) {
-    using T = Lane;
+  for_rows(0, count, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
     const PlacesOfPairs<T> at(T(), i, count, [&](std::size_t k) RIGOR_LAMBDA { return pairs + near[k]; });
     const Record<T> a = get_record(T(), places, at.first), b = get_record(T(), places, at.second);
     const V3<T> v = velocity_in(a) - velocity_in(b), line = centre_in(a) - centre_in(b);
@@ -91,11 +91,11 @@ void ball_contacts(const double* places, const std::pair<int, int>* pairs, const
     const T apart = square_root(dot(there, there)), left = apart - touching;
     const V3<T> n = (broadcast(T(), 1) / apart) * there;
     const T u = dot(n, v), gap_there = left - ahead * u, most = margin + if_at_most(u, zero, zero - step * u, zero);
-    const std::size_t block = i / kRowsPerBlock, k = i % kRowsPerBlock;
-    BallContacts& out = contacts[block];
+    BallContacts& out = contacts[i / kRowsPerBlock];
+    const std::size_t k = i % kRowsPerBlock;
     store(out.normal[0] + k, n.x), store(out.normal[1] + k, n.y), store(out.normal[2] + k, n.z);
     store(out.gap + k, gap_there);
     store(out.overlap + k, if_at_most(ahead, zero, if_at_most(left, zero, left, zero), left));
     store(out.excess + k, gap_there - most);
-  }
+  });
 }

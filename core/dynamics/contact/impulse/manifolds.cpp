@@ -83,8 +83,8 @@ void reduce_to_four(Manifold& points) {
 
 void Manifolds::place_body(std::size_t i, BodyColumns state, double dt) {
   const Collider& collider = colliders_[i];
-  const bool round = std::holds_alternative<Sphere>(collider.shape);
-  poses_[i] = {state.position(collider.body), round ? Mat3::Identity() : state.rotation(collider.body)};
+  poses_[i].p = state.position(collider.body);
+  if (kinds_[i] != Kind::ball) poses_[i].R = state.rotation(collider.body);
   const Vec3 displacement = dt * state.velocity(collider.body);
   const double margin = kSpeculativeMargin * collider.inradius + rotational_displacement(collider, state, dt);
   boxes_[i] = swept_box(collider, poses_[i], displacement, margin);
@@ -262,9 +262,9 @@ void Manifolds::add_points_of(std::size_t i, const std::pair<int, int>& pair, Bo
 }
 
 void Manifolds::add_pairs(std::size_t first_pair, std::size_t last_pair, BodyColumns state, double dt, Part& part) {
-  const double* places = places_.front().p.data();
   std::size_t old = 0;
   for (std::size_t begin = first_pair; begin < last_pair; begin += kBatch) {
+    const double* places = places_.front().p.data();
     const std::pair<int, int>* pairs = pairs_->data() + begin;
     const std::size_t near =
         contact_kernels().near_pairs(places, pairs, std::min(kBatch, last_pair - begin), part.near.data());

@@ -37,7 +37,7 @@ class Manifolds {
         parts_(threads.members()),
         colliders_(colliders_of(scene)),
         laws_(scene),
-        poses_(colliders_.size()),
+        poses_(colliders_.size(), {Vec3::Zero(), Mat3::Identity()}),
         boxes_(colliders_.size()),
         places_(colliders_.size()),
         has_left_(colliders_.size()),
