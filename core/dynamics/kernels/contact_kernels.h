@@ -36,12 +36,9 @@ struct ContactKernels {
   void (*warm_start)(const RowGroup*, std::size_t count, const SolverBodies&);
   void (*solve_with_bias)(const RowGroup*, std::size_t count, const SolverBodies&, const SolverParameters&);
   void (*relax)(const RowGroup*, std::size_t count, const SolverBodies&);
-  // One of several sweeps over some rows, biased or not; but for the first only for bodies that the sweep before, or
-  // this one, has changed. Returns whether any row changed a velocity by more than the tolerance.
-  bool (*sweep_with_bias)(const RowGroup* first, const RowPlace*, std::size_t count, const SolverBodies&,
-                          const SolverParameters&, Sweep);
-  bool (*sweep_without_bias)(const RowGroup* first, const RowPlace*, std::size_t count, const SolverBodies&,
-                             const SolverParameters&, Sweep);
+  // One of several sweeps, biased or not: whether any row changed a velocity by more than the tolerance.
+  bool (*sweep_with_bias)(const RowGroup*, std::size_t count, const SolverBodies&, const SolverParameters&);
+  bool (*sweep_without_bias)(const RowGroup*, std::size_t count, const SolverBodies&, const SolverParameters&);
 };
 
 const ContactKernels& contact_kernels();

@@ -34,9 +34,9 @@ template <class F>
 RIGOR_INLINE void store_two(F row, Lane first, Lane second) {
   const auto every_other = [&](std::size_t k, Lane x) RIGOR_LAMBDA {
     _mm_storeu_pd(row(k), __builtin_shufflevector(x, x, 0, 1));
-    _mm_storeu_pd(row(k + 2), __builtin_shufflevector(x, x, 2, 3));
-    _mm_storeu_pd(row(k + 4), __builtin_shufflevector(x, x, 4, 5));
-    _mm_storeu_pd(row(k + 6), __builtin_shufflevector(x, x, 6, 7));
+    _mm_storeu_pd(row(k + 2), _mm512_maskz_extractf64x2_pd(0xff, x, 1));
+    _mm_storeu_pd(row(k + 4), _mm512_maskz_extractf64x2_pd(0xff, x, 2));
+    _mm_storeu_pd(row(k + 6), _mm512_maskz_extractf64x2_pd(0xff, x, 3));
   };
   every_other(0, __builtin_shufflevector(first, second, 0, 8, 2, 10, 4, 12, 6, 14));
   every_other(1, __builtin_shufflevector(first, second, 1, 9, 3, 11, 5, 13, 7, 15));

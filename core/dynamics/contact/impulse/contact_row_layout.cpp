@@ -28,16 +28,6 @@ bool is_round(const Body& body, const Inertia& inertia) {
                            I(0, 0) == I(1, 1) && I(1, 1) == I(2, 2));
 }
 
-// Rows that nothing acts on.
-void clear(const RowGroup& group) {
-  for (std::int32_t point = 0; point < group.points; ++point) {
-    double* block = group.block(static_cast<std::size_t>(point));
-    std::fill_n(block, group.columns() * kRowsPerBlock, 0.0);
-    std::fill_n(&at(block, kNormal, 0), kRowsPerBlock, 1.0);
-    std::fill_n(&at(block, kInitialGap, 0), kRowsPerBlock, ContactRowLayout::kNoPoint);
-  }
-}
-
 void fill_row(double* block, std::size_t k, bool of_balls, const ContactConstraint& constraint, double impulse_scale) {
   set_vector(block, kNormal, k, constraint.normal);
   set_vector(block, kFrictionImpulse, k, impulse_scale * constraint.friction_impulse);
@@ -54,6 +44,27 @@ void fill_row(double* block, std::size_t k, bool of_balls, const ContactConstrai
 }
 
 }  // namespace
+
+void clear_rows(const RowGroup& group) {
+  for (std::int32_t point = 0; point < group.points; ++point) {
+    double* block = group.block(static_cast<std::size_t>(point));
+    std::fill_n(block, group.columns() * kRowsPerBlock, 0.0);
+    std::fill_n(&at(block, kNormal, 0), kRowsPerBlock, 1.0);
+    std::fill_n(&at(block, kNormalMass, 0), kRowsPerBlock, 1.0);
+    std::fill_n(&at(block, kInitialGap, 0), kRowsPerBlock, ContactRowLayout::kNoPoint);
+  }
+}
+
+void place_rows(std::vector<RowGroup>& groups, AlignedDoubles& rows) {
+  std::size_t size = 0;
+  for (const RowGroup& group : groups) size += group.columns() * kRowsPerBlock * static_cast<std::size_t>(group.points);
+  if (rows.size() < size) rows.resize(size + size / 4);
+  double* next = rows.data();
+  for (RowGroup& group : groups) {
+    group.rows = next;
+    next = group.block(static_cast<std::size_t>(group.points));
+  }
+}
 
 ContactRowLayout::ContactRowLayout(const Scene& scene, const System& system, std::size_t threads)
     : system_(system),
@@ -114,16 +125,9 @@ void ContactRowLayout::form_groups() {
     pairs_of_group_[group][pair.place % kRowsPerBlock] = static_cast<std::int32_t>(i);
     groups_[group].points = static_cast<std::int32_t>(pair.points);
     groups_[group].of_balls = pair.kind_of_colour % kKinds == 0;
+    groups_[group].colour = static_cast<std::int32_t>(pair.kind_of_colour / kKinds);
   }
-  std::size_t size = 0;
-  for (const RowGroup& group : groups_)
-    size += group.columns() * kRowsPerBlock * static_cast<std::size_t>(group.points);
-  if (rows_.size() < size) rows_.resize(size + size / 4);
-  double* rows = rows_.data();
-  for (RowGroup& group : groups_) {
-    group.rows = rows;
-    rows = group.block(static_cast<std::size_t>(group.points));
-  }
+  place_rows(groups_, rows_);
 }
 
 ContactRowLayout::Share ContactRowLayout::share(std::size_t colour, std::size_t thread) const {
@@ -152,16 +156,27 @@ void ContactRowLayout::fill(const std::vector<ContactConstraint>& constraints, d
   for (std::size_t colour = 0; colour < colours(); ++colour) {
     const Share share = this->share(colour, thread);
     for (std::size_t g = share.begin; g < share.end; ++g) {
+      if (g + 1 < share.end) fetch_group(g + 1, constraints);
       fill_group(g, constraints, impulse_scale, thread);
       contact_kernels().prepare_rows(&groups_[g], 1, bodies);
     }
   }
 }
 
+// The constraints of a group lie anywhere among all.
+void ContactRowLayout::fetch_group(std::size_t number, const std::vector<ContactConstraint>& constraints) const {
+  for (const std::int32_t pair : pairs_of_group_[number]) {
+    if (pair < 0) continue;
+    const char* constraint = reinterpret_cast<const char*>(&constraints[pairs_[static_cast<std::size_t>(pair)].first]);
+    for (std::size_t line = 0; line <= sizeof(ContactConstraint); line += kCacheLine)
+      __builtin_prefetch(constraint + line, 1);
+  }
+}
+
 void ContactRowLayout::fill_group(std::size_t number, const std::vector<ContactConstraint>& constraints,
                                   double impulse_scale, std::size_t thread) {
   RowGroup& group = groups_[number];
-  if (pairs_of_group_[number].back() < 0) clear(group);
+  if (pairs_of_group_[number].back() < 0) clear_rows(group);
   const std::int32_t to_none = idle_ + 1 + static_cast<std::int32_t>(thread);
   for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
     group.a[k] = group.b[k] = idle_, group.to_a[k] = group.to_b[k] = to_none;

@@ -13,6 +13,11 @@
 
 namespace rigor {
 
+// Rows that nothing acts on.
+void clear_rows(const RowGroup& group);
+// Gives the groups their blocks of these rows, of which there will be enough.
+void place_rows(std::vector<RowGroup>& groups, AlignedDoubles& rows);
+
 class ContactRowLayout {
  public:
   // The gap of a row that stands for no point: it never closes.
@@ -58,6 +63,7 @@ class ContactRowLayout {
   std::size_t colour_of(int a, int b);
   void form_groups();
   void find_deep_rows(const std::vector<ContactConstraint>& constraints);
+  void fetch_group(std::size_t number, const std::vector<ContactConstraint>& constraints) const;
   void fill_group(std::size_t number, const std::vector<ContactConstraint>& constraints, double impulse_scale,
                   std::size_t thread);
   template <typename Visit>
