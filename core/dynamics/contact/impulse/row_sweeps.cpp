@@ -37,25 +37,10 @@ std::size_t RowSweeps::slot_for(const RowPlace& place) {
 
 void RowSweeps::form_groups() { place_rows(groups_, copies_); }
 
-ThreadPool::Share RowSweeps::share(std::size_t colour, std::size_t thread) const {
-  const std::size_t begin = colour == 0 ? 0 : end_of_colour_[colour - 1];
-  const auto [first, last] = threads_.share(end_of_colour_[colour] - begin, thread);
-  return {begin + first, begin + last};
-}
-
-template <typename Visit>
-void RowSweeps::for_each_group(std::size_t thread, const Visit& visit) const {
-  for (std::size_t colour = 0; colour < end_of_colour_.size(); ++colour) {
-    const auto [first, last] = share(colour, thread);
-    for (std::size_t g = first; g < last; ++g) visit(g);
-  }
-}
-
-void RowSweeps::copy_rows(std::size_t number, std::size_t thread) {
+void RowSweeps::copy_rows(std::size_t number) {
   RowGroup& group = groups_[number];
   const Source& source = sources_[number];
-  const auto idle = static_cast<std::int32_t>(rows_.idle_body()),
-             to_none = idle + 1 + static_cast<std::int32_t>(thread);
+  const auto idle = static_cast<std::int32_t>(rows_.idle_body()), to_none = idle + 1;
   if (source.pairs < kRowsPerBlock || group.points > 1) clear_rows(group);
   std::fill_n(group.a, kRowsPerBlock, idle), std::fill_n(group.b, kRowsPerBlock, idle);
   std::fill_n(group.to_a, kRowsPerBlock, to_none), std::fill_n(group.to_b, kRowsPerBlock, to_none);
@@ -88,23 +73,22 @@ void RowSweeps::copy_impulses_back(std::size_t number) const {
   }
 }
 
+void RowSweeps::sweep_all(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters) {
+  bool is_changed = true;
+  for (int k = 0; k < parameters.max_sweeps && is_changed; ++k) {
+    is_changed = false;
+    for (std::size_t colour = 0, first = 0; colour < end_of_colour_.size(); first = end_of_colour_[colour++])
+      is_changed |= sweep(&groups_[first], end_of_colour_[colour] - first, bodies, parameters);
+  }
+}
+
 void RowSweeps::solve(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters, std::size_t thread) {
   if (groups_.empty()) return;
-  for_each_group(thread, [&](std::size_t g) { copy_rows(g, thread); });
-  threads_.meet();
-  for (int k = 0; k < parameters.max_sweeps; ++k) {
-    const auto of_this = static_cast<std::size_t>(k % 2);
-    bool is_changed = false;
-    for (std::size_t colour = 0; colour < end_of_colour_.size(); ++colour) {
-      const auto [first, last] = share(colour, thread);
-      is_changed |= sweep(groups_.data() + first, last - first, bodies, parameters);
-      is_changed_[thread].of_sweep[of_this] = is_changed;
-      threads_.meet();
-    }
-    const auto has_changed = [&](const Flags& flags) { return flags.of_sweep[of_this]; };
-    if (std::none_of(is_changed_.begin(), is_changed_.end(), has_changed)) break;
+  if (thread == 0) {
+    for (std::size_t g = 0; g < groups_.size(); ++g) copy_rows(g);
+    sweep_all(sweep, bodies, parameters);
+    for (std::size_t g = 0; g < groups_.size(); ++g) copy_impulses_back(g);
   }
-  for_each_group(thread, [&](std::size_t g) { copy_impulses_back(g); });
   threads_.meet();
 }
 

@@ -1,6 +1,6 @@
 // Sweeps over some of the rows, until none changes a velocity by more than the tolerance: those of impacts, whose
 // points must agree, and those of deep overlaps. Such rows are copied to groups of their own, again eight pairs of a
-// colour in each, and their impulses back when they agree; threads share the groups of a colour.
+// colour in each, and their impulses back when they agree.
 #pragma once
 
 #include <array>
@@ -16,8 +16,7 @@ class RowSweeps {
  public:
   using Sweep = decltype(ContactKernels::sweep_with_bias);
 
-  RowSweeps(const ContactRowLayout& rows, ThreadPool& threads)
-      : rows_(rows), threads_(threads), is_changed_(threads.members()) {}
+  RowSweeps(const ContactRowLayout& rows, ThreadPool& threads) : rows_(rows), threads_(threads) {}
 
   // Takes none of the rows; then some more of them, in the order of the groups.
   void clear();
@@ -25,7 +24,8 @@ class RowSweeps {
   // After these, by one thread.
   void form_groups();
   bool are_any() const { return !groups_.empty(); }
-  // A thread's share of the sweeps.
+  // The sweeps, by the first thread, for they are few, and threads would meet after each colour of each; the others
+  // wait for it.
   void solve(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters, std::size_t thread);
 
  private:
@@ -34,15 +34,10 @@ class RowSweeps {
     unsigned points[kRowsPerBlock];  // a bit each: that the row of the point is one of these
     std::size_t pairs;
   };
-  struct alignas(kCacheLine) Flags {
-    std::array<bool, 2> of_sweep;  // of this one and the one before
-  };
   std::size_t slot_for(const RowPlace& place);
-  void copy_rows(std::size_t number, std::size_t thread);
+  void sweep_all(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters);
+  void copy_rows(std::size_t number);
   void copy_impulses_back(std::size_t number) const;
-  ThreadPool::Share share(std::size_t colour, std::size_t thread) const;
-  template <typename Visit>
-  void for_each_group(std::size_t thread, const Visit& visit) const;
 
   const ContactRowLayout& rows_;
   ThreadPool& threads_;
@@ -52,7 +47,6 @@ class RowSweeps {
   std::int32_t last_group_ = -1;                          // of the rows, that one was taken of
   std::array<std::int64_t, kRowsPerBlock> slot_of_lane_;  // of its pairs; -1: not taken
   AlignedDoubles copies_;
-  std::vector<Flags> is_changed_;  // by thread
 };
 
 }  // namespace rigor
