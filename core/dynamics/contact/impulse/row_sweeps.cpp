@@ -5,7 +5,7 @@
 namespace rigor {
 
 void RowSweeps::clear() {
-  groups_.clear(), sources_.clear(), end_of_colour_.clear();
+  groups_.clear(), sources_.clear();
   last_group_ = -1;
 }
 
@@ -23,13 +23,9 @@ void RowSweeps::add(const RowPlace* first, const RowPlace* last) {
 // For another pair: the next one of the last group, or the first of a new one.
 std::size_t RowSweeps::slot_for(const RowPlace& place) {
   const RowGroup& from = rows_.groups()[static_cast<std::size_t>(place.group)];
-  const bool is_new_colour = groups_.empty() || groups_.back().colour != from.colour;
-  if (is_new_colour || sources_.back().pairs == kRowsPerBlock || groups_.back().points != from.points ||
-      groups_.back().of_balls != from.of_balls) {
-    if (is_new_colour) end_of_colour_.push_back(groups_.size());
+  if (groups_.empty() || sources_.back().pairs == kRowsPerBlock || groups_.back().colour != from.colour ||
+      groups_.back().points != from.points || groups_.back().of_balls != from.of_balls)
     groups_.push_back(from), sources_.push_back({});
-    end_of_colour_.back() = groups_.size();
-  }
   Source& source = sources_.back();
   source.group[source.pairs] = place.group, source.lane[source.pairs] = place.lane;
   return kRowsPerBlock * (groups_.size() - 1) + source.pairs++;
@@ -73,20 +69,12 @@ void RowSweeps::copy_impulses_back(std::size_t number) const {
   }
 }
 
-void RowSweeps::sweep_all(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters) {
-  bool is_changed = true;
-  for (int k = 0; k < parameters.max_sweeps && is_changed; ++k) {
-    is_changed = false;
-    for (std::size_t colour = 0, first = 0; colour < end_of_colour_.size(); first = end_of_colour_[colour++])
-      is_changed |= sweep(&groups_[first], end_of_colour_[colour] - first, bodies, parameters);
-  }
-}
-
 void RowSweeps::solve(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters, std::size_t thread) {
   if (groups_.empty()) return;
   if (thread == 0) {
     for (std::size_t g = 0; g < groups_.size(); ++g) copy_rows(g);
-    sweep_all(sweep, bodies, parameters);
+    int sweeps = 0;
+    while (sweeps++ < parameters.max_sweeps && sweep(groups_.data(), groups_.size(), bodies, parameters)) continue;
     for (std::size_t g = 0; g < groups_.size(); ++g) copy_impulses_back(g);
   }
   threads_.meet();

@@ -35,7 +35,6 @@ class RowSweeps {
     std::size_t pairs;
   };
   std::size_t slot_for(const RowPlace& place);
-  void sweep_all(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters);
   void copy_rows(std::size_t number);
   void copy_impulses_back(std::size_t number) const;
 
@@ -43,7 +42,6 @@ class RowSweeps {
   ThreadPool& threads_;
   std::vector<RowGroup> groups_;
   std::vector<Source> sources_;                           // by group
-  std::vector<std::size_t> end_of_colour_;                // among the groups
   std::int32_t last_group_ = -1;                          // of the rows, that one was taken of
   std::array<std::int64_t, kRowsPerBlock> slot_of_lane_;  // of its pairs; -1: not taken
   AlignedDoubles copies_;
