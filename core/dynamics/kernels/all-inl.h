@@ -58,6 +58,8 @@ const Kernels kTable = {
 
 extern const ContactKernels kContactTable;
 const ContactKernels kContactTable = {
+    .near_pairs = near_pairs,
+    .ball_contacts = ball_contacts,
     .scatter_pushed = scatter_pushed,
     .gather_pushed = gather_pushed,
     .integrate_corrections = integrate_corrections,

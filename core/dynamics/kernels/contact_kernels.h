@@ -3,12 +3,21 @@
 // share no moving body.
 #pragma once
 
+#include <utility>
+
 #include "core/dynamics/kernels/contact_rows.h"
 #include "core/dynamics/kernels/kernels.h"
 
 namespace rigor {
 
 struct ContactKernels {
+  // Of the pairs of places (records: position, reach, velocity, radius) the numbers of those whose reaches meet to
+  // `near`, which has room for all: how many they are. And the contacts of such pairs, as if both were balls, before
+  // dt; balls farther apart than a margin, in radii of the smaller, and than they can meet in dt, exceed what is kept.
+  std::size_t (*near_pairs)(const double* places, const std::pair<int, int>* pairs, std::size_t count,
+                            std::int32_t* near);
+  void (*ball_contacts)(const double* places, const std::pair<int, int>* pairs, const std::int32_t* near,
+                        std::size_t count, double dt, double margin, BallContacts* contacts);
   // Velocities to the state, and to `pushes` what they are more than those that were there: what all impulses of a
   // sub-step have done. And to records with these on top, which is as if each impulse were applied to them.
   void (*scatter_pushed)(const Bodies&, const double* velocities, double* state, double* pushes);
@@ -27,12 +36,9 @@ struct ContactKernels {
   void (*warm_start)(const RowGroup*, std::size_t count, const SolverBodies&);
   void (*solve_with_bias)(const RowGroup*, std::size_t count, const SolverBodies&, const SolverParameters&);
   void (*relax)(const RowGroup*, std::size_t count, const SolverBodies&);
-  // One of several sweeps over some rows, biased or not; but for the first only for bodies that the sweep before, or
-  // this one, has changed. Returns whether any row changed a velocity by more than the tolerance.
-  bool (*sweep_with_bias)(const RowGroup* first, const RowPlace*, std::size_t count, const SolverBodies&,
-                          const SolverParameters&, Sweep);
-  bool (*sweep_without_bias)(const RowGroup* first, const RowPlace*, std::size_t count, const SolverBodies&,
-                             const SolverParameters&, Sweep);
+  // One of several sweeps, biased or not: whether any row changed a velocity by more than the tolerance.
+  bool (*sweep_with_bias)(const RowGroup*, std::size_t count, const SolverBodies&, const SolverParameters&);
+  bool (*sweep_without_bias)(const RowGroup*, std::size_t count, const SolverBodies&, const SolverParameters&);
 };
 
 const ContactKernels& contact_kernels();

@@ -1,6 +1,8 @@
 // Records of bodies (contact_rows.h), and between them and the state; kernels.h says what comes out. Included once by
 // each kernels_*.cpp, on purpose without a guard.
 
+constexpr std::size_t kTwist = 6;  // columns of a record that holds v and w
+
 // Eight columns of as many bodies as T has lanes.
 template <class T>
 struct Record {
@@ -9,19 +11,19 @@ struct Record {
 template <class T>
 RIGOR_INLINE Record<T> get_record(T, const double* records, const std::int32_t* rows) {
   Record<T> r;
-  for (std::size_t part = 0; part < kRecord; part += width_of(T())) {
-    for (std::size_t k = 0; k < width_of(T()); ++k)
-      r.c[part + k] = load(T(), records + kRecord * static_cast<std::size_t>(rows[k]) + part);
-    transpose(r.c + part);
+  for (std::size_t c = 0; c < kRecord; c += 2) {
+    load_two([&](std::size_t k) RIGOR_LAMBDA { return records + kRecord * static_cast<std::size_t>(rows[k]) + c; },
+             r.c[c], r.c[c + 1]);
   }
   return r;
 }
+// The first of the columns, an even number of them.
 template <class T>
-RIGOR_INLINE void put_record(double* records, const std::int32_t* rows, Record<T> r) {
-  for (std::size_t part = 0; part < kRecord; part += width_of(T())) {
-    transpose(r.c + part);
-    for (std::size_t k = 0; k < width_of(T()); ++k)
-      store(records + kRecord * static_cast<std::size_t>(rows[k]) + part, r.c[part + k]);
+RIGOR_INLINE void put_record(double* records, const std::int32_t* rows, const Record<T>& r,
+                             std::size_t columns = kRecord) {
+  for (std::size_t c = 0; c < columns; c += 2) {
+    store_two([&](std::size_t k) RIGOR_LAMBDA { return records + kRecord * static_cast<std::size_t>(rows[k]) + c; },
+              r.c[c], r.c[c + 1]);
   }
 }
 // The bodies i, i + 1, ….

@@ -14,8 +14,8 @@ struct PairLanes {
   RIGOR_INLINE PairLanes(T, const RowGroup& group, std::size_t k, const double* records)
       : a(twist_of(get_record(T(), records, group.a + k))), b(twist_of(get_record(T(), records, group.b + k))) {}
   RIGOR_INLINE void put(const RowGroup& group, std::size_t k, double* records) const {
-    put_record(records, group.to_a + k, record_of(a));
-    put_record(records, group.to_b + k, record_of(b));
+    put_record(records, group.to_a + k, record_of(a), kTwist);
+    put_record(records, group.to_b + k, record_of(b), kTwist);
   }
 };
 
@@ -157,8 +157,9 @@ struct BallRow : RowLanes<T> {
     const V3<T> u = (pair.a.v - pair.b.v) + cross(n, get(kLengthA) * pair.a.w + get(kLengthB) * pair.b.w);
     const V3<T> old = get3(kFrictionImpulse), stick = old - get(kAcrossMass) * (u - dot(n, u) * n);
     const T radius = this->most_friction(p_n), radius2 = radius * radius, stick2 = dot(stick, stick);
-    const T onto = if_at_most(stick2, radius2, broadcast(T(), 1), radius / square_root(stick2));
-    const V3<T> p = onto * stick;
+    V3<T> p = stick;
+    if (!all_at_most(stick2 - radius2, 0))
+      p = if_at_most(stick2, radius2, broadcast(T(), 1), radius / square_root(stick2)) * stick;
     apply_across(pair, n, p - old);
     put3(kFrictionImpulse, p);
   }
@@ -324,46 +325,32 @@ void relax(const RowGroup* groups, std::size_t count, const SolverBodies& bodies
   });
 }
 
-// Solves one row; returns by how much it changes the velocity along the normal.
-template <class Row, class F>
-RIGOR_INLINE double solve_one(Row row, const RowGroup& group, const RowPlace& place, const SolverBodies& bodies,
-                              F solve) {
-  const auto k = static_cast<std::size_t>(place.lane);
-  row.at = group.block(static_cast<std::size_t>(place.point)) + k;
-  row.load_pair(group, k, bodies);
-  PairLanes<double> pair(double(), group, k, bodies.velocities);
-  double change;
-  if (solve(row, pair, change)) pair.put(group, k, bodies.velocities);
-  return change;
+// Whether a change of velocity is more than the tolerance.
+template <class T>
+RIGOR_INLINE bool is_more(T change, const SolverParameters& parameters) {
+  return !all_at_most(change * change, parameters.tolerance * parameters.tolerance);
 }
 
-template <class F>
-RIGOR_INLINE bool sweep_over(const RowGroup* first, const RowPlace* rows, std::size_t count, const SolverBodies& bodies,
-                             const SolverParameters& parameters, Sweep sweep, F solve) {
+bool sweep_with_bias(const RowGroup* groups, std::size_t count, const SolverBodies& bodies,
+                     const SolverParameters& parameters) {
   bool is_any_changed = false;
-  for (const RowPlace* place = rows; place != rows + count; ++place) {
-    const RowGroup& group = first[place->group];
-    const auto was_active = [&](std::int32_t body) { return bodies.last_active[body] >= sweep.number - 1; };
-    if (!sweep.is_first && !was_active(group.a[place->lane]) && !was_active(group.b[place->lane])) continue;
-    const double change = group.of_balls ? solve_one(ball_row(double()), group, *place, bodies, solve)
-                                         : solve_one(any_row(double()), group, *place, bodies, solve);
-    if (change * change <= parameters.tolerance * parameters.tolerance) continue;
-    // A fixed body is written to an idle record, and so is never active.
-    bodies.last_active[group.to_a[place->lane]] = bodies.last_active[group.to_b[place->lane]] = sweep.number;
-    is_any_changed = true;
-  }
+  solve_rows(groups, count, bodies, [&](auto row, auto& pair) RIGOR_LAMBDA {
+    typename decltype(row)::Lanes change;
+    const bool is_solved = solve_row_with_bias(row, pair, parameters, change);
+    is_any_changed = is_any_changed || is_more(change, parameters);
+    return is_solved;
+  });
   return is_any_changed;
 }
 
-bool sweep_with_bias(const RowGroup* first, const RowPlace* rows, std::size_t count, const SolverBodies& bodies,
-                     const SolverParameters& parameters, Sweep sweep) {
-  return sweep_over(first, rows, count, bodies, parameters, sweep,
-                    [&](auto row, auto& pair, auto& change)
-                        RIGOR_LAMBDA { return solve_row_with_bias(row, pair, parameters, change); });
-}
-
-bool sweep_without_bias(const RowGroup* first, const RowPlace* rows, std::size_t count, const SolverBodies& bodies,
-                        const SolverParameters& parameters, Sweep sweep) {
-  return sweep_over(first, rows, count, bodies, parameters, sweep,
-                    [&](auto row, auto& pair, auto& change) RIGOR_LAMBDA { return relax_row(row, pair, change); });
+bool sweep_without_bias(const RowGroup* groups, std::size_t count, const SolverBodies& bodies,
+                        const SolverParameters& parameters) {
+  bool is_any_changed = false;
+  solve_rows(groups, count, bodies, [&](auto row, auto& pair) RIGOR_LAMBDA {
+    typename decltype(row)::Lanes change;
+    const bool is_solved = relax_row(row, pair, change);
+    is_any_changed = is_any_changed || is_more(change, parameters);
+    return is_solved;
+  });
+  return is_any_changed;
 }

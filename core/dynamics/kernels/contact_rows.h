@@ -52,6 +52,7 @@ struct alignas(64) RowGroup {
   std::int32_t to_a[kRowsPerBlock], to_b[kRowsPerBlock];  // and written: those of fixed bodies are not
   double* rows;                                           // blocks, one after another
   std::int32_t points;                                    // so many
+  std::int32_t colour;                                    // groups of one share no moving body
   bool of_balls;                                          // which of the two kinds
 
   std::size_t columns() const { return of_balls ? kColumnsOfBalls : kColumnsOfAny; }
@@ -64,19 +65,20 @@ struct RowPlace {
   std::int16_t point, lane;
 };
 
+// Eight contacts of two balls each, a from b.
+struct alignas(64) BallContacts {
+  double normal[3][kRowsPerBlock];  // unit, from b to a
+  double gap[kRowsPerBlock];        // m
+  double overlap[kRowsPerBlock];    // m: 0 or less; where they meet first what is left of their gap there
+  double excess[kRowsPerBlock];     // m, of the gap over what is kept
+};
+
 // Records by body, and after them idle ones: rows without a constraint read the first, of a body at rest, and write one
 // of those after it, of which each thread has its own.
 struct SolverBodies {
   double* velocities;              // v, w
   double* displacements;           // m and rad since contacts were last updated
-  std::int64_t* last_active;       // the number of the last sweep over some rows that changed it
   const double* inverse_inertias;  // and inverse masses, when contacts were updated
-};
-
-// Sweeps are numbered on for ever, so that what an earlier one has changed is not taken for new.
-struct Sweep {
-  std::int64_t number;
-  bool is_first;
 };
 
 struct SolverParameters {

@@ -17,24 +17,29 @@ RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) {
   return Lane{p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]};
 }
-// Rows to columns, of as many registers as each has lanes.
-RIGOR_INLINE void transpose(Lane* r) {
-  Lane even[4], odd[4];
-  for (int k = 0; k < 4; ++k) {
-    even[k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-    odd[k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
-  }
-  const auto spread = [r](const Lane(&pairs)[4], int column) RIGOR_LAMBDA {
-    const Lane low04 = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 4, 5, 8, 9, 12, 13);
-    const Lane low26 = __builtin_shufflevector(pairs[0], pairs[1], 2, 3, 6, 7, 10, 11, 14, 15);
-    const Lane high04 = __builtin_shufflevector(pairs[2], pairs[3], 0, 1, 4, 5, 8, 9, 12, 13);
-    const Lane high26 = __builtin_shufflevector(pairs[2], pairs[3], 2, 3, 6, 7, 10, 11, 14, 15);
-    r[column] = __builtin_shufflevector(low04, high04, 0, 1, 4, 5, 8, 9, 12, 13);
-    r[column + 2] = __builtin_shufflevector(low26, high26, 0, 1, 4, 5, 8, 9, 12, 13);
-    r[column + 4] = __builtin_shufflevector(low04, high04, 2, 3, 6, 7, 10, 11, 14, 15);
-    r[column + 6] = __builtin_shufflevector(low26, high26, 2, 3, 6, 7, 10, 11, 14, 15);
+// Two columns, side by side in rows, of which `row` gives the k-th.
+template <class F>
+RIGOR_INLINE void load_two(F row, Lane& first, Lane& second) {
+  const auto every_other = [&](std::size_t k) RIGOR_LAMBDA {
+    Lane x = _mm512_zextpd128_pd512(_mm_loadu_pd(row(k)));
+    x = _mm512_insertf64x2(x, _mm_loadu_pd(row(k + 2)), 1);
+    x = _mm512_insertf64x2(x, _mm_loadu_pd(row(k + 4)), 2);
+    return _mm512_insertf64x2(x, _mm_loadu_pd(row(k + 6)), 3);
   };
-  spread(even, 0), spread(odd, 1);
+  const Lane even = every_other(0), odd = every_other(1);
+  first = __builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14);
+  second = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
+}
+template <class F>
+RIGOR_INLINE void store_two(F row, Lane first, Lane second) {
+  const auto every_other = [&](std::size_t k, Lane x) RIGOR_LAMBDA {
+    _mm_storeu_pd(row(k), __builtin_shufflevector(x, x, 0, 1));
+    _mm_storeu_pd(row(k + 2), _mm512_maskz_extractf64x2_pd(0xff, x, 1));
+    _mm_storeu_pd(row(k + 4), _mm512_maskz_extractf64x2_pd(0xff, x, 2));
+    _mm_storeu_pd(row(k + 6), _mm512_maskz_extractf64x2_pd(0xff, x, 3));
+  };
+  every_other(0, __builtin_shufflevector(first, second, 0, 8, 2, 10, 4, 12, 6, 14));
+  every_other(1, __builtin_shufflevector(first, second, 1, 9, 3, 11, 5, 13, 7, 15));
 }
 #elif RIGOR_LANES == 4
 using Lane = __m256d;
@@ -51,13 +56,23 @@ RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) {
   return Lane{p[i[0]], p[i[1]], p[i[2]], p[i[3]]};
 }
-RIGOR_INLINE void transpose(Lane* r) {
-  const Lane even01 = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6),
-             odd01 = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
-  const Lane even23 = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6),
-             odd23 = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
-  r[0] = __builtin_shufflevector(even01, even23, 0, 1, 4, 5), r[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
-  r[2] = __builtin_shufflevector(even01, even23, 2, 3, 6, 7), r[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
+template <class F>
+RIGOR_INLINE void load_two(F row, Lane& first, Lane& second) {
+  const auto every_other = [&](std::size_t k) RIGOR_LAMBDA {
+    return _mm256_insertf128_pd(_mm256_zextpd128_pd256(_mm_loadu_pd(row(k))), _mm_loadu_pd(row(k + 2)), 1);
+  };
+  const Lane even = every_other(0), odd = every_other(1);
+  first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+  second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+}
+template <class F>
+RIGOR_INLINE void store_two(F row, Lane first, Lane second) {
+  const auto every_other = [&](std::size_t k, Lane x) RIGOR_LAMBDA {
+    _mm_storeu_pd(row(k), _mm256_castpd256_pd128(x));
+    _mm_storeu_pd(row(k + 2), _mm256_extractf128_pd(x, 1));
+  };
+  every_other(0, __builtin_shufflevector(first, second, 0, 4, 2, 6));
+  every_other(1, __builtin_shufflevector(first, second, 1, 5, 3, 7));
 }
 #else
 // Two doubles: what every x86-64 and ARM64 has; the compiler makes of it what the machine can.
@@ -71,9 +86,14 @@ RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
   return Lane{x[0] <= limit[0] ? yes[0] : no[0], x[1] <= limit[1] ? yes[1] : no[1]};
 }
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) { return Lane{p[i[0]], p[i[1]]}; }
-RIGOR_INLINE void transpose(Lane* r) {
-  const Lane low = r[0], high = r[1];
-  r[0] = Lane{low[0], high[0]}, r[1] = Lane{low[1], high[1]};
+template <class F>
+RIGOR_INLINE void load_two(F row, Lane& first, Lane& second) {
+  const Lane even = load(Lane(), row(0)), odd = load(Lane(), row(1));
+  first = Lane{even[0], odd[0]}, second = Lane{even[1], odd[1]};
+}
+template <class F>
+RIGOR_INLINE void store_two(F row, Lane first, Lane second) {
+  store(row(0), Lane{first[0], second[0]}), store(row(1), Lane{first[1], second[1]});
 }
 #endif
 inline constexpr std::size_t kWidth = sizeof(Lane) / sizeof(double);
@@ -85,7 +105,14 @@ RIGOR_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 RIGOR_INLINE bool all_at_most(double x, double limit) { return x <= limit; }
 RIGOR_INLINE double if_at_most(double x, double limit, double yes, double no) { return x <= limit ? yes : no; }
 RIGOR_INLINE double gather(double, const double* p, const std::int32_t* i) { return p[i[0]]; }
-RIGOR_INLINE void transpose(double*) {}
+template <class F>
+RIGOR_INLINE void load_two(F row, double& first, double& second) {
+  first = row(0)[0], second = row(0)[1];
+}
+template <class F>
+RIGOR_INLINE void store_two(F row, double first, double second) {
+  row(0)[0] = first, row(0)[1] = second;
+}
 
 constexpr std::size_t width_of(double) { return 1; }
 constexpr std::size_t width_of(Lane) { return kWidth; }

@@ -32,3 +32,70 @@ std::size_t below_plane(const Bodies& b, const double* state, const double* sphe
   });
   return count;
 }
+
+// The places of as many pairs as T has lanes; the last pair stands in for those beyond it.
+template <class T>
+struct PlacesOfPairs {
+  std::int32_t first[kRowsPerBlock], second[kRowsPerBlock];
+
+  template <class PairAt>
+  RIGOR_INLINE PlacesOfPairs(T, std::size_t i, std::size_t count, PairAt pair_at) {
+    for (std::size_t k = 0; k < width_of(T()); ++k) {
+      const std::pair<int, int>* pair = pair_at(i + k < count ? i + k : count - 1);
+      first[k] = pair->first, second[k] = pair->second;
+    }
+  }
+};
+template <class T>
+RIGOR_INLINE V3<T> centre_in(const Record<T>& place) {
+  return {place.c[0], place.c[1], place.c[2]};
+}
+template <class T>
+RIGOR_INLINE V3<T> velocity_in(const Record<T>& place) {
+  return {place.c[4], place.c[5], place.c[6]};
+}
+
+std::size_t near_pairs(const double* places, const std::pair<int, int>* pairs, std::size_t count, std::int32_t* near) {
+  std::size_t found = 0;
+  for_rows(0, count, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const PlacesOfPairs<T> at(T(), i, count, [&](std::size_t k) RIGOR_LAMBDA { return pairs + k; });
+    const Record<T> a = get_record(T(), places, at.first), b = get_record(T(), places, at.second);
+    const V3<T> line = centre_in(a) - centre_in(b);
+    const T reach = a.c[3] + b.c[3], reach2 = reach * reach, distance2 = dot(line, line), one = broadcast(T(), 1);
+    double are_near[width_of(T())];  // so are those of which it is not known
+    store(are_near, if_at_most(distance2, reach2, one, if_at_most(reach2, distance2, T{}, one)));
+    for (std::size_t k = 0; k < width_of(T()) && i + k < count; ++k) {
+      near[found] = static_cast<std::int32_t>(i + k);
+      found += are_near[k] != 0;
+    }
+  });
+  return found;
+}
+
+void ball_contacts(const double* places, const std::pair<int, int>* pairs, const std::int32_t* near, std::size_t count,
+                   double dt, double margin_of_size, BallContacts* contacts) {
+  for_rows(0, count, [&](auto lane, std::size_t i) RIGOR_LAMBDA {
+    using T = decltype(lane);
+    const PlacesOfPairs<T> at(T(), i, count, [&](std::size_t k) RIGOR_LAMBDA { return pairs + near[k]; });
+    const Record<T> a = get_record(T(), places, at.first), b = get_record(T(), places, at.second);
+    const V3<T> v = velocity_in(a) - velocity_in(b), line = centre_in(a) - centre_in(b);
+    const T zero = T{}, step = broadcast(T(), dt), size = if_at_most(a.c[7], b.c[7], a.c[7], b.c[7]),
+            margin = broadcast(T(), margin_of_size) * size, touching = a.c[7] + b.c[7];
+    const T distance = square_root(dot(line, line)), speed = (zero - dot(line, v)) / distance,
+            gap = distance - touching;
+    // What comes fast touches along another normal than where it is nearest now.
+    const T meets = if_at_most(gap, zero, zero, if_at_most(step * speed, gap, zero, gap / speed));
+    const T moves = square_root(dot(v, v)) * meets, ahead = if_at_most(moves, margin, zero, meets);
+    const V3<T> there = line + ahead * v;
+    const T apart = square_root(dot(there, there)), left = apart - touching;
+    const V3<T> n = (broadcast(T(), 1) / apart) * there;
+    const T u = dot(n, v), gap_there = left - ahead * u, most = margin + if_at_most(u, zero, zero - step * u, zero);
+    BallContacts& out = contacts[i / kRowsPerBlock];
+    const std::size_t k = i % kRowsPerBlock;
+    store(out.normal[0] + k, n.x), store(out.normal[1] + k, n.y), store(out.normal[2] + k, n.z);
+    store(out.gap + k, gap_there);
+    store(out.overlap + k, if_at_most(ahead, zero, if_at_most(left, zero, left, zero), left));
+    store(out.excess + k, gap_there - most);
+  });
+}

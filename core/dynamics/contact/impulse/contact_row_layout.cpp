@@ -1,6 +1,7 @@
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
 
 #include <algorithm>
+#include <bit>
 #include <tuple>
 #include <utility>
 
@@ -27,16 +28,6 @@ bool is_round(const Body& body, const Inertia& inertia) {
                            I(0, 0) == I(1, 1) && I(1, 1) == I(2, 2));
 }
 
-// Rows that nothing acts on.
-void clear(const RowGroup& group) {
-  for (std::int32_t point = 0; point < group.points; ++point) {
-    double* block = group.block(static_cast<std::size_t>(point));
-    std::fill_n(block, group.columns() * kRowsPerBlock, 0.0);
-    std::fill_n(&at(block, kNormal, 0), kRowsPerBlock, 1.0);
-    std::fill_n(&at(block, kInitialGap, 0), kRowsPerBlock, ContactRowLayout::kNoPoint);
-  }
-}
-
 void fill_row(double* block, std::size_t k, bool of_balls, const ContactConstraint& constraint, double impulse_scale) {
   set_vector(block, kNormal, k, constraint.normal);
   set_vector(block, kFrictionImpulse, k, impulse_scale * constraint.friction_impulse);
@@ -54,23 +45,44 @@ void fill_row(double* block, std::size_t k, bool of_balls, const ContactConstrai
 
 }  // namespace
 
+void clear_rows(const RowGroup& group) {
+  for (std::int32_t point = 0; point < group.points; ++point) {
+    double* block = group.block(static_cast<std::size_t>(point));
+    std::fill_n(block, group.columns() * kRowsPerBlock, 0.0);
+    std::fill_n(&at(block, kNormal, 0), kRowsPerBlock, 1.0);
+    std::fill_n(&at(block, kNormalMass, 0), kRowsPerBlock, 1.0);
+    std::fill_n(&at(block, kInitialGap, 0), kRowsPerBlock, ContactRowLayout::kNoPoint);
+  }
+}
+
+void place_rows(std::vector<RowGroup>& groups, AlignedDoubles& rows) {
+  std::size_t size = 0;
+  for (const RowGroup& group : groups) size += group.columns() * kRowsPerBlock * static_cast<std::size_t>(group.points);
+  if (rows.size() < size) rows.resize(size + size / 4);
+  double* next = rows.data();
+  for (RowGroup& group : groups) {
+    group.rows = next;
+    next = group.block(static_cast<std::size_t>(group.points));
+  }
+}
+
 ContactRowLayout::ContactRowLayout(const Scene& scene, const System& system, std::size_t threads)
     : system_(system),
       threads_(threads),
       idle_(static_cast<std::int32_t>(column_stride(system.size()))),
-      next_level_(system.size()) {
+      colours_of_(system.size()) {
   for (std::size_t i = 0; i < system.size(); ++i) is_round_.push_back(is_round(scene.bodies[i], system.bodies[i]));
 }
 
 void ContactRowLayout::assign(const std::vector<ContactConstraint>& constraints) {
-  sort_pairs_in_levels(constraints);
+  colour_pairs(constraints);
   form_groups();
   deep_rows_.clear();
   if (has_deep_) find_deep_rows(constraints);
 }
 
-void ContactRowLayout::sort_pairs_in_levels(const std::vector<ContactConstraint>& constraints) {
-  std::fill(next_level_.begin(), next_level_.end(), 0);
+void ContactRowLayout::colour_pairs(const std::vector<ContactConstraint>& constraints) {
+  std::fill(colours_of_.begin(), colours_of_.end(), Colours());
   pairs_.clear(), first_group_.clear();
   has_restitution_ = has_deep_ = false;
   for (std::size_t first = 0; first < constraints.size(); first += pairs_.back().points) {
@@ -80,11 +92,25 @@ void ContactRowLayout::sort_pairs_in_levels(const std::vector<ContactConstraint>
       has_deep_ = has_deep_ || constraints[last].is_deep;
     has_restitution_ = has_restitution_ || constraints[first].restitution > 0;
     const std::size_t points = last - first, kind = points == 1 && is_round_[a] && is_round_[b] ? 0 : points;
-    const std::size_t level = std::max(next_level_[a], next_level_[b]), kind_of_level = kKinds * level + kind;
-    for (const int body : {a, b}) next_level_[body] = system_.bodies[body].fixed ? 0 : level + 1;
-    if (kind_of_level >= first_group_.size()) first_group_.resize(kKinds * (kind_of_level / kKinds + 1), 0);
-    pairs_.push_back({first, points, kind_of_level, first_group_[kind_of_level]++});
+    const std::size_t kind_of_colour = kKinds * colour_of(a, b) + kind;
+    if (kind_of_colour >= first_group_.size()) first_group_.resize(kKinds * (kind_of_colour / kKinds + 1), 0);
+    pairs_.push_back({first, points, kind_of_colour, first_group_[kind_of_colour]++});
   }
+}
+
+// The first colour that no other pair of a moving one of these bodies has.
+std::size_t ContactRowLayout::colour_of(int a, int b) {
+  Colours of_fixed_a, of_fixed_b;
+  Colours& of_a = system_.bodies[a].fixed ? of_fixed_a : colours_of_[a];
+  Colours& of_b = system_.bodies[b].fixed ? of_fixed_b : colours_of_[b];
+  std::size_t colour = static_cast<std::size_t>(std::countr_one(of_a.first | of_b.first));
+  if (colour < kFirstColours) {
+    of_a.first |= std::uint64_t{1} << colour, of_b.first |= std::uint64_t{1} << colour;
+  } else {
+    colour = std::max(of_a.next, of_b.next);
+    of_a.next = of_b.next = colour + 1;
+  }
+  return colour;
 }
 
 void ContactRowLayout::form_groups() {
@@ -95,24 +121,17 @@ void ContactRowLayout::form_groups() {
   for (auto& pairs : pairs_of_group_) pairs.fill(-1);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const Pair& pair = pairs_[i];
-    const std::size_t group = first_group_[pair.kind_of_level] + pair.place / kRowsPerBlock;
+    const std::size_t group = first_group_[pair.kind_of_colour] + pair.place / kRowsPerBlock;
     pairs_of_group_[group][pair.place % kRowsPerBlock] = static_cast<std::int32_t>(i);
     groups_[group].points = static_cast<std::int32_t>(pair.points);
-    groups_[group].of_balls = pair.kind_of_level % kKinds == 0;
+    groups_[group].of_balls = pair.kind_of_colour % kKinds == 0;
+    groups_[group].colour = static_cast<std::int32_t>(pair.kind_of_colour / kKinds);
   }
-  std::size_t size = 0;
-  for (const RowGroup& group : groups_)
-    size += group.columns() * kRowsPerBlock * static_cast<std::size_t>(group.points);
-  if (rows_.size() < size) rows_.resize(size + size / 4);
-  double* rows = rows_.data();
-  for (RowGroup& group : groups_) {
-    group.rows = rows;
-    rows = group.block(static_cast<std::size_t>(group.points));
-  }
+  place_rows(groups_, rows_);
 }
 
-ContactRowLayout::Share ContactRowLayout::share(std::size_t level, std::size_t thread) const {
-  const std::size_t next = kKinds * (level + 1), begin = first_group_[kKinds * level],
+ContactRowLayout::Share ContactRowLayout::share(std::size_t colour, std::size_t thread) const {
+  const std::size_t next = kKinds * (colour + 1), begin = first_group_[kKinds * colour],
                     end = next < first_group_.size() ? first_group_[next] : groups_.size();
   return {begin + (end - begin) * thread / threads_, begin + (end - begin) * (thread + 1) / threads_};
 }
@@ -120,8 +139,8 @@ ContactRowLayout::Share ContactRowLayout::share(std::size_t level, std::size_t t
 // Calls visit(group's number, its row, the constraint's number, the point) for a thread's rows.
 template <typename Visit>
 void ContactRowLayout::for_each_row(std::size_t thread, const Visit& visit) const {
-  for (std::size_t level = 0; level < levels(); ++level) {
-    const Share share = this->share(level, thread);
+  for (std::size_t colour = 0; colour < colours(); ++colour) {
+    const Share share = this->share(colour, thread);
     for (std::size_t g = share.begin; g < share.end; ++g) {
       for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
         if (pairs_of_group_[g][k] < 0) continue;
@@ -134,19 +153,30 @@ void ContactRowLayout::for_each_row(std::size_t thread, const Visit& visit) cons
 
 void ContactRowLayout::fill(const std::vector<ContactConstraint>& constraints, double impulse_scale,
                             const SolverBodies& bodies, std::size_t thread) {
-  for (std::size_t level = 0; level < levels(); ++level) {
-    const Share share = this->share(level, thread);
+  for (std::size_t colour = 0; colour < colours(); ++colour) {
+    const Share share = this->share(colour, thread);
     for (std::size_t g = share.begin; g < share.end; ++g) {
+      if (g + 1 < share.end) fetch_group(g + 1, constraints);
       fill_group(g, constraints, impulse_scale, thread);
       contact_kernels().prepare_rows(&groups_[g], 1, bodies);
     }
   }
 }
 
+// The constraints of a group lie anywhere among all.
+void ContactRowLayout::fetch_group(std::size_t number, const std::vector<ContactConstraint>& constraints) const {
+  for (const std::int32_t pair : pairs_of_group_[number]) {
+    if (pair < 0) continue;
+    const char* constraint = reinterpret_cast<const char*>(&constraints[pairs_[static_cast<std::size_t>(pair)].first]);
+    for (std::size_t line = 0; line <= sizeof(ContactConstraint); line += kCacheLine)
+      __builtin_prefetch(constraint + line, 1);
+  }
+}
+
 void ContactRowLayout::fill_group(std::size_t number, const std::vector<ContactConstraint>& constraints,
                                   double impulse_scale, std::size_t thread) {
   RowGroup& group = groups_[number];
-  if (pairs_of_group_[number].back() < 0) clear(group);
+  if (pairs_of_group_[number].back() < 0) clear_rows(group);
   const std::int32_t to_none = idle_ + 1 + static_cast<std::int32_t>(thread);
   for (std::size_t k = 0; k < kRowsPerBlock; ++k) {
     group.a[k] = group.b[k] = idle_, group.to_a[k] = group.to_b[k] = to_none;

@@ -1,7 +1,7 @@
-// Contact constraints as rows of the vector kernels (kernels/contact_rows.h). Sequential impulses take the pairs of
-// bodies in their order; pairs that share no moving body are independent, so that up to eight of them are solved at
-// once, and threads share them, with the same result. A pair's level is one more than that of the last pair before it
-// that shares a moving body with it; the pairs of one level lie side by side.
+// Contact constraints as rows of the vector kernels (kernels/contact_rows.h). Pairs of bodies that share no moving body
+// are independent, so that up to eight of them are solved at once, and threads share them, with the same result. So
+// pairs are given colours: each, in their order, the first that no other pair of its moving bodies has. The pairs of
+// one colour lie side by side, and sequential impulses take one colour after another.
 #pragma once
 
 #include <array>
@@ -12,6 +12,11 @@
 #include "core/dynamics/model/system.h"
 
 namespace rigor {
+
+// Rows that nothing acts on.
+void clear_rows(const RowGroup& group);
+// Gives the groups their blocks of these rows, of which there will be enough.
+void place_rows(std::vector<RowGroup>& groups, AlignedDoubles& rows);
 
 class ContactRowLayout {
  public:
@@ -36,22 +41,29 @@ class ContactRowLayout {
   // Impulses of a thread's rows back to the constraints they were assigned from.
   void store_impulses(std::vector<ContactConstraint>& constraints, std::size_t thread) const;
 
-  std::size_t levels() const { return first_group_.size() / kKinds; }
-  Share share(std::size_t level, std::size_t thread) const;
+  std::size_t colours() const { return first_group_.size() / kKinds; }
+  Share share(std::size_t colour, std::size_t thread) const;
   const std::vector<RowGroup>& groups() const { return groups_; }
   bool has_restitution() const { return has_restitution_; }
   // Of constraints that overlap deeply, in the order of groups.
   const std::vector<RowPlace>& deep_rows() const { return deep_rows_; }
 
  private:
-  static constexpr std::size_t kKinds = 5;  // groups of a level: of balls, and of any bodies with 1, 2, 3, 4 points
-  struct Pair {
-    std::size_t first, points;         // among the constraints
-    std::size_t kind_of_level, place;  // which of all kinds of all levels; among the pairs of that
+  static constexpr std::size_t kKinds = 5;  // groups of a colour: of balls, and of any bodies with 1, 2, 3, 4 points
+  static constexpr std::size_t kFirstColours = 64;
+  struct Colours {
+    std::uint64_t first = 0;           // a bit each: that a pair of the body has
+    std::size_t next = kFirstColours;  // beyond these, later than which none has
   };
-  void sort_pairs_in_levels(const std::vector<ContactConstraint>& constraints);
+  struct Pair {
+    std::size_t first, points;          // among the constraints
+    std::size_t kind_of_colour, place;  // which of all kinds of all colours; among the pairs of that
+  };
+  void colour_pairs(const std::vector<ContactConstraint>& constraints);
+  std::size_t colour_of(int a, int b);
   void form_groups();
   void find_deep_rows(const std::vector<ContactConstraint>& constraints);
+  void fetch_group(std::size_t number, const std::vector<ContactConstraint>& constraints) const;
   void fill_group(std::size_t number, const std::vector<ContactConstraint>& constraints, double impulse_scale,
                   std::size_t thread);
   template <typename Visit>
@@ -60,10 +72,10 @@ class ContactRowLayout {
   const System& system_;
   std::size_t threads_;
   std::int32_t idle_;
-  std::vector<char> is_round_;           // by body: fixed, or a ball
-  std::vector<std::size_t> next_level_;  // by body
+  std::vector<char> is_round_;       // by body: fixed, or a ball
+  std::vector<Colours> colours_of_;  // by body
   std::vector<Pair> pairs_;
-  std::vector<std::size_t> first_group_;  // by kind of level
+  std::vector<std::size_t> first_group_;  // by kind of colour
   std::vector<RowGroup> groups_;
   std::vector<std::array<std::int32_t, kRowsPerBlock>> pairs_of_group_;  // -1: none
   AlignedDoubles rows_;

@@ -13,10 +13,10 @@
 
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
+#include "core/dynamics/contact/impulse/impact_search.h"
 #include "core/dynamics/contact/impulse/jointed_impulse.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
 #include "core/dynamics/contact/impulse/rebounds.h"
-#include "core/dynamics/contact/impulse/row_sweeps.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
 #include "core/dynamics/kernels/contact_kernels.h"
 
@@ -48,13 +48,14 @@ class ImpulseStepper : public ContactStepper {
         sub_steps_(scene, parts),
         manifolds_(scene, *threads_),
         rows_(scene, parts.system, threads_->members()),
-        impacts_(*threads_),
+        search_(threads_->members()),
+        impacts_(rows_, *threads_),
+        deep_(rows_, *threads_),
         rebounds_(parts.system, SubSteps::takes_impacts_at_once(parts.settings)),
         positions_(kVelocity, parts.system.size()),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
     for (AlignedDoubles* records : {&velocities_, &displacements_, &pushes_, &inverse_inertias_})
       records->assign(kRecord * rows_.records(), 0.0);
-    last_active_.assign(rows_.records(), 0);
     inverse_inertias_[kRecord * rows_.idle_body() + 6] = 1;  // 1/kg, of which rows divide by the sum
   }
 
@@ -94,7 +95,10 @@ class ImpulseStepper : public ContactStepper {
     const double impulse_scale = parameters_.h > 0 ? h / parameters_.h : 1;
     parameters_ = sub_steps_.parameters(h);
     rows_.assign(constraints);
-    impacts_.begin(rows_);
+    search_.begin(rows_);
+    deep_.clear();
+    deep_.add(rows_.deep_rows().data(), rows_.deep_rows().data() + rows_.deep_rows().size());
+    deep_.form_groups();
     threads_->run([&](std::size_t thread) {
       const Bodies bodies = share_of_bodies(thread);
       for (int c = 0; c < kVelocity; ++c)
@@ -110,8 +114,8 @@ class ImpulseStepper : public ContactStepper {
   // Gaps and the speeds at which they close, before the bodies move, and with them the biases. The velocities are those
   // that the last sub-step has left.
   void prepare_sub_step() {
-    threads_->run([&](std::size_t thread) { impacts_.find(rows_, solver_bodies(), parameters_, thread); });
-    impacts_.deal_out(rows_);
+    threads_->run([&](std::size_t thread) { search_.find(rows_, solver_bodies(), parameters_, thread); });
+    search_.give(rows_, impacts_);
   }
 
   // And, where bodies bounce, as the impacts of the sub-step let them.
@@ -141,19 +145,19 @@ class ImpulseStepper : public ContactStepper {
     contact_kernels().scatter_pushed(bodies, velocities_.data(), state.column(0), pushes_.data());
   }
 
-  // Calls pass(groups, their number) for a thread's share of each level; all threads have done one level before any
+  // Calls pass(groups, their number) for a thread's share of each colour; all threads have done one colour before any
   // goes on to the next.
   template <typename Pass>
-  void for_each_level(std::size_t thread, const Pass& pass) {
-    for (std::size_t level = 0; level < rows_.levels(); ++level) {
-      const auto [begin, end] = rows_.share(level, thread);
+  void for_each_colour(std::size_t thread, const Pass& pass) {
+    for (std::size_t colour = 0; colour < rows_.colours(); ++colour) {
+      const auto [begin, end] = rows_.share(colour, thread);
       pass(rows_.groups().data() + begin, end - begin);
       threads_->meet();
     }
   }
 
   void warm_start(std::size_t thread) {
-    for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
+    for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().warm_start(groups, count, solver_bodies());
     });
   }
@@ -161,10 +165,10 @@ class ImpulseStepper : public ContactStepper {
   // What comes down flat must not be set turning by which of its corners is taken first: impacts are solved until they
   // agree.
   void solve_with_bias(std::size_t thread) {
-    for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
+    for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
     });
-    impacts_.solve(rows_, solver_bodies(), parameters_, thread);
+    impacts_.solve(contact_kernels().sweep_with_bias, solver_bodies(), parameters_, thread);
   }
 
   // The integrator has moved the bodies; what the impulses changed of the velocities moves them further.
@@ -177,10 +181,10 @@ class ImpulseStepper : public ContactStepper {
 
   // What is pushed out of a deep overlap must not keep what one pass leaves of that push.
   void relax(std::size_t thread) {
-    for_each_level(thread, [&](const RowGroup* groups, std::size_t count) {
+    for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().relax(groups, count, solver_bodies());
     });
-    impacts_.relax_deep(rows_, solver_bodies(), parameters_, thread);
+    deep_.solve(contact_kernels().sweep_without_bias, solver_bodies(), parameters_, thread);
   }
 
   static std::ptrdiff_t at_record(std::size_t body) { return static_cast<std::ptrdiff_t>(kRecord * body); }
@@ -190,22 +194,20 @@ class ImpulseStepper : public ContactStepper {
     bodies.begin = first, bodies.end = last;
     return bodies;
   }
-  SolverBodies solver_bodies() {
-    return {velocities_.data(), displacements_.data(), last_active_.data(), inverse_inertias_.data()};
-  }
+  SolverBodies solver_bodies() { return {velocities_.data(), displacements_.data(), inverse_inertias_.data()}; }
 
   const System& system_;
   std::shared_ptr<ThreadPool> threads_;
   SubSteps sub_steps_;
   Manifolds manifolds_;
   ContactRowLayout rows_;
-  RowSweeps impacts_;  // points that meet in this sub-step, faster than gravity brings them
+  ImpactSearch search_;
+  RowSweeps impacts_, deep_;  // points that meet in this sub-step, and those that overlap deeply from the start
   Rebounds rebounds_;
   SolverParameters parameters_{};
   AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies
   AlignedDoubles pushes_;  // what the impulses of the last sub-step have changed the velocities by
-  std::vector<std::int64_t> last_active_;
-  Columns positions_;  // the state's poses when contacts were last updated
+  Columns positions_;      // the state's poses when contacts were last updated
   std::unique_ptr<Stepper> integrator_;
 };
 

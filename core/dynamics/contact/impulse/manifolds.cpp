@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/dynamics/collision/coincident.h"
+#include "core/dynamics/contact/impulse/free_motion.h"
 
 namespace rigor {
 namespace {
@@ -14,11 +15,12 @@ namespace {
 constexpr double kFatMargin = 0.1;           // by so much its fat box is wider than itself,
 constexpr double kStepsAhead = 20;           // and by its displacement in so many steps,
 constexpr double kFarthest = 1.5;            // but not by more than this
-constexpr double kSpeculativeMargin = 0.02;  // points closer than this are kept even if they do not approach
+constexpr double kSpeculativeMargin = 0.05;  // points closer than this are kept even if they do not approach
 constexpr double kMatchRadius = 0.1;         // a point this near to one of the last update is the same
 constexpr double kDeep = 0.02;               // an overlap of more at the start is parted, and no contact
 constexpr double kSunk = 0.5;                // one of more is no contact any longer
 constexpr double kTurnsFar = 0.25;           // a surface that turns farther is followed on its way
+constexpr double kNearlyCoincident = 0.999;  // an overlap of so much of both radii may have no direction
 constexpr int kMostOfPair = 4;
 
 double smaller_inradius(const Collider& a, const Collider& b) { return std::min(a.inradius, b.inradius); }
@@ -59,77 +61,6 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
 
 std::pair<int, int> pair_of(const ContactConstraint& point) { return {point.a, point.b}; }
 
-// Of a body that nothing touches.
-struct FreeMotion {
-  Pose pose;
-  Vec3 v, w;  // m/s, rad/s in W
-  Vec3 velocity_at(const Vec3& point) const { return v + w.cross(point - pose.p); }
-  FreeMotion after(double t) const {
-    FreeMotion out = *this;
-    out.advance(t);
-    return out;
-  }
-  void advance(double t) { pose = {pose.p + t * v, rotation_by(t * w).toRotationMatrix() * pose.R}; }
-};
-FreeMotion free_motion_of(BodyColumns state, const Collider& collider, const Pose& pose) {
-  if (collider.fixed) return {pose, Vec3::Zero(), Vec3::Zero()};
-  return {pose, state.velocity(collider.body), state.angular_velocity(collider.body)};
-}
-
-double approach(const ManifoldPoint& point, const FreeMotion& a, const FreeMotion& b) {
-  return -point.normal.dot(a.velocity_at(point.point) - b.velocity_at(point.point));
-}
-
-bool is_round(const Collider& collider) {
-  return std::holds_alternative<Sphere>(collider.shape) || std::holds_alternative<Plane>(collider.shape);
-}
-
-// Where two balls, or a ball and a plane, are nearest.
-struct RoundTouch {
-  Vec3 normal;  // unit, from b to a
-  double gap;   // m
-};
-RoundTouch touch_of(const Collider& a, const Vec3& p_a, const Collider& b, const Vec3& p_b) {
-  if (const auto* plane = std::get_if<Plane>(&b.shape))
-    return {plane->normal, plane->normal.dot(p_a) - plane->offset - a.inradius};
-  if (const auto* plane = std::get_if<Plane>(&a.shape))
-    return {-plane->normal, plane->normal.dot(p_b) - plane->offset - b.inradius};
-  const Vec3 line = p_a - p_b;
-  const double distance = line.norm();
-  return {distance > 0 ? Vec3(line / distance) : Vec3::UnitZ(), distance - a.inradius - b.inradius};
-}
-
-// When the first of these points closes its gap: 0 if one is closed, or if none does within dt.
-double time_of_impact(const Manifold& points, const FreeMotion& a, const FreeMotion& b, double dt) {
-  double first = dt;
-  for (const ManifoldPoint& point : points) {
-    if (point.gap <= 0) return 0;
-    const double speed = approach(point, a, b);
-    if (point.gap < first * speed) first = point.gap / speed;
-  }
-  return first < dt ? first : 0;
-}
-
-// The same for what turns so far that its surface is not where its velocity now takes it: by steps that no point can
-// outrun (conservative advancement). `turning`: m/s, of the fastest points.
-double time_of_turning_impact(const Collider& a, const Collider& b, const FreeMotion& motion_a,
-                              const FreeMotion& motion_b, double turning, double margin, double dt) {
-  constexpr int kMostLooks = 40;
-  Manifold points;
-  double t = 0;
-  for (int look = 0; look < kMostLooks; ++look) {
-    const FreeMotion there_a = motion_a.after(t), there_b = motion_b.after(t);
-    collide(a.shape, there_a.pose, b.shape, there_b.pose, points);
-    const auto nearest = std::min_element(points.begin(), points.end(),
-                                          [](const ManifoldPoint& p, const ManifoldPoint& q) { return p.gap < q.gap; });
-    if (nearest == points.end() || nearest->gap <= margin) break;
-    const double fastest = turning - nearest->normal.dot(motion_a.v - motion_b.v);
-    if (!(fastest > 0) || t + nearest->gap / fastest >= dt) return 0;
-    t += nearest->gap / fastest;
-  }
-  return t;
-}
-
 // Four points hold a face as well as eight: the deepest, the one furthest from it, and the two furthest to either side
 // of the line between these.
 void reduce_to_four(Manifold& points) {
@@ -152,8 +83,8 @@ void reduce_to_four(Manifold& points) {
 
 void Manifolds::place_body(std::size_t i, BodyColumns state, double dt) {
   const Collider& collider = colliders_[i];
-  const bool round = std::holds_alternative<Sphere>(collider.shape);
-  poses_[i] = {state.position(collider.body), round ? Mat3::Identity() : state.rotation(collider.body)};
+  poses_[i].p = state.position(collider.body);
+  if (kinds_[i] != Kind::ball) poses_[i].R = state.rotation(collider.body);
   const Vec3 displacement = dt * state.velocity(collider.body);
   const double margin = kSpeculativeMargin * collider.inradius + rotational_displacement(collider, state, dt);
   boxes_[i] = swept_box(collider, poses_[i], displacement, margin);
@@ -229,29 +160,43 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
 }
 
 // What add_pair() does, where a turn shows nothing and a line from centre to centre all.
-void Manifolds::add_round_pair(double dt, int at_a, int at_b, Part& part) {
-  const Collider &a = colliders_[at_a], &b = colliders_[at_b];
-  Vec3 p_a = places_[at_a].p, p_b = places_[at_b].p;
-  const Vec3 v_a = places_[at_a].v, v_b = places_[at_b].v, v = v_a - v_b;
-  const double margin = kSpeculativeMargin * smaller_inradius(a, b);
-  p_a += aside_of(a, p_a, b, p_b);
-  RoundTouch touch = touch_of(a, p_a, b, p_b);
-  const double speed = -touch.normal.dot(v);
-  const double ahead = touch.gap > 0 && touch.gap < dt * speed ? touch.gap / speed : 0;
-  double overlap = std::min(0.0, touch.gap);
-  if (ahead * v.norm() > margin) {
-    p_a += ahead * v_a, p_b += ahead * v_b;
-    touch = touch_of(a, p_a, b, p_b);
-    overlap = touch.gap;  // at their meeting
-    touch.gap -= ahead * touch.normal.dot(v);
+void Manifolds::add_balls(int at_a, int at_b, const BallContacts& contacts, std::size_t k, Part& part) {
+  if (!(contacts.excess[k] < 0)) return;
+  const Vec3 normal(contacts.normal[0][k], contacts.normal[1][k], contacts.normal[2][k]);
+  const double middle = 0.5 * contacts.overlap[k];
+  add_round(colliders_[at_a], colliders_[at_b], normal, -(places_[at_a].inradius + middle) * normal,
+            (places_[at_b].inradius + middle) * normal, contacts.gap[k], part);
+}
+
+void Manifolds::add_coincident_balls(double dt, int at_a, int at_b, Part& part) {
+  std::array<Place, 2> places = {places_[at_a], places_[at_b]};
+  places[0].p += aside_of(colliders_[at_a], places[0].p, colliders_[at_b], places[1].p);
+  const std::pair<int, int> pair(0, 1);
+  const std::int32_t near = 0;
+  BallContacts contacts;
+  contact_kernels().ball_contacts(places[0].p.data(), &pair, &near, 1, dt, kSpeculativeMargin, &contacts);
+  add_balls(at_a, at_b, contacts, 0, part);
+}
+
+void Manifolds::add_ball_on_plane(double dt, int ball, int plane, Part& part) {
+  const Plane& below = std::get<Plane>(colliders_[plane].shape);
+  const Place& place = places_[ball];
+  const double gap = below.normal.dot(place.p) - below.offset - place.inradius;
+  if (!(gap < kSpeculativeMargin * place.inradius + dt * std::max(0.0, -below.normal.dot(place.v)))) return;
+  const Vec3 arm = -(place.inradius + 0.5 * std::min(0.0, gap)) * below.normal;
+  if (ball < plane) {
+    add_round(colliders_[ball], colliders_[plane], below.normal, arm, Vec3::Zero(), gap, part);
+  } else {
+    add_round(colliders_[plane], colliders_[ball], -below.normal, Vec3::Zero(), arm, gap, part);
   }
-  if (!(touch.gap < margin + dt * std::max(0.0, -touch.normal.dot(v)))) return;
-  watch(a, b, touch.gap, part);
-  const auto to_point = [&](const Collider& c) { return std::isfinite(c.inradius) ? c.inradius + 0.5 * overlap : 0; };
-  const Vec3 arm_a = -to_point(a) * touch.normal, arm_b = to_point(b) * touch.normal;
+}
+
+void Manifolds::add_round(const Collider& a, const Collider& b, const Vec3& normal, const Vec3& arm_a,
+                          const Vec3& arm_b, double gap, Part& part) {
+  watch(a, b, gap, part);
   const ContactLaw& law = laws_.of(a.body, b.body);
-  part.constraints.push_back({a.body, b.body, 0, is_parted_from_start(a, b, touch.gap), law.friction, law.restitution,
-                              touch.normal, arm_a, arm_b, touch.gap, 0, Vec3::Zero()});
+  part.constraints.push_back({a.body, b.body, 0, is_parted_from_start(a, b, gap), law.friction, law.restitution, normal,
+                              arm_a, arm_b, gap, 0, Vec3::Zero()});
 }
 
 bool Manifolds::is_parted_from_start(const Collider& a, const Collider& b, double gap) const {
@@ -271,55 +216,66 @@ void Manifolds::watch(const Collider& a, const Collider& b, double gap, Part& pa
       names_[a.body], names_[b.body], -gap);
 }
 
-// Gives these constraints, all of one pair, the impulses of that pair's old ones, which start at `old` or later.
-void Manifolds::match_impulses(ContactConstraint* first, ContactConstraint* last, double radius, std::size_t& old) {
-  const auto pair = pair_of(*first);
-  while (old < old_constraints_.size() && pair_of(old_constraints_[old]) < pair) ++old;
+// Gives a pair's constraints, which start at `first`, the impulses of its old ones, which start at `old` or later.
+void Manifolds::match_impulses(const std::pair<int, int>& at, std::size_t first, Part& part, std::size_t& old) const {
+  const auto before = [](const ContactConstraint& x, const std::pair<int, int>& y) { return pair_of(x) < y; };
+  const std::pair<int, int> pair = pair_of(part.constraints[first]);
+  if (first == 0) {
+    const auto begin = std::lower_bound(old_constraints_.begin(), old_constraints_.end(), pair, before);
+    old = static_cast<std::size_t>(begin - old_constraints_.begin());
+  }
+  while (old < old_constraints_.size() && before(old_constraints_[old], pair)) ++old;
   std::size_t end = old;
   while (end < old_constraints_.size() && pair_of(old_constraints_[end]) == pair) ++end;
+  const double radius = kMatchRadius * smaller_inradius(colliders_[at.first], colliders_[at.second]);
   unsigned taken = 0;
-  for (ContactConstraint* point = first; point < last && end > old; ++point) {
+  for (std::size_t i = first; i < part.constraints.size() && end > old; ++i) {
+    ContactConstraint& point = part.constraints[i];
     std::size_t best = end;
     double least = radius;
     for (std::size_t k = old; k < end; ++k) {
       if (taken >> (k - old) & 1) continue;
       const double distance =
-          old_constraints_[k].feature == point->feature ? -1 : (old_constraints_[k].arm_a - point->arm_a).norm();
+          old_constraints_[k].feature == point.feature ? -1 : (old_constraints_[k].arm_a - point.arm_a).norm();
       if (distance < least) least = distance, best = k;
     }
     if (best == end) continue;
     taken |= 1u << (best - old);
-    point->normal_impulse = old_constraints_[best].normal_impulse;
-    point->friction_impulse = old_constraints_[best].friction_impulse;
+    point.normal_impulse = old_constraints_[best].normal_impulse;
+    point.friction_impulse = old_constraints_[best].friction_impulse;
   }
+}
+
+void Manifolds::add_points_of(std::size_t i, const std::pair<int, int>& pair, BodyColumns state, double dt,
+                              Part& part) {
+  const auto [a, b] = pair;
+  const Kind kind_a = kinds_[a], kind_b = kinds_[b];
+  if (kind_a == Kind::ball && kind_b == Kind::ball) {
+    const BallContacts& contacts = part.ball_contacts[i / kRowsPerBlock];
+    const double gap = contacts.gap[i % kRowsPerBlock], least = places_[a].inradius + places_[b].inradius;
+    if (!(gap > -kNearlyCoincident * least)) return add_coincident_balls(dt, a, b, part);
+    return add_balls(a, b, contacts, i % kRowsPerBlock, part);
+  }
+  if (kind_a == Kind::ball && kind_b == Kind::plane) return add_ball_on_plane(dt, a, b, part);
+  if (kind_a == Kind::plane && kind_b == Kind::ball) return add_ball_on_plane(dt, b, a, part);
+  if (!stay_apart(a, b)) add_pair(state, dt, colliders_[a], colliders_[b], part);
 }
 
 void Manifolds::add_pairs(std::size_t first_pair, std::size_t last_pair, BodyColumns state, double dt, Part& part) {
   std::size_t old = 0;
-  for (std::size_t i = first_pair; i < last_pair; ++i) {
-    const auto& [a, b] = (*pairs_)[i];
-    const double reach = places_[a].reach + places_[b].reach;
-    if ((places_[a].p - places_[b].p).squaredNorm() > reach * reach) continue;
-    const bool are_round = is_round(colliders_[a]) && is_round(colliders_[b]);
-    if ((colliders_[a].fixed && colliders_[b].fixed) || (!are_round && stay_apart(a, b))) continue;
-    const std::size_t first = part.constraints.size();
-    if (are_round) {
-      add_round_pair(dt, a, b, part);
-    } else {
-      add_pair(state, dt, colliders_[a], colliders_[b], part);
+  for (std::size_t begin = first_pair; begin < last_pair; begin += kBatch) {
+    const double* places = places_.front().p.data();
+    const std::pair<int, int>* pairs = pairs_->data() + begin;
+    const std::size_t near =
+        contact_kernels().near_pairs(places, pairs, std::min(kBatch, last_pair - begin), part.near.data());
+    contact_kernels().ball_contacts(places, pairs, part.near.data(), near, dt, kSpeculativeMargin,
+                                    part.ball_contacts.data());
+    for (std::size_t i = 0; i < near; ++i) {
+      const auto& pair = pairs[part.near[i]];
+      const std::size_t first = part.constraints.size();
+      if (!colliders_[pair.first].fixed || !colliders_[pair.second].fixed) add_points_of(i, pair, state, dt, part);
+      if (part.constraints.size() > first) match_impulses(pair, first, part, old);
     }
-    if (part.constraints.size() == first) continue;
-    ContactConstraint* points = &part.constraints[first];
-    if (first == 0) {
-      const auto before = [](const ContactConstraint& x, const ContactConstraint& y) {
-        return pair_of(x) < pair_of(y);
-      };
-      old =
-          static_cast<std::size_t>(std::lower_bound(old_constraints_.begin(), old_constraints_.end(), *points, before) -
-                                   old_constraints_.begin());
-    }
-    match_impulses(points, points + (part.constraints.size() - first),
-                   kMatchRadius * smaller_inradius(colliders_[a], colliders_[b]), old);
   }
 }
 

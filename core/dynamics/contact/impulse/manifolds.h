@@ -10,6 +10,7 @@
 
 #include "core/base/thread_pool.h"
 #include "core/dynamics/collision/broad_phase.h"
+#include "core/dynamics/kernels/contact_kernels.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -36,12 +37,13 @@ class Manifolds {
         parts_(threads.members()),
         colliders_(colliders_of(scene)),
         laws_(scene),
-        poses_(colliders_.size()),
+        poses_(colliders_.size(), {Vec3::Zero(), Mat3::Identity()}),
         boxes_(colliders_.size()),
         places_(colliders_.size()),
         has_left_(colliders_.size()),
         overlaps_at_start_(scene.bodies.size()) {
     for (const Body& body : scene.bodies) names_.push_back(body.name);
+    for (const Collider& collider : colliders_) kinds_.push_back(kind_of(collider.shape));
   }
 
   // The constraints for the next dt, sorted by pair, with the impulses of those that persist from the last update.
@@ -50,9 +52,18 @@ class Manifolds {
   std::string failure() const;
 
  private:
+  enum class Kind : char { ball, plane, other };
+  static Kind kind_of(const Shape& shape) {
+    return std::holds_alternative<Sphere>(shape)  ? Kind::ball
+           : std::holds_alternative<Plane>(shape) ? Kind::plane
+                                                  : Kind::other;
+  }
+  static constexpr std::size_t kBatch = 256;  // pairs that are looked at together
   // What one thread finds: the constraints of some of the pairs, in their order.
   struct Part {
     Manifold manifold;
+    std::array<std::int32_t, kBatch> near;  // of a batch of pairs, those that are
+    std::array<BallContacts, kBatch / kRowsPerBlock> ball_contacts;
     std::vector<ContactConstraint> constraints;
     std::string failure;
   };
@@ -68,15 +79,22 @@ class Manifolds {
   void update_pairs(BodyColumns state, double dt);
   void add_pairs(std::size_t first, std::size_t last, BodyColumns state, double dt, Part& part);
   void add_pair(BodyColumns state, double dt, const Collider& a, const Collider& b, Part& part);
-  void add_round_pair(double dt, int a, int b, Part& part);
+  void add_balls(int a, int b, const BallContacts& contacts, std::size_t k, Part& part);
+  void add_coincident_balls(double dt, int a, int b, Part& part);
+  void add_ball_on_plane(double dt, int ball, int plane, Part& part);
+  void add_round(const Collider& a, const Collider& b, const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b,
+                 double gap, Part& part);
+  // Of the i-th near pair of a batch.
+  void add_points_of(std::size_t i, const std::pair<int, int>& pair, BodyColumns state, double dt, Part& part);
   bool is_parted_from_start(const Collider& a, const Collider& b, double gap) const;
   void watch(const Collider& a, const Collider& b, double gap, Part& part);
-  void match_impulses(ContactConstraint* first, ContactConstraint* last, double radius, std::size_t& old);
+  void match_impulses(const std::pair<int, int>& pair, std::size_t first, Part& part, std::size_t& old) const;
   void join(std::size_t thread);
 
   ThreadPool& threads_;
   std::vector<Part> parts_;  // by thread
   std::vector<Collider> colliders_;
+  std::vector<Kind> kinds_;  // by collider
   ContactLaws laws_;
   BroadPhase broad_phase_;
   std::vector<Pose> poses_;

@@ -1,107 +1,82 @@
 #include "core/dynamics/contact/impulse/row_sweeps.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace rigor {
 
-void RowSweeps::begin(const ContactRowLayout& rows) {
-  for (std::size_t thread = 0; thread < parts_.size(); ++thread) {
-    std::size_t most = 0;
-    for (std::size_t level = 0; level < rows.levels(); ++level) {
-      const auto [begin, end] = rows.share(level, thread);
-      for (std::size_t g = begin; g < end; ++g)
-        most += kRowsPerBlock * static_cast<std::size_t>(rows.groups()[g].points);
+void RowSweeps::clear() {
+  groups_.clear(), sources_.clear();
+  last_group_ = -1;
+}
+
+void RowSweeps::add(const RowPlace* first, const RowPlace* last) {
+  for (const RowPlace* place = first; place != last; ++place) {
+    if (place->group != last_group_) slot_of_lane_.fill(-1);
+    last_group_ = place->group;
+    std::int64_t& slot = slot_of_lane_[static_cast<std::size_t>(place->lane)];
+    if (slot < 0) slot = static_cast<std::int64_t>(slot_for(*place));
+    const auto at = static_cast<std::size_t>(slot);
+    sources_[at / kRowsPerBlock].points[at % kRowsPerBlock] |= 1u << place->point;
+  }
+}
+
+// For another pair: the next one of the last group, or the first of a new one.
+std::size_t RowSweeps::slot_for(const RowPlace& place) {
+  const RowGroup& from = rows_.groups()[static_cast<std::size_t>(place.group)];
+  if (groups_.empty() || sources_.back().pairs == kRowsPerBlock || groups_.back().colour != from.colour ||
+      groups_.back().points != from.points || groups_.back().of_balls != from.of_balls)
+    groups_.push_back(from), sources_.push_back({});
+  Source& source = sources_.back();
+  source.group[source.pairs] = place.group, source.lane[source.pairs] = place.lane;
+  return kRowsPerBlock * (groups_.size() - 1) + source.pairs++;
+}
+
+void RowSweeps::form_groups() { place_rows(groups_, copies_); }
+
+void RowSweeps::copy_rows(std::size_t number) {
+  RowGroup& group = groups_[number];
+  const Source& source = sources_[number];
+  const auto idle = static_cast<std::int32_t>(rows_.idle_body()), to_none = idle + 1;
+  if (source.pairs < kRowsPerBlock || group.points > 1) clear_rows(group);
+  std::fill_n(group.a, kRowsPerBlock, idle), std::fill_n(group.b, kRowsPerBlock, idle);
+  std::fill_n(group.to_a, kRowsPerBlock, to_none), std::fill_n(group.to_b, kRowsPerBlock, to_none);
+  for (std::size_t k = 0; k < source.pairs; ++k) {
+    const RowGroup& from = rows_.groups()[static_cast<std::size_t>(source.group[k])];
+    const auto lane = static_cast<std::size_t>(source.lane[k]);
+    group.a[k] = from.a[lane], group.b[k] = from.b[lane];
+    if (from.to_a[lane] == from.a[lane]) group.to_a[k] = from.a[lane];
+    if (from.to_b[lane] == from.b[lane]) group.to_b[k] = from.b[lane];
+    for (std::size_t point = 0; point < static_cast<std::size_t>(group.points); ++point) {
+      if ((source.points[k] >> point & 1) == 0) continue;
+      const double* row = from.block(point) + lane;
+      double* copy = group.block(point) + k;
+      for (std::size_t c = 0; c < group.columns(); ++c) copy[c * kRowsPerBlock] = row[c * kRowsPerBlock];
     }
-    if (parts_[thread].found.size() < most) parts_[thread].found.resize(most);
   }
 }
 
-void RowSweeps::find(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
-                     std::size_t thread) {
-  Part& part = parts_[thread];
-  part.end_of_level.clear();
-  std::size_t found = 0;
-  for (std::size_t level = 0; level < rows.levels(); ++level) {
-    const auto [begin, end] = rows.share(level, thread);
-    found +=
-        contact_kernels().prepare_bias(rows.groups().data(), begin, end, bodies, parameters, part.found.data() + found);
-    part.end_of_level.push_back(found);
-  }
-}
-
-// In the order of groups.
-template <typename Visit>
-void RowSweeps::for_each_found(const ContactRowLayout& rows, const Visit& visit) const {
-  for (std::size_t level = 0; level < rows.levels(); ++level) {
-    for (const Part& part : parts_) {
-      for (std::size_t i = part.first_of(level); i < part.end_of_level[level]; ++i)
-        visit(part.found[i], rows.groups()[static_cast<std::size_t>(part.found[i].group)]);
+// What a sweep changes of a row: the impulse along the normal and, in the columns after it, those across.
+void RowSweeps::copy_impulses_back(std::size_t number) const {
+  const Source& source = sources_[number];
+  for (std::size_t k = 0; k < source.pairs; ++k) {
+    const RowGroup& from = rows_.groups()[static_cast<std::size_t>(source.group[k])];
+    for (std::size_t point = 0; point < static_cast<std::size_t>(from.points); ++point) {
+      if ((source.points[k] >> point & 1) == 0) continue;
+      double* row = from.block(point) + source.lane[k];
+      const double* copy = groups_[number].block(point) + k;
+      for (std::size_t c = kImpulse; c < kFrictionImpulse + 3; ++c) row[c * kRowsPerBlock] = copy[c * kRowsPerBlock];
     }
   }
 }
 
-std::int32_t RowSweeps::cluster_of(std::int32_t body) {
-  while (next_[body] != body) body = next_[body] = next_[next_[body]];
-  return body;
-}
-
-// Each cluster to the thread with the fewest rows so far. Fixed bodies, which are written nowhere, join nothing.
-void RowSweeps::deal_out(const ContactRowLayout& rows) {
-  for (Part& part : parts_) part.impacts.clear();
-  if (parts_.size() == 1) {
-    for_each_found(rows, [&](const RowPlace& place, const RowGroup&) { parts_.front().impacts.push_back(place); });
-    return;
+void RowSweeps::solve(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters, std::size_t thread) {
+  if (groups_.empty()) return;
+  if (thread == 0) {
+    for (std::size_t g = 0; g < groups_.size(); ++g) copy_rows(g);
+    int sweeps = 0;
+    while (sweeps++ < parameters.max_sweeps && sweep(groups_.data(), groups_.size(), bodies, parameters)) continue;
+    for (std::size_t g = 0; g < groups_.size(); ++g) copy_impulses_back(g);
   }
-  next_.resize(rows.records());
-  thread_of_.assign(rows.records(), -1);
-  std::iota(next_.begin(), next_.end(), 0);
-  const auto moves = [](std::int32_t body, std::int32_t to) { return body == to; };
-  for_each_found(rows, [&](const RowPlace& place, const RowGroup& group) {
-    const std::int32_t a = group.a[place.lane], b = group.b[place.lane];
-    if (moves(a, group.to_a[place.lane]) && moves(b, group.to_b[place.lane])) next_[cluster_of(a)] = cluster_of(b);
-  });
-  for_each_found(rows, [&](const RowPlace& place, const RowGroup& group) {
-    const std::int32_t a = group.a[place.lane], b = group.b[place.lane];
-    std::int32_t& thread = thread_of_[cluster_of(moves(a, group.to_a[place.lane]) ? a : b)];
-    if (thread < 0) {
-      const auto fewest = std::min_element(parts_.begin(), parts_.end(), [](const Part& x, const Part& y) {
-        return x.impacts.size() < y.impacts.size();
-      });
-      thread = static_cast<std::int32_t>(fewest - parts_.begin());
-    }
-    parts_[static_cast<std::size_t>(thread)].impacts.push_back(place);
-  });
-}
-
-bool RowSweeps::are_any() const {
-  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return !part.impacts.empty(); });
-}
-
-void RowSweeps::solve(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
-                      std::size_t thread) {
-  Part& part = parts_[thread];
-  for (int k = 0; k < parameters.max_sweeps && !part.impacts.empty(); ++k) {
-    const Sweep now{part.sweeps + k, k == 0};
-    if (!contact_kernels().sweep_with_bias(rows.groups().data(), part.impacts.data(), part.impacts.size(), bodies,
-                                           parameters, now))
-      break;
-  }
-  part.sweeps += parameters.max_sweeps + 1;  // what these sweeps have changed is not new to the next ones
-  threads_.meet();
-}
-
-void RowSweeps::relax_deep(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
-                           std::size_t thread) {
-  const std::vector<RowPlace>& deep = rows.deep_rows();
-  if (deep.empty()) return;
-  Part& part = parts_[thread];
-  for (int k = 0; thread == 0 && k < parameters.max_sweeps; ++k) {
-    const Sweep now{part.sweeps + k, k == 0};
-    if (!contact_kernels().sweep_without_bias(rows.groups().data(), deep.data(), deep.size(), bodies, parameters, now))
-      break;
-  }
-  part.sweeps += parameters.max_sweeps + 1;
   threads_.meet();
 }
 

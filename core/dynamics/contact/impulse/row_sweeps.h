@@ -1,8 +1,9 @@
 // Sweeps over some of the rows, until none changes a velocity by more than the tolerance: those of impacts, whose
-// points must agree, and those of deep overlaps. Impacts that share no body, nor others in between, do not know of each
-// other, so that threads share these clusters.
+// points must agree, and those of deep overlaps. Such rows are copied to groups of their own, again eight pairs of a
+// colour in each, and their impulses back when they agree.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/base/thread_pool.h"
@@ -13,39 +14,37 @@ namespace rigor {
 
 class RowSweeps {
  public:
-  explicit RowSweeps(ThreadPool& threads) : threads_(threads), parts_(threads.members()) {}
+  using Sweep = decltype(ContactKernels::sweep_with_bias);
 
-  // Before the rows' first sub-step.
-  void begin(const ContactRowLayout& rows);
-  // A thread's share of the biases of a sub-step, and which of its rows are impacts.
-  void find(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
-            std::size_t thread);
-  // Deals the impacts that were found out to the threads.
-  void deal_out(const ContactRowLayout& rows);
-  bool are_any() const;
-  // A thread's share of the sweeps over the impacts.
-  void solve(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
-             std::size_t thread);
-  // Sweeps without bias over the rows that overlap deeply, which are few: by one thread.
-  void relax_deep(const ContactRowLayout& rows, const SolverBodies& bodies, const SolverParameters& parameters,
-                  std::size_t thread);
+  RowSweeps(const ContactRowLayout& rows, ThreadPool& threads) : rows_(rows), threads_(threads) {}
+
+  // Takes none of the rows; then some more of them, in the order of the groups.
+  void clear();
+  void add(const RowPlace* first, const RowPlace* last);
+  // After these, by one thread.
+  void form_groups();
+  bool are_any() const { return !groups_.empty(); }
+  // The sweeps, by the first thread, for they are few, and threads would meet after each colour of each; the others
+  // wait for it.
+  void solve(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters, std::size_t thread);
 
  private:
-  struct alignas(kCacheLine) Part {
-    std::vector<RowPlace> found;            // in the order of groups; room for all
-    std::vector<std::size_t> end_of_level;  // among these
-    std::vector<RowPlace> impacts;          // that this thread sweeps, in their order
-    std::int64_t sweeps = 0;                // so far
-    std::size_t first_of(std::size_t level) const { return level == 0 ? 0 : end_of_level[level - 1]; }
+  struct Source {  // the pairs of a group
+    std::int32_t group[kRowsPerBlock], lane[kRowsPerBlock];
+    unsigned points[kRowsPerBlock];  // a bit each: that the row of the point is one of these
+    std::size_t pairs;
   };
-  template <typename Visit>
-  void for_each_found(const ContactRowLayout& rows, const Visit& visit) const;
-  std::int32_t cluster_of(std::int32_t body);
+  std::size_t slot_for(const RowPlace& place);
+  void copy_rows(std::size_t number);
+  void copy_impulses_back(std::size_t number) const;
 
+  const ContactRowLayout& rows_;
   ThreadPool& threads_;
-  std::vector<Part> parts_;              // by thread
-  std::vector<std::int32_t> next_;       // by record: another of its cluster, nearer to the one that stands for it
-  std::vector<std::int32_t> thread_of_;  // by cluster; -1: none yet
+  std::vector<RowGroup> groups_;
+  std::vector<Source> sources_;                           // by group
+  std::int32_t last_group_ = -1;                          // of the rows, that one was taken of
+  std::array<std::int64_t, kRowsPerBlock> slot_of_lane_;  // of its pairs; -1: not taken
+  AlignedDoubles copies_;
 };
 
 }  // namespace rigor
