@@ -18,13 +18,14 @@ BodyTable bodies_in(const mjData& data, const MujocoModel& made) {
 
 }  // namespace
 
-MujocoReactions::MujocoReactions(const Scene& scene, const SpanningTree& tree) : joints_(scene.joints.size()) {
+MujocoReactions::MujocoReactions(const Scene& scene, const SpanningTree& tree, const std::string& method)
+    : joints_(scene.joints.size()) {
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     const int joint = tree.links[static_cast<std::size_t>(i)].joint;
     if (!scene.bodies[static_cast<std::size_t>(i)].fixed && joint >= 0)
       hanging_.emplace_back(joint, HangingJoint(scene, joint, i));
   }
-  are_said_ = scene.springs.empty();
+  are_said_ = scene.springs.empty() && method != "rk4";
   for (const int k : tree.loops) {
     const Joint& joint = scene.joints[static_cast<std::size_t>(k)];
     const bool is_hinge = std::holds_alternative<HingeJoint>(joint.type);

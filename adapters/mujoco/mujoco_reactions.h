@@ -1,8 +1,10 @@
 // What MuJoCo says that joints carry: of the trees' joints cfrc_int, which mj_rnePostConstraint fills, and of the loops
 // the forces of their equalities. MuJoCo's cfrc_int leaves out what tendons do, which springs and distance joints are,
-// and the torque of an equality that welds is no torque in W: of scenes with these there are no reports.
+// and the torque of an equality that welds is no torque in W: of scenes with these there are no
+// reports. Nor are there of rk4, which leaves the forces of its last stage, at no instant of the run.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "adapters/hanging_joint.h"
@@ -12,10 +14,10 @@ namespace rigor {
 
 class MujocoReactions {
  public:
-  MujocoReactions(const Scene& scene, const SpanningTree& tree);
+  MujocoReactions(const Scene& scene, const SpanningTree& tree, const std::string& method);
 
   bool are_said() const { return are_said_; }
-  // As Euler's and the implicit method leave the data after a step, of its start; as rk4 does, of its last stage.
+  // As Euler's and the implicit method leave the data after a step: at its start.
   std::vector<ReportedReaction> after_step(const mjModel& model, mjData& data, const MujocoModel& made) const;
 
  private:

@@ -70,7 +70,7 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
       motors_(motors_of_effort(scene)),
       matched_(settings.track == Track::matched),
       is_jointed_(!scene.joints.empty()),
-      said_(scene, tree_) {
+      said_(scene, tree_, settings.method) {
   if (!data_) throw std::runtime_error("MuJoCo has no memory for the scene's contacts and constraints");
   if (matched_) {
     set_impedance(made_.model->geom_solimp, made_.model->ngeom);

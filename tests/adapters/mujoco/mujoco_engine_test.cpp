@@ -138,7 +138,8 @@ BOOST_AUTO_TEST_CASE(limits_stop_within_a_step_and_hardly_sink) {
                      sunk = -0.5 - body_after(*fallen, dt, std::lround(2 / dt)).position.z();
         BOOST_TEST_CONTEXT(method << ", " << dt << ": " << sunk) {
           BOOST_TEST(sunk > -1e-3 * fastest * dt);
-          BOOST_TEST(sunk < 1.1 * fastest * dt);
+          // rk4, in whose stages a limit is a damper of 1/dt, takes as much again to stop.
+          BOOST_TEST(sunk < (std::string(method) == "mujoco:rk4" ? 2.1 : 1.1) * fastest * dt);
           const BodyState rest = body_after(*fallen, dt, 1);
           BOOST_TEST(std::abs(rest.velocity.z()) < 2e-4 * 9.81 * dt);
         }
