@@ -97,42 +97,8 @@ bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) 
   persistent_.begin_attempt();
   const double* total = persistent_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
   return std::none_of(dropped.begin(), dropped.end(), [&](PersistentPoint& point) {
-    return persistent_.acceleration(state, total, point).x() < -kSeparatingShare * size_;
+    return persistent_.normal_acceleration(state, total, point) < -kSeparatingShare * size_;
   });
-}
-
-// The search for modes takes the directions of slides beside to 1/kSlip, which may be more than what a slip on the
-// verge accelerates by: with a direction from there friction would turn the slip back as soon as it has one of its own,
-// and no step of an adaptive method would be short enough. Friction acts against d, and the slip begins along d: by d
-// <- mu f_n d + m a, which leaves it where it is if a is along d.
-void ContactModes::aim_slips(BodyColumns state, const double* wrench) {
-  constexpr int kMostTurns = 100;
-  constexpr double kAimed = 1e-12;  // rad
-  std::vector<PersistentPoint>& points = persistent_.points();
-  const auto begins = [](const PersistentPoint& point) { return point.begins_to_slip; };
-  if (std::none_of(points.begin(), points.end(), begins)) return;
-  const double* total = nullptr;
-  const auto slip_rate = [&](const PersistentPoint& point) {
-    return Vec3(point.frame.rightCols<2>() * persistent_.acceleration(state, total, point).tail<2>());
-  };
-  double most = kAimed;
-  for (int turn = 0; turn < kMostTurns && most >= kAimed; ++turn) {
-    persistent_.begin_attempt();
-    total = persistent_.hold(state, wrench, ConstraintForces::Rows::as_chosen);
-    most = 0;
-    for (PersistentPoint& point : points) {
-      if (!begins(point) || !(point.force.x() > 0)) continue;
-      const Vec3 aimed =
-          point.friction() * point.force.x() * point.slip_direction + point.tangential_mass * slip_rate(point);
-      if (aimed.isZero(0)) continue;
-      most = std::max(most, (aimed.normalized() - point.slip_direction).norm());
-      point.slip_direction = aimed.normalized();
-    }
-  }
-  for (PersistentPoint& point : points) {
-    if (!begins(point) || slip_rate(point).dot(point.slip_direction) > 0) continue;
-    point.mode = PersistentPoint::Mode::sticks, point.begins_to_slip = false;
-  }
 }
 
 bool ContactModes::is_at_rest(BodyColumns state, int body) const {

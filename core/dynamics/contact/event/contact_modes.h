@@ -17,9 +17,6 @@ class ContactModes {
 
   // Gives each of the persistent points its mode, and drops those that part. False if no forces were found.
   bool choose(BodyColumns state, const double* wrench);
-  // After choose(), where what begins to slip does not slip yet: the directions in which it does, with the forces that
-  // PersistentForces has there; what they hold sticks.
-  void aim_slips(BodyColumns state, const double* wrench);
   // Whether, after choose(), nothing moves and nothing begins to.
   bool are_at_rest(BodyColumns state) const;
   bool is_at_rest(BodyColumns state, int body) const;

@@ -130,7 +130,6 @@ bool PersistentContact::select_points(MutableBodyColumns state, const std::vecto
   if (points.empty()) return true;
   const bool are_found = modes_.choose(state, loads_.over_step(state, t, dt));
   stop_points(state, When::before);
-  if (are_found) modes_.aim_slips(state, loads_.over_step(state, t, dt));
   if (are_found) set_resting_aside(state);
   return are_found;
 }

@@ -167,14 +167,15 @@ std::pair<Vec3, Vec3> PersistentForces::free_acceleration(BodyColumns state, con
           angular_acceleration(inertia, R, state.angular_velocity(body), torque)};
 }
 
-Vec3 PersistentForces::acceleration(BodyColumns state, const double* total, const PersistentPoint& point) const {
-  const auto of_point = [&](int body, const Vec3& arm) -> Vec3 {
-    if (body == kWorld) return Vec3::Zero();
+double PersistentForces::normal_acceleration(BodyColumns state, const double* total,
+                                             const PersistentPoint& point) const {
+  const auto along = [&](int body, const Vec3& arm) {
+    if (body == kWorld) return 0.0;
     const auto [linear, angular] = free_acceleration(state, total, body);
-    return point.contact.cone.is_couple ? angular : Vec3(linear + angular.cross(arm));
+    const Vec3 of_point = point.contact.cone.is_couple ? angular : Vec3(linear + angular.cross(arm));
+    return point.kinematics.normal.dot(of_point);
   };
-  const Vec3 relative = of_point(point.contact.cone.a, point.arm_a) - of_point(point.contact.cone.b, point.arm_b);
-  return point.frame.transpose() * relative + point.bias;
+  return along(point.contact.cone.a, point.arm_a) - along(point.contact.cone.b, point.arm_b) + point.bias.x();
 }
 
 bool PersistentForces::has_friction_of_slip() const {

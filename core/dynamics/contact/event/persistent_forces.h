@@ -64,8 +64,8 @@ class PersistentForces : public ConstraintForces {
   void place(BodyColumns state);
   // V' of a body under the loads alone: linear and angular.
   std::pair<Vec3, Vec3> free_acceleration(BodyColumns state, const double* wrench, int body) const;
-  // Of a point at `state`, under wrench columns of everything that acts on the bodies [m/s²], in its frame.
-  Vec3 acceleration(BodyColumns state, const double* total, const PersistentPoint& point) const;
+  // Of a point at `state`, under wrench columns of everything that acts on the bodies [m/s²].
+  double normal_acceleration(BodyColumns state, const double* total, const PersistentPoint& point) const;
   bool has_friction_of_slip() const;
   double largest_force() const;  // N, of one point
   // The most that was on each body at any instant since begin_attempt().
