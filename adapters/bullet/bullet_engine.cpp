@@ -41,7 +41,7 @@ MethodInfo sequential_impulse() {
   MethodInfo method = {.name = "sequential-impulse",
                        .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
                        .leapfrog_stagger = 0.5,
-                       .lacks = {"joint-limit:beyond-half-turn", "speed-motor-with-limits", "two-speeds-at-once"},
+                       .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
                        .options = options_of_rigid_bodies()};
   method.options.insert(method.options.begin(), {"iterations", "sweeps of the solver a step", {}, 1, 10000, true});
   return method;
@@ -53,7 +53,7 @@ MethodInfo mlcp() {
               "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver, dense: a step takes "
               "the cube of its rows, 30 ms for 500",
           .leapfrog_stagger = 0.5,
-          .lacks = {"joint-limit:beyond-half-turn", "speed-motor-with-limits", "two-speeds-at-once"},
+          .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
           .options = options_of_rigid_bodies()};
 }
 

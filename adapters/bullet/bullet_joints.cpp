@@ -41,6 +41,11 @@ void free_all(btGeneric6DofSpring2Constraint& constraint) {
   for (int axis = 0; axis < 6; ++axis) constraint.setLimit(axis, 1, -1);
 }
 
+void set_limits(btHingeConstraint& hinge, double lower, double upper, double restitution, bool matched) {
+  const btAngularLimit shipped;
+  hinge.setLimit(lower, upper, shipped.getSoftness(), matched ? 1 : shipped.getBiasFactor(), restitution);
+}
+
 struct Make {
   const Joint& joint;
   btRigidBody &a, &b;
@@ -80,12 +85,12 @@ struct Make {
   std::unique_ptr<btTypedConstraint> operator()(const DistanceJoint&) const { return nullptr; }  // refused before
 
  private:
-  // Angles count from -pi to pi: a limit there is none. Matched, the bounce is not cut to "bias" times itself, and what
-  // is past a limit is not pushed back ("stop ERP" 0), which would throw it off at a share of the speed it came with.
+  // Angles count from -pi to pi: a limit there is none, and of limits beyond Joints::unwind() takes care. Matched, the
+  // bounce is not cut to "bias" times itself, and what is past a limit is not pushed back ("stop ERP" 0), which would
+  // throw it off at a share of the speed it came with.
   void limit(btHingeConstraint& hinge) const {
-    const double pi = std::numbers::pi, lower = std::max(joint.lower, -pi), upper = std::min(joint.upper, pi);
-    const btAngularLimit shipped;
-    hinge.setLimit(lower, upper, shipped.getSoftness(), matched ? 1 : shipped.getBiasFactor(), joint.restitution);
+    const double pi = std::numbers::pi;
+    set_limits(hinge, std::max(joint.lower, -pi), std::min(joint.upper, pi), joint.restitution, matched);
     if (matched) hinge.setParam(BT_CONSTRAINT_STOP_ERP, 0);
   }
 };
@@ -113,7 +118,7 @@ void drive(btTypedConstraint& constraint, const Motor& motor, double share, doub
 
 }  // namespace
 
-Joints::Joints(const Scene& scene, const BodyOf& body_of, bool matched) {
+Joints::Joints(const Scene& scene, const BodyOf& body_of, bool matched) : matched_(matched) {
   for (const Joint& joint : scene.joints) add(scene, joint, body_of, matched);
   std::copy_if(scene.motors.begin(), scene.motors.end(), std::back_inserter(motors_),
                [](const Motor& motor) { return motor.speed.has_value(); });
@@ -126,6 +131,10 @@ void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of, 
   const bool b_moves = joint.b != kWorld && !scene.bodies[static_cast<std::size_t>(joint.b)].fixed;
   reported_.push_back({b_moves ? joint.b : joint.a, b_moves});
   const auto* slider = std::get_if<SliderJoint>(&joint.type);
+  const bool is_beyond = joint.lower < -std::numbers::pi || joint.upper > std::numbers::pi;
+  auto* hinge = dynamic_cast<btHingeConstraint*>(of_joint_.back());
+  if (hinge && joint.has_limits() && is_beyond)
+    winding_.push_back({hinge, joint.lower, joint.upper, joint.restitution});
   if (slider && joint.has_limits()) constraints_.push_back(limits_along(slider->axis, make));
 }
 
@@ -151,7 +160,19 @@ std::vector<ReportedReaction> Joints::reactions() const {
   return reactions;
 }
 
+// Bullet knows a hinge's limits as an arc of less than a turn: it gets the part of them that is within reach.
+void Joints::unwind() {
+  constexpr double kTurn = 2 * std::numbers::pi, kReach = 3;  // rad
+  for (Winding& at : winding_) {
+    const double angle = at.hinge->getHingeAngle();
+    at.angle = angle + std::round((at.angle - angle) / kTurn) * kTurn;
+    set_limits(*at.hinge, std::max(at.lower, at.angle - kReach), std::min(at.upper, at.angle + kReach), at.restitution,
+               matched_);
+  }
+}
+
 void Joints::set_motors(double t, double dt) {
+  unwind();
   for (const Motor& motor : motors_) {
     btTypedConstraint& constraint = *of_joint_[static_cast<std::size_t>(motor.joint)];
     drive(constraint, motor, 0, dt);

@@ -34,7 +34,8 @@ class Joints {
 
   // Takes part in the world from now on, which must end first.
   void enter(btDynamicsWorld& world);
-  // Sets the motors that keep a speed to what they may do over the step from t to t + dt.
+  // Sets the motors that keep a speed to what they may do over the step from t to t + dt, and the limits of hinges to
+  // those of the turn that these are in.
   void set_motors(double t, double dt);
 
   bool empty() const { return constraints_.empty(); }
@@ -45,6 +46,16 @@ class Joints {
  private:
   void add(const Scene& scene, const Joint& joint, const BodyOf& body_of, bool matched);
 
+  void unwind();
+
+  bool matched_;
+  struct Winding {  // a hinge with a limit beyond half a turn
+    btHingeConstraint* hinge;
+    double lower, upper;  // rad
+    double restitution;
+    double angle = 0;  // rad, whole turns counted, when it was last asked
+  };
+  std::vector<Winding> winding_;
   std::vector<std::unique_ptr<btTypedConstraint>> constraints_;  // a slider's limits stand behind it
   std::vector<btTypedConstraint*> of_joint_;
   std::vector<Motor> motors_;  // that keep a speed

@@ -238,6 +238,7 @@ void BulletMultibodyWorld::add_branch(const Scene& scene, const bullet::Branch& 
   row.tree = &tree, row.link = first_link + links_of(joint) - 1;
   body_of_link_.back()[static_cast<std::size_t>(row.link) + 1] = branch.body;
   coordinates_[static_cast<std::size_t>(branch.joint)] = {&tree, row.link, joint.b == branch.body ? 1.0 : -1.0};
+  hanging_.emplace_back(branch.joint, HangingJoint(scene, branch.joint, branch.body));
   const bool on_world = branch.parent == kWorld;
   const Row* above = on_world ? nullptr : &rows_[static_cast<std::size_t>(branch.parent)];
   const Frame child = frame_at_start(scene, branch.body, row.q_WP_start),
@@ -267,9 +268,40 @@ void BulletMultibodyWorld::set_velocities(const Scene& scene, const bullet::Bran
 void BulletMultibodyWorld::step(double dt) {
   if (!loads_.empty()) add_loads(dt);
   set_motors(dt);
+  if (!feedback_.empty()) note_bodies();
   world_.stepSimulation(dt, 0);  // no sub-steps
   clock_.advance(dt);
   read_bodies();
+}
+
+void BulletMultibodyWorld::ask_for_reactions() {
+  feedback_.resize(hanging_.size());
+  for (std::size_t n = 0; n < hanging_.size(); ++n) {
+    const Row& row = rows_[static_cast<std::size_t>(hanging_[n].second.body())];
+    row.tree->getLink(row.link).m_jointFeedback = &feedback_[n];
+  }
+}
+
+void BulletMultibodyWorld::note_bodies() {
+  before_.resize(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) before_.columns().set_body(i, rows_[i].state);
+}
+
+// Force and torque on a link through its joint, in the link's own, principal frame at the step's start, about its
+// centre.
+std::vector<ReportedReaction> BulletMultibodyWorld::reactions() const {
+  if (before_.size() == 0) return {};
+  std::vector<ReportedReaction> reactions(hanging_.size());  // no joint closes a loop here
+  const BodyColumns before = before_.columns();
+  for (std::size_t n = 0; n < hanging_.size(); ++n) {
+    const auto& [joint, hanging] = hanging_[n];
+    const auto body = static_cast<std::size_t>(hanging.body());
+    const Mat3 R_WP = matrix_of(before.orientation(body)) * rows_[body].frame.R_BP;
+    const btSpatialForceVector& passed = feedback_[n].m_reactionForces;
+    reactions[static_cast<std::size_t>(joint)] =
+        hanging.reaction(before, R_WP * to_rigor(passed.getLinear()), R_WP * to_rigor(passed.getAngular()));
+  }
+  return reactions;
 }
 
 void BulletMultibodyWorld::add_loads(double dt) {

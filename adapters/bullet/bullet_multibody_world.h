@@ -15,6 +15,7 @@
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -25,12 +26,13 @@
 #include "adapters/bullet/bullet_convert.h"
 #include "adapters/bullet/bullet_tree.h"
 #include "adapters/external_loads.h"
+#include "adapters/hanging_joint.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
 
-class BulletMultibodyWorld : public World {
+class BulletMultibodyWorld : public World, public ReportsReactions {
  public:
   BulletMultibodyWorld(const Scene& scene, const Settings& settings);
   ~BulletMultibodyWorld() override;
@@ -41,6 +43,8 @@ class BulletMultibodyWorld : public World {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return ""; }  // nothing is solved by iteration
+  void ask_for_reactions() override;
+  std::vector<ReportedReaction> reactions() const override;
 
  private:
   struct Row {  // a body of the scene
@@ -66,11 +70,15 @@ class BulletMultibodyWorld : public World {
   void add_motors(const Scene& scene);
   void set_motors(double dt);
   void add_loads(double dt);
+  void note_bodies();
   void read_bodies();
 
   std::vector<Row> rows_;
   ExternalLoads loads_;
   Clock clock_;
+  std::vector<std::pair<int, HangingJoint>> hanging_;  // by joint
+  std::vector<btMultiBodyJointFeedback> feedback_;     // of the same, once asked
+  BodyTable before_;                                   // the last step, once there was one
   std::vector<std::unique_ptr<btMultiBody>> trees_;
   struct Drive {
     Motor motor;  // that keeps a speed

@@ -35,7 +35,10 @@ class CoreWorld : public World, public MayReduceOrder {
     set_initial_state(scene, state_.columns());
     if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_);
     if (anything_can_touch(scene)) {
-      auto stepper = contact_method_.make(scene, {system_, integrator_, orientation_, settings, joints_.get()});
+      if (JointStops::has_speed_motors(scene))
+        motors_ = std::make_unique<JointStops>(scene, system_, system_.loads, *joints_, JointStops::Of::motors);
+      auto stepper =
+          contact_method_.make(scene, {system_, integrator_, orientation_, settings, joints_.get(), motors_.get()});
       contact_ = stepper.get();
       contact_name_ = name_of_contact(scene, settings);
       stepper_ = std::move(stepper);
@@ -100,7 +103,8 @@ class CoreWorld : public World, public MayReduceOrder {
   std::string contact_name_ = "none in this scene";
   const ContactStepper* contact_ = nullptr;  // the stepper, where bodies can touch
   BodyTable state_;
-  std::unique_ptr<Joints> joints_;  // null where there are none
+  std::unique_ptr<Joints> joints_;      // null where there are none
+  std::unique_ptr<JointStops> motors_;  // of given speed, where bodies can touch; null where there are none
   SingularPassages passages_;
   std::unique_ptr<Stepper> stepper_;
   Clock clock_;

@@ -13,9 +13,11 @@ namespace {
 const Features kDartContacts = {"contact:box-box", "contact:box-plane", "contact:box-sphere", "contact:plane-sphere",
                                 "contact:sphere-sphere"};
 
-const Features kDartJoints = {"joint:ball",           "joint:fixed",         "joint:hinge",  "joint:slider",
-                              "joint:universal",      "joint-spring",        "joint-damper", "joint-limit",
-                              "joints-with-contacts", "joints-with-dampers", "motor:effort", "motor:speed"};
+const Features kDartJoints = {"joint:ball",           "joint:fixed",         "joint:hinge",
+                              "joint:slider",         "joint:universal",     "joint-spring",
+                              "joint-damper",         "joint-limit",         "joint-limit:beyond-half-turn",
+                              "joints-with-contacts", "joints-with-dampers", "motor:effort",
+                              "motor:speed"};
 
 std::vector<OptionInfo> options_of_solvers() {
   return {{"erp", "share of a gap or an overlap corrected in one step", {}, 0, 1},

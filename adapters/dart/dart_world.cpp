@@ -16,6 +16,7 @@
 #include "adapters/dart/dart_contacts.h"
 #include "adapters/dart/dart_matched.h"
 #include "adapters/external_loads.h"
+#include "adapters/hanging_joint.h"
 #include "adapters/option_values.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine_failure.h"
@@ -53,6 +54,10 @@ void refuse_what_features_do_not_say(const Scene& scene, const SpanningTree& tre
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     if (scene.joints[k].has_limits() && scene.joints[k].restitution > 0)
       refuse(static_cast<int>(k), "bounces at its limits, and DART's limits have no restitution");
+    const bool is_beyond = scene.joints[k].lower < -std::numbers::pi || scene.joints[k].upper > std::numbers::pi;
+    if (scene.joints[k].has_limits() && is_beyond && scene.joints[k].stiffness > 0 &&
+        std::holds_alternative<HingeJoint>(scene.joints[k].type))
+      refuse(static_cast<int>(k), "has a spring and a limit beyond half a turn, and DART counts one angle for both");
   }
   for (const int k : tree.loops) {
     const std::string type = joint_type_name(scene.joints[k]);
@@ -65,7 +70,7 @@ void refuse_what_features_do_not_say(const Scene& scene, const SpanningTree& tre
   }
 }
 
-class DartWorld : public World {
+class DartWorld : public World, public ReportsReactions {
  public:
   DartWorld(const Scene& scene, const Settings& settings);
 
@@ -73,6 +78,9 @@ class DartWorld : public World {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
+  // What passes to a body is worked out before DART's constraints, which loops are, get their impulses.
+  void ask_for_reactions() override { is_asked_ = !has_loops_; }
+  std::vector<ReportedReaction> reactions() const override;
 
  private:
   void set_solver(const Settings& settings);
@@ -91,13 +99,16 @@ class DartWorld : public World {
   ExternalLoads loads_;
   std::vector<Motor> speed_motors_;
   std::vector<std::size_t> wound_;  // joints whose springs count from -pi to pi
-  bool can_touch_, matched_;
+  bool can_touch_, matched_, has_loops_;
   DartBodies made_;
   std::shared_ptr<::dart::collision::CollisionFilter> filter_;
   DartPlaneEdges edges_;
   ::dart::simulation::WorldPtr world_;
   dart_library::Constants constants_;
-  bool lost_ = false;  // blown up: from then on its state is "not a number"
+  bool lost_ = false;                                  // blown up: from then on its state is "not a number"
+  std::vector<std::pair<int, HangingJoint>> hanging_;  // by joint
+  bool is_asked_ = false, has_stepped_ = false;
+  Snapshot before_;  // the last step, once asked
   Clock clock_;
   std::string solver_warning_;
 };
@@ -125,6 +136,11 @@ DartWorld::DartWorld(const Scene& scene, const Settings& settings)
     const bool turns = made_.coordinates[k].joint && std::holds_alternative<HingeJoint>(joint.type);
     if (turns && joint.stiffness > 0 && !joint.has_limits()) wound_.push_back(k);
   }
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    const int joint = tree.links[i].joint;
+    if (!fixed_[i] && joint >= 0) hanging_.emplace_back(joint, HangingJoint(scene, joint, i));
+  }
+  has_loops_ = !tree.loops.empty();
   world_ = ::dart::simulation::World::create();
   world_->setGravity(scene.gravity);
   for (const auto& skeleton : made_.skeletons) world_->addSkeleton(skeleton);
@@ -187,7 +203,9 @@ void DartWorld::step(double dt) {
     drive(clock_.time() + 0.5 * dt);
     unwind();
     world_->setTimeStep(dt);
+    if (is_asked_ && !lost_) read(before_);
     if (!lost_) world_->step();
+    has_stepped_ = is_asked_;
     solver_warning_ = messages.first();
   }
   clock_.advance(dt);
@@ -203,6 +221,20 @@ void DartWorld::add_loads(double dt) {
     made_.bodies[i]->addExtForce(wrenches[i].force);
     made_.bodies[i]->addExtTorque(wrenches[i].torque, false);
   }
+}
+
+// Torque and force on a body through its joint, in the body's frame at the step's start, about its centre.
+std::vector<ReportedReaction> DartWorld::reactions() const {
+  std::vector<ReportedReaction> reactions(has_stepped_ ? hanging_.size() : 0);
+  if (reactions.empty()) return {};
+  for (const auto& [joint, hanging] : hanging_) {
+    const auto body = static_cast<std::size_t>(hanging.body());
+    const Eigen::Matrix<double, 6, 1>& passed = made_.bodies[body]->getBodyForce();
+    const Quat q = before_.bodies().orientation(body);
+    reactions[static_cast<std::size_t>(joint)] =
+        hanging.reaction(before_.bodies(), q * passed.tail<3>(), q * passed.head<3>());
+  }
+  return reactions;
 }
 
 // A joint keeps a given speed, with a bounded effort, while a motor is on; DART forgets the command after the step.

@@ -19,6 +19,7 @@ MethodInfo euler() {
   return {.name = "euler",
           .summary = "semi-implicit Euler in the joints' coordinates, gyroscopic term explicit",
           .leapfrog_stagger = 0.5,
+          .lacks = {"joint-limit-that-bounces"},
           .options = options_of_all()};
 }
 
@@ -26,6 +27,7 @@ MethodInfo implicit() {
   return {.name = "implicit",
           .summary = "the same with one Newton step for what depends on velocity: damps spinning bodies",
           .leapfrog_stagger = 0.5,
+          .lacks = {"joint-limit-that-bounces"},
           .options = options_of_all()};
 }
 
@@ -34,6 +36,7 @@ MethodInfo rk4() {
   return {.name = "rk4",
           .summary = "Runge and Kutta's method; of order 2 in the orientation of a free body",
           .order = 2,
+          .lacks = {"joint-limit-that-bounces"},
           .options = options_of_all()};
 }
 
@@ -44,10 +47,11 @@ EngineInfo MujocoEngine::info() const {
   return {.name = "mujoco",
           .version = fmt::format("{}.{}.{}", version / 100, version / 10 % 10, version % 10),
           .precision = sizeof(mjtNum) == sizeof(double) ? "double" : "single",
-          .features = joined(contacts_of_all_shapes(),
-                             {"spring", "timed-force", "fixed-body", "friction:none", "friction:coulomb", "joint:ball",
-                              "joint:distance", "joint:fixed", "joint:hinge", "joint:slider", "joint:universal",
-                              "joint-spring", "joint-damper", "joints-with-dampers", "motor:effort"}),
+          .features = joined(
+              contacts_of_all_shapes(),
+              {"spring", "timed-force", "fixed-body", "friction:none", "friction:coulomb", "joint:ball",
+               "joint:distance", "joint:fixed", "joint:hinge", "joint:slider", "joint:universal", "joint-spring",
+               "joint-damper", "joint-limit", "joint-limit:beyond-half-turn", "joints-with-dampers", "motor:effort"}),
           .methods = {euler(), implicit(), rk4()}};
 }
 

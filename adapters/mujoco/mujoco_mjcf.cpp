@@ -177,10 +177,19 @@ class Writer {
           text_of(direction_in(body, second)));
     } else if (const Vec3* axis = free_axis(joint)) {
       const auto* hinge = std::get_if<HingeJoint>(&joint.type);
-      add(R"(<joint name="j{}" type="{}" pos="{}" axis="{}" stiffness="{}" springref="{}" damping="{}"/>)", index,
+      add(R"(<joint name="j{}" type="{}" pos="{}" axis="{}" stiffness="{}" springref="{}" damping="{}"{}/>)", index,
           hinge ? "hinge" : "slide", text_of(hinge ? point_in(body, hinge->anchor) : Vec3::Zero().eval()),
-          text_of(direction_in(body, *axis)), joint.stiffness, sign * joint.rest, joint.damping);
+          text_of(direction_in(body, *axis)), joint.stiffness, sign * joint.rest, joint.damping,
+          limits_of(joint, sign));
     }
+  }
+
+  // MuJoCo's coordinates count whole turns, as the scene's limits do.
+  static std::string limits_of(const Joint& joint, double sign) {
+    if (!joint.has_limits()) return "";
+    constexpr double kNone = 1e10;  // rad, m: no motion gets there that MuJoCo would not give up
+    const double low = sign > 0 ? joint.lower : -joint.upper, high = sign > 0 ? joint.upper : -joint.lower;
+    return fmt::format(R"( limited="true" range="{} {}")", std::max(low, -kNone), std::min(high, kNone));
   }
 
   void write_tendons() {
@@ -208,9 +217,9 @@ class Writer {
     const Joint& joint = scene_.joints[index];
     const bool has_motor = std::any_of(scene_.motors.begin(), scene_.motors.end(),
                                        [&](const Motor& motor) { return motor.joint == index; });
-    if (joint.stiffness == 0 && joint.damping == 0 && !has_motor) return;
+    if (joint.stiffness == 0 && joint.damping == 0 && !has_motor && !joint.has_limits()) return;
     throw EngineFailure(FailureKind::unsupported,
-                        fmt::format("{} closes a loop of joints, where MuJoCo has no spring, damper or motor",
+                        fmt::format("{} closes a loop of joints, where MuJoCo has no spring, damper, limit or motor",
                                     scene_.joint_name(static_cast<std::size_t>(index))));
   }
 

@@ -27,11 +27,22 @@ std::vector<Motor> motors_of_effort(const Scene& scene) {
 
 // A constraint's acceleration towards its rest is -b v - k r (negative solref means k and b themselves). Of a loop a
 // gap and its speed are gone after one step: k = 1/dt², b = 1/dt.
+constexpr mjtNum kImpedance[mjNIMP] = {0.9999, 0.9999, 0.001, 0.5, 1};  // nearly the whole of that acceleration
+
 void stiffen_loops(mjModel& model, double dt) {
-  constexpr mjtNum kImpedance[mjNIMP] = {0.9999, 0.9999, 0.001, 0.5, 1};  // nearly the whole of that acceleration
   for (int i = 0; i < model.neq; ++i) {
     model.eq_solref[mjNREF * i] = -1 / (dt * dt), model.eq_solref[mjNREF * i + 1] = -1 / dt;
     std::copy(kImpedance, kImpedance + mjNIMP, model.eq_solimp + mjNIMP * i);
+  }
+}
+
+// What goes beyond a limit is stopped within a step, and the little that it went too far is left, which falls with the
+// step: a push back would be a speed that stays, and a dead stop would bounce.
+void stiffen_limits(mjModel& model, double dt) {
+  for (int i = 0; i < model.njnt; ++i) {
+    if (!model.jnt_limited[i]) continue;
+    model.jnt_solref[mjNREF * i] = 0, model.jnt_solref[mjNREF * i + 1] = -1 / dt;
+    std::copy(kImpedance, kImpedance + mjNIMP, model.jnt_solimp + mjNIMP * i);
   }
 }
 
@@ -58,7 +69,8 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
       loads_(scene_),
       motors_(motors_of_effort(scene)),
       matched_(settings.track == Track::matched),
-      is_jointed_(!scene.joints.empty()) {
+      is_jointed_(!scene.joints.empty()),
+      said_(scene, tree_, settings.method) {
   if (!data_) throw std::runtime_error("MuJoCo has no memory for the scene's contacts and constraints");
   if (matched_) {
     set_impedance(made_.model->geom_solimp, made_.model->ngeom);
@@ -75,10 +87,11 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
 void MujocoWorld::step(double dt) {
   if (!lost_) {
     made_.model->opt.timestep = dt;
-    if (matched_ && dt != loops_dt_) stiffen_loops(*made_.model, loops_dt_ = dt);
+    if (matched_ && dt != stiff_dt_) stiffen_loops(*made_.model, dt), stiffen_limits(*made_.model, stiff_dt_ = dt);
     apply_loads(dt);
     mj_step(made_.model.get(), data_.get());
     look_for_warnings();
+    is_step_in_data_ = true;
   }
   clock_.advance(dt);
 }
@@ -137,7 +150,19 @@ void MujocoWorld::read_jointed(MutableBodyColumns out, std::size_t i) const {
   out.set_angular_velocity(i, {velocity[0], velocity[1], velocity[2]});
 }
 
+// From what the step has left in the data, before that is worked out anew for where the bodies came to.
+void MujocoWorld::note_reactions() const {
+  if (is_asked_ && is_step_in_data_ && !lost_) reactions_ = said_.after_step(*made_.model, *data_, made_);
+  is_step_in_data_ = false;
+}
+
+std::vector<ReportedReaction> MujocoWorld::reactions() const {
+  note_reactions();
+  return reactions_;
+}
+
 void MujocoWorld::read(Snapshot& out) const {
+  note_reactions();
   out.time = clock_.time();
   const MutableBodyColumns columns = out.own(scene_.bodies.size());
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -179,8 +204,14 @@ SettingsInForce MujocoWorld::settings_in_force() const {
       {"timed forces and motors", "user forces, set before each step"},
   };
   if (model.ngeom > 0) in_force.emplace_back("contacts", solref_in_words(model.geom_solref, model.geom_solimp));
-  const char* when = matched_ && loops_dt_ == 0 ? " until the first step" : "";
+  const char* when = matched_ && stiff_dt_ == 0 ? " until the first step" : "";
   if (model.neq > 0) in_force.emplace_back("loops", solref_in_words(model.eq_solref, model.eq_solimp) + when);
+  const int limited =
+      static_cast<int>(std::find(model.jnt_limited, model.jnt_limited + model.njnt, 1) - model.jnt_limited);
+  if (limited < model.njnt) {  // all are set alike
+    in_force.emplace_back(
+        "limits", solref_in_words(model.jnt_solref + mjNREF * limited, model.jnt_solimp + mjNIMP * limited) + when);
+  }
   return in_force;
 }
 

@@ -5,11 +5,12 @@
 
 #include "adapters/external_loads.h"
 #include "adapters/mujoco/mujoco_model.h"
+#include "adapters/mujoco/mujoco_reactions.h"
 #include "core/engine/clock.h"
 
 namespace rigor {
 
-class MujocoWorld : public World {
+class MujocoWorld : public World, public ReportsReactions {
  public:
   MujocoWorld(const Scene& scene, const Settings& settings);
 
@@ -17,10 +18,13 @@ class MujocoWorld : public World {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
+  void ask_for_reactions() override { is_asked_ = said_.are_said(); }
+  std::vector<ReportedReaction> reactions() const override;
 
  private:
   void apply_loads(double dt);
   void look_for_warnings();
+  void note_reactions() const;
   void read_free(MutableBodyColumns out, std::size_t body) const;
   void read_jointed(MutableBodyColumns out, std::size_t body) const;
 
@@ -32,8 +36,12 @@ class MujocoWorld : public World {
   std::vector<Motor> motors_;
   bool matched_;
   bool is_jointed_;
-  double loops_dt_ = 0;  // s: the step that the loops' stiffness is set for
+  double stiff_dt_ = 0;  // s: the step that the stiffness of loops and limits is set for
   bool lost_ = false;    // blown up: from then on its state is "not a number"
+  MujocoReactions said_;
+  bool is_asked_ = false;
+  mutable bool is_step_in_data_ = false;  // and not yet what the bodies came to
+  mutable std::vector<ReportedReaction> reactions_;
   Clock clock_;
   std::string solver_warning_;
 };

@@ -24,9 +24,13 @@ std::vector<OptionInfo> options_of_both() {
 }
 
 Features joints_of_all_kinds() {
-  return {"joint:ball",      "joint:distance",       "joint:fixed",        "joint:hinge", "joint:slider",
-          "joint:universal", "joint-spring",         "joint-damper",       "joint-limit", "motor:effort",
-          "motor:speed",     "joints-with-contacts", "joints-with-dampers"};
+  return {"joint:ball",          "joint:distance",
+          "joint:fixed",         "joint:hinge",
+          "joint:slider",        "joint:universal",
+          "joint-spring",        "joint-damper",
+          "joint-limit",         "motor:effort",
+          "motor:speed",         "joints-with-contacts",
+          "joints-with-dampers", "joint-limit:beyond-half-turn"};
 }
 
 MethodInfo by_size() {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "adapters/ode/ode_joint_ends.h"
 #include "core/base/error.h"
@@ -86,7 +87,9 @@ OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBody
     const Axis* axis = std::holds_alternative<HingeJoint>(joint.type)    ? &kHinge
                        : std::holds_alternative<SliderJoint>(joint.type) ? &kSlider
                                                                          : nullptr;
-    joints_.push_back({std::visit(maker, joint.type), ends.sign(), axis, joint.has_limits(), ends.bodies.first});
+    const double sign = ends.sign();
+    joints_.push_back({std::visit(maker, joint.type), sign, axis, sign > 0 ? joint.lower : -joint.upper,
+                       sign > 0 ? joint.upper : -joint.lower, ends.bodies.first});
     if (joint.has_limits()) set_limits(joint, joints_.back(), track);
   }
   for (const Motor& motor : scene.motors) {
@@ -99,9 +102,8 @@ OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBody
 // too far is left, and falls with the step.
 void OdeJoints::set_limits(const Joint& joint, const Held& held, Track track) {
   assert(held.axis && "only a hinge and a slider are read with limits");
-  const double low = held.sign > 0 ? joint.lower : -joint.upper, high = held.sign > 0 ? joint.upper : -joint.lower;
-  if (std::isfinite(low)) held.axis->set(held.id, dParamLoStop, low);
-  if (std::isfinite(high)) held.axis->set(held.id, dParamHiStop, high);
+  if (std::isfinite(held.low)) held.axis->set(held.id, dParamLoStop, held.low);
+  if (std::isfinite(held.high)) held.axis->set(held.id, dParamHiStop, held.high);
   held.axis->set(held.id, dParamBounce, joint.restitution);
   if (track == Track::matched) held.axis->set(held.id, dParamStopERP, 0);
 }
@@ -121,7 +123,23 @@ std::vector<ReportedReaction> OdeJoints::reactions() const {
   return reactions;
 }
 
+bool OdeJoints::Held::has_limits() const { return std::isfinite(low) || std::isfinite(high); }
+
+// ODE measures a hinge's angle from -pi to pi and compares it with the stops as they are: they are moved by the whole
+// turns that the hinge has made.
+void OdeJoints::unwind() {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  for (Held& held : joints_) {
+    if (held.axis != &kHinge || !held.has_limits()) continue;
+    const double angle = dJointGetHingeAngle(held.id), turned = std::round((held.angle - angle) / kTurn) * kTurn;
+    held.angle = angle + turned;
+    if (std::isfinite(held.low)) held.axis->set(held.id, dParamLoStop, held.low - turned);
+    if (std::isfinite(held.high)) held.axis->set(held.id, dParamHiStop, held.high - turned);
+  }
+}
+
 void OdeJoints::drive(double t) {
+  unwind();
   const auto acts = [t](const Motor& motor) { return motor.from <= t && t < motor.until; };
   for (const Motor& motor : motors_) joints_[motor.joint].axis->set(joints_[motor.joint].id, dParamFMax, 0);
   for (const Motor& motor : motors_) {
@@ -159,7 +177,7 @@ SettingsInForce OdeJoints::settings_in_force() const {
     settings.emplace_back("erp of ball, distance and fixed joints", fmt::format("{:g}", erp));
     break;
   }
-  const auto limited = std::find_if(joints_.begin(), joints_.end(), [](const Held& held) { return held.has_limits; });
+  const auto limited = std::find_if(joints_.begin(), joints_.end(), [](const Held& held) { return held.has_limits(); });
   if (limited != joints_.end()) {  // all are set alike
     settings.emplace_back("joint stop erp", fmt::format("{:g}", limited->axis->get(limited->id, dParamStopERP)));
     settings.emplace_back("joint stop cfm", fmt::format("{:g}", limited->axis->get(limited->id, dParamStopCFM)));

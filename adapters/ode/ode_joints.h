@@ -19,7 +19,8 @@ class OdeJoints {
   // stays, are where they are at t = 0. The world destroys them.
   OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track);
 
-  // For a step whose middle is t: turns on the motors that keep a speed from <= t < until, and the others off.
+  // For a step whose middle is t: turns on the motors that keep a speed from <= t < until, and the others off; and puts
+  // the stops of hinges into the turn that these are in.
   void drive(double t);
   // What hinges, sliders and universal joints read anew in each step, for the joints that have a copy of it.
   void set_cfm(double cfm);
@@ -39,12 +40,15 @@ class OdeJoints {
     dJointID id;
     double sign;  // of ODE's angle or displacement, against the scene's
     const Axis* axis;
-    bool has_limits;
-    int first;  // the body that ODE counts first
+    double low, high;  // rad, m: its stops, in ODE's coordinate
+    int first;         // the body that ODE counts first
+    double angle = 0;  // rad: a hinge's, whole turns counted, when it was last asked
+    bool has_limits() const;
   };
   struct Maker;
 
   void set_limits(const Joint& joint, const Held& held, Track track);
+  void unwind();
 
   static const Axis kHinge, kSlider;
   std::vector<Held> joints_;  // in the scene's order

@@ -74,7 +74,7 @@ SimbodySystem::SimbodySystem(const Scene& scene)
   for (const Mobilizer& joint : mobilizers) add(joint);
   add_springs();
   if (!loads_.empty()) SimTK::Force::Custom(forces_, new StageLoads(*this));  // it takes it over
-  for (const int k : spanning_tree(scene_).loops) add_loop(scene_.joints[k]);
+  for (const int k : spanning_tree(scene_).loops) add_loop(k);
   start_ = system_.realizeTopology();
   system_.realizeModel(start_);
   for (const Mobilizer& joint : mobilizers) set_start(joint);
@@ -144,8 +144,16 @@ void SimbodySystem::add_springs() {
   }
 }
 
+void SimbodySystem::add_loop(int k) {
+  const Joint& joint = scene_.joints[static_cast<std::size_t>(k)];
+  const SimTK::ConstraintIndex first(matter_.getNumConstraints());
+  add_constraints(joint);
+  loops_.push_back(
+      {k, moves(scene_, joint.b) ? joint.b : joint.a, first, SimTK::ConstraintIndex(matter_.getNumConstraints())});
+}
+
 // Constraints, which are met in the accelerations of each stage, and projected to after each step.
-void SimbodySystem::add_loop(const Joint& joint) {
+void SimbodySystem::add_constraints(const Joint& joint) {
   using namespace SimTK;
   MobilizedBody a = mobilized(joint.a), b = mobilized(joint.b);
   const Mat3 straight = Mat3::Identity();

@@ -33,6 +33,14 @@ class SimbodySystem {
   // What acts from now on is what acts in the step from `from` to `to` [s]; false if that is what acted before.
   bool set_interval(double from, double to);
 
+  // A joint by constraints, and the one of its bodies that surely moves.
+  struct Loop {
+    int joint, body;
+    SimTK::ConstraintIndex first, end;
+  };
+  const std::vector<Loop>& loops() const { return loops_; }
+  const SimTK::MobilizedBody& body(int body) const { return matter_.getMobilizedBody(bodies_[body]); }
+
   // The state must be realised to its velocities.
   void read(const SimTK::State& state, MutableBodyColumns out) const;
 
@@ -40,7 +48,8 @@ class SimbodySystem {
   void add(const Mobilizer& joint);
   void add_springs();
   void refuse_no_length(const Spring& spring) const;
-  void add_loop(const Joint& joint);
+  void add_loop(int joint);
+  void add_constraints(const Joint& joint);
   void set_start(const Mobilizer& joint);
 
   SimTK::MobilizedBody mobilized(int body);
@@ -56,6 +65,7 @@ class SimbodySystem {
   SimTK::Force::UniformGravity gravity_;
   std::vector<SimTK::MobilizedBodyIndex> bodies_;  // by body; Ground for a fixed one
   std::vector<bool> is_free_;                      // by body: hangs on nothing
+  std::vector<Loop> loops_;
   SimTK::State start_;
 
   friend class StageLoads;

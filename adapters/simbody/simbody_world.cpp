@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "adapters/simbody/simbody_reactions.h"
 #include "adapters/simbody/simbody_system.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine_failure.h"
@@ -66,7 +67,7 @@ double largest_in(const SimTK::Vector& numbers) {  // infinite if one is not fin
   return largest;
 }
 
-class SimbodyWorld : public World {
+class SimbodyWorld : public World, public ReportsReactions {
  public:
   SimbodyWorld(const Scene& scene, const Settings& settings)
       : system_(scene),
@@ -93,12 +94,18 @@ class SimbodyWorld : public World {
     clock_.advance(dt);
     const double end = clock_.time();
     solver_warning_.clear();
+    note_start(dt);
     while (moves_ && !lost_ && from < end) {  // parts in which no load begins or ends, so that none lies within a step
       const double to = system_.loads().next_switch(from, end);
       advance(from, to);
       from = to;
     }
   }
+
+  void ask_for_reactions() override {
+    if (moves_) reactions_.emplace(system_);
+  }
+  std::vector<ReportedReaction> reactions() const override;
 
   void read(Snapshot& out) const override {
     out.time = clock_.time();
@@ -114,6 +121,10 @@ class SimbodyWorld : public World {
 
  private:
   void refuse_what_has_no_forces() const;
+  void note_start(double dt);
+  void note_begin_of_part(double from, bool differs);
+  void note_end_of_part(double from, double to, bool is_last);
+  SimbodyReactions::Instant reactions_now() const;
   void advance(double from, double to);
   bool runs_away(double dt) const;
   void note_what_was_not_done(int failures);
@@ -123,8 +134,15 @@ class SimbodyWorld : public World {
   bool is_fixed_step_;
   IntegratorPointer integrator_;
   Clock clock_;
-  bool moves_;         // something has a speed: CPODES aborts where nothing has
-  bool lost_ = false;  // blown up: from then on its state is "not a number"
+  std::optional<SimbodyReactions> reactions_;  // once asked
+  BodyTable start_;                            // of the step
+  double dt_ = 0;                              // s, of the step
+  SimbodyReactions::Instant begin_, mean_;     // of the part of the step; of the step so far
+  mutable SimbodyReactions::Instant end_;      // at end_time_
+  mutable double end_time_ = kInfinity;        // s
+  double share_ = 0;                           // of the step, that its last part takes
+  bool moves_;                                 // something has a speed: CPODES aborts where nothing has
+  bool lost_ = false;                          // blown up: from then on its state is "not a number"
   std::string solver_warning_;
 };
 
@@ -163,16 +181,65 @@ bool SimbodyWorld::runs_away(double dt) const {
   return !(dt * largest_in(state.getUDot()) < kBlownUp);
 }
 
+SimbodyReactions::Instant SimbodyWorld::reactions_now() const {
+  SimTK::State state = integrator_->getAdvancedState();  // a copy: a run that is asked does not get its work done
+  system_.system().realize(state, SimTK::Stage::Acceleration);
+  return reactions_->at(state);
+}
+
+void SimbodyWorld::note_start(double dt) {
+  share_ = 0;
+  if (!reactions_ || lost_) return;
+  dt_ = dt;
+  start_.resize(system_.scene().bodies.size());
+  system_.system().realize(integrator_->getState(), SimTK::Stage::Velocity);
+  system_.read(integrator_->getState(), start_.columns());
+  mean_.assign(system_.scene().joints.size(), {});
+}
+
+// What was carried at the end of the step before is what is carried now, unless the loads are others.
+void SimbodyWorld::note_begin_of_part(double from, bool differs) {
+  if (!reactions_) return;
+  begin_ = differs || end_time_ != from ? reactions_now() : end_;
+}
+
+// At the step's end that is only worked out if somebody asks.
+void SimbodyWorld::note_end_of_part(double from, double to, bool is_last) {
+  if (!reactions_) return;
+  const double share = (to - from) / dt_;
+  if (!is_last) end_ = reactions_now(), end_time_ = to;
+  for (std::size_t k = 0; k < mean_.size(); ++k) {
+    const Vec3 none = Vec3::Zero();
+    mean_[k].force += 0.5 * share * (begin_[k].force + (is_last ? none : end_[k].force));
+    mean_[k].couple += 0.5 * share * (begin_[k].couple + (is_last ? none : end_[k].couple));
+  }
+  share_ = is_last ? share : 0;
+}
+
+std::vector<ReportedReaction> SimbodyWorld::reactions() const {
+  if (!reactions_ || share_ == 0) return {};
+  SimbodyReactions::Instant mean = mean_;
+  if (!lost_ && end_time_ != clock_.time()) end_ = reactions_now(), end_time_ = clock_.time();
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    mean[k].force += 0.5 * share_ * end_[k].force;
+    mean[k].couple += 0.5 * share_ * end_[k].couple;
+  }
+  return reactions_->reported(mean, start_.columns());
+}
+
 // A first call after a start returns at once, without a step; and a change of the loads is a start, before which what
 // was worked out with the old ones has to be forgotten.
 void SimbodyWorld::advance(double from, double to) {
   const int failures = integrator_->getNumConvergenceTestFailures();
   try {
-    if (system_.set_interval(from, to)) {
+    const bool differs = system_.set_interval(from, to);
+    if (differs) {
       integrator_->updAdvancedState().invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
       integrator_->reinitialize(SimTK::Stage::Dynamics, false);
     }
+    note_begin_of_part(from, differs);
     while (integrator_->getTime() < to) integrator_->stepTo(to, to);
+    note_end_of_part(from, to, to == clock_.time());
   } catch (const std::exception& error) {
     if (!runs_away(to - from)) throw;  // its own failure: it costs the cell
     lost_ = true;

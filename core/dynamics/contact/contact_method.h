@@ -14,6 +14,8 @@
 
 namespace rigor {
 
+class JointStops;
+
 class ContactStepper : public Stepper {
  public:
   // What is in force beside the method's name.
@@ -32,7 +34,8 @@ struct ContactParts {
   const Integrator& integrator;
   const OrientationUpdate* orientation;  // see StepperParts
   Settings settings;
-  Joints* joints = nullptr;  // null where nothing holds the bodies together
+  Joints* joints = nullptr;      // null where nothing holds the bodies together
+  JointStops* motors = nullptr;  // of given speed, for a method that has none of its own; null where there are none
 };
 
 struct ContactMethod {
@@ -46,7 +49,8 @@ struct ContactMethod {
 const std::vector<ContactMethod>& contact_methods();
 const ContactMethod& contact_method(const std::string& name);  // the name must be there
 // What a run that names no method gets: `event`, right whatever the step, where at most so many bodies that move
-// collide, and none of them rub while joints hold them; else the first of the table that expresses the scene, or the first of all where none does.
+// collide, and none of them rub while joints hold them; else the first of the table that expresses the scene, or the
+// first of all where none does.
 inline constexpr int kFewCollidingBodies = 8;
 bool has_few_colliding_bodies(const Scene& scene);
 const ContactMethod& contact_method_for(const Scene& scene);

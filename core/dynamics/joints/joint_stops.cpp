@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/dynamics/joints/joint_limits.h"
 
@@ -18,7 +19,7 @@ constexpr int kMostChangesEach = 16;  // of a coordinate's mode in the search fo
 
 }  // namespace
 
-JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, Joints& joints)
+JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, Joints& joints, Of what)
     : joints_(joints),
       loads_(loads),
       wrenches_(system),
@@ -29,14 +30,22 @@ JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, J
     for (const Motor& motor : scene.motors) {
       if (motor.joint == static_cast<int>(k) && motor.speed) motors.push_back(motor);
     }
-    if (joint.has_limits() || !motors.empty())
-      stops_.push_back({k, JointCoordinate(scene, joint), joint.lower, joint.upper, joint.restitution, motors});
+    const bool has_limits = joint.has_limits() && what == Of::limits_and_motors;
+    if (!has_limits && motors.empty()) continue;
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    stops_.push_back({k, JointCoordinate(scene, joint), has_limits ? joint.lower : -kNone,
+                      has_limits ? joint.upper : kNone, joint.restitution, motors});
   }
 }
 
 bool JointStops::are_in(const Scene& scene) {
-  return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.has_limits(); }) ||
-         std::any_of(scene.motors.begin(), scene.motors.end(), [](const Motor& motor) { return motor.speed; });
+  return has_speed_motors(scene) ||
+         std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.has_limits(); });
+}
+
+bool JointStops::has_speed_motors(const Scene& scene) {
+  return std::any_of(scene.motors.begin(), scene.motors.end(),
+                     [](const Motor& motor) { return motor.speed.has_value(); });
 }
 
 void JointStops::read(BodyColumns state, double since) {
@@ -72,7 +81,21 @@ bool JointStops::settle(MutableBodyColumns state, double t, double shortest_flig
   choose_motors(t);
   bool decided = resolve_impacts(state, t, shortest_flight);
   guess_modes();
-  decided = find_modes(state, t) && decided;
+  decided = find_modes(state, loads_at(state, t)) && decided;
+  for (Stop& stop : stops_) stop.settled_x = stop.x, stop.settled_rate = stop.rate;
+  return decided;
+}
+
+void JointStops::let_go(BodyColumns state) {
+  for (Stop& stop : stops_) stop.drive = Drive::off;
+  apply(state);
+}
+
+bool JointStops::settle_motors(BodyColumns state, double t, const Wrench& wrench) {
+  choose_motors(t);
+  read(state, 0);
+  guess_modes();
+  const bool decided = find_modes(state, wrench);
   for (Stop& stop : stops_) stop.settled_x = stop.x, stop.settled_rate = stop.rate;
   return decided;
 }
@@ -98,8 +121,12 @@ void JointStops::apply(BodyColumns state) {
   joints_.count_rows(state);
 }
 
-void JointStops::hold(BodyColumns state, double t) {
-  joints_.hold(state, wrenches_.over_step(state, t, 0), Joints::Rows::chosen_anew);
+JointStops::Wrench JointStops::loads_at(BodyColumns state, double t) {
+  return [this, state, t] { return wrenches_.over_step(state, t, 0); };
+}
+
+void JointStops::hold(BodyColumns state, const double* wrench) {
+  joints_.hold(state, wrench, Joints::Rows::chosen_anew);
   for (Stop& stop : stops_) stop.effort = joints_.coordinate_effort(stop.joint);
   effort_tolerance_ = kNoEffort * joints_.largest_multiplier();
 }
@@ -128,7 +155,7 @@ bool JointStops::take_away_short_flights(BodyColumns state, double t, double sho
                                          const std::vector<int>& hit) {
   if (std::none_of(stops_.begin(), stops_.end(), [](const Stop& stop) { return stop.bounce != 0; })) return false;
   guess_modes();
-  find_modes(state, t);
+  find_modes(state, loads_at(state, t));
   bool any = false;
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     Stop& stop = stops_[i];
@@ -180,10 +207,10 @@ void JointStops::guess_modes() {
   }
 }
 
-bool JointStops::find_modes(BodyColumns state, double t) {
+bool JointStops::find_modes(BodyColumns state, const Wrench& wrench) {
   for (std::size_t n = 0; n < kMostChangesEach * (1 + stops_.size()); ++n) {
     apply(state);
-    hold(state, t);
+    hold(state, wrench());
     const bool changed =
         std::any_of(stops_.begin(), stops_.end(), [&](Stop& stop) { return change_if_violated(stop, state); });
     if (!changed) return true;
@@ -252,10 +279,18 @@ bool JointStops::needs_efforts() const {
                      [](const Stop& stop) { return stop.at != 0 || stop.drive == Drive::keeping; });
 }
 
-void JointStops::note_efforts(BodyColumns state, double t) {
+void JointStops::note_efforts(BodyColumns state, double t) { note_efforts(state, wrenches_.over_step(state, t, 0)); }
+
+void JointStops::note_efforts(BodyColumns state, const double* wrench) {
   const double tolerance = effort_tolerance_;
-  hold(state, t);
+  hold(state, wrench);
   effort_tolerance_ = tolerance;  // one for a whole step: events are roots against it
+}
+
+double JointStops::margin_of_motors() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < stops_.size(); ++i) least = std::min(least, -distance_to(i, Event::motor));
+  return least;
 }
 
 }  // namespace rigor

@@ -5,6 +5,7 @@
 // after it: here by principal pivoting, of the first that is violated each time (K. G. Murty, 1974).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,13 @@ namespace rigor {
 
 class JointStops {
  public:
+  // `motors` alone where limits are a contact method's, which then asks settle_motors() and not settle().
+  enum class Of { limits_and_motors, motors };
   // All must outlive it. Efforts of motors that push are set in `loads`, which are those of the system.
-  JointStops(const Scene& scene, const System& system, Loads& loads, Joints& joints);
+  JointStops(const Scene& scene, const System& system, Loads& loads, Joints& joints, Of what = Of::limits_and_motors);
 
   static bool are_in(const Scene& scene);  // whether there is anything for it to do
+  static bool has_speed_motors(const Scene& scene);
 
   // Takes x and x' from a state, `since` [s] after the last; x is in the turn nearest to where x' has led.
   void read(BodyColumns state, double since);
@@ -28,6 +32,12 @@ class JointStops {
   // What happens at this instant: impacts change velocities; then which limits and motors hold from now on. A bounce
   // that ends within `shortest_flight` [s] does not take place. Returns false if that could not be decided.
   bool settle(MutableBodyColumns state, double t, double shortest_flight);
+  // Before an impact, in which no motor has a part, for its effort has a bound.
+  void let_go(BodyColumns state);
+  // Which motors hold from now on. `wrench` gives, with the motors as they are being tried, the wrench columns of all
+  // that acts on the bodies beside their joints, which may be null. Returns false if that could not be decided.
+  using Wrench = std::function<const double*()>;
+  bool settle_motors(BodyColumns state, double t, const Wrench& wrench);
 
   // How far each of what may happen to a coordinate is from happening, at the state that was read last; below zero
   // until it does.
@@ -41,6 +51,9 @@ class JointStops {
   // Whether distance_to() needs efforts, which note_efforts() takes from the state that was read last.
   bool needs_efforts() const;
   void note_efforts(BodyColumns state, double t);
+  void note_efforts(BodyColumns state, const double* wrench);  // as settle_motors() has it
+  // How far the motors are from a change at the state that was read last: negative beyond it.
+  double margin_of_motors() const;
 
   // The first instant in (t, end) at which a motor of given speed begins or ends; `end` if there is none.
   double next_switch(double t, double end) const;
@@ -67,12 +80,13 @@ class JointStops {
   int hit_side(const Stop& stop) const;
   void choose_motors(double t);
   void apply(BodyColumns state);
-  void hold(BodyColumns state, double t);
+  void hold(BodyColumns state, const double* wrench);
   bool resolve_impacts(MutableBodyColumns state, double t, double shortest_flight);
   bool take_away_short_flights(BodyColumns state, double t, double shortest_flight, const std::vector<int>& hit);
   bool find_impulses(MutableBodyColumns state);
   void guess_modes();
-  bool find_modes(BodyColumns state, double t);
+  bool find_modes(BodyColumns state, const Wrench& wrench);
+  Wrench loads_at(BodyColumns state, double t);
   bool change_if_violated(Stop& stop, BodyColumns state);
 
   Joints& joints_;

@@ -120,6 +120,44 @@ BOOST_AUTO_TEST_CASE(a_motor_turns_b_against_a) {
   BOOST_TEST(distance_after("mujoco:rk4", scene, 1e-3, 0.6) < 1e-4);
 }
 
+// A weight that falls on the stop of its slider, and an arm on that of its hinge, come to rest there. A limit is found
+// where a step begins beyond it: by up to v dt, which is left; and as a force it lets through 1e-4 of what presses, so
+// that what lies on it sinks by 1e-4 g dt each second.
+BOOST_AUTO_TEST_CASE(limits_stop_within_a_step_and_hardly_sink) {
+  for (const char* method : {"mujoco", "mujoco:implicit", "mujoco:rk4"}) {
+    for (const double dt : {1.0 / 240, 1.0 / 1000}) {
+      for (const bool is_b : {true, false}) {
+        Scene scene;
+        scene.gravity = {0, 0, -9.81};
+        scene.bodies = {rod("weight", {1, 0, 0})};
+        Joint rail{.a = kWorld, .b = 0, .type = SliderJoint{Vec3::UnitZ()}, .lower = -0.5};
+        if (!is_b) rail = {.a = 0, .b = kWorld, .type = SliderJoint{Vec3::UnitZ()}, .upper = 0.5};
+        scene.joints = {rail};
+        const auto fallen = load_run(method, scene);
+        const double fastest = std::sqrt(2 * 9.81 * 0.5),
+                     sunk = -0.5 - body_after(*fallen, dt, std::lround(2 / dt)).position.z();
+        BOOST_TEST_CONTEXT(method << ", " << dt << ": " << sunk) {
+          BOOST_TEST(sunk > -1e-3 * fastest * dt);
+          // rk4, in whose stages a limit is a damper of 1/dt, takes as much again to stop.
+          BOOST_TEST(sunk < (std::string(method) == "mujoco:rk4" ? 2.1 : 1.1) * fastest * dt);
+          const BodyState rest = body_after(*fallen, dt, 1);
+          BOOST_TEST(std::abs(rest.velocity.z()) < 2e-4 * 9.81 * dt);
+        }
+        scene.joints[0].type = HingeJoint{{0, 0, 0}, {0, is_b ? -1.0 : 1.0, 0}};  // up is positive
+        if (!is_b) scene.joints[0].type = HingeJoint{{0, 0, 0}, {0, -1, 0}};
+        const auto swung = load_run(method, scene);
+        const BodyState down = body_after(*swung, dt, std::lround(2 / dt));
+        const double angle = std::atan2(down.position.z(), down.position.x());
+        BOOST_TEST_CONTEXT(method << ", " << dt << ": " << angle) {
+          BOOST_TEST(angle < -0.5 + 1e-3 * 4 * dt);
+          BOOST_TEST(angle > -0.5 - 1.1 * 4 * dt);  // rad/s: it comes with 3.7
+          BOOST_TEST(down.angular_velocity.norm() < 2e-4 * 15 * dt);
+        }
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_it_cannot_say_is_refused) {
   Scene scene = hung_by({.a = 0, .b = 1, .type = SliderJoint{Vec3::UnitX()}});
   scene.joints.push_back({.a = kWorld, .b = 1, .type = SliderJoint{Vec3::UnitX()}});
@@ -138,7 +176,7 @@ BOOST_AUTO_TEST_CASE(what_it_cannot_say_is_refused) {
     motor.effort = 1;
     if (damping == 0) loop.motors = {motor, motor, motor}, loop.motors[1].joint = 2, loop.motors[2].joint = 3;
     BOOST_CHECK_EXCEPTION(load_run("mujoco", loop), EngineFailure, [](const EngineFailure& failure) {
-      return std::string(failure.what()).find("no spring, damper or motor") != std::string::npos;
+      return std::string(failure.what()).find("no spring, damper, limit or motor") != std::string::npos;
     });
   }
   Scene chain;

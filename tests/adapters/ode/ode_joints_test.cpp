@@ -313,13 +313,6 @@ BOOST_AUTO_TEST_CASE(what_is_in_force_of_joints_is_read_back) {
 
 BOOST_AUTO_TEST_CASE(what_ode_cannot_say_of_a_joint_is_refused_with_the_reason) {
   Scene scene = hinged();
-  scene.joints[0].upper = 4;
-  const RunName run = parse_run_name("ode", infos_of(engines()));
-  BOOST_TEST(why_unsupported(OdeEngine().info(), run.settings, scene, 1e-3) ==
-             "ode has no joint-limit:beyond-half-turn, which the hinge of 'world' and 'b' asks for");
-  scene.joints[0].upper = kPi;
-  BOOST_TEST(why_unsupported(OdeEngine().info(), run.settings, scene, 1e-3) == "");
-
   scene.motors = {speed(1, 1, 0, 2), speed(2, 1, 1, 3)};
   BOOST_CHECK_EXCEPTION(load_run("ode", scene), InputError, [](const InputError& error) {
     return std::string(error.what()) ==

@@ -79,7 +79,7 @@ class EventStepper : public ContactStepper {
     crowded_step_ = CrowdedSteps::longest(dt);
     for (double done = 0; done < dt;) {
       if (!is_finite(state)) return note("the state of a body is no longer finite");
-      const double end = loads_.next_switch(t + done, t + dt);
+      const double end = persistent_contact_.next_switch(t + done, loads_.next_switch(t + done, t + dt));
       is_smooth_ = is_smooth_ && end == t + dt;
       part_ = {t, done, end == t + dt ? dt : end - t};
       const long work_before = work_so_far();
@@ -140,6 +140,7 @@ class EventStepper : public ContactStepper {
     touching_.clear();
     contact_points_.find(state, pairs_, kClosedGap, touching_);
     start_ = BodyColumns(state);
+    persistent_contact_.let_go_motors(state);
     if (impacts_.resolve(state, touching_)) is_smooth_ = false;
     if (!impacts_.solver_warning().empty()) {
       copy_columns(std::as_const(start_).columns(), state);
@@ -225,7 +226,7 @@ class EventStepper : public ContactStepper {
     if (persistent_contact_.points().empty()) return done;
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::all);
-    persistent_contact_.stop_points(state);
+    persistent_contact_.stop_points(state, PersistentContact::When::after);
     return done;
   }
 
@@ -330,7 +331,7 @@ const ContactMethod kEventContact = {
     .name = "event",
     .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
     .features = joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none",
-                                                  "restitution", "joints-with-contacts", "joint-limit"}),
+                                                  "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
     .options = {{"restitution-threshold", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1},
                 {"patience",
                  "times of what it may spend on events by default; more than 1: invalid where they crowd",

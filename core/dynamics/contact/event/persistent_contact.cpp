@@ -43,6 +43,7 @@ void move(MutableBodyColumns state, std::size_t i, const PoseStep& motion) {
 PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& contact_points)
     : system_(parts.system),
       joints_(parts.joints),
+      motors_(parts.motors),
       in_contact_(rigor::integrator_in_contact(parts.integrator)),
       contact_points_(contact_points),
       persistent_(system_, contact_points, parts.joints),
@@ -55,8 +56,52 @@ PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& c
       restitution_threshold_(number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
       rests_(parts.system.size(), 0) {}
 
+void PersistentContact::let_go_motors(BodyColumns state) {
+  if (motors_) motors_->let_go(state);
+}
+
+// What a motor takes depends on the forces at the points, and which points stay on what it does: they are found anew
+// for each choice of the motors.
 bool PersistentContact::select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t,
                                double dt) {
+  if (!motors_) return select_points(state, contact_points, t, dt);
+  bool are_found = true;
+  const bool is_decided = motors_->settle_motors(state, t, [&] {
+    are_found = select_points(state, contact_points, t, dt);
+    persistent_.begin_attempt();
+    const double* loads = loads_.over_step(state, t, dt);
+    persistent_.hold(state, loads, ConstraintForces::Rows::chosen_anew);
+    return wrench_beside_joints(loads);
+  });
+  return are_found && is_decided;
+}
+
+// Of the loads, and the forces at the points as they were held last.
+const double* PersistentContact::wrench_beside_joints(const double* loads) {
+  beside_joints_.resize(kWrenchColumns, system_.size());
+  for (std::size_t c = 0; c < kWrenchColumns; ++c) {
+    double* const to = beside_joints_.column(c);
+    if (loads)
+      std::copy_n(loads + c * beside_joints_.stride(), system_.size(), to);
+    else
+      std::fill_n(to, system_.size(), 0.0);
+  }
+  for (const PersistentPoint& point : points()) {
+    const ConeConstraint cone = point.cone();
+    for (const auto& [end, body] : {std::pair(0, cone.a), std::pair(1, cone.b)}) {
+      if (body == kWorld) continue;
+      const Vec6 push = cone.row(end, point.frame * point.force);
+      for (int k = 0; k < 3; ++k) {
+        beside_joints_.column(static_cast<std::size_t>(kForce + k))[body] += push[k];
+        beside_joints_.column(static_cast<std::size_t>(kTorque + k))[body] += push[3 + k];
+      }
+    }
+  }
+  return beside_joints_.data();
+}
+
+bool PersistentContact::select_points(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points,
+                                      double t, double dt) {
   std::vector<PersistentPoint>& points = persistent_.points();
   old_points_.swap(points);
   old_points_.insert(old_points_.end(), resting_points_.begin(), resting_points_.end());
@@ -84,7 +129,7 @@ bool PersistentContact::select(MutableBodyColumns state, const std::vector<Conta
   }
   if (points.empty()) return true;
   const bool are_found = modes_.choose(state, loads_.over_step(state, t, dt));
-  stop_points(state);
+  stop_points(state, When::before);
   if (are_found) set_resting_aside(state);
   return are_found;
 }
@@ -130,6 +175,9 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
   end_ = end;
   wrench_at_end_ = loads_.over_step(end, t, dt);
   persistent_.hold(end, wrench_at_end_, ConstraintForces::Rows::as_chosen);
+  if (!motors_) return;
+  motors_->read(end, dt);
+  if (motors_->needs_efforts()) motors_->note_efforts(end, wrench_beside_joints(wrench_at_end_));
 }
 
 double PersistentContact::longest_step() const {
@@ -176,6 +224,11 @@ double PersistentContact::slipping_margin() const {
 }
 
 double PersistentContact::distance_from_change() {
+  const double of_points = distance_from_change_of_points();
+  return motors_ ? std::min(of_points, motors_->margin_of_motors()) : of_points;
+}
+
+double PersistentContact::distance_from_change_of_points() {
   if (points().empty()) return kForever;
   const double least = slipping_margin();
   if (least < 0 || margin() >= 0) return least;
@@ -252,14 +305,17 @@ void PersistentContact::close_joints(MutableBodyColumns state) {
   if (joints_) joints_->project(state);
 }
 
-void PersistentContact::stop_points(MutableBodyColumns state) {
+// What is left of a slip, too slow to count as one, of a point that begins to slip another way would have to stop
+// first, and friction, which has no direction there, would have none that an integrator finds its way through.
+void PersistentContact::stop_points(MutableBodyColumns state, When when) {
   if (points().empty()) return;
   persistent_.place(state);
   targets_.clear();
   double most = 0, speed = 0;
   for (const PersistentPoint& point : points()) {
     const ConeConstraint cone = point.cone();
-    const int last = point.mode == PersistentPoint::Mode::sticks ? 2 : 0;
+    const bool stands = point.mode == PersistentPoint::Mode::sticks || (when == When::before && point.begins_to_slip);
+    const int last = stands ? 2 : 0;
     for (int axis = 0; axis <= last; ++axis) {
       add_target(cone, axis, -point.velocity[axis], true);
       most = std::max(most, std::abs(point.velocity[axis]));

@@ -10,6 +10,7 @@
 #include "core/dynamics/contact/event/impacts.h"
 #include "core/dynamics/contact/event/mass_weighted_projection.h"
 #include "core/dynamics/integrators/integrator.h"
+#include "core/dynamics/joints/joint_stops.h"
 #include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {
@@ -19,8 +20,8 @@ class PersistentContact {
   PersistentContact(const ContactParts& parts, ContactPoints& contact_points);
 
   const std::vector<PersistentPoint>& points() const { return persistent_.points(); }
-  // Which of the touching points stay in contact from t on, for some of dt. False if there are no forces that obey the
-  // laws.
+  // Which of the touching points stay in contact from t on, for some of dt, and which motors keep their speeds. False
+  // if there are no forces that obey the laws.
   bool select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t, double dt);
   // From `start` at t to `end` at t + dt.
   void advance(BodyColumns start, MutableBodyColumns end, double t, double dt);
@@ -32,8 +33,13 @@ class PersistentContact {
   // Whether the body rests, with all that it touches, while others move: it does so until something else touches it, so
   // that its points are not among those whose forces are asked at each stage.
   bool rests(int body) const { return rests_[static_cast<std::size_t>(body)] != 0; }
-  // How far the end of the last advance is from a change of what sticks, slides or touches there: negative beyond it.
+  // How far the end of the last advance is from a change of what sticks, slides, touches or is driven there: negative
+  // beyond it.
   double distance_from_change();
+  // Before an impact: motors have no impulses.
+  void let_go_motors(BodyColumns state);
+  // As Loads::next_switch() has it, of the motors of a given speed.
+  double next_switch(double t, double end) const { return motors_ ? motors_->next_switch(t, end) : end; }
   void forget_points();
   // Moves bodies so that nothing overlaps and, of `all`, what carries a force has no gap; velocities stay. Returns
   // whether any body had to move.
@@ -44,8 +50,9 @@ class PersistentContact {
   // The point at which the last close_gaps() left two bodies deep in each other, for they have no room; null if there
   // is none.
   const ContactPoint* jam() const;
-  // Takes the velocities away that the points must not have.
-  void stop_points(MutableBodyColumns state);
+  // Takes the velocities away that the points must not have. `before` they move: what begins to slip does not slip yet.
+  enum class When { before, after };
+  void stop_points(MutableBodyColumns state, When when);
 
   const std::vector<Loading>& largest_loads() const { return persistent_.largest_loads(); }
   const std::string& integrator_in_contact() const { return in_contact_.name; }
@@ -57,6 +64,9 @@ class PersistentContact {
   std::string solver_warning() const;
 
  private:
+  bool select_points(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t, double dt);
+  double distance_from_change_of_points();
+  const double* wrench_beside_joints(const double* loads);
   double margin() const;
   double slipping_margin() const;
   bool carries(const ContactPoint& contact) const;
@@ -68,13 +78,15 @@ class PersistentContact {
 
   const System& system_;
   Joints* joints_;
-  std::string noted_;  // of the joints, before what is tried now
+  JointStops* motors_;  // null where there are none
+  std::string noted_;   // of the joints, before what is tried now
   const Integrator& in_contact_;
   ContactPoints& contact_points_;
   PersistentForces persistent_;
   ContactModes modes_;
   std::unique_ptr<Stepper> free_stepper_, contact_stepper_;
   WrenchColumns loads_;
+  Columns beside_joints_;
   MassWeightedProjection projection_;
   double restitution_threshold_;  // m/s
   BodyColumns end_;

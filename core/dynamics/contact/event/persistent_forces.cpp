@@ -15,6 +15,17 @@ constexpr int kMostForceRounds = 6;
 constexpr double kSettled = 1e-15;  // of the accelerations without forces
 constexpr double kNoSlip = 1e-9;    // m/s: a slip that has no direction of its own
 
+// Unit, in W: what friction acts against. Past the instant at which the point would stop it goes on as it was, so that
+// the instant can be found: of a slip that has turned against the direction it began with, that which is mirrored back.
+// So nothing jumps where a slip, as joints may make it, turns by a right angle before it stops: where friction jumps so
+// that either side leads back to the jump, no step of an adaptive method is short enough.
+Vec3 braked_direction(const PersistentPoint& point) {
+  const Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
+  const double size = slip.norm(), along = slip.dot(point.slip_direction);
+  if (!(size > kNoSlip)) return point.slip_direction;
+  return (along < 0 ? Vec3(slip - 2 * along * point.slip_direction) : slip) / size;
+}
+
 }  // namespace
 
 PersistentForces::PersistentForces(const System& system, const ContactPoints& contact_points, Joints* joints)
@@ -137,10 +148,7 @@ void PersistentForces::list_rows(const Island& island) {
       add_row(i, 0, n, n);
       continue;
     }
-    // Past the instant at which it would stop the friction goes on as it was, so that the instant can be found.
-    Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
-    slip = std::abs(point.slip) > kNoSlip ? Vec3(slip / point.slip) : Vec3(point.slip_direction);
-    add_row(i, 0, n, n - point.friction() * slip);
+    add_row(i, 0, n, n - point.friction() * braked_direction(point));
     is_symmetric_ = false;
   }
 }
@@ -321,9 +329,7 @@ void PersistentForces::set_forces() {
     PersistentPoint& point = points_[row.point];
     point.force[row.axis] += row.multiplier;
     if (point.mode == PersistentPoint::Mode::sticks || point.friction() == 0) continue;
-    Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
-    slip = std::abs(point.slip) > kNoSlip ? Vec3(slip / point.slip) : Vec3(point.slip_direction);
-    point.force -= point.friction() * row.multiplier * (point.frame.transpose() * slip);
+    point.force -= point.friction() * row.multiplier * (point.frame.transpose() * braked_direction(point));
   }
 }
 

@@ -72,6 +72,34 @@ double largest_gain(
   return gain / std::abs(first);
 }
 
+// An arm of 1 m and 1 kg, level on a hinge along z, that a motor lifts over a floor it never meets.
+Scene lifted_arm(double speed, double most) {
+  Scene scene;
+  scene.gravity = {0, -kG, 0};
+  scene.bodies = {solid("arm", Box{{1, 0.05, 0.05}}, {0.5, 0, 0})};
+  scene.joints = {{.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3::UnitZ()}, .damping = 0.1}};
+  scene.motors = {{.joint = 0, .speed = speed, .most = most, .from = 0.1, .until = 1.3}};
+  return scene;
+}
+
+Scene over_a_floor(Scene scene) {
+  scene.bodies.push_back(floor_at(Vec3::UnitY(), -5));
+  return scene;
+}
+
+// A pusher of 2 kg on rails along x, half a metre from a box of 1 kg that the floor brakes with 0.4 of its weight.
+constexpr double kPusher = 2, kBox = 1, kBraked = 0.4, kSpeed = 1.5, kWay = 0.5;
+Scene pushed_box(double most) {
+  Scene scene = on_floor({solid("pusher", Box{{0.2, 0.2, 0.1}}, {0, 0, 0.1}, kPusher),
+                          solid("box", Box{{0.2, 0.2, 0.2}}, {kWay + 0.2, 0, 0.1}, kBox)},
+                         {0, kBraked});
+  scene.bodies[0].velocity = {kSpeed, 0, 0};
+  scene.joints = {{.a = kWorld, .b = 0, .type = SliderJoint{Vec3::UnitX()}}};
+  scene.motors = {{.joint = 0, .speed = kSpeed, .most = most}};
+  scene.contact_pairs = {{0, 1, {0, 0}}};
+  return scene;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_jointed_contact)
@@ -204,6 +232,71 @@ BOOST_AUTO_TEST_CASE(a_doll_that_falls_keeps_its_joints_and_gains_nothing) {
   Snapshot now;
   run.world().read(now);
   BOOST_TEST(joints.gap(now.bodies()) < 1e-12);
+}
+
+// The same motors as JointEvents has them, where nothing can touch: one that is strong enough, one that comes to its
+// speed and loses it as the arm goes up, one that never lifts the arm.
+BOOST_AUTO_TEST_CASE(motors_agree_with_those_of_scenes_without_contact) {
+  for (const auto& [speed, most] : {std::pair(2.0, 20.0), std::pair(-1.0, 5.2), std::pair(3.0, 5.2)}) {
+    const Scene smooth = lifted_arm(speed, most), scene = over_a_floor(smooth);
+    for (const auto& [method, bound] : {std::pair("dormand-prince", 1e-10), std::pair("rk4", 1e-7)}) {
+      JointedRun by_contact(scene, method), by_stops(smooth, method, {});
+      for (int n = 0; n < 2 * 120; ++n) {
+        const BodyColumns one = by_contact.step(1.0 / 120), other = by_stops.step(1.0 / 120);
+        // rk4 errs by some 1e-8 in either, in parts of a step that end at the same events.
+        BOOST_TEST_CONTEXT(method << ", " << speed << " rad/s, " << most << " N m, step " << n)
+        BOOST_TEST(difference(one.body(0), other.body(0)).pose < bound);
+      }
+    }
+  }
+}
+
+// The motor has no part in the impact, after which both go at 2/3 of its speed. Then it pushes with all it has, until
+// they have its speed, which it keeps with what the floor takes.
+BOOST_AUTO_TEST_CASE(a_motor_comes_back_to_its_speed_after_an_impact) {
+  const double hit = kWay / kSpeed, after = kSpeed * kPusher / (kPusher + kBox);
+  constexpr double kMost = 7;  // N
+  const double acceleration = (kMost - kBraked * kBox * kG) / (kPusher + kBox),
+               again = hit + (kSpeed - after) / acceleration;
+  const auto expected = [&](double t) {
+    if (t < hit) return kSpeed * t;
+    const double pushing = std::min(t, again) - hit;
+    return kWay + after * pushing + 0.5 * acceleration * pushing * pushing + kSpeed * std::max(0.0, t - again);
+  };
+  for (const char* method : {"dormand-prince", "rk4", "velocity-verlet"}) {
+    JointedRun run(pushed_box(kMost), method);
+    for (int n = 1; n <= 40; ++n) {
+      const double x = run.step(1.0 / 30).position(0).x();
+      // Straight lines and parabolas: every method is exact, but for the instants of events, 1e-14 of a step.
+      BOOST_TEST(std::abs(x - expected(n / 30.0)) < 1e-11, method << " at " << n / 30.0);
+    }
+    BOOST_TEST(again < 40 / 30.0);
+  }
+}
+
+// 3 N do not overcome 3.9 N: both stop after the impact, and the motor goes on pressing.
+BOOST_AUTO_TEST_CASE(a_motor_too_weak_for_friction_stalls) {
+  constexpr double kMost = 3;
+  const double hit = kWay / kSpeed, after = kSpeed * kPusher / (kPusher + kBox),
+               braking = (kBraked * kBox * kG - kMost) / (kPusher + kBox), stop = after / braking;
+  JointedRun run(pushed_box(kMost));
+  double x = 0;
+  for (int n = 1; n <= 30 * 5; ++n) x = run.step(1.0 / 30).position(0).x();
+  BOOST_TEST(hit + stop < 5);
+  BOOST_TEST(std::abs(x - kWay - 0.5 * after * stop) < 1e-10);
+}
+
+// A motor that would fold a flap into its stop stays there with what it has, and lets it fall when it is off.
+BOOST_AUTO_TEST_CASE(a_motor_holds_what_it_drives_at_a_stop_until_it_is_off) {
+  Scene scene = flap({0, 0});
+  scene.motors = {{.joint = 0, .speed = 1.0, .most = 20, .until = 1}};
+  JointedRun run(scene);
+  for (int n = 1; n <= 60; ++n) {
+    const double t = n / 30.0, angle = angle_about_z(run.step(1.0 / 30), 0);
+    if (t < 0.55) BOOST_TEST(angle > 0.0);
+    if (t > 0.65 && t <= 1) BOOST_TEST(std::abs(angle - 0.6) < 1e-11, "at " << t);
+    if (t > 1.9) BOOST_TEST(std::abs(angle) < 1e-10, "at " << t);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
