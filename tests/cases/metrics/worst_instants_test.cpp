@@ -234,6 +234,10 @@ BOOST_AUTO_TEST_CASE(impact_times_are_compared_one_by_one_up_to_the_truths_horiz
   TruthSamples samples = test::sampled(*truth, run, scene, 100);
   // From 1.5 s on it is 0.03 s behind.
   for (std::size_t n = 150; n < run.samples.size(); ++n) run.samples[n].bodies = samples.bodies[n - 3];
+  const Trajectory itself = test::played(*truth, scene, 0.01, 270);
+  const Measurement none = *test::measured("impact_time_error", {scene, itself, &samples, 0}).measurement;
+  BOOST_TEST(none.value == 0);
+  BOOST_TEST(none.worst.component == "impact");
   const JudgedRun judged{scene, run, &samples, 0};
   const Measurement m = *test::measured("impact_time_error", judged).measurement;
   BOOST_TEST(m.value == 0.03, boost::test_tools::tolerance(1e-6));
@@ -299,6 +303,19 @@ BOOST_AUTO_TEST_CASE(stops_name_the_body_whose_distance_is_furthest_off) {
   scene.bodies[2].fixed = scene.bodies[3].fixed = true;
   BOOST_TEST(test::measured("friction_anisotropy", judged).not_applicable.find("one body stops") == 0);
   BOOST_TEST(test::measured("stop_distance_error", judged).measurement->worst.body == 0);
+}
+
+// Half a micrometre, at an end that the truth knows to nine tenths of one.
+BOOST_AUTO_TEST_CASE(a_stop_that_the_truth_cannot_tell_from_none_is_none) {
+  const Scene scene = test::on_slope(Box{{0.4, 0.4, 0.2}}, 0, 0.5, 5);
+  const auto creeps = [](double t) { return BodyState{{t * 5e-7, 0, 0.1}, Quat::Identity(), {0, 0, 0}, {0, 0, 0}}; };
+  const test::StatedTruth truth(creeps);
+  const Trajectory run = test::played(truth, scene, 1, 1);
+  TruthSamples samples = test::sampled(truth, run, scene, 1);
+  BOOST_TEST(test::measured("stop_distance_error", {scene, run, &samples, 0}).measurement.has_value());
+  samples.error.back() = 9e-7;
+  BOOST_TEST(test::measured("stop_distance_error", {scene, run, &samples, 0}).not_applicable ==
+             "no body comes to a stop in truth");
 }
 
 // By the square of the speed: 1e-9 of the distance is alike.

@@ -45,6 +45,10 @@ BOOST_AUTO_TEST_CASE(what_stands_free_and_touches_is_built_to_stand_and_all_else
   BOOST_TEST(why_not(stack()) == "");
   BOOST_TEST(why_not(stack(0.9e-3)) == "");
   BOOST_TEST(why_not(stack(1.1e-3)) == "a body starts without touching another");
+  Scene beside = stack();
+  beside.bodies.push_back(test::on_its_own("post", Box{{1, 1, 1}}, 1, {9, 9, 9}));
+  beside.bodies[3].fixed = true;
+  BOOST_TEST(why_not(beside) == "");
   const auto with = [](const std::function<void(Scene&)>& change) {
     Scene scene = stack();
     change(scene);
