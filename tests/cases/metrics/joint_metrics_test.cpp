@@ -135,6 +135,11 @@ BOOST_AUTO_TEST_CASE(a_report_is_held_against_the_mean_over_its_step) {
   BOOST_TEST(value_of("reported_reaction_torque_error", judged) < 1e-12);
   spoilt.torque += Vec3(0.3, 0, 0);
   BOOST_TEST(value_of("reported_reaction_torque_error", judged) == 0.3, boost::test_tools::tolerance(1e-9));
+  Trajectory thinned{run.dt, {}};
+  for (std::size_t n = 0; n < run.samples.size(); n += 2) thinned.samples.push_back(run.samples[n]);
+  const TruthSamples at_those = test::sampled(*truth, thinned, scene, 5);
+  BOOST_TEST(test::measured("reported_reaction_error", {scene, thinned, &at_those, 0}).not_applicable ==
+             "steps are not recorded one by one");
 }
 
 BOOST_AUTO_TEST_CASE(what_the_equations_do_not_tell_has_no_reaction_error) {

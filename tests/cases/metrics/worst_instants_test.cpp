@@ -313,6 +313,9 @@ BOOST_AUTO_TEST_CASE(a_stop_that_the_truth_cannot_tell_from_none_is_none) {
   const Trajectory run = test::played(truth, scene, 1, 1);
   TruthSamples samples = test::sampled(truth, run, scene, 1);
   BOOST_TEST(test::measured("stop_distance_error", {scene, run, &samples, 0}).measurement.has_value());
+  const test::StatedTruth rest([&](double) { return creeps(0); });
+  const TruthSamples resting = test::sampled(rest, run, scene, 1);
+  BOOST_TEST(!test::measured("stop_distance_error", {scene, run, &resting, 0}).measurement.has_value());
   samples.error.back() = 9e-7;
   BOOST_TEST(test::measured("stop_distance_error", {scene, run, &samples, 0}).not_applicable ==
              "no body comes to a stop in truth");
