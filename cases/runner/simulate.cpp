@@ -1,11 +1,14 @@
 #include "cases/runner/simulate.h"
 
+#include <fmt/format.h>
+
 #include <ctime>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/engine/engine_failure.h"
 #include "core/engine/remote.h"
 
 namespace rigor {
@@ -34,6 +37,17 @@ double cost_of_reading_the_clock() {
     return costs[kPairs / 2];
   }();
   return cost;
+}
+
+// Whether it can an engine says when it is given the scene, or the step. Said of a later step it would leave out of
+// the judgement a run that is already known.
+void step_as_agreed(World& world, double dt, long steps_before) {
+  try {
+    world.step(dt);
+  } catch (const EngineFailure& failure) {
+    if (failure.kind() != FailureKind::unsupported || steps_before == 0) throw;
+    throw EngineFailure(FailureKind::invalid, fmt::format("after {} steps {}", steps_before, failure.what()));
+  }
 }
 
 // Steps from one recorded sample to the next.
@@ -85,7 +99,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
       return run;
     }
     const double begin = is_timed ? cpu_seconds_so_far(*world) : 0;
-    world->step(dt);
+    step_as_agreed(*world, dt, n);
     if (is_timed) run.cpu_seconds += std::max(0.0, cpu_seconds_so_far(*world) - begin - cost_of_reading_the_clock());
     world->read(now);
     if (run.solver_warning.empty()) {

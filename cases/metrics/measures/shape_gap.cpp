@@ -163,7 +163,10 @@ void for_each_near_pair(const Scene& scene, BodyColumns bodies, double reach,
     if (gap < reach) visit(a, b, gap);
   };
   for (std::size_t i = 0; i < extents.size(); ++i) {
-    for (const int plane : planes) look(extents[i].body, plane);
+    for (const int plane : planes) {
+      const auto [a, b] = std::minmax({extents[i].body, plane});
+      look(a, b);
+    }
     for (std::size_t j = i + 1; j < extents.size() && extents[j].low <= extents[i].high; ++j) {
       const int a = extents[i].body, b = extents[j].body;
       const double radii = bounding_radius(*scene.bodies[a].shape) + bounding_radius(*scene.bodies[b].shape) + reach;

@@ -131,6 +131,23 @@ std::map<std::string, Mistake> mistakes() {
   return all;
 }
 
+// ODE, which is of double precision, and says that it is of single.
+class Modest : public Engine {
+ public:
+  EngineInfo info() const override {
+    EngineInfo info = ode().info();
+    info.precision = "single";
+    return info;
+  }
+  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {
+    return ode().load(scene, settings);
+  }
+  std::string twin(const Settings&) const override { return ""; }
+
+ private:
+  static const Engine& ode() { return engines().find("ode"); }
+};
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(cases_analysis_conformance)
@@ -152,6 +169,16 @@ BOOST_AUTO_TEST_CASE(each_mistake_is_found_and_told_with_what_was_sent_what_came
       BOOST_TEST((!result.sent.empty() && !result.came.empty() && !result.due.empty()));
     }
   }
+}
+
+// To say single precision widens the limits by which it is judged.
+BOOST_AUTO_TEST_CASE(an_engine_of_double_precision_that_says_single_is_found) {
+  const Modest single;
+  BOOST_TEST(broken_by(trial_of(single, "ode")).contains("precision"));
+  const BrokenEngine rounds(single, on_read([](MutableBodyColumns b, std::size_t i) {
+                              for (int c = 0; c < 13; ++c) b.column(c)[i] = static_cast<float>(b.column(c)[i]);
+                            }));
+  BOOST_TEST(!broken_by(trial_of(rounds, "ode")).contains("precision"));
 }
 
 // What an engine says of its method is held against what the method does.

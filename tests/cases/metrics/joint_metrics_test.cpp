@@ -86,6 +86,23 @@ BOOST_AUTO_TEST_CASE(a_known_speed_is_a_known_reaction) {
   BOOST_TEST(found.value == 0.5 * w * w * 0.21, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(found.worst.time == run.samples[50].time);
   BOOST_TEST(found.worst.component == "force of the hinge of 'world' and 'rod'");
+  BOOST_TEST(found.worst.body == 0);
+  BOOST_TEST(found.series.empty());  // a hundred instants at most, and not the run's samples
+  const MutableBodyColumns start = run.samples[0].bodies.columns();
+  start.set_angular_velocity(0, {0, 0, 9}), start.set_velocity(0, {0, 4.5, 0});
+  BOOST_TEST(test::measured("reaction_error", {scene, run, &samples, 0}).measurement->worst.time == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_truth_that_is_good_at_the_start_alone_measures_nothing_of_joints) {
+  const Scene scene = pendulum();
+  const auto truth = make_truth("reference", scene, 1);
+  const Trajectory run = test::played(*truth, scene, 0.01, 100);
+  TruthSamples samples = test::sampled(*truth, run, scene, 5);
+  for (std::size_t n = 1; n < samples.error.size(); ++n) samples.error[n] = 1;
+  for (const char* metric : {"reaction_error", "reaction_torque_error", "phase_error", "tube"}) {
+    const MetricResult found = test::measured(metric, {scene, run, &samples, 0});
+    BOOST_TEST(found.not_applicable == "there is no sample after the start at which the truth is good enough", metric);
+  }
 }
 
 // A report of the truth's own mean over each step has no error, and one that is a tenth too large has that tenth.
@@ -112,10 +129,17 @@ BOOST_AUTO_TEST_CASE(a_report_is_held_against_the_mean_over_its_step) {
   const Measurement found = *test::measured("reported_reaction_error", judged).measurement;
   BOOST_TEST(found.value == more.norm(), boost::test_tools::tolerance(1e-9));
   BOOST_TEST(found.worst.time == run.samples[60].time);
+  BOOST_TEST(found.series.empty());
+  BOOST_TEST(found.worst.body == 0);
   BOOST_TEST(found.worst.component == "reported force of the hinge of 'world' and 'rod'");
   BOOST_TEST(value_of("reported_reaction_torque_error", judged) < 1e-12);
   spoilt.torque += Vec3(0.3, 0, 0);
   BOOST_TEST(value_of("reported_reaction_torque_error", judged) == 0.3, boost::test_tools::tolerance(1e-9));
+  Trajectory thinned{run.dt, {}};
+  for (std::size_t n = 0; n < run.samples.size(); n += 2) thinned.samples.push_back(run.samples[n]);
+  const TruthSamples at_those = test::sampled(*truth, thinned, scene, 5);
+  BOOST_TEST(test::measured("reported_reaction_error", {scene, thinned, &at_those, 0}).not_applicable ==
+             "steps are not recorded one by one");
 }
 
 BOOST_AUTO_TEST_CASE(what_the_equations_do_not_tell_has_no_reaction_error) {

@@ -14,6 +14,17 @@ BOOST_AUTO_TEST_CASE(the_table_is_alphabetical_and_each_row_has_a_unit_and_a_sum
   }
 }
 
+// A gate's better_than, and which bound of it a run that blew up cannot hold, hang on this.
+BOOST_AUTO_TEST_CASE(which_metrics_are_better_when_higher_and_which_are_costly) {
+  std::vector<std::string> higher, costly;
+  for (const MetricRow& row : metrics()) {
+    if (row.higher_is_better) higher.push_back(row.name);
+    if (row.is_costly) costly.push_back(row.name);
+  }
+  BOOST_TEST((higher == std::vector<std::string>{"collapse_time", "ensemble_p_value", "survival", "tube"}));
+  BOOST_TEST((costly == std::vector<std::string>{"phase_error", "tube"}));
+}
+
 BOOST_AUTO_TEST_CASE(the_metrics_across_cells_are_alphabetical_and_have_names_of_their_own) {
   for (std::size_t i = 0; i < cross_metrics().size(); ++i) {
     BOOST_TEST(!cross_metrics()[i].unit.empty());

@@ -89,6 +89,12 @@ BOOST_AUTO_TEST_CASE(a_lag_of_more_than_half_a_period_is_a_lead) {
 BOOST_AUTO_TEST_CASE(what_stands_still_or_is_beyond_the_search_has_no_phase) {
   const auto resting = [](double) { return BodyState(); };
   BOOST_TEST(phase_of(resting, resting, 0.1, 100).not_applicable == "the truth does not move");
+  const auto trembling = [](double t) {  // by less than a nanometre
+    BodyState state;
+    state.position.x() = 1e-10 * std::sin(3 * t), state.velocity.x() = 3e-10 * std::cos(3 * t);
+    return state;
+  };
+  BOOST_TEST(phase_of(trembling, trembling, 0.1, 100).not_applicable == "the truth does not move");
   BOOST_TEST(!phase_of(resting, passing, 0.1, 100).measurement.has_value());
   const auto too_late = [](double t) { return passing(t - 4); };
   const std::string why = phase_of(passing, too_late, 0.1, 100).not_applicable;

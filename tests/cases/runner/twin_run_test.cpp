@@ -1,107 +1,125 @@
-// How far a twin and its copies in turned worlds are stepped, counted in steps.
+// A run's twin, how far roundings alone may have moved it, and the truth at a run's samples.
 #include "cases/runner/twin_run.h"
 
 #include <boost/test/unit_test.hpp>
 
-#include "tests/cases/runner/faulty_engine.h"
+#include "cases/runner/truth_samples.h"
+#include "core/scene/turned.h"
+#include "tests/cases/judged.h"
+#include "tests/cases/scripted_engine.h"
 
 using namespace rigor;
 
 namespace {
 
-constexpr long kSteps = 100;
-
-// Moves and turns its body a little in each step, along the same axis of any world: turned or not, so that the worlds
-// part by as much.
-class DriftingEngine : public FaultyEngine {
- public:
-  DriftingEngine(double drift, long& steps) : FaultyEngine("drifts", [](double&) {}), drift_(drift), steps_(steps) {}
-  std::unique_ptr<World> load(const Scene& scene, const Settings&) const override {
-    return std::make_unique<DriftingWorld>(*this, scene.bodies[0]);
-  }
-
- private:
-  class DriftingWorld : public World {
-   public:
-    DriftingWorld(const DriftingEngine& engine, const Body& body)
-        : engine_(engine), state_{body.position, body.orientation, Vec3::Zero(), Vec3::Zero()} {}
-    void step(double dt) override {
-      const Vec3 change(engine_.drift_, 0, 0);
-      time_ += dt, ++engine_.steps_;
-      state_.position += change, state_.orientation = rotation_by(change) * state_.orientation;
-    }
-    void read(Snapshot& out) const override { out.time = time_, out.own(1).set_body(0, state_); }
-    SettingsInForce settings_in_force() const override { return {}; }
-    std::string solver_warning() const override { return ""; }
-
-   private:
-    const DriftingEngine& engine_;
-    BodyState state_;
-    double time_ = 0;
-  };
-
-  double drift_;  // m, rad
-  long& steps_;
-};
-
-struct Found {
-  TwinRun twin;
-  long steps = 0;  // of all its worlds
-};
-
-// Its body is 1 m from the origin.
-Found twin_that_drifts(double drift, TwinLength length) {
-  Found found;
+// A twin whose bodies move as its script says.
+EngineTable scripted(const test::Script& script) {
   EngineTable table;
-  table.add(std::make_unique<DriftingEngine>(drift, found.steps));
-  Scene scene = drifting_body("a").scene;
-  scene.bodies[0].position = Vec3(1, 0, 0);
-  Simulation run;
-  run.trajectory.dt = 0.01;
-  for (long n = 0; n <= kSteps; ++n) run.trajectory.samples.push_back({0.01 * static_cast<double>(n), BodyTable(1)});
-  found.twin = run_twin(table, parse_run_name("drifts", infos_of(table)), scene, run, 1, length);
-  return found;
+  table.add(std::make_unique<test::ScriptedEngine>(script));
+  return table;
+}
+
+RunName the_run() {
+  RunName run;
+  run.text = run.engine = "scripted";
+  return run;
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(cases_runner_twin_run)
 
-// 1e-6 of a metre and a radian is far beyond what a comparison allows: one step of each of the four worlds shows it.
-BOOST_AUTO_TEST_CASE(a_twin_is_stepped_no_further_than_it_can_be_compared) {
-  const Found found = twin_that_drifts(1e-6, {});
-  BOOST_TEST(found.steps <= 2 + 3 + 3);
-  BOOST_TEST(found.twin.trajectory.samples.size() == found.twin.position_rounding.size());
-  BOOST_TEST(found.twin.position_rounding.back() > 1e-7);
-  BOOST_TEST(found.twin.position_rounding.size() <= 3u);
+BOOST_AUTO_TEST_CASE(only_a_scheme_that_is_not_the_cores_own_has_a_twin_and_only_where_nothing_can_touch) {
+  const auto infos = infos_of(engines());
+  const Scene free = test::fixed_spring();
+  const auto twin = twin_of(engines(), parse_run_name("ode", infos), free);
+  BOOST_TEST_REQUIRE(twin.has_value());
+  BOOST_TEST(twin->engine == "core");
+  BOOST_TEST(!twin_of(engines(), parse_run_name("core:rk4", infos), free).has_value());
+  BOOST_TEST(!twin_of(engines(), parse_run_name("ode", infos), test::dropped_sphere(1)).has_value());
 }
 
-BOOST_AUTO_TEST_CASE(a_twin_that_is_measured_itself_is_stepped_to_the_end) {
-  const Found found = twin_that_drifts(1e-6, {.is_whole = true});
-  BOOST_TEST(found.twin.trajectory.samples.size() == kSteps + 1u);
-  BOOST_TEST(found.twin.position_rounding.size() <= 3u);
-  BOOST_TEST(found.steps < kSteps + 10);
+// The script does not turn with the world: its body lies in the origin, without a turn, in all four worlds; so it seems
+// to be off by what the turns turn it.
+BOOST_AUTO_TEST_CASE(roundings_are_the_largest_over_turned_worlds) {
+  test::Script script;
+  script.play = [](int, MutableBodyColumns bodies) { bodies.set_position(0, Vec3::Zero()); };
+  const EngineTable table = scripted(script);
+  const Scene scene = test::tumbling_body();
+  Simulation run = simulate(table.find("scripted"), {}, scene, 0.5, 2);
+  const TwinRun twin = run_twin(table, the_run(), scene, run, 2);
+  BOOST_TEST_REQUIRE(twin.trajectory.samples.size() == 5u);
+  // As the turns are written in twin_run.cpp.
+  double turned = 0;
+  for (const Quat& q : {Quat(0.7, 0.3, -0.5, 0.4).normalized(), Quat(-0.2, 0.6, 0.5, 0.3).normalized(),
+                        Quat(0.4, -0.3, 0.2, 0.8).normalized()}) {
+    turned = std::max(turned, angle_between(q, Quat::Identity()));
+  }
+  for (int n = 0; n < 5; ++n) {
+    BOOST_TEST(twin.position_rounding[n] == 0);
+    BOOST_TEST(twin.orientation_rounding[n] == turned, boost::test_tools::tolerance(1e-14));
+  }
+  run.trajectory.samples.resize(3);
+  const TwinRun shorter = run_twin(table, the_run(), scene, run, 2);
+  BOOST_TEST(shorter.trajectory.samples.size() == 3u);
+  BOOST_TEST(shorter.position_rounding.size() == 3u);
 }
 
-// Roundings of 1e-16 a step come to 1e-14 of a metre, where 1e-10 would end the comparison: one turned world is enough.
-BOOST_AUTO_TEST_CASE(where_roundings_are_far_from_mattering_one_turned_world_is_asked) {
-  const Found found = twin_that_drifts(3e-16, {});
-  BOOST_TEST(found.twin.position_rounding.size() == kSteps + 1u);
-  BOOST_TEST(found.twin.position_rounding.back() > 0);
-  BOOST_TEST(found.steps == 2 * kSteps);
+// The twin and the first turned one are stepped side by side, the others after them.
+BOOST_AUTO_TEST_CASE(a_twin_ends_where_it_or_one_turned_blows_up) {
+  int worlds = 0, lost_in = 0;
+  test::Script script;
+  script.play = [&](int step, MutableBodyColumns bodies) {
+    if (step == 0) ++worlds;
+    bodies.set_position(0, Vec3(worlds == lost_in && step == 3 ? std::nan("") : 0, 0, 0));
+  };
+  const EngineTable table = scripted(script);
+  const Scene scene = test::tumbling_body();
+  const Simulation run = simulate(table.find("scripted"), {}, scene, 0.5, 2);
+  for (const auto& [world, samples] : {std::pair{0, 5u}, {2, 3u}, {3, 3u}, {4, 3u}}) {
+    worlds = 0, lost_in = world;
+    const TwinRun twin = run_twin(table, the_run(), scene, run, 2);
+    BOOST_TEST(worlds == 4);
+    BOOST_TEST(twin.trajectory.samples.size() == samples, world);
+    BOOST_TEST(twin.position_rounding.size() == samples);
+    BOOST_TEST(twin.orientation_rounding.size() == samples);
+  }
 }
 
-// A thousand times more is still allowed, but so near that each of the three is asked.
-BOOST_AUTO_TEST_CASE(where_roundings_might_matter_all_turned_worlds_are_asked) {
-  const Found found = twin_that_drifts(3e-13, {});
-  BOOST_TEST(found.twin.position_rounding.size() == kSteps + 1u);
-  BOOST_TEST(found.steps == 4 * kSteps);
-}
-
-BOOST_AUTO_TEST_CASE(a_twin_is_stepped_no_further_than_the_truth_is_good) {
-  const Found found = twin_that_drifts(3e-16, {.compared = 11});
-  BOOST_TEST(found.twin.trajectory.samples.size() == 11u);
-  BOOST_TEST(found.steps == 2 * 10);
+// Kept at 0, 0.5, 1, 1.5, 2 s; asked for at those to the last bit, and of the truth itself at all others.
+BOOST_AUTO_TEST_CASE(the_truth_is_asked_for_once_at_the_instants_that_all_runs_have) {
+  int asked = 0;
+  const test::StatedTruth truth(
+      [&](double t) {
+        ++asked;
+        return BodyState{{t, 0, 0}, Quat::Identity(), Vec3::Zero(), Vec3::Zero()};
+      },
+      1.2);
+  TruthOnSteps kept;
+  kept.keep(truth, 0.5, 2, 1);
+  kept.keep(truth, 0.5, 2, 1);
+  BOOST_TEST(asked == 5);
+  const auto at = [&](double dt, const std::vector<double>& times) {
+    Trajectory run{dt, {}};
+    for (const double t : times) run.samples.push_back({t, BodyTable(1)});
+    asked = 0;
+    const TruthSamples samples = kept.at_samples_of(run, truth, 1, 7);
+    BOOST_TEST(samples.largest_kinetic_energy == 7);
+    BOOST_TEST(samples.source == &truth);
+    BOOST_TEST_REQUIRE(samples.bodies.size() == times.size());
+    for (std::size_t n = 0; n < times.size(); ++n) {
+      BOOST_TEST(samples.bodies[n].columns().position(0).x() == times[n]);
+      BOOST_TEST(samples.error[n] == (times[n] <= 1.2 ? 0 : 1));
+    }
+    return asked;
+  };
+  BOOST_TEST(at(0.5, {0, 0.5, 1, 1.5, 2}) == 0);
+  BOOST_TEST(at(0.5, {0, 0.5, 1.01, 1.5, 2, 2.5}) == 2);
+  BOOST_TEST(at(0.25, {0, 0.25}) == 2);
+  // A sample of a body is 136 bytes or so: a million steps are above 128 MB, and are not kept.
+  asked = 0;
+  kept.keep(truth, 2e-6, 2, 1);
+  BOOST_TEST(asked == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -69,6 +69,9 @@ BOOST_AUTO_TEST_CASE(what_hangs_by_springs_falls_no_further_than_they_let_it) {
   scene.springs = {test::spring(0, {0, 0, 0}, 1, {0, 0, 0}, 400, 1),
                    test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, 400, 1)};
   BOOST_TEST(energy_in_play(scene, 100) == 3, kClose);
+  // The lower one by a point 0.2 m below the upper one's middle, at one 0.1 m above its own: as far below, if turned.
+  scene.springs[0] = test::spring(0, {0, 0, -0.2}, 1, {0, 0, 0.1}, 400, 0.7);
+  BOOST_TEST(energy_in_play(scene, 100) == 3, kClose);
   scene.springs.pop_back();  // tied to each other, and to nothing else
   BOOST_TEST(energy_in_play(scene, 100) == 1000 * 1000, kClose);
 }

@@ -1,0 +1,164 @@
+// What a scene's energy should be: which scenes may lose or gain some, and what is then expected of a run.
+#include "cases/metrics/measures/energy_series.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/cases/truth/closed_form/contact/contact_scenes.h"
+
+using namespace rigor;
+
+namespace {
+
+Scene ball_and_ground(ContactLaw law) {
+  Scene scene;
+  scene.gravity = {0, 0, -10};
+  scene.bodies = {test::on_its_own("ball", Sphere{0.5}, 2, {0, 0, 1.5}), test::plane()};
+  scene.contact_default = law;
+  return scene;
+}
+
+Scene bead() {
+  Scene scene;
+  scene.bodies = {test::body("bead", 2, {1, 1, 1})};
+  scene.joints = {{.a = kWorld, .b = 0, .type = SliderJoint{Vec3::UnitX()}}};
+  return scene;
+}
+
+// The first body at these speeds [m/s], 1 J at 1 m/s, a second apart.
+Trajectory at_speeds(const Scene& scene, const std::vector<double>& speeds) {
+  Trajectory run{1, {}};
+  for (const double speed : speeds) {
+    BodyTable table(scene.bodies.size());
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) table.columns().set_orientation(i, Quat::Identity());
+    table.columns().set_velocity(0, {speed, 0, 0});
+    run.samples.push_back({static_cast<double>(run.samples.size()), table});
+  }
+  return run;
+}
+
+TruthSamples truth_of(const Trajectory& run, std::size_t good) {
+  TruthSamples truth;
+  truth.largest_kinetic_energy = 8;
+  for (std::size_t n = 0; n < run.samples.size(); ++n) {
+    truth.bodies.push_back(run.samples[n].bodies), truth.error.push_back(n < good ? 0 : 1);
+  }
+  return truth;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_energy_series)
+
+BOOST_AUTO_TEST_CASE(each_thing_that_may_take_or_give_energy_is_known) {
+  struct Row {
+    const char* what;
+    Scene scene;
+    bool may_lose, may_change;
+  };
+  const auto with = [](Scene scene, const auto& change) {
+    change(scene);
+    return scene;
+  };
+  const Scene elastic = ball_and_ground({1, 0});
+  for (const Row& row : {
+           Row{"elastic", elastic, false, false},
+           {"plastic by a tenth", ball_and_ground({0.9, 0}), true, true},
+           {"rubbing", ball_and_ground({1, 0.1}), true, true},
+           {"a pair that is plastic",
+            with(elastic,
+                 [](Scene& s) {
+                   s.contact_pairs = {{0, 1, {0.5, 0}}};
+                 }),
+            true, true},
+           {"a pair that rubs",
+            with(elastic,
+                 [](Scene& s) {
+                   s.contact_pairs = {{0, 1, {1, 0.5}}};
+                 }),
+            true, true},
+           {"a ball that touches nothing",
+            with(ball_and_ground({0, 1}), [](Scene& s) { s.bodies[0].collides = false; }), false, false},
+           {"a spring",
+            with(elastic, [](Scene& s) { s.springs = {test::spring(kWorld, Vec3::Zero(), 0, Vec3::Zero(), 10, 1)}; }),
+            false, false},
+           {"a damper",
+            with(elastic,
+                 [](Scene& s) { s.springs = {test::spring(kWorld, Vec3::Zero(), 0, Vec3::Zero(), 10, 1, 0.1)}; }),
+            false, true},
+           {"a force", with(elastic, [](Scene& s) { s.forces = {{.body = 0}}; }), false, true},
+           {"a joint", bead(), false, false},
+           {"a joint that rubs", with(bead(), [](Scene& s) { s.joints[0].damping = 0.1; }), false, true},
+           {"a soft limit", with(bead(), [](Scene& s) { s.joints[0].upper = 1, s.joints[0].restitution = 0.9; }), false,
+            true},
+           {"a hard limit", with(bead(), [](Scene& s) { s.joints[0].upper = 1, s.joints[0].restitution = 1; }), false,
+            false},
+           {"a motor", with(bead(), [](Scene& s) { s.motors = {{.joint = 0, .effort = 1, .speed = {}}}; }), false,
+            true},
+       }) {
+    BOOST_TEST_CONTEXT(row.what) {
+      BOOST_TEST(contact_may_lose(row.scene) == row.may_lose);
+      BOOST_TEST(may_change_energy(row.scene) == row.may_change);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_rise_is_above_the_lowest_before_in_both_readings) {
+  BOOST_TEST((lowest_so_far({5, 3, 4, 2, 6}) == std::vector<double>{5, 3, 3, 2, 2}));
+  BOOST_TEST(lowest_so_far({}).empty());
+  BOOST_TEST((rises_of({5, 3, 4, 2, 6}, {5, 4, 6, 6, 6}) == std::vector<double>{0, 0, 1, 0, 2}));
+}
+
+// Of the truth's largest kinetic energy, 8 J: 1e-9 of it is a rounding.
+BOOST_AUTO_TEST_CASE(contact_of_which_the_truth_keeps_its_energy_is_held_to_it) {
+  const Scene scene = ball_and_ground({0.5, 0});
+  const Trajectory run = at_speeds(scene, {2, 1, 1.5, 2});
+  for (const auto& [share, is_kept] : {std::pair{0.9, true}, {1.2, false}, {-0.9, true}, {-1.2, false}}) {
+    TruthSamples truth = truth_of(at_speeds(scene, {2, 2, 2, 2}), 4);
+    truth.bodies[2].columns().set_velocity(0, {std::sqrt(4 + share * 8e-9), 0, 0});
+    const EnergySeries series = energy_series({scene, run, &truth, 0}, 0);
+    BOOST_TEST(series.only_gains_count != is_kept, share);
+    BOOST_TEST((series.expected == (is_kept ? std::vector<double>{4, 4, 4, 4} : std::vector<double>{4, 1, 1, 1})));
+    BOOST_TEST(series.scale == 8);
+    BOOST_TEST(series.not_applicable == "");
+  }
+  const TruthSamples unknown = truth_of(run, 1);  // good at the start alone
+  BOOST_TEST(energy_series({scene, run, &unknown, 0}, 0).only_gains_count);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_driven_or_damped_is_held_to_the_truths_change_up_to_its_horizon) {
+  Scene damped = bead();
+  damped.joints[0].damping = 1;
+  Scene driven = bead();
+  driven.forces = {{.body = 0, .force = {1, 0, 0}}};
+  for (const Scene& scene : {damped, driven}) {
+    const Trajectory run = at_speeds(scene, {2, 1, 1.5, 2});
+    const TruthSamples truth = truth_of(at_speeds(scene, {3, 2, 1, 0}), 3);
+    const EnergySeries series = energy_series({scene, run, &truth, 0}, 0);
+    BOOST_TEST((series.found == std::vector<double>{4, 1, 2.25}));
+    BOOST_TEST((series.expected == std::vector<double>{4, -1, -4}));
+    BOOST_TEST(!series.only_gains_count);
+    const EnergySeries alone = energy_series({scene, run, nullptr, 0}, 0);
+    BOOST_TEST(alone.only_gains_count == scene.forces.empty());
+    BOOST_TEST(alone.not_applicable.empty() == scene.forces.empty());
+  }
+}
+
+// Without a truth, or where nothing moves in it, it is what the scene has in play over the run or the case, whichever
+// is longer: a free fall of 2 kg at 10 m/s², 100 t² J.
+BOOST_AUTO_TEST_CASE(the_scale_is_the_truths_or_what_is_in_play_over_the_longer_of_run_and_case) {
+  Scene scene;
+  scene.gravity = {0, 0, -10};
+  scene.bodies = {test::body("ball", 2, {1, 1, 1})};
+  const Trajectory run = at_speeds(scene, {0, 0, 0});
+  JudgedRun judged{scene, run, nullptr, 0};
+  BOOST_TEST(energy_scale(judged) == 400, boost::test_tools::tolerance(1e-12));
+  judged.duration = 3;
+  BOOST_TEST(energy_scale(judged) == 900, boost::test_tools::tolerance(1e-12));
+  TruthSamples truth = truth_of(run, 3);
+  judged.truth = &truth;
+  BOOST_TEST(energy_scale(judged) == 8);
+  truth.largest_kinetic_energy = 0;
+  BOOST_TEST(energy_scale(judged) == 900, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

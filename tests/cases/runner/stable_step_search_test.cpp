@@ -1,0 +1,166 @@
+// The search for the largest stable step, on an engine that holds at the steps it is told to hold at, and no others.
+#include <boost/test/unit_test.hpp>
+
+#include "cases/runner/stable_step.h"
+#include "tests/cases/scripted_engine.h"
+#include "tests/scenes.h"
+
+using namespace rigor;
+
+namespace {
+
+struct Tried {
+  double dt;
+  long steps;
+};
+
+class FussyWorld : public World {
+ public:
+  FussyWorld(const std::function<bool(double)>& holds, std::vector<Tried>& tried, std::size_t bodies)
+      : holds_(holds), tried_(tried), bodies_(bodies) {
+    for (std::size_t i = 0; i < bodies; ++i) bodies_.columns().set_orientation(i, Quat::Identity());
+  }
+  void step(double dt) override {
+    if (clock_.time() == 0) tried_.push_back({dt, 0});
+    ++tried_.back().steps;
+    dt_ = dt, clock_.advance(dt);
+  }
+  void read(Snapshot& out) const override {
+    out.time = clock_.time();
+    out.borrow(bodies_.columns());
+  }
+  SettingsInForce settings_in_force() const override { return {}; }
+  std::string solver_warning() const override { return dt_ > 0 && !holds_(dt_) ? "fails" : ""; }
+
+ private:
+  const std::function<bool(double)>& holds_;
+  std::vector<Tried>& tried_;
+  BodyTable bodies_;
+  Clock clock_;
+  double dt_ = 0;
+};
+
+class FussyEngine : public Engine {
+ public:
+  explicit FussyEngine(std::function<bool(double)> holds) : holds_(std::move(holds)) {}
+  EngineInfo info() const override {
+    EngineInfo info;
+    info.name = "fussy";
+    return info;
+  }
+  std::string twin(const Settings&) const override { return ""; }
+  std::unique_ptr<World> load(const Scene& scene, const Settings&) const override {
+    return std::make_unique<FussyWorld>(holds_, tried, scene.bodies.size());
+  }
+  mutable std::vector<Tried> tried;
+
+ private:
+  std::function<bool(double)> holds_;
+};
+
+Scene one_body() {
+  Scene scene;
+  scene.bodies = {test::body("b", 1, {1, 1, 1})};
+  return scene;
+}
+
+Scene sprung() {
+  Scene scene = one_body();
+  scene.springs = {test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, 1, 0)};
+  return scene;
+}
+
+Scene jointed(double stiffness) {
+  Scene scene = one_body();
+  scene.joints = {{.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3::UnitZ()}, .stiffness = stiffness}};
+  return scene;
+}
+
+Scene touching() {
+  Scene scene = test::dropped_sphere(1);
+  scene.gravity.setZero();
+  return scene;
+}
+
+StableStep found_by(const FussyEngine& engine, const Scene& scene, double horizon = 5) {
+  return largest_stable_dt(engine, {}, scene, horizon, 1);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_runner_stable_step_search)
+
+BOOST_AUTO_TEST_CASE(a_limit_is_found_from_below_to_a_hundredth_and_to_five_where_steps_are_tried_far_apart) {
+  struct Row {
+    const char* what;
+    Scene scene;
+    double precision;
+  };
+  for (const Row& row : {Row{"free", one_body(), 1.01},
+                         {"sprung", sprung(), 1.01},
+                         {"a joint with a spring", jointed(1), 1.01},
+                         {"a joint", jointed(0), 1.05},
+                         {"touching", touching(), 1.05}}) {
+    for (const double limit : {0.45, 0.0371, 0.0021, 2.1e-4}) {
+      if (limit < 0.01 && !row.scene.joints.empty()) continue;  // their searches end by the work that they take
+      const FussyEngine engine([=](double dt) { return dt <= limit; });
+      const StableStep found = found_by(engine, row.scene);
+      BOOST_TEST_CONTEXT(row.what << ", " << limit << " s: " << found.dt) {
+        BOOST_TEST(found.dt <= limit);
+        BOOST_TEST(found.dt * row.precision >= limit);
+        BOOST_TEST((!found.is_cap && !found.is_floor && found.cut.empty()));
+      }
+    }
+  }
+}
+
+// Between 1/32 and 1/16 s, which both hold: a band 4 % wide is not jumped over where springs may resonate with a step.
+BOOST_AUTO_TEST_CASE(a_narrow_band_of_instability_ends_the_rise) {
+  for (const double from : {0.0335, 0.0371, 0.0432, 0.0555}) {
+    const FussyEngine engine([=](double dt) { return dt < 0.1 && (dt < from || dt > 1.04 * from); });
+    const StableStep found = found_by(engine, sprung());
+    BOOST_TEST(found.dt < from);
+    BOOST_TEST(found.dt * 1.01 >= from);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(it_goes_down_by_halves_until_a_step_and_its_double_hold) {
+  // 1/8 s holds, half of it does not: that is luck.
+  const FussyEngine engine([](double dt) { return dt == 0.125 || dt <= 0.04; });
+  const StableStep found = found_by(engine, one_body());
+  const double expected[] = {0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015625};
+  BOOST_TEST_REQUIRE(engine.tried.size() > 6);
+  for (std::size_t n = 0; n < 6; ++n) BOOST_TEST(engine.tried[n].dt == expected[n]);
+  BOOST_TEST(engine.tried[6].dt == 0.015625 * 1.03, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST((found.dt <= 0.04 && found.dt * 1.01 >= 0.04), found.dt);
+}
+
+BOOST_AUTO_TEST_CASE(its_ends_are_half_a_second_and_ten_microseconds) {
+  const FussyEngine never([](double) { return false; });
+  const StableStep none = found_by(never, one_body());
+  BOOST_TEST(none.is_floor);
+  BOOST_TEST(!none.is_cap);
+  BOOST_TEST(none.dt == 1e-5);
+  BOOST_TEST(never.tried.size() == 16);  // 0.5/2^15 s is the last above 1e-5
+  for (const Tried& tried : never.tried) BOOST_TEST(tried.steps == 1);
+  const FussyEngine always([](double) { return true; });
+  for (const Scene& scene : {one_body(), touching()}) {
+    const StableStep all = found_by(always, scene);
+    BOOST_TEST(all.is_cap);
+    BOOST_TEST(!all.is_floor);
+    BOOST_TEST(all.dt == 0.5);
+    BOOST_TEST(all.cut == "");
+  }
+}
+
+// The last step goes beyond a horizon that is no multiple of it, unless roundings alone make it so.
+BOOST_AUTO_TEST_CASE(a_step_has_to_hold_over_the_whole_horizon) {
+  for (const auto& [horizon, steps] : {std::pair{1.0, 2L}, {1.2, 3L}, {1.0 + 1e-10, 2L}, {1.0 + 1e-8, 3L}}) {
+    const FussyEngine engine([](double) { return true; });
+    found_by(engine, one_body(), horizon);
+    BOOST_TEST(engine.tried.front().dt == 0.5);
+    BOOST_TEST(engine.tried.front().steps == steps, horizon);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
