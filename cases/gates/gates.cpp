@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/engines.h"
 #include "cases/case/selection.h"
 #include "cases/gates/single_precision.h"
 #include "cases/results/observed_order.h"
@@ -48,11 +49,23 @@ class GateCheck {
     }
     if (result_.gates.size() == before && !gate_.is_of_family) {
       add("", "", GateAnswer::not_checked,
-          fmt::format("{}: no cell that ran has {} for this gate to judge", gate_.where, gate_.metric));
+          fmt::format("{}: no cell that ran has {} for this gate to judge{}", gate_.where, gate_.metric,
+                      engine_to_ask_for()));
     }
   }
 
  private:
+  // The engine that the gate names and that runs on request alone, where nobody asked.
+  std::string engine_to_ask_for() const {
+    for (const EngineOnRequest& engine : engines_on_request()) {
+      const auto is_it = [&](const std::string& run) { return run.starts_with(engine.name); };
+      const bool is_there =
+          std::any_of(grid_.runs.begin(), grid_.runs.end(), [&](const RunName& r) { return is_it(r.engine); });
+      if (!is_there && std::any_of(gate_.engines.begin(), gate_.engines.end(), is_it))
+        return fmt::format("; {0} runs where it is asked for: --engine {0}", engine.name);
+    }
+    return "";
+  }
   bool selects(std::size_t run) const { return selection_.takes(grid_.runs[run]) && !is_made_like_truth(run); }
   bool selects(const StepSize& dt) const { return selection_.takes(dt); }
   bool selects(const Cell& cell) const {

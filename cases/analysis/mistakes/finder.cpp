@@ -103,14 +103,14 @@ std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector
 }
 
 const MistakeFinder::Table& MistakeFinder::table_for(const RunName* of_points) {
-  const auto [place, is_new] = tables_.try_emplace(of_points ? of_points->text : "");
-  Table& table = place->second;
-  if (!is_new) return table;
+  const std::string key = of_points ? of_points->text : "";
+  if (const auto found = tables_.find(key); found != tables_.end()) return found->second;
+  Table table;
   table.views = views_of(engines_, run_, probes_, of_points);
   table.bases = sights(table, nullptr, nullptr);
   table.observations = observations_of(table.views, table.bases, probes_);
   table.hypotheses = simulated(table, of_table());
-  return table;
+  return tables_.emplace(key, std::move(table)).first->second;  // whole, or not at all
 }
 
 // The method of the core that steps points as the engine does: of most of the probes of points, for few are off.

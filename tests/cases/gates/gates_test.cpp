@@ -116,6 +116,10 @@ BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold)
   check(unsupported, limit);
   limit.dt = {{1. / 30, "1/30"}};
   check(other_step, limit);
+  limit.engines = {"siconos"};
+  check(other_step, limit);
+  BOOST_TEST(other_step.check(limit).front().text.find("siconos runs where it is asked for: --engine siconos") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_cell_without_a_result_fails_every_gate_that_selects_it) {
