@@ -15,7 +15,7 @@ namespace {
 constexpr double kFatMargin = 0.1;           // by so much its fat box is wider than itself,
 constexpr double kStepsAhead = 20;           // and by its displacement in so many steps,
 constexpr double kFarthest = 1.5;            // but not by more than this
-constexpr double kSpeculativeMargin = 0.05;  // points closer than this are kept even if they do not approach
+constexpr double kSpeculativeMargin = 0.02;  // points closer than this are kept even if they do not approach
 constexpr double kMatchRadius = 0.1;         // a point this near to one of the last update is the same
 constexpr double kDeep = 0.02;               // an overlap of more at the start is parted, and no contact
 constexpr double kSunk = 0.5;                // one of more is no contact any longer
