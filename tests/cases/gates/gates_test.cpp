@@ -116,6 +116,8 @@ BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold)
   check(unsupported, limit);
   limit.dt = {{1. / 30, "1/30"}};
   check(other_step, limit);
+  other_step.grid.engines.push_back(other_step.grid.engines.front());
+  other_step.grid.engines.back().name = "siconos";
   limit.engines = {"siconos"};
   check(other_step, limit);
   BOOST_TEST(other_step.check(limit).front().text.find("siconos runs where it is asked for: --engine siconos") !=
