@@ -1,10 +1,11 @@
 // Times what the table of ratio_table.h needs, prints it and writes Google Benchmark's JSON; with --all every engine
-// and method on every scene. --plugin P adds an engine from outside. Takes Google Benchmark's own arguments; a
-// --benchmark_filter replaces the table's selection.
+// and method on every scene. --plugin P adds an engine from outside; --lanes plain, AVX2 or AVX-512 has the core take
+// that path in place of the widest that the processor can. Takes Google Benchmark's own arguments; a --benchmark_filter
+// replaces the table's selection.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
-#include <cstring>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,38 +13,75 @@
 #include "bench/benchmarks.h"
 #include "bench/ratio_table.h"
 #include "core/base/error.h"
+#include "core/dynamics/kernels/kernels.h"
 
 using namespace rigor;
 
-int main(int argc, char** argv) {
-  std::vector<char*> arguments;
+namespace {
+
+struct Arguments {
+  std::vector<char*> left;  // for Google Benchmark
   std::vector<std::string> plugins = plugins_of_environment();
+  std::string lanes;
   bool all = false, filtered = false;
+};
+
+Arguments read_arguments(int argc, char** argv) {
+  Arguments found;
   for (int k = 0; k < argc; ++k) {
-    if (std::strcmp(argv[k], "--all") == 0) {
-      all = true;
-      continue;
+    const std::string word = argv[k];
+    if (word == "--all") {
+      found.all = true;
+    } else if (word == "--plugin" && k + 1 < argc) {
+      found.plugins.push_back(argv[++k]);
+    } else if (word == "--lanes" && k + 1 < argc) {
+      found.lanes = argv[++k];
+    } else {
+      found.filtered |= word.starts_with("--benchmark_filter=");
+      found.left.push_back(argv[k]);
     }
-    if (std::strcmp(argv[k], "--plugin") == 0 && k + 1 < argc) {
-      plugins.push_back(argv[++k]);
-      continue;
-    }
-    filtered |= std::strncmp(argv[k], "--benchmark_filter=", 19) == 0;
-    arguments.push_back(argv[k]);
   }
-  int count = static_cast<int>(arguments.size());
-  benchmark::Initialize(&count, arguments.data());
-  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+  return found;
+}
+
+// Kernels of this name, or null: what this processor cannot run is not among them.
+const Kernels* kernels_named(const std::string& name, std::string& allowed) {
+  const Kernels* all[kMostKernelTables];
+  const std::size_t count = available_kernels(all);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (name == all[k]->name) return all[k];
+    allowed += (k > 0 ? ", " : "") + std::string(all[k]->name);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments = read_arguments(argc, argv);
+  std::optional<KernelsInPlace> forced;
+  if (!arguments.lanes.empty()) {
+    std::string allowed;
+    const Kernels* table = kernels_named(arguments.lanes, allowed);
+    if (!table)
+      return std::fprintf(stderr, "--lanes %s: this processor has %s\n", arguments.lanes.c_str(), allowed.c_str()), 2;
+    forced.emplace(*table);
+  }
+  int count = static_cast<int>(arguments.left.size());
+  benchmark::Initialize(&count, arguments.left.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.left.data())) return 2;
   bench::register_steps();
   bench::register_limits();
   bench::register_harness();
   try {
-    bench::register_plugins(plugins);
+    bench::register_plugins(arguments.plugins);
   } catch (const InputError& error) {
     return std::fprintf(stderr, "%s\n", error.what()), 2;
   }
   bench::RatioTable table;
-  const std::string filter = all ? "." : filtered ? benchmark::GetBenchmarkFilter() : bench::filter_of_table();
+  const std::string filter = arguments.all        ? "."
+                             : arguments.filtered ? benchmark::GetBenchmarkFilter()
+                                                  : bench::filter_of_table();
   const std::size_t matched = benchmark::RunSpecifiedBenchmarks(&table, filter);
   benchmark::Shutdown();
   return matched > 0 ? 0 : 2;

@@ -131,9 +131,8 @@ std::vector<RunName> runs() {
           all.push_back(parse_run_name(fmt::format("{}:{},iterations=50", info.name, method.name), infos));
         const bool piles_up = std::count(option.choices.begin(), option.choices.end(), "impulse") > 0;
         if (option.name == "contact" && piles_up) {
-          for (const char* threads : {"", ",threads=1", ",threads=2"})
-            all.push_back(
-                parse_run_name(fmt::format("{}:{},contact=impulse{}", info.name, method.name, threads), infos));
+          for (const char* more : {"", ",threads=1", ",threads=2", ",substeps=2"})
+            all.push_back(parse_run_name(fmt::format("{}:{},contact=impulse{}", info.name, method.name, more), infos));
         }
       }
     }
@@ -148,6 +147,7 @@ bool fits(const SceneRow& row, const RunName& run, int count) {
   const bool is_jointed = row.reached == Reached::joint_gap, is_heap = row.reached == Reached::penetration;
   const auto& options = run.settings.options;
   if (options.contains("threads") && options.contains("contact") && !is_heap) return false;
+  if (options.contains("substeps") && (row.name != "pile" || count > 216)) return false;
   if (run.engine == "core") return !is_jointed || run.settings.options.empty();
   if (is_jointed) return run.settings.method != "worldstep" || count <= 100;
   if (run.settings.options.contains("iterations")) return false;

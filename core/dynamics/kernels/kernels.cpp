@@ -64,7 +64,7 @@ std::size_t available_kernels(const Kernels* (&out)[kMostKernelTables]) {
   return count;
 }
 
-KernelsForTest::KernelsForTest(const Kernels& table) : before_(in_use()) { in_use() = &table; }
-KernelsForTest::~KernelsForTest() { in_use() = before_; }
+KernelsInPlace::KernelsInPlace(const Kernels& table) : before_(in_use()) { in_use() = &table; }
+KernelsInPlace::~KernelsInPlace() { in_use() = before_; }
 
 }  // namespace rigor

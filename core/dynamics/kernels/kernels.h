@@ -160,16 +160,16 @@ struct Kernels {
 // The table in use.
 const Kernels& kernels();
 
-// For tests: every table that this processor can run, the plain one first; and one put to use in place of the widest
-// until the object goes. Not for worlds in other threads.
+// For tests and benchmarks: every table that this processor can run, the plain one first; and one put to use in place of
+// the widest until the object goes. Not for worlds in other threads.
 inline constexpr std::size_t kMostKernelTables = 3;
 std::size_t available_kernels(const Kernels* (&out)[kMostKernelTables]);
-class KernelsForTest {
+class KernelsInPlace {
  public:
-  explicit KernelsForTest(const Kernels& table);
-  ~KernelsForTest();
-  KernelsForTest(const KernelsForTest&) = delete;
-  KernelsForTest& operator=(const KernelsForTest&) = delete;
+  explicit KernelsInPlace(const Kernels& table);
+  ~KernelsInPlace();
+  KernelsInPlace(const KernelsInPlace&) = delete;
+  KernelsInPlace& operator=(const KernelsInPlace&) = delete;
 
  private:
   const Kernels* before_;

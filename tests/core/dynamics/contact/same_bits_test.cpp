@@ -53,7 +53,7 @@ struct ContactCase {
 };
 
 BodyTable stepped(const ContactCase& c, const Kernels& table, int steps, const std::string& threads = "1") {
-  const KernelsForTest in_use(table);
+  const KernelsInPlace in_use(table);
   ContactRun run(c.scene, c.method, c.integrator, {{"threads", threads}});
   run.run(1.0 / 120, steps);
   return BodyTable(std::as_const(run).state());

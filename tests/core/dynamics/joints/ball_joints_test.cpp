@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(every_instruction_set_gives_the_same_bits) {
   for (const auto& [name, scene] : scenes()) {
     std::vector<BodyTable> ends;
     for (std::size_t k = 0; k < count; ++k) {
-      const KernelsForTest use(*tables[k]);
+      const KernelsInPlace use(*tables[k]);
       ends.push_back(stepped(scene, true, 60));
       for (std::size_t i = 0; i < ends[k].size(); ++i) {
         BOOST_TEST_CONTEXT(name << ", " << tables[k]->name << ", body " << i) {

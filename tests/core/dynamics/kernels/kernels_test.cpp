@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(every_instruction_set_gives_the_same_bits) {
     for (const auto& [what, scene] : scenes(true)) {
       if (scene.bodies.size() > 30 && method.name.starts_with("implicit")) continue;  // slow, and no other code
       const auto run = [&](const Kernels& table) {
-        const KernelsForTest in_use(table);
+        const KernelsInPlace in_use(table);
         return stepped(scene, method.name, method.default_orientation, 20);
       };
       const BodyTable plain = run(*tables.front());
