@@ -7,6 +7,7 @@
 #include <dart/dynamics/SphereShape.hpp>
 #include <unordered_map>
 
+#include "core/base/rotation_between.h"
 #include "core/engine/engine_failure.h"
 #include "core/scene/contact_laws.h"
 
@@ -100,7 +101,7 @@ struct MakeShape {
 
 // Of a box with its face in the plane, over the point of it next to the origin.
 Eigen::Isometry3d pose_of_plane(const Plane& plane) {
-  const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), plane.normal);
+  const Quat turn = rotation_between(Vec3::UnitZ(), plane.normal);
   return dart_transform((plane.offset - kDartPlaneReach) * plane.normal, turn);
 }
 

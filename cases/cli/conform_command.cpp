@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cases/analysis/conformance/conformance.h"
@@ -13,13 +12,12 @@
 #include "cases/report/wording/mistakes.h"
 #include "cases/runner/process_pool.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 #include "core/engine/engine_failure.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const char* word_of(CheckResult::Answer answer) {
   return answer == CheckResult::Answer::holds    ? "holds"
@@ -61,7 +59,7 @@ Json results_of(const Trial& trial, const EngineTable& engines, double limit) {
       send_results(trial, results.size(), channel);
       engines.rest();
     };
-    const auto on_message = [&](std::size_t, const std::string& message) { results.push_back(Json::parse(message)); };
+    const auto on_message = [&](std::size_t, const std::string& message) { results.push_back(parse_json(message)); };
     const auto on_end = [&](std::size_t, const JobEnd& end) {
       if (results.size() == checks.size()) return;
       const ConformanceCheck& check = checks[results.size()];

@@ -1,6 +1,5 @@
 // rigor diagnose: which known mistake an engine's error looks like.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "cases/analysis/mistakes/finder.h"
 #include "cases/cli/commands.h"
@@ -9,6 +8,7 @@
 #include "cases/report/json/mistakes_json.h"
 #include "cases/report/wording/mistakes.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 
 namespace rigor {
 MistakeReport diagnosed(const CommandLine& line, const EngineTable& engines, const RunName& run) {
@@ -24,7 +24,7 @@ int diagnose_command(const CommandLine& line, const EngineTable& engines) {
   const RunName run = run_asked_for(line, engines);
   const MistakeReport report = diagnosed(line, engines, run);
   if (line.json) {
-    print(mistakes_json(report, run.text).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    print(mistakes_json(report, run.text).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } else {
     print_table(text_of(report, run.text));
   }

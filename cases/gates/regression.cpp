@@ -4,21 +4,19 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "cases/metrics/metric.h"
 #include "cases/results/changes.h"
 #include "cases/results/input_file.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 #include "core/base/near_match.h"
 
 namespace rigor {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 std::string key_of(const std::string& case_id, const RunName& run, double dt, const std::string& metric) {
   std::string key = fmt::format("{}\t{}:{}", case_id, run.engine, run.settings.method);
   for (const auto& [name, value] : run.settings.options) key += fmt::format(",{}={}", name, value);
@@ -53,7 +51,7 @@ class LineReader {
 
   Json parsed(const std::string& line) const {
     try {
-      return Json::parse(line);
+      return parse_json(line);
     } catch (const Json::parse_error& error) {
       refuse(error.byte, "is not JSON");
     }
@@ -152,7 +150,7 @@ RecordedValues read_recorded_values(const std::string& adapters_dir, const std::
 RegressionText regression_text(const std::string& results_path, const std::string& engine) {
   RegressionText out;
   try {
-    const Json results = Json::parse(read_input_file(results_path, "a results.json"));
+    const Json results = parse_json(read_input_file(results_path, "a results.json"));
     for (const auto& [cell, values] : found_values(results, engine, out.left_out)) {
       Json line = {{"case", cell[0]}, {"run", cell[1]}, {"dt", cell[2]}};
       for (const auto& [metric, value] : values) line[metric] = std::abs(value) > kNoise ? rounded_to_four(value) : 0.0;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "adapters/models.h"
 #include "cases/import/assembly.h"
@@ -14,6 +13,7 @@
 #include "cases/import/sdf/sdf_reader.h"
 #include "cases/import/urdf_reader.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 #include "core/base/near_match.h"
 #include "core/scene/contact_laws.h"
 #include "core/scene/toml/scene_writer.h"
@@ -70,7 +70,7 @@ std::string one_line(std::string text) {
 std::string case_text_of(const LinkModel& model, const Scene& scene, const std::string& format,
                          const std::string& path) {
   // TOML's texts are JSON's.
-  const auto quoted = [](const std::string& text) { return nlohmann::json(one_line(text)).dump(); };
+  const auto quoted = [](const std::string& text) { return Json(one_line(text)).dump(); };
   std::string text;
   for (const std::string& sentence : model.left_out.sentences()) text += kLeftOut + one_line(sentence) + "\n";
   text += fmt::format("title = {}\nsource = {}\n\n", quoted(model.name + ", as its " + format + " file has it"),

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
@@ -14,11 +13,10 @@
 #include "cases/results/input_file.h"
 #include "cases/results/results.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kTabForm = "# Rigor baseline 1";
 constexpr const char* kTitleKey = "rigor_baseline";
@@ -173,7 +171,7 @@ Baseline from_baseline(const std::string& text) {
   for (std::string line; std::getline(lines, line);) {
     ++count;
     try {
-      add_line(Json::parse(line), out);
+      add_line(parse_json(line), out);
     } catch (const InputError& error) {
       throw InputError(fmt::format("line {}: {}", count, error.what()));
     } catch (const Json::exception& error) {
@@ -184,7 +182,7 @@ Baseline from_baseline(const std::string& text) {
 }
 
 bool is_baseline(const std::string& text) {
-  const Json first = Json::parse(text.substr(0, text.find('\n')), nullptr, false);
+  const Json first = parse_json_or_discard(text.substr(0, text.find('\n')));
   return first.is_object() && first.contains(kTitleKey);
 }
 
@@ -213,7 +211,7 @@ Baseline read_baseline(const std::string& path) {
   try {
     if (text.starts_with(kTabForm))
       throw InputError("is a baseline of an older form; make it anew by `rigor baseline`");
-    return is_baseline(text) ? from_baseline(text) : from_json(Json::parse(text));
+    return is_baseline(text) ? from_baseline(text) : from_json(parse_json(text));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path, error.what()));
   } catch (const Json::exception& error) {

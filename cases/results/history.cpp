@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "cases/results/baseline.h"
@@ -16,11 +15,10 @@
 #include "cases/results/result_json.h"
 #include "cases/results/results.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormKey = "rigor_history";
 constexpr int kHistoryForm = 1;
@@ -83,7 +81,7 @@ HistoryEntry history_entry(const std::string& results_file, const std::string& c
     kept.status = cell.status;
     for (const auto& [name, value] : cell.metrics) kept.metrics[name] = finite_to_four(value);
   }
-  const Json json = Json::parse(read_input_file(results_file, "a results.json"), nullptr, false);
+  const Json json = parse_json_or_discard(read_input_file(results_file, "a results.json"));
   if (!json.is_object() || !json.contains("machine"))
     throw InputError(fmt::format("{}: is no results.json; a baseline says nothing of its machine", results_file));
   const Json& machine = json.at("machine");
@@ -125,7 +123,7 @@ std::vector<HistoryEntry> read_history(const std::string& file) {
   for (std::string line; std::getline(lines, line);) {
     ++number;
     try {
-      entries.push_back(entry_from(Json::parse(line)));
+      entries.push_back(entry_from(parse_json(line)));
     } catch (const std::exception& error) {
       throw InputError(fmt::format("{}: line {}: is no line of a history: {}", file, number, error.what()));
     }

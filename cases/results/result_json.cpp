@@ -1,15 +1,13 @@
 #include "cases/results/result_json.h"
+#include "core/base/json.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char *kInfinite = "inf", *kMinusInfinite = "-inf", *kNoNumber = "nan";
 
@@ -234,7 +232,7 @@ std::string message_of_spreads(const std::vector<Spread>& spreads) {
 
 MessageSubject apply_message(CaseResult& result, const std::string& message) {
   using Part = MessageSubject::Part;
-  const Json json = Json::parse(message);
+  const Json json = parse_json(message);
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
     result.truth = {number_of(facts.at(0)), number_of(facts.at(1)), number_of(facts.at(2)), number_of(facts.at(3)),

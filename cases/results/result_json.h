@@ -1,10 +1,10 @@
 // Results as JSON: what a child process tells its parent, and the parts of results.json. One form serves both.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "cases/results/results.h"
+#include "core/base/json_fwd.h"
 
 namespace rigor {
 
@@ -24,12 +24,12 @@ struct MessageSubject {
 // no JSON, that lacks a part, names a cell, a status or a verdict that there is not.
 MessageSubject apply_message(CaseResult& result, const std::string& message);
 
-nlohmann::ordered_json json_of(const Cell& cell, const Scene& scene);
-nlohmann::ordered_json json_of(const StableStepResult& result);
+Json json_of(const Cell& cell, const Scene& scene);
+Json json_of(const StableStepResult& result);
 
 // JSON has no word for numbers that are not finite: they are written as "inf", "-inf" and "nan". All others come back
 // with the same bits. Text that is not UTF-8 is written with replacement characters.
-std::string text_of(nlohmann::ordered_json value, int indent);
-double number_of(const nlohmann::ordered_json& value);  // throws std::exception for what is neither
+std::string text_of(Json value, int indent);
+double number_of(const Json& value);  // throws std::exception for what is neither
 
 }  // namespace rigor

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "cases/analysis/sweep/sweep.h"
 #include "cases/results/result_json.h"
@@ -12,11 +11,11 @@
 #include "cases/runner/case_process.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Rows = std::vector<SweepRow>;
 
 std::string message_of(std::size_t index, const SweepRow& row) { return fmt::format("{} {}", index, answer_of(row)); }
@@ -156,7 +155,7 @@ class SweepProgress {
     if (kept == journal_.found().end()) return false;
     Rows rows = sweep_.rows_of(job);
     try {
-      for (const Json& message : Json::parse(kept->second.message)) apply_row(rows, message.get<std::string>());
+      for (const Json& message : parse_json(kept->second.message)) apply_row(rows, message.get<std::string>());
     } catch (const std::exception&) {
       return false;
     }
@@ -244,7 +243,7 @@ std::string answer_of(const SweepRow& row) {
 }
 
 void apply_answer(SweepRow& row, const std::string& answer) {
-  const Json json = Json::parse(answer);
+  const Json json = parse_json(answer);
   SweepRow heard = row;
   heard.status = status_of(json.at(0).get<std::string>());
   heard.reason = json.at(1).get<std::string>(), heard.verdict = json.at(2).get<std::string>();

@@ -9,18 +9,16 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
 #include <thread>
 
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::json;
 
 // What ranks say. A helper: what it has planned, whether it sees the folder, that it can take a job, what a job says
 // and how it ended, that it leaves. The leader: the folder's sign, a job, that all is over.
@@ -140,7 +138,7 @@ class MpiExecutor::Leading : public FeedOfJobs {
       on_message_(std::stoul(letter.text.substr(0, space)), letter.text.substr(space + 1));
     }
     if (letter.tag == kEnd) {
-      const Json json = Json::parse(letter.text);
+      const Json json = parse_json(letter.text);
       --out_, --held_[letter.rank];
       on_end_(json.at("number").get<std::size_t>(), end_from(json));
     }
@@ -160,7 +158,7 @@ class MpiExecutor::Helping : public JobFeed {
 
   bool is_over() override {
     while (const auto letter = next_letter()) {
-      if (letter->tag == kJob) waiting_.push_back(Json::parse(letter->text)), --due_;
+      if (letter->tag == kJob) waiting_.push_back(parse_json(letter->text)), --due_;
       is_over_ |= letter->tag == kOver;
     }
     for (; !is_over_ && asked_ < 2; ++asked_, ++due_) send(kLeader, kWant);

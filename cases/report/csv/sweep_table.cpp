@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cases/metrics/metric.h"
 #include "cases/report/csv/trajectory_csv.h"
 #include "cases/results/result_json.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // The step has a column of its own.
 bool has_column(const SweepAxis& axis) { return axis.kind != SweepAxis::Kind::step; }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "cases/report/html/packing.h"
 #include "cases/report/html/page_bundle.h"
@@ -14,11 +13,10 @@
 #include "cases/report/json/json_report.h"
 #include "cases/report/reports.h"
 #include "cases/results/result_json.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Seven digits, more than the page shows anywhere: the rest would only be bytes. What is not finite the page does not
 // show. Read back by strtod, which takes a subnormal number for what it is.

@@ -1,13 +1,10 @@
 #include "cases/report/json/comparison_json.h"
 
-#include <nlohmann/json.hpp>
-
 #include "cases/analysis/work_precision.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json json_of(const Furthest& furthest, const Scene& scene) {
   return {{"value", furthest.value}, {"time", furthest.time}, {"body", scene.body_name(furthest.body)}};

@@ -2,8 +2,6 @@
 // change.
 #include "cases/report/json/json_report.h"
 
-#include <nlohmann/json.hpp>
-
 #include "cases/report/json/comparison_json.h"
 #include "cases/report/json/leave_out_details.h"
 #include "cases/report/json/machine.h"
@@ -14,11 +12,10 @@
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/results/result_json.h"
 #include "cases/truth/provenance.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kSchemaVersion = 2;
 

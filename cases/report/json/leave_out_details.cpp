@@ -1,15 +1,13 @@
 #include "cases/report/json/leave_out_details.h"
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cases/results/result_json.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // And what nobody asked for, which is not what does not apply.
 void keep_values(Json& metrics) {

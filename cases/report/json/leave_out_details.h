@@ -3,16 +3,17 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
+
+#include "core/base/json_fwd.h"
 
 namespace rigor {
 
 inline constexpr std::size_t kMostCasesInDetail = 10;
 
-// Out of what results_json() made: what a metric is besides its value, and metrics without one; a twin's own metrics; what
-// held gates say, and of any gate what it says of a cell a second time; why a cell is stable; spreads, what observed orders
-// are made of, those that there are not, and stable steps that nobody asked for. Settings stand with the first cell that
-// has them: `settings_of` of a later one is that one's place among the cells.
-void leave_out_details(nlohmann::ordered_json& results);
+// Out of what results_json() made: what a metric is besides its value, and metrics without one; a twin's own metrics;
+// what held gates say, and of any gate what it says of a cell a second time; why a cell is stable; spreads, what
+// observed orders are made of, those that there are not, and stable steps that nobody asked for. Settings stand with
+// the first cell that has them: `settings_of` of a later one is that one's place among the cells.
+void leave_out_details(Json& results);
 
 }  // namespace rigor

@@ -1,11 +1,8 @@
 #include "cases/report/json/mistakes_json.h"
-
-#include <nlohmann/json.hpp>
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const char* word_of_verdict(MistakeReport::Verdict verdict) {
   using enum MistakeReport::Verdict;
@@ -36,7 +33,7 @@ Json json_of_suspect(const MistakeReport::Named& suspect) {
 
 }  // namespace
 
-nlohmann::ordered_json mistakes_json(const MistakeReport& report, const std::string& run) {
+Json mistakes_json(const MistakeReport& report, const std::string& run) {
   Json suspects = Json::array();
   for (const auto& suspect : report.suspects) suspects.push_back(json_of_suspect(suspect));
   return {{"engine", run},

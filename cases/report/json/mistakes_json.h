@@ -1,14 +1,14 @@
 // What `rigor diagnose --json` prints.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "cases/analysis/mistakes/finder.h"
+#include "core/base/json_fwd.h"
 
 namespace rigor {
 
 // `run`: as it was named.
-nlohmann::ordered_json mistakes_json(const MistakeReport& report, const std::string& run);
+Json mistakes_json(const MistakeReport& report, const std::string& run);
 
 }  // namespace rigor

@@ -1,12 +1,10 @@
 #include "cases/report/json/scene_json.h"
+#include "core/base/json.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 

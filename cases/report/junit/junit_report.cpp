@@ -4,17 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "cases/report/reports.h"
 #include "cases/results/result_json.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
 
 // Text of other people: bytes that are no UTF-8 and characters that XML 1.0 does not allow at all become U+FFFD or '?'.
 std::string escaped(const std::string& text) {
-  const auto clean = nlohmann::json::parse(text_of(text, -1)).get<std::string>();
+  const auto clean = parse_json(text_of(text, -1)).get<std::string>();
   std::string out;
   for (std::size_t i = 0; i < clean.size(); ++i) {
     const char c = clean[i];

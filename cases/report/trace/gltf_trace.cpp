@@ -4,16 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "cases/report/html/packing.h"
 #include "cases/report/trace/trace_formats.h"
+#include "core/base/json.h"
+#include "core/base/rotation_between.h"
 
 namespace rigor {
 namespace {
-
-using GltfJson = nlohmann::ordered_json;
 
 enum Component { kUnsignedShort = 5123, kFloat = 5126 };
 enum Target { kVertices = 34962, kIndices = 34963 };
@@ -88,31 +87,31 @@ class GltfFile {
  public:
   GltfFile() {
     json_ = {{"asset", {{"version", "2.0"}, {"generator", "rigor"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
-    json_["nodes"] = GltfJson::array();
+    json_["nodes"] = Json::array();
     json_["materials"] = {material(0.25, 0.5, 0.85), material(0.6, 0.6, 0.6)};
     for (const int material : {0, 1}) {
       for (const TriangleMesh& mesh : {cube(), tube(), ball(), square()}) add_mesh(mesh, material);
     }
   }
 
-  int add_node(const GltfJson& node) {
+  int add_node(const Json& node) {
     json_["nodes"].push_back(node);
     return static_cast<int>(json_["nodes"].size()) - 1;
   }
-  GltfJson& node(int index) { return json_["nodes"][static_cast<std::size_t>(index)]; }
+  Json& node(int index) { return json_["nodes"][static_cast<std::size_t>(index)]; }
 
   // Floats, `width` to each of `count`.
-  int add_floats(const std::vector<float>& values, int width, const GltfJson& bounds = {}, int target = 0) {
+  int add_floats(const std::vector<float>& values, int width, const Json& bounds = {}, int target = 0) {
     static const char* kTypes[] = {"", "SCALAR", "", "VEC3", "VEC4"};
-    GltfJson accessor = {{"bufferView", add_view(values.data(), values.size() * sizeof(float), target)},
-                         {"componentType", kFloat},
-                         {"count", values.size() / static_cast<std::size_t>(width)},
-                         {"type", kTypes[width]}};
-    accessor.update(bounds.is_null() ? GltfJson::object() : bounds);
+    Json accessor = {{"bufferView", add_view(values.data(), values.size() * sizeof(float), target)},
+                     {"componentType", kFloat},
+                     {"count", values.size() / static_cast<std::size_t>(width)},
+                     {"type", kTypes[width]}};
+    accessor.update(bounds.is_null() ? Json::object() : bounds);
     return add_accessor(accessor);
   }
 
-  void set_animation(const GltfJson& channels, const GltfJson& samplers) {
+  void set_animation(const Json& channels, const Json& samplers) {
     json_["animations"] = {{{"name", "motion"}, {"channels", channels}, {"samplers", samplers}}};
   }
 
@@ -123,7 +122,7 @@ class GltfFile {
   }
 
  private:
-  static GltfJson material(double r, double g, double b) {
+  static Json material(double r, double g, double b) {
     return {
         {"pbrMetallicRoughness", {{"baseColorFactor", {r, g, b, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.7}}},
         {"doubleSided", true}};
@@ -131,13 +130,13 @@ class GltfFile {
 
   int add_view(const void* data, std::size_t size, int target) {
     while (bytes_.size() % 4 != 0) bytes_ += '\0';
-    GltfJson view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
+    Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
     if (target != 0) view["target"] = target;
     bytes_.append(static_cast<const char*>(data), size);
     json_["bufferViews"].push_back(view);
     return static_cast<int>(json_["bufferViews"].size()) - 1;
   }
-  int add_accessor(const GltfJson& accessor) {
+  int add_accessor(const Json& accessor) {
     json_["accessors"].push_back(accessor);
     return static_cast<int>(json_["accessors"].size()) - 1;
   }
@@ -152,7 +151,7 @@ class GltfFile {
             normals.push_back(static_cast<float>(mesh.normals[i][k]));
     }
     const auto floats = [](const Vec3& v) {
-      return GltfJson{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+      return Json{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
     };
     const int position = add_floats(points, 3, {{"min", floats(low)}, {"max", floats(high)}}, kVertices),
               normal = add_floats(normals, 3, {}, kVertices);
@@ -167,12 +166,12 @@ class GltfFile {
                                   {"material", material}}}}});
   }
 
-  GltfJson json_;
+  Json json_;
   std::string bytes_;
 };
 
-GltfJson gltf_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-GltfJson gltf_turn(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+Json gltf_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Json gltf_turn(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
 // The nodes of a shape, below that of its body.
 struct ShapeNodes {
@@ -223,9 +222,8 @@ class GltfTrace : public TraceWriter {
   std::string end() override {
     GltfFile file;
     const Vec3 up = scene_.gravity.isZero(0) ? Vec3::UnitY().eval() : Vec3(-scene_.gravity.normalized());
-    const int world =
-        file.add_node({{"name", "world"}, {"rotation", gltf_turn(Quat::FromTwoVectors(up, Vec3::UnitY()))}});
-    GltfJson channels = GltfJson::array(), samplers = GltfJson::array(), children = GltfJson::array();
+    const int world = file.add_node({{"name", "world"}, {"rotation", gltf_turn(rotation_between(up, Vec3::UnitY()))}});
+    Json channels = Json::array(), samplers = Json::array(), children = Json::array();
     const int input =
         times_.empty() ? -1 : file.add_floats(times_, 1, {{"min", {times_.front()}}, {"max", {times_.back()}}});
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {

@@ -1,19 +1,19 @@
 // {"time": s, "bodies": [{"name", "position", "orientation_wxyz", "velocity", "angular_velocity"}, ...]}, units and
 // frames as the case file's.
-#include <nlohmann/json.hpp>
 
 #include "cases/report/trace/trace_formats.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
 
-nlohmann::ordered_json numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Json numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 class JsonLinesTrace : public TraceWriter {
  public:
   explicit JsonLinesTrace(const Scene& scene) : scene_(scene) {}
   std::string add(const Sample& sample) override {
-    nlohmann::ordered_json line = {{"time", sample.time}, {"bodies", nlohmann::ordered_json::array()}};
+    Json line = {{"time", sample.time}, {"bodies", Json::array()}};
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyState state = sample.bodies.columns().body(i);
       const Quat& q = state.orientation;

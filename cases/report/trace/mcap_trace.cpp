@@ -1,70 +1,68 @@
 // A run as Foxglove shows it: each body a frame, moved by FrameTransforms, and once its shape, by SceneUpdate
 // (docs.foxglove.dev/docs/visualization/message-schemas). Quaternions there are x, y, z, w by name.
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "cases/report/trace/mcap_file.h"
 #include "cases/report/trace/trace_formats.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
 
-using McapJson = nlohmann::ordered_json;
-
 constexpr const char* kRoot = "world";
 
-McapJson xyz(const Vec3& v) { return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}}; }
-McapJson xyzw(const Quat& q) { return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}}; }
-McapJson pose_json(const BodyPose& pose) {
+Json xyz(const Vec3& v) { return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}}; }
+Json xyzw(const Quat& q) { return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}}; }
+Json pose_json(const BodyPose& pose) {
   return {{"position", xyz(pose.position)}, {"orientation", xyzw(pose.orientation)}};
 }
 
 std::uint64_t nanoseconds_of(double seconds) { return static_cast<std::uint64_t>(std::llround(seconds * 1e9)); }
-McapJson stamp(std::uint64_t nanoseconds) {
+Json stamp(std::uint64_t nanoseconds) {
   return {{"sec", nanoseconds / 1000000000}, {"nsec", nanoseconds % 1000000000}};
 }
 
-McapJson object_of(const McapJson& properties) { return {{"type", "object"}, {"properties", properties}}; }
-McapJson list_of(const McapJson& items) { return {{"type", "array"}, {"items", items}}; }
+Json object_of(const Json& properties) { return {{"type", "object"}, {"properties", properties}}; }
+Json list_of(const Json& items) { return {{"type", "array"}, {"items", items}}; }
 
 // Foxglove's schemas, as far as what is written goes.
 struct Schemas {
-  McapJson number = {{"type", "number"}}, text = {{"type", "string"}}, flag = {{"type", "boolean"}};
-  McapJson time = object_of({{"sec", {{"type", "integer"}}}, {"nsec", {{"type", "integer"}}}});
-  McapJson vector = object_of({{"x", number}, {"y", number}, {"z", number}});
-  McapJson quaternion = object_of({{"x", number}, {"y", number}, {"z", number}, {"w", number}});
-  McapJson pose = object_of({{"position", vector}, {"orientation", quaternion}});
-  McapJson colour = object_of({{"r", number}, {"g", number}, {"b", number}, {"a", number}});
+  Json number = {{"type", "number"}}, text = {{"type", "string"}}, flag = {{"type", "boolean"}};
+  Json time = object_of({{"sec", {{"type", "integer"}}}, {"nsec", {{"type", "integer"}}}});
+  Json vector = object_of({{"x", number}, {"y", number}, {"z", number}});
+  Json quaternion = object_of({{"x", number}, {"y", number}, {"z", number}, {"w", number}});
+  Json pose = object_of({{"position", vector}, {"orientation", quaternion}});
+  Json colour = object_of({{"r", number}, {"g", number}, {"b", number}, {"a", number}});
 
-  McapJson transforms() const {
-    McapJson schema = object_of({{"transforms", list_of(object_of({{"timestamp", time},
-                                                                   {"parent_frame_id", text},
-                                                                   {"child_frame_id", text},
-                                                                   {"translation", vector},
-                                                                   {"rotation", quaternion}}))}});
+  Json transforms() const {
+    Json schema = object_of({{"transforms", list_of(object_of({{"timestamp", time},
+                                                               {"parent_frame_id", text},
+                                                               {"child_frame_id", text},
+                                                               {"translation", vector},
+                                                               {"rotation", quaternion}}))}});
     schema["title"] = "foxglove.FrameTransforms";
     return schema;
   }
-  McapJson scene() const {
-    const McapJson solid = object_of({{"pose", pose}, {"size", vector}, {"color", colour}});
-    const McapJson cylinder = object_of(
+  Json scene() const {
+    const Json solid = object_of({{"pose", pose}, {"size", vector}, {"color", colour}});
+    const Json cylinder = object_of(
         {{"pose", pose}, {"size", vector}, {"bottom_scale", number}, {"top_scale", number}, {"color", colour}});
-    const McapJson nothing = list_of(object_of(McapJson::object()));
-    McapJson entity = object_of({{"timestamp", time},
-                                 {"frame_id", text},
-                                 {"id", text},
-                                 {"lifetime", time},
-                                 {"frame_locked", flag},
-                                 {"metadata", nothing},
-                                 {"arrows", nothing},
-                                 {"cubes", list_of(solid)},
-                                 {"spheres", list_of(solid)},
-                                 {"cylinders", list_of(cylinder)},
-                                 {"lines", nothing},
-                                 {"triangles", nothing},
-                                 {"texts", nothing},
-                                 {"models", nothing}});
-    McapJson schema = object_of({{"deletions", nothing}, {"entities", list_of(entity)}});
+    const Json nothing = list_of(object_of(Json::object()));
+    Json entity = object_of({{"timestamp", time},
+                             {"frame_id", text},
+                             {"id", text},
+                             {"lifetime", time},
+                             {"frame_locked", flag},
+                             {"metadata", nothing},
+                             {"arrows", nothing},
+                             {"cubes", list_of(solid)},
+                             {"spheres", list_of(solid)},
+                             {"cylinders", list_of(cylinder)},
+                             {"lines", nothing},
+                             {"triangles", nothing},
+                             {"texts", nothing},
+                             {"models", nothing}});
+    Json schema = object_of({{"deletions", nothing}, {"entities", list_of(entity)}});
     schema["title"] = "foxglove.SceneUpdate";
     return schema;
   }
@@ -80,9 +78,9 @@ class Entity {
              {"frame_locked", true}};
     for (const char* kind :
          {"metadata", "arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"})
-      json_[kind] = McapJson::array();
-    colour_ = body.fixed ? McapJson{{"r", 0.6}, {"g", 0.6}, {"b", 0.6}, {"a", 0.5}}
-                         : McapJson{{"r", 0.25}, {"g", 0.5}, {"b", 0.85}, {"a", 1}};
+      json_[kind] = Json::array();
+    colour_ = body.fixed ? Json{{"r", 0.6}, {"g", 0.6}, {"b", 0.6}, {"a", 0.5}}
+                         : Json{{"r", 0.25}, {"g", 0.5}, {"b", 0.85}, {"a", 1}};
     std::visit(*this, drawn_shape(body));
   }
   void operator()(const Sphere& sphere) { add("spheres", BodyPose(), Vec3::Constant(2 * sphere.radius)); }
@@ -100,13 +98,13 @@ class Entity {
     pose.position -= kThin / 2 * plane.normal;
     add("cubes", pose, {2 * kDrawnPlane, 2 * kDrawnPlane, kThin});
   }
-  const McapJson& json() const { return json_; }
+  const Json& json() const { return json_; }
 
  private:
   void add(const char* kind, const BodyPose& pose, const Vec3& size) {
     json_[kind].push_back({{"pose", pose_json(pose)}, {"size", xyz(size)}, {"color", colour_}});
   }
-  McapJson json_, colour_;
+  Json json_, colour_;
 };
 
 class McapTrace : public TraceWriter {
@@ -118,15 +116,15 @@ class McapTrace : public TraceWriter {
   }
 
   std::string begin() override {
-    McapJson entities = McapJson::array();
+    Json entities = Json::array();
     for (const Body& body : scene_.bodies) entities.push_back(Entity(body).json());
     const std::string start = file_.begin();
-    return start + file_.add(shapes_, 0, McapJson{{"deletions", McapJson::array()}, {"entities", entities}}.dump());
+    return start + file_.add(shapes_, 0, Json{{"deletions", Json::array()}, {"entities", entities}}.dump());
   }
 
   std::string add(const Sample& sample) override {
     const std::uint64_t time = nanoseconds_of(sample.time);
-    McapJson transforms = McapJson::array();
+    Json transforms = Json::array();
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyColumns bodies = sample.bodies.columns();
       transforms.push_back({{"timestamp", stamp(time)},
@@ -135,7 +133,7 @@ class McapTrace : public TraceWriter {
                             {"translation", xyz(bodies.position(i))},
                             {"rotation", xyzw(bodies.orientation(i))}});
     }
-    return file_.add(frames_, time, McapJson{{"transforms", transforms}}.dump());
+    return file_.add(frames_, time, Json{{"transforms", transforms}}.dump());
   }
 
   std::string end() override { return file_.end(); }

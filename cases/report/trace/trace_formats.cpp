@@ -7,6 +7,7 @@
 #include "cases/report/csv/trajectory_csv.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
+#include "core/base/rotation_between.h"
 
 namespace rigor {
 namespace {
@@ -56,7 +57,7 @@ Shape drawn_shape(const Body& body) {
 }
 
 BodyPose pose_of_plane(const Plane& plane) {
-  return {plane.normal * plane.offset, Quat::FromTwoVectors(Vec3::UnitZ(), plane.normal)};
+  return {plane.normal * plane.offset, rotation_between(Vec3::UnitZ(), plane.normal)};
 }
 
 }  // namespace rigor

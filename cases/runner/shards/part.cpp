@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "cases/results/result_json.h"
@@ -13,11 +12,11 @@
 #include "cases/runner/case_process.h"
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Subject = MessageSubject;
 
 constexpr int kForm = 1;
@@ -51,7 +50,7 @@ std::string message_of_error(const CaseResult& result) {
 
 bool take_error(CaseResult& result, const std::string& message) {
   if (!message.starts_with("{\"error\"")) return false;
-  const Json json = Json::parse(message);
+  const Json json = parse_json(message);
   if (result.error.empty()) {
     result.error = json.at("error").get<std::string>();
     result.error_is_input = json.at("is_input").get<bool>();
@@ -257,7 +256,7 @@ Part read_part(const std::string& folder) {
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   try {
     std::size_t at = std::min(bytes.find('\n'), bytes.size());
-    const Json json = Json::parse(bytes.substr(0, at));
+    const Json json = parse_json(bytes.substr(0, at));
     Part part{folder, title_from(json), {}};
     std::size_t index = 0;
     ++at;

@@ -1,14 +1,12 @@
 #include "core/scene/toml/scene_writer.h"
+#include "core/base/json.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
