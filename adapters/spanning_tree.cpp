@@ -1,6 +1,5 @@
 #include "adapters/spanning_tree.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <numeric>
 
@@ -110,12 +109,11 @@ StartingMotion starting_motion(const Scene& scene, int body) {
   return {b.position, b.velocity, b.angular_velocity};
 }
 
-// A universal joint's two speeds: those whose turning is nearest to w.
+// A universal joint's two speeds: those whose turning is nearest to w, which is w but for its part along the normal.
 std::vector<double> speeds_about(const Vec3& first, const Vec3& second, const Vec3& w) {
-  Eigen::Matrix<double, 3, 2> axes;
-  axes << first, second;
-  const Eigen::Vector2d speeds = axes.colPivHouseholderQr().solve(w);
-  return {speeds[0], speeds[1]};
+  const Vec3 normal = first.cross(second);
+  const double squared = normal.squaredNorm();
+  return {w.cross(second).dot(normal) / squared, first.cross(w).dot(normal) / squared};
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "adapters/twin_joint_solver.h"
 
-#include <Eigen/Cholesky>
-
 #include "core/base/factors.h"
 
 namespace rigor {
@@ -50,9 +48,8 @@ TwinJointSolver::Sparse TwinJointSolver::inverse_mass(BodyColumns state) {
 // p of A p = b with A = S + softness, and whether it has one; once refined, for rows that repeat others are nearly
 // singular.
 template <typename Factors, typename Matrix>
-Eigen::VectorXd TwinJointSolver::solved(const Factors& factors, bool is_regular, const Matrix& matrix,
-                                        const Eigen::VectorXd& right) {
-  warning_ = is_regular ? "" : "the joints' equations have no single solution, and cfm is zero";
+Eigen::VectorXd TwinJointSolver::solved(const Factors& factors, const Matrix& matrix, const Eigen::VectorXd& right) {
+  warning_ = factors.is_regular() ? "" : "the joints' equations have no single solution, and cfm is zero";
   const Eigen::VectorXd impulses = factors.solve(right);
   return impulses + factors.solve(right - matrix * impulses);
 }
@@ -69,15 +66,12 @@ void TwinJointSolver::push(MutableBodyColumns state, double dt) {
   if (count <= kMostDense) {
     Eigen::MatrixXd system = J * by_impulse;
     system.diagonal().array() += softness;
-    const Eigen::LDLT<Eigen::MatrixXd> factors(system);
-    const bool is_regular = factors.info() == Eigen::Success && factors.vectorD().cwiseAbs().minCoeff() > 0;
-    impulses = solved(factors, is_regular, system, right);
+    impulses = solved(SymmetricFactors(system), system, right);
   } else {
     Sparse identity(count, count);
     identity.setIdentity();
     const Sparse system = Sparse(J * by_impulse) + softness * identity;
-    const SparseFactors factors(system);
-    impulses = solved(factors, factors.is_regular(), system, right);
+    impulses = solved(SparseFactors(system), system, right);
   }
   const Eigen::VectorXd change = by_impulse * impulses;
   for (std::size_t i = 0; i < state.size(); ++i) {

@@ -34,7 +34,7 @@ class TwinJointSolver {
   void enter(int body, const Vec6& share);
   Sparse inverse_mass(BodyColumns state);
   template <typename Factors, typename Matrix>
-  Eigen::VectorXd solved(const Factors& factors, bool is_regular, const Matrix& matrix, const Eigen::VectorXd& right);
+  Eigen::VectorXd solved(const Factors& factors, const Matrix& matrix, const Eigen::VectorXd& right);
 
   const System& system_;
   double erp_;

@@ -1,6 +1,6 @@
 #include "adapters/bullet/bullet_convert.h"
 
-#include <Eigen/Eigenvalues>
+#include "core/base/eigen_of.h"
 
 namespace rigor::bullet {
 namespace {
@@ -26,10 +26,10 @@ struct MakeShape {
 
 PrincipalFrame principal_frame(const Mat3& inertia_B) {
   if (inertia_B.isDiagonal(0)) return {inertia_B.diagonal(), Mat3::Identity(), false};
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(inertia_B);
-  Mat3 axes = solver.eigenvectors();              // its columns are P's axes in B
+  const SymmetricEigen principal = eigen_of(inertia_B);
+  Mat3 axes = principal.vectors;                  // its columns are P's axes in B
   if (axes.determinant() < 0) axes.col(0) *= -1;  // right-handed
-  return {solver.eigenvalues(), axes, true};
+  return {principal.values, axes, true};
 }
 
 btCollisionShape* add_shape(const Shape& shape, const PrincipalFrame& frame, Shapes& shapes) {

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <iterator>
 
 #include "adapters/mujoco/mujoco_mjcf.h"
 #include "adapters/mujoco/mujoco_model.h"
+#include "core/base/eigen_of.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -38,10 +38,10 @@ struct GeomForOthers {
 // By principal moments and axes: a full inertia MuJoCo would diagonalise to 2.5e-8 of itself only.
 std::string inertia_of_body(const Body& body) {
   if (body.inertia.isDiagonal(0)) return fmt::format(R"(diaginertia="{}")", numbers(Vec3(body.inertia.diagonal())));
-  const Eigen::SelfAdjointEigenSolver<Mat3> principal(body.inertia);
-  Mat3 axes = principal.eigenvectors();
+  const SymmetricEigen principal = eigen_of(body.inertia);
+  Mat3 axes = principal.vectors;
   if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
-  return fmt::format(R"(quat="{}" diaginertia="{}")", numbers(Quat(axes)), numbers(Vec3(principal.eigenvalues())));
+  return fmt::format(R"(quat="{}" diaginertia="{}")", numbers(Quat(axes)), numbers(principal.values));
 }
 
 class Exporter {

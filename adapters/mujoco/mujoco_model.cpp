@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "adapters/mujoco/mujoco_mjcf.h"
+#include "core/base/eigen_of.h"
 
 namespace rigor {
 namespace {
@@ -13,11 +13,11 @@ namespace {
 // MuJoCo's compiler diagonalises a full inertia to 2.5e-8 of itself only, which turns a top by 1e-7 rad in a hundred
 // steps: the principal moments and axes are set anew to rounding.
 void set_inertia(mjModel& model, int body, const Mat3& inertia) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> principal(inertia);
-  Mat3 axes = principal.eigenvectors();
+  const SymmetricEigen principal = eigen_of(inertia);
+  Mat3 axes = principal.vectors;
   if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
   const Quat q(axes);
-  for (int i = 0; i < 3; ++i) model.body_inertia[3 * body + i] = principal.eigenvalues()[i];
+  for (int i = 0; i < 3; ++i) model.body_inertia[3 * body + i] = principal.values[i];
   const double wxyz[4] = {q.w(), q.x(), q.y(), q.z()};
   std::copy(wxyz, wxyz + 4, model.body_iquat + 4 * body);
   model.body_sameframe[body] = 0;

@@ -9,6 +9,10 @@ Factors& kept_or_new(auto& factors) {
   return factors.template emplace<Factors>();
 }
 
+bool has_no_zero_pivot(const auto& factors) {
+  return factors.info() == Eigen::Success && factors.vectorD().cwiseAbs().minCoeff() > 0;
+}
+
 }  // namespace
 
 void DenseFactors::factorise(const Eigen::MatrixXd& A, Kind kind) {
@@ -23,11 +27,15 @@ Eigen::VectorXd DenseFactors::solve(const Eigen::VectorXd& right_side) const {
   return std::visit([&](const auto& factors) -> Eigen::VectorXd { return factors.solve(right_side); }, factors_);
 }
 
+SymmetricFactors::SymmetricFactors(const Eigen::MatrixXd& A) : factors_(A) {}
+
+bool SymmetricFactors::is_regular() const { return has_no_zero_pivot(factors_); }
+
+Eigen::VectorXd SymmetricFactors::solve(const Eigen::VectorXd& right_side) const { return factors_.solve(right_side); }
+
 SparseFactors::SparseFactors(const Eigen::SparseMatrix<double>& A) : factors_(A) {}
 
-bool SparseFactors::is_regular() const {
-  return factors_.info() == Eigen::Success && factors_.vectorD().cwiseAbs().minCoeff() > 0;
-}
+bool SparseFactors::is_regular() const { return has_no_zero_pivot(factors_); }
 
 Eigen::VectorXd SparseFactors::solve(const Eigen::VectorXd& right_side) const { return factors_.solve(right_side); }
 

@@ -21,6 +21,17 @@ class DenseFactors {
   std::variant<Eigen::PartialPivLU<Eigen::MatrixXd>, Eigen::LLT<Eigen::MatrixXd>> factors_;
 };
 
+// A = Pᵀ L D Lᵀ P of a symmetric A.
+class SymmetricFactors {
+ public:
+  explicit SymmetricFactors(const Eigen::MatrixXd& A);
+  bool is_regular() const;  // no pivot is zero; else it solves nothing
+  Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
+
+ private:
+  Eigen::LDLT<Eigen::MatrixXd> factors_;
+};
+
 // A = L D Lᵀ of a symmetric, sparse A.
 class SparseFactors {
  public:

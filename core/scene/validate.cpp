@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
+#include "core/base/eigen_of.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -127,7 +127,7 @@ void check_rows(const Rows& rows, const F& fault_and_name) {
 
 std::string why_no_inertia(const Mat3& inertia) {
   if (!inertia.allFinite()) return "its moments are not finite";
-  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();  // ascending
+  const Vec3 moments = eigen_of(inertia).values;  // ascending
   const double largest = moments[2];
   // The eigenvalues of a singular matrix come out as a few roundings of the largest instead of 0.
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();

@@ -9,7 +9,6 @@
 // After the numbers of all bodies stands one of each axis, as in equations_of_motion.h.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "cases/truth/solved/axis_rows.h"
 #include "cases/truth/solved/joint_axis.h"
 #include "cases/truth/solved/natural_joints.h"
+#include "core/base/eigen_of.h"
 #include "core/engine/body_table.h"
 
 namespace rigor {
@@ -156,9 +156,9 @@ class NaturalCoordinates {
 
   // c of the head comment: of the inertia's size; none where E is far from singular.
   static bool is_regular(const Matrix& second_moment) {
-    const Eigen::SelfAdjointEigenSolver<Mat3> solver(second_moment.template cast<double>(), Eigen::EigenvaluesOnly);
+    const Vec3 moments = eigen_of(second_moment.template cast<double>()).values;
     constexpr double kFar = 1e-2;  // at which two digits are lost
-    return solver.eigenvalues().minCoeff() > kFar * solver.eigenvalues().maxCoeff();
+    return moments.minCoeff() > kFar * moments.maxCoeff();
   }
   Real regulariser(int i) const { return second_moment_[i].trace() / 3; }
 

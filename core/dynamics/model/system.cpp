@@ -1,7 +1,8 @@
 #include "core/dynamics/model/system.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+
+#include "core/base/eigen_of.h"
 
 namespace rigor {
 
@@ -10,10 +11,10 @@ PrincipalInertia principal_inertia(const Mat3& inertia_B) {
     const Vec3 d = inertia_B.diagonal();
     if (d.x() <= d.y() && d.y() <= d.z()) return {d, Quat::Identity()};
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(inertia_B);
-  Mat3 axes = eigen.eigenvectors();
+  const auto [moments, vectors] = eigen_of(inertia_B);
+  Mat3 axes = vectors;
   if (axes.determinant() < 0) axes.col(2) *= -1;
-  return {eigen.eigenvalues(), Quat(axes).normalized()};
+  return {moments, Quat(axes).normalized()};
 }
 
 System::System(const Scene& scene) : scene_gravity(scene.gravity), loads(scene) {

@@ -1,10 +1,10 @@
 #include "cases/metrics/measures/joints/joint_reactions.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 
 #include "cases/metrics/measures/joints/joint_series.h"
+#include "core/base/eigen_of.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -21,12 +21,12 @@ std::array<Vec3, 2> across(const Vec3& axis) {
 // The directions in which the loads of the null space do not act. None where the joint can carry nothing in them: of
 // what is always zero there is nothing to compare.
 Mat3 unique_directions(const Mat3& null_loads, const Mat3& can_carry) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(null_loads);
+  const SymmetricEigen loads = eigen_of(null_loads);
   Mat3 unique = Mat3::Zero();
   constexpr double kNothing = 1e-14;  // 1e-7 of the largest load, squared: roundings are 1e-10, real shares per mille
   for (int k = 0; k < 3; ++k) {
-    const Vec3 direction = solver.eigenvectors().col(k);
-    if (solver.eigenvalues()[k] <= kNothing) unique += direction * direction.transpose();
+    const Vec3 direction = loads.vectors.col(k);
+    if (loads.values[k] <= kNothing) unique += direction * direction.transpose();
   }
   return (unique * can_carry).trace() > kNothing ? unique : Mat3(Mat3::Zero());
 }
