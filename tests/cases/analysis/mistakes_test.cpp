@@ -2,6 +2,8 @@
 // two at once are both named. The short form takes a few of each; RIGOR_DIAGNOSE=all takes all, and prints the score;
 // RIGOR_DIAGNOSE=PART those whose names have this part in them. RIGOR_DIAGNOSE_SEED draws other pairs: those of 1 were
 // looked at while the thresholds were chosen, those of any other number had no part in it.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/test/unit_test.hpp>
@@ -47,6 +49,16 @@ std::string first_line(const MistakeReport& report) {
     text += "; ";
     for (const std::string& name : suspect.names) text += "[" + name + "] ";
     text += std::to_string(suspect.explains);
+  }
+  return text;
+}
+
+// What the first suspect leaves open, case by case.
+std::string what_is_left(const MistakeReport& report) {
+  std::string text;
+  if (report.suspects.empty()) return text;
+  for (const CaseShare& share : report.suspects.front().cases) {
+    if (share.rest > 0.01) text += fmt::format("; {}: {:.2g} of {:.2g}", share.id, share.rest, share.error);
   }
   return text;
 }
@@ -105,7 +117,9 @@ void take(const std::string& engine, const Fault& fault, const std::vector<std::
   score.right += all_named, score.halves += is_any && !all_named;
   const bool is_sure = report.verdict == Verdict::named && report.suspects.front().explains > kConfident;
   score.wrong_and_sure += is_sure && !names_none_but(names, report);
-  if (!all_named || !wanted().empty()) BOOST_TEST_MESSAGE(engine << ", " << fault.name << ": " << first_line(report));
+  if (!all_named || !wanted().empty())
+    BOOST_TEST_MESSAGE(engine << ", " << fault.name << ": " << first_line(report)
+                              << (all_named ? "" : what_is_left(report)));
 }
 
 // Not in the table, nor one of its rows by another amount.
