@@ -11,9 +11,10 @@
 
 namespace rigor {
 
-// How much longer than its like [s of CPU time] a probe may take: what is so much dearer is no winner, and the rest of
-// a probe, some tens of milliseconds, is not told apart from its steps.
-inline constexpr double kFarDearer = 20, kLeastLimit = 1;
+// How much longer than its like [s of CPU time] a probe may take: what is so much dearer is no winner. At least so long
+// that the rest of a probe, some tens of milliseconds, is nothing beside it, and that on a busy machine the pool, which
+// allows ten times as much by the clock, ends none for its waiting.
+inline constexpr double kFarDearer = 20, kLeastLimit = 3;
 
 class SettingChooser {
  public:
