@@ -1,5 +1,5 @@
 // rigor tune beside a full grid over the same space: no setting at any step keeps the bound for a tenth less than the
-// winner. One case; RIGOR_TUNE=all takes ten, which is a quarter of an hour, a case's id that one.
+// winner. One case; RIGOR_TUNE=all takes ten, which is some minutes, a case's id that one.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
