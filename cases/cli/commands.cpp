@@ -28,7 +28,8 @@ const std::vector<CommandRow>& commands() {
         "--shard", "--suite", "--timeout", "--vary"},
        sweep_command},
       {"tune",
-       "find the cheapest setting of an engine that keeps bounds; exit 1 where none does",
+       "find the cheapest setting of an engine that keeps bounds, and by a smaller search that of each other engine; exit "
+       "1 where none does",
        "CASE",
        "cases by id, family, file or folder",
        {"--duration", "--engine", "--jobs", "--plugin", "--seed", "--suite", "--timeout", "--within"},

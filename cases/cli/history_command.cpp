@@ -31,7 +31,7 @@ std::string now() {
   return {text.data(), length};
 }
 
-// Of the repository that the current folder is in, or what a runner says; empty where there is none.
+// Of the repository that the current folder is in, or what a runner says.
 std::string current_commit() {
   constexpr std::size_t kShort = 12;
   for (const char* variable : {"RIGOR_COMMIT", "GITHUB_SHA", "CI_COMMIT_SHA"}) {
@@ -39,13 +39,14 @@ std::string current_commit() {
     if (value && *value) return std::string(value).substr(0, kShort);
   }
   FILE* git = popen("git rev-parse --short=12 HEAD 2>/dev/null", "r");
-  if (!git) return "";
+  constexpr const char* kNone = "unknown";
+  if (!git) return kNone;
   std::array<char, 64> text{};
   const std::size_t length = std::fread(text.data(), 1, text.size() - 1, git);
   const bool is_good = pclose(git) == 0;
   std::string commit(text.data(), length);
   while (!commit.empty() && commit.back() == '\n') commit.pop_back();
-  return is_good ? commit : "";
+  return is_good ? commit : kNone;
 }
 
 int add(const CommandLine& line) {
@@ -55,8 +56,7 @@ int add(const CommandLine& line) {
   const fs::path given = line.words[1], file = fs::is_directory(given, error) ? given / "results.json" : given;
   const HistoryEntry entry = history_entry(file.string(), current_commit(), now());
   add_to_history(line.file, entry);
-  say(fmt::format("{} cells of commit {} are added to {}", entry.cells.size(),
-                  entry.commit.empty() ? "unknown" : entry.commit, line.file));
+  say(fmt::format("{} cells of commit {} are added to {}", entry.cells.size(), entry.commit, line.file));
   return kGood;
 }
 

@@ -75,8 +75,10 @@ std::string winner_text(const CommandLine& line, const Tuning& tuning, const Eng
 }
 
 std::string beside_text(const std::vector<Tuning>& others) {
-  std::string text = fmt::format("the same of the other engines\n  {:>10} {:>12}  {:<9} {}\n", "error", "cost [ms/s]",
-                                 "dt [s]", "run");
+  std::string text = fmt::format(
+      "the same of the other engines, of each at most {} settings or its methods as they are; rigor tune --engine NAME "
+      "tries {}\n  {:>10} {:>12}  {:<9} {}\n",
+      kSettingsBeside, kSettings, "error", "cost [ms/s]", "dt [s]", "run");
   for (const Tuning& other : others) {
     text += other.winner ? row(*other.winner)
                          : fmt::format("  {:>10} {:>12}  {:<9} {}: {}\n", "-", "-", "-", other.engine,

@@ -206,7 +206,8 @@ class CaseJobs {
     const Cell& cell = planned_.cells[job.part];
     const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_,
                                        truth_on_steps_, reference_ ? &*reference_ : nullptr);
-    channel.send(joined({message_of_cell(job.part, judged.cell, planned_.definition.scene), packed(judged.path)}));
+    channel.send(joined({message_of_cell(job.part, judged.cell, planned_.definition.scene),
+                         options_.spreads ? packed(judged.path) : ""}));
   }
 
   std::string message_of_failure(const JobSpec& job, const JobEnd& end) const {

@@ -32,6 +32,7 @@ struct GridOptions {
   const Executor* executor = nullptr;  // of the cases; null: processes of this machine
   int share = 0;                       // of the cases, that this process does (shards/shard.h); 0: all
   std::vector<std::string> only_metrics = {};  // measure these, costly or not, and no others; empty: all as above
+  bool spreads = true;                         // of every two runs at a step, for which the path of each is kept
 };
 
 // Which of all cells are in the grid.

@@ -118,7 +118,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
     if (!kept.empty()) cell.recordings[recorder->name()] = std::move(kept);
   }
   cell.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return {cell, path_of(run.trajectory, definition.duration, scene.bodies.size())};
+  return {cell, options.spreads ? path_of(run.trajectory, definition.duration, scene.bodies.size()) : Path()};
 }
 
 }  // namespace rigor

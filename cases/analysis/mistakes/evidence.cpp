@@ -77,7 +77,7 @@ Distances Observation::distances(const Sight& engine, const Sight& mistake) cons
 
 double Observation::uncertainty(const Sight& sight) const {
   double sum = 0;
-  for (std::size_t i = begin_; i < std::min(end_, sight.coarse.size()); ++i)
+  for (std::size_t i = begin_; i < std::min({end_, sight.coarse.size(), sight.states.size()}); ++i)
     sum += std::pow(weight(i) * (sight.states[i] - sight.coarse[i]), 2);
   return std::sqrt(sum / per_);
 }

@@ -27,7 +27,7 @@ class Observation {
   Observation(const View& view, std::size_t view_index, Part part, const Sight& base, std::size_t bodies);
 
   Distances distances(const Sight& engine, const Sight& mistake) const;
-  // Distance of a sight from its own coarse one: what extrapolation leaves open.
+  // Distance of a sight from its own coarse one: what extrapolation, or chaos, leaves open.
   double uncertainty(const Sight& sight) const;
   // The scaled difference of a sight from the base.
   std::vector<double> difference(const Sight& sight) const;

@@ -80,6 +80,20 @@ std::vector<Sight> MistakeFinder::sights(const Table& table, const Engine* engin
   return out;
 }
 
+// A mistake may make a motion chaotic, in which the engine and its twin with the same mistake part by roundings alone.
+void MistakeFinder::add_chaos(const Table& table, const Engine& engine, std::vector<Sight>& moved) const {
+  std::vector<MotionTask> tasks;
+  std::vector<std::size_t> of;  // the tasks' views
+  for (std::size_t v = 0; v < table.views.size(); ++v) {
+    const View& view = table.views[v];
+    if (view.kind != View::Kind::twin || !moved[v].why.empty()) continue;
+    for (MotionTask& task : nudged_tasks(tasks_of(view, probes_[view.probe], engine, run_.settings, nullptr)))
+      tasks.push_back(std::move(task)), of.push_back(v);
+  }
+  const std::vector<StateSeries> motions = simulate_motions(tasks, engines_, options_.at_once, options_.limit);
+  for (std::size_t n = 0; n < of.size(); ++n) moved[of[n]].coarse = motions[n].states;
+}
+
 std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector<Hypothesis> hypotheses) const {
   std::vector<MotionTask> tasks;
   for (const Hypothesis& hypothesis : hypotheses) {
@@ -213,6 +227,7 @@ MistakeReport MistakeFinder::report(const Engine& engine) {
   MistakeReport report;
   report.known = faults().size();
   std::vector<Sight> moved = sights(table, &engine, nullptr);
+  add_chaos(table, engine, moved);
   for (std::size_t v = 0; v < moved.size(); ++v) {
     const std::string& id = probes_[table.views[v].probe].id;
     if (!moved[v].why.empty()) {

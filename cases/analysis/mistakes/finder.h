@@ -49,6 +49,7 @@ class MistakeFinder {
     std::vector<Hypothesis> hypotheses;
   };
   std::vector<Sight> sights(const Table& table, const Engine* engine, std::shared_ptr<const Fault> fault) const;
+  void add_chaos(const Table& table, const Engine& engine, std::vector<Sight>& moved) const;
   std::vector<Hypothesis> simulated(const Table& table, std::vector<Hypothesis> hypotheses) const;
   RunName nearest_method(const Engine& engine);
   const Table& table_for(const RunName* of_points);

@@ -95,6 +95,10 @@ std::vector<Chain> dealt(const Chain& tasks, int hands) {
 std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, const EngineTable& engines, int at_once,
                                           double limit) {
   constexpr int kMostDeaths = 4;  // an engine that dies of everything is not asked for the rest
+  // s, of which the pool allows a multiple by the clock: what a run may take is watched by its own timer, and on a busy
+  // machine a short one waits for long.
+  constexpr double kLeastPatience = 10;
+  const double patience = std::max(limit, kLeastPatience);
   int deaths = 0, answers = 0;
   std::vector<StateSeries> motions(tasks.size());
   Chain left(tasks.size());
@@ -111,7 +115,7 @@ std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, 
                         }
                         engines.rest();
                       },
-                      limit});
+                      patience});
     }
     const auto on_message = [&](std::size_t job, const std::string& message) {
       motions[index_in(message)] = motion_in(message);
@@ -119,7 +123,8 @@ std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, 
     };
     const auto on_end = [&](std::size_t job, const JobEnd& end) {
       if (done[job] == chains[job].size()) return;
-      motions[chains[job][done[job]++]].why = why_it_ended(end, limit);  // the one that it was at
+      motions[chains[job][done[job]++]].why =
+          why_it_ended(end, end.how == Ending::timed_out ? patience : limit);  // the one that it was at
       ++deaths;
     };
     run_jobs(jobs, at_once, on_message, on_end);

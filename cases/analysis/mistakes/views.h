@@ -29,8 +29,10 @@ struct View {
 // What is seen of one motion.
 struct Sight {
   std::vector<double> states;  // as StateSeries's
-  std::vector<double> coarse;  // of an extrapolated one: the same from the two finer steps alone; else empty
-  std::string why;             // there is none; empty if there is
+  // The same less surely, to see what is left open: of an extrapolated one from the two finer steps alone; of an
+  // engine's beside its twin as roundings may move it (nudged_tasks); else empty.
+  std::vector<double> coarse;
+  std::string why;  // there is none; empty if there is
 };
 
 // The views of a run on the probes. `of_points`: the base of Kind::same_method; null where that is not needed.
@@ -41,6 +43,8 @@ bool needs_same_method(const std::vector<View>& views);
 // The tasks of a view, one for each of its dt.
 std::vector<MotionTask> tasks_of(const View& view, const ProbeScene& probe, const Engine& engine,
                                  const Settings& settings, std::shared_ptr<const Fault> fault);
+// The same with every moving body nudged by some roundings at the start, by which chaos shows.
+std::vector<MotionTask> nudged_tasks(std::vector<MotionTask> tasks);
 // Of their motions, from `first` on.
 Sight seen(const View& view, const std::vector<StateSeries>& motions, std::size_t first);
 

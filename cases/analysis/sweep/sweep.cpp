@@ -88,9 +88,10 @@ Sweep::Sweep(SweepInput input, const Vocabulary& vocabulary) : input_(std::move(
   check_count(cells);
   scenes_ = static_cast<std::size_t>(scenes), rest_ = static_cast<std::size_t>(rest);
   cells_ = static_cast<std::size_t>(cells);
+  rows_of_job_ = std::clamp<std::size_t>(cells_ / kFewJobs, 1, kRowsOfJob);
   first_jobs_ = first_rows_ = {0};
   for (std::size_t c = 0; c < input_.cases.size(); ++c) {
-    first_jobs_.push_back(first_jobs_.back() + scenes_ * ((rows_of_variant(c) + kRowsOfJob - 1) / kRowsOfJob));
+    first_jobs_.push_back(first_jobs_.back() + scenes_ * jobs_of_variant(c));
     first_rows_.push_back(first_rows_.back() + scenes_ * rows_of_variant(c));
   }
   for (const auto& shares : is_sampled() ? sample_points(input_.samples, input_.axes.size(), input_.seed)
@@ -196,9 +197,8 @@ Case Sweep::definition_at(std::size_t of_case, const Point& point) const {
 Sweep::Place Sweep::place_of(std::size_t job) const {
   const auto behind = std::upper_bound(first_jobs_.begin(), first_jobs_.end(), job);
   const auto of_case = static_cast<std::size_t>(behind - first_jobs_.begin()) - 1;
-  const std::size_t jobs_of_variant = (rows_of_variant(of_case) + kRowsOfJob - 1) / kRowsOfJob;
-  const std::size_t within = job - first_jobs_[of_case];
-  return {of_case, within / jobs_of_variant, kRowsOfJob * (within % jobs_of_variant)};
+  const std::size_t within = job - first_jobs_[of_case], each = jobs_of_variant(of_case);
+  return {of_case, within / each, rows_of_job_ * (within % each)};
 }
 
 Case Sweep::definition_of(std::size_t job) const {
@@ -228,7 +228,7 @@ SweepRow Sweep::row_at(const Place& place, std::size_t number) const {
 std::vector<SweepRow> Sweep::rows_of(std::size_t job) const {
   const Place place = place_of(job);
   std::vector<SweepRow> rows;
-  for (std::size_t i = place.first; i < std::min(place.first + kRowsOfJob, rows_of_variant(place.of_case)); ++i)
+  for (std::size_t i = place.first; i < std::min(place.first + rows_of_job_, rows_of_variant(place.of_case)); ++i)
     rows.push_back(row_at(place, i));
   return rows;
 }

@@ -18,6 +18,7 @@ namespace rigor {
 
 inline constexpr double kMostCells = 1e6;     // of a sweep
 inline constexpr std::size_t kRowsOfJob = 8;  // at most
+inline constexpr std::size_t kFewJobs = 64;   // so many there are before any has two rows, for shards that are alike
 
 struct SweepRow {
   std::size_t of_case = 0, run = 0;  // indices in Sweep
@@ -71,6 +72,9 @@ class Sweep {
   Place place_of(std::size_t job) const;
   std::size_t steps_of(std::size_t of_case) const { return has_step_axis_ ? 1 : input_.cases[of_case].dt.size(); }
   std::size_t rows_of_variant(std::size_t of_case) const { return input_.runs.size() * rest_ * steps_of(of_case); }
+  std::size_t jobs_of_variant(std::size_t of_case) const {
+    return (rows_of_variant(of_case) + rows_of_job_ - 1) / rows_of_job_;
+  }
   SweepRow row_at(const Place& place, std::size_t row) const;
   Point point_of(std::size_t scene, std::size_t rest) const;
   Case definition_at(std::size_t of_case, const Point& point) const;
@@ -84,6 +88,7 @@ class Sweep {
   std::vector<std::size_t> scene_axes_, run_axes_;  // indices of axes; the first make another scene, or run longer
   std::vector<Point> samples_;
   std::size_t scenes_ = 1, rest_ = 1, cells_ = 0;  // scenes of a case; points of each
+  std::size_t rows_of_job_ = 1;
   bool has_step_axis_ = false;
   std::vector<std::size_t> first_jobs_, first_rows_;  // of each case, and behind the last
 };

@@ -40,7 +40,7 @@ class JobProcess {
  public:
   JobProcess(const Sweep& sweep, const EngineTable& engines, const SweepOptions& options, int jobs)
       : sweep_(sweep), engines_(engines), limit_(options.limit), jobs_(jobs) {
-    grid_options_.stable_steps = grid_options_.is_thorough = false;
+    grid_options_.stable_steps = grid_options_.is_thorough = grid_options_.spreads = false;
     if (sweep.asks_for_metrics()) grid_options_.only_metrics = sweep.metrics();
   }
 

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
-#include "cases/analysis/sweep/sweep_axis.h"
-#include "cases/analysis/tuning/tuning_probe.h"
-#include "cases/analysis/tuning/tuning_space.h"
+#include "cases/analysis/tuning/setting_chooser.h"
 
 namespace rigor {
 namespace {
@@ -41,110 +40,60 @@ class Tuner {
   static constexpr std::size_t kStepsAtOnce = 4, kFewest = 8, kSlack = 7;  // 7 steps of the table: a factor of about 4
 
   std::vector<Setting> choose_settings() {
-    std::vector<Setting> settings;
     const std::size_t share = std::max<std::size_t>(1, options_.settings / std::max<std::size_t>(1, spaces_.size()));
+    SettingChooser chooser(prober_, options_);
+    std::vector<Setting> settings;
     for (const MethodSpace& space : spaces_) {
-      const auto options = options_with_effect(space);
-      for (const std::string& run : combined(space, options, share)) settings.push_back({run});
+      for (const std::string& run : chooser.settings_of(space, share)) settings.push_back({run});
     }
+    found_.without_effect = chooser.without_effect();
     return settings;
   }
 
-  using Choices = std::vector<std::pair<std::string, std::vector<std::string>>>;  // option, values
-
-  // A value that changes nothing, at two steps of a short run, is as good as the default.
-  Choices options_with_effect(const MethodSpace& space) {
-    std::vector<std::string> runs = {space.base};
-    for (const OptionInfo& option : space.options) {
-      for (const std::string& value : tried_values(option)) runs.push_back(with_option(space.base, option.name, value));
-    }
+  // The steps of each that are tried next.
+  static std::size_t end_of(const Setting& setting) {
+    return std::min(setting.step + kStepsAtOnce, tuned_steps().size());
+  }
+  static std::vector<Probe> probes_of(const std::vector<Setting>& settings) {
     std::vector<Probe> probes;
-    for (const std::string& run : runs) {
-      for (const std::size_t step : {kScreenedAt, kScreenedAt + 6}) probes.push_back({run, step});
+    for (const Setting& setting : settings) {
+      for (std::size_t i = setting.step; i < end_of(setting); ++i) probes.push_back({setting.run, i});
     }
-    const auto answers = prober_.run(probes, 0.25, false, options_.jobs);
-    const auto effect_of = [&](std::size_t run) {
-      std::vector<double> values = answers[2 * run].values;
-      values.insert(values.end(), answers[2 * run + 1].values.begin(), answers[2 * run + 1].values.end());
-      return values;
-    };
-    Choices choices;
-    std::size_t run = 1;
-    for (const OptionInfo& option : space.options) {
-      std::vector<std::vector<double>> seen = {effect_of(0)};
-      std::vector<std::string> values;
-      for (const std::string& value : tried_values(option)) {
-        const auto effect = effect_of(run++);
-        if (std::find(seen.begin(), seen.end(), effect) != seen.end()) continue;
-        seen.push_back(effect), values.push_back(value);
-      }
-      if (values.empty())
-        found_.without_effect.push_back(fmt::format("{} of {}", option.name, space.base));
-      else
-        choices.emplace_back(option.name, values);
-    }
-    return choices;
+    return probes;
   }
 
-  // All combinations, or as many as there may be: each option by itself first, the rest drawn.
-  std::vector<std::string> combined(const MethodSpace& space, const Choices& choices, std::size_t most) const {
-    std::vector<std::string> runs = {space.base};
-    double all = 1;
-    for (const auto& [option, values] : choices) all *= static_cast<double>(values.size() + 1);
-    const auto add = [&](const std::string& run) {
-      if (std::find(runs.begin(), runs.end(), run) == runs.end() && runs.size() < most) runs.push_back(run);
-    };
-    if (all <= static_cast<double>(most)) {
-      for (const auto& [option, values] : choices) {
-        const std::vector<std::string> so_far = runs;
-        for (const std::string& run : so_far) {
-          for (const std::string& value : values) add(with_option(run, option, value));
-        }
-      }
-      return runs;
-    }
-    for (const auto& [option, values] : choices) {
-      for (const std::string& value : values) add(with_option(space.base, option, value));
-    }
-    for (const auto& point : sample_points(4 * most, choices.size(), options_.seed)) {
-      std::string run = space.base;
-      for (std::size_t i = 0; i < choices.size(); ++i) {
-        const auto& values = choices[i].second;
-        const auto index = static_cast<std::size_t>(point[i] * static_cast<double>(values.size() + 1));
-        if (index > 0) run = with_option(run, choices[i].first, values[index - 1]);
-      }
-      add(run);
-    }
-    return runs;
-  }
+  // `quickest`: s that a run took which kept the bounds.
+  static double limit_beside(double quickest) { return std::max(kLeastLimit, kFarDearer * quickest); }
 
-  // The settings with their coarsest steps that keep the bounds for this share of the run, the better half of them.
+  // The settings with their coarsest steps that keep the bounds for this share of the run, the better half of them. One
+  // that is far dearer than another that has kept them is given up: a finer step is dearer still.
   std::vector<Setting> halved(std::vector<Setting> settings, double share) {
     std::vector<Setting> kept;
     std::size_t best = tuned_steps().size();
+    double quickest = ProbeAnswer::kNone;
     for (Setting& setting : settings) setting.step -= std::min<std::size_t>(setting.step, 2);
     while (!settings.empty()) {
-      std::vector<Probe> probes;
-      for (const Setting& setting : settings) {
-        for (std::size_t i = setting.step; i < std::min(setting.step + kStepsAtOnce, tuned_steps().size()); ++i)
-          probes.push_back({setting.run, i});
-      }
-      const auto answers = prober_.run(probes, share, false, options_.jobs);
+      const double limit = limit_beside(std::isfinite(quickest) ? quickest : share * quickest_);
+      const auto answers = prober_.run(probes_of(settings), {.share = share, .jobs = options_.jobs, .limit = limit});
       std::vector<Setting> left;
       std::size_t at = 0;
       for (Setting& setting : settings) {
-        const std::size_t end = std::min(setting.step + kStepsAtOnce, tuned_steps().size());
+        const std::size_t end = end_of(setting);
         std::size_t first = end;
+        bool is_late = false;
         for (std::size_t i = setting.step; i < end; ++i, ++at) {
-          if (answers[at].error <= 1 && first == end) first = i;
+          is_late |= answers[at].is_late && limit < options_.limit;
+          if (answers[at].error > 1 || first != end) continue;
+          first = i, quickest = std::min(quickest, answers[at].seconds);
         }
         setting.step = first;
         if (first < end) best = std::min(best, first), kept.push_back(setting);
-        if (first == end && end < tuned_steps().size()) left.push_back(setting);
+        if (first == end && end < tuned_steps().size() && !is_late) left.push_back(setting);
       }
       std::erase_if(left, [&](const Setting& setting) { return setting.step > best + kSlack; });
       settings = std::move(left);
     }
+    quickest_ = quickest / share;
     std::stable_sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) { return a.step < b.step; });
     kept.resize(std::min(kept.size(), std::max(kFewest, kept.size() / 2)));
     return kept;
@@ -154,22 +103,24 @@ class Tuner {
     std::vector<Setting> left = settings;
     for (Setting& setting : left) setting.step -= std::min<std::size_t>(setting.step, 2);
     if (left.empty()) left = every_method();
+    std::size_t best = tuned_steps().size();
     while (!left.empty()) {
-      std::vector<Probe> probes;
-      for (const Setting& setting : left) {
-        for (std::size_t i = setting.step; i < std::min(setting.step + kStepsAtOnce, tuned_steps().size()); ++i)
-          probes.push_back({setting.run, i});
-      }
-      const auto answers = prober_.run(probes, 1, true, options_.jobs);
+      const auto probes = probes_of(left);
+      const auto answers =
+          prober_.run(probes, {.is_timed = true, .jobs = options_.jobs, .limit = limit_beside(quickest_)});
       std::vector<Setting> next;
       std::size_t at = 0;
       for (Setting& setting : left) {
-        const std::size_t end = std::min(setting.step + kStepsAtOnce, tuned_steps().size());
+        const std::size_t end = end_of(setting);
         bool keeps = false;
-        for (std::size_t i = setting.step; i < end; ++i, ++at) keeps |= keep_point(probes[at], answers[at]);
+        for (std::size_t i = setting.step; i < end; ++i, ++at) {
+          if (!keep_point(probes[at], answers[at])) continue;
+          keeps = true, best = std::min(best, i);
+        }
         setting.step = end;
         if (!keeps && end < tuned_steps().size()) next.push_back(setting);
       }
+      std::erase_if(next, [&](const Setting& setting) { return setting.step > best + kSlack; });
       left = std::move(next);
     }
   }
@@ -193,25 +144,30 @@ class Tuner {
     return point.keeps();
   }
 
-  // What is cheapest, one at a time so that nothing disturbs it.
+  // What is cheapest, one at a time so that nothing disturbs it, in turn so that what disturbs the machine disturbs
+  // all.
   void measure_again() {
     constexpr std::size_t kMost = 6, kRepeats = 5;
+    constexpr double kNoise = 2;  // times the least cost: two cells at once can hardly disturb each other by more
     std::vector<TunedPoint*> good;
     for (TunedPoint& point : points_) {
       if (point.keeps()) good.push_back(&point);
     }
     std::stable_sort(good.begin(), good.end(), [](const auto* a, const auto* b) { return a->cost < b->cost; });
+    std::erase_if(good, [least = good.empty() ? 0 : good.front()->cost](const TunedPoint* point) {
+      return point->cost > kNoise * least;
+    });
     good.resize(std::min(good.size(), kMost));
-    std::vector<std::vector<double>> costs(good.size());
-    for (std::size_t repeat = 0; repeat < kRepeats && !good.empty(); ++repeat) {
-      std::vector<Probe> probes;
+    std::vector<Probe> probes;
+    for (std::size_t repeat = 0; repeat < kRepeats; ++repeat) {
       for (const TunedPoint* point : good) probes.push_back({point->run.text, step_of(*point)});
-      const auto answers = prober_.run(probes, 1, true, 1);
-      for (std::size_t i = 0; i < good.size(); ++i) costs[i].push_back(answers[i].cost);
     }
+    const auto answers = prober_.run(probes, {.is_timed = true});
     for (std::size_t i = 0; i < good.size(); ++i) {
-      std::sort(costs[i].begin(), costs[i].end());
-      good[i]->least = costs[i].front(), good[i]->most = costs[i].back(), good[i]->cost = costs[i][kRepeats / 2];
+      std::vector<double> costs;
+      for (std::size_t at = i; at < answers.size(); at += good.size()) costs.push_back(answers[at].cost);
+      std::sort(costs.begin(), costs.end());
+      good[i]->least = costs.front(), good[i]->most = costs.back(), good[i]->cost = costs[kRepeats / 2];
     }
     choose_winner(good);
     find_front();
@@ -262,10 +218,10 @@ class Tuner {
     }
   }
 
-  static constexpr std::size_t kScreenedAt = 5;  // 1/30 s; and 1/100 s
   std::vector<MethodSpace> spaces_;
   const TuneOptions& options_;
   Prober prober_;
+  double quickest_ = ProbeAnswer::kNone;  // s: what a whole run takes that keeps the bounds, as far as it is known
   std::vector<TunedPoint> points_;
   Tuning found_;
 };

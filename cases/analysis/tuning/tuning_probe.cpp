@@ -10,12 +10,14 @@
 
 namespace rigor {
 
-std::vector<ProbeAnswer> Prober::run(const std::vector<Probe>& probes, double share, bool is_timed, int jobs) {
+std::vector<ProbeAnswer> Prober::run(const std::vector<Probe>& probes, const Trial& trial) {
   if (probes.empty()) return {};
-  Results grid = planned(probes, share);
-  GridOptions options{jobs, options_.limit, {}, false, false};
+  Results grid = planned(probes, trial.share);
+  GridOptions options;
+  options.jobs = trial.jobs, options.limit = std::min(trial.limit, options_.limit);
+  options.stable_steps = options.is_thorough = options.spreads = false;
   for (const Bound& bound : bounds_) options.only_metrics.push_back(bound.metric);
-  if (is_timed) options.only_metrics.push_back("cost");
+  if (trial.is_timed) options.only_metrics.push_back("cost");
   run_grid(grid, engines_, options, [](std::size_t, std::size_t) {});
   runs_ += probes.size() * cases_.size();
   std::vector<ProbeAnswer> answers(probes.size());
@@ -23,7 +25,7 @@ std::vector<ProbeAnswer> Prober::run(const std::vector<Probe>& probes, double sh
     answers[i].error = 0;
     for (const CaseResult& result : grid.cases) add(answers[i], result, result.cells[i]);
   }
-  if (share < 1) remarks_.clear();  // those of whole runs count
+  if (trial.share < 1) remarks_.clear();  // those of whole runs count
   return answers;
 }
 
@@ -63,7 +65,9 @@ void Prober::add(ProbeAnswer& answer, const CaseResult& result, const Cell& cell
     answer.error = ProbeAnswer::kNone;
     if (answer.why.empty()) answer.why = fmt::format("{}: {}", result.definition.id, why);
   };
+  answer.seconds = std::max(answer.seconds, cell.wall_seconds);
   if (cell.status != Status::pass) {
+    answer.is_late |= cell.status == Status::timed_out;
     answer.values.push_back(ProbeAnswer::kNone);
     return fail(cell.reason);
   }

@@ -21,6 +21,15 @@ struct ProbeAnswer {
   double error = kNone, cost = 0;  // as in TunedPoint
   std::string why;                 // of the first case without a result
   std::vector<double> values;      // of all bounds and cases, to tell whether two settings do the same
+  double seconds = 0;              // that its longest cell took, with its judging
+  bool is_late = false;            // a cell had no result within the limit
+};
+
+struct Trial {
+  double share = 1;  // of each case's duration
+  bool is_timed = false;
+  int jobs = 1;                       // cells at once
+  double limit = ProbeAnswer::kNone;  // s of CPU time for a cell; TuneOptions::limit holds as well
 };
 
 class Prober {
@@ -29,8 +38,8 @@ class Prober {
          const TuneOptions& options)
       : cases_(cases), bounds_(bounds), engines_(engines), options_(options) {}
 
-  // One each of the probes. `jobs`: cells at once.
-  std::vector<ProbeAnswer> run(const std::vector<Probe>& probes, double share, bool is_timed, int jobs);
+  // One each of the probes, in their order.
+  std::vector<ProbeAnswer> run(const std::vector<Probe>& probes, const Trial& trial);
   std::size_t runs() const { return runs_; }  // so far
   // Where the truth does not vouch for the whole run, a sentence each.
   const std::set<std::string>& remarks() const { return remarks_; }

@@ -1,5 +1,5 @@
 // rigor tune beside a full grid over the same space: no setting at any step keeps the bound for a tenth less than the
-// winner. One case; RIGOR_TUNE=all takes ten, which is a quarter of an hour, a case's id that one.
+// winner. One case; RIGOR_TUNE=all takes ten, which is some minutes, a case's id that one.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
@@ -48,7 +48,7 @@ std::vector<double> costs_of(const std::vector<Probe>& probes, Prober& prober) {
   constexpr int kRepeats = 9;
   std::vector<std::vector<double>> costs(probes.size());
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
-    const auto answers = prober.run(probes, 1, true, 1);
+    const auto answers = prober.run(probes, {.is_timed = true});
     for (std::size_t i = 0; i < probes.size(); ++i) costs[i].push_back(answers[i].cost);
   }
   std::vector<double> medians;
@@ -67,7 +67,7 @@ std::vector<Probe> best_of_grid(const std::vector<std::string>& settings, Prober
   for (const std::string& run : settings) {
     for (std::size_t step = 0; step < tuned_steps().size(); ++step) probes.push_back({run, step});
     if (probes.size() < 500 && run != settings.back()) continue;
-    const auto answers = prober.run(probes, 1, true, 2);
+    const auto answers = prober.run(probes, {.is_timed = true, .jobs = 2});
     for (std::size_t i = 0; i < probes.size(); ++i) {
       if (answers[i].error <= 1) good.emplace_back(answers[i].cost, probes[i]);
     }
