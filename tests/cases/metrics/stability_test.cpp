@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "core/dynamics/model/energy.h"
+#include "core/engine/run_name.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/scripted_engine.h"
 
@@ -78,8 +79,9 @@ BOOST_AUTO_TEST_CASE(the_largest_kinetic_energy_is_the_truths_or_what_the_start_
   BOOST_TEST(energy_extremes(scene, nullptr, 2).kinetic == 529, boost::test_tools::tolerance(1e-12));
 }
 
-// A pole of 1 m that is balanced on a hinge and drawn sideways by 1e-6 of its weight: its truth comes to 3e-11 J in half
-// a second, and a joint that gives way by a tenth of a micrometre under 10 N has 1e-6 J. None of that has blown up.
+// A pole of 1 m that is balanced on a hinge and drawn sideways by 1e-6 of its weight: its truth comes to 3e-11 J in
+// half a second, and a joint that gives way by a tenth of a micrometre under 10 N has 1e-6 J. None of that has blown
+// up.
 BOOST_AUTO_TEST_CASE(a_pole_that_is_balanced_has_what_it_can_fall_in_play) {
   Scene scene;
   scene.gravity = {1e-5, 0, -10};
@@ -89,7 +91,8 @@ BOOST_AUTO_TEST_CASE(a_pole_that_is_balanced_has_what_it_can_fall_in_play) {
   const double in_play = energy_extremes(scene, truth.get(), 0.5).kinetic;
   BOOST_TEST(in_play == energy_extremes(scene, nullptr, 0.5).kinetic);
   for (const char* engine : {"ode", "bullet"}) {
-    const Simulation run = simulate(find_engine(engines(), engine), {}, scene, 1.0 / 240, 0.5);
+    const Settings settings = parse_run_name(engine, infos_of(engines())).settings;
+    const Simulation run = simulate(find_engine(engines(), engine), settings, scene, 1.0 / 240, 0.5);
     BOOST_TEST(
         word_of(judge_stability({scene, run.trajectory, nullptr, 0}, run.not_finite, in_play).verdict) == "stable",
         engine);
