@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 
 #include "adapters/mujoco/mujoco_library.h"
 #include "adapters/mujoco/mujoco_start.h"
@@ -27,16 +28,19 @@ Quat turn_at(const mjtNum* numbers, int row) {
   return Quat(numbers[4 * row], numbers[4 * row + 1], numbers[4 * row + 2], numbers[4 * row + 3]).normalized();
 }
 
-// "XML Error: ... Element 'geom', line 5, column -1": the line goes where lines go.
-std::string refusal(const std::string& path, std::string text) {
+// "XML Error: ... Element 'geom', line 5, column -1", or of its compiler "id = 0, line = 5": the line goes where lines
+// go.
+[[noreturn]] void refuse(const std::string& path, std::string text) {
+  if (text.find("Could not allocate memory") != std::string::npos) throw std::bad_alloc();
   constexpr const char* kLine = "line ";
-  const std::size_t at = text.find(kLine), first = at == std::string::npos ? at : at + std::string(kLine).size();
+  const std::size_t at = text.find(kLine),
+                    first = at == std::string::npos ? at : text.find_first_not_of("= ", at + std::string(kLine).size());
   const std::size_t end =
       first == std::string::npos ? first : std::min(text.find_first_not_of("0123456789", first), text.size());
   const std::string number = end == std::string::npos || end == first ? "1" : text.substr(first, end - first);
   for (char& c : text) c = c == '\n' ? ' ' : c;
-  return fmt::format("{}:{}: MuJoCo refuses the model: {}", path, number,
-                     text.substr(0, text.find_last_not_of(' ') + 1));
+  throw InputError(
+      fmt::format("{}:{}: MuJoCo refuses the model: {}", path, number, text.substr(0, text.find_last_not_of(' ') + 1)));
 }
 
 class Importer {
@@ -87,8 +91,8 @@ class Importer {
 
   void read_options() {
     const mjOption& option = m_.opt;
-    if (!(option.disableflags & mjDSBL_GRAVITY)) model_.gravity = vector_at(option.gravity, 0);
-    leave_out_if((option.disableflags & ~mjDSBL_GRAVITY) != 0, path_, "<flag>", "switches off parts of one engine");
+    model_.gravity = vector_at(option.gravity, 0);
+    leave_out_if((option.disableflags & ~kSwitchesTaken) != 0, path_, "<flag>", "switches off parts of one engine");
     leave_out_if(option.density != 0 || option.viscosity != 0, path_, "density and viscosity",
                  "are of a medium, which a scene does not have");
     leave_out_if(m_.nsensor > 0, path_, fmt::format("{} sensors", m_.nsensor), "measure and move nothing");
@@ -342,9 +346,10 @@ LinkModel read_with_mujoco(const std::string& path, const std::string& keyframe)
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& failure) {  // thrown by the handler of its errors
-    throw InputError(refusal(path, failure.what()));
+    refuse(path, failure.what());
   }
-  if (!model) throw InputError(refusal(path, error.data()));
+  if (!model) refuse(path, error.data());
+  take_switches(*model);
   const mujoco_library::Data start = mujoco_start(*model, path, keyframe);
   LinkModel read = Importer(path, *model, *start).read();
   if (model->nkey > 0 && keyframe.empty())

@@ -10,6 +10,25 @@
 
 namespace rigor {
 
+void take_switches(mjModel& model) {
+  const int off = model.opt.disableflags;
+  const auto is_off = [&](int part) { return (off & part) != 0; };
+  const bool no_constraint = is_off(mjDSBL_CONSTRAINT);
+  if (is_off(mjDSBL_GRAVITY)) std::fill_n(model.opt.gravity, 3, 0);
+  if (no_constraint || is_off(mjDSBL_CONTACT))
+    std::fill_n(model.geom_contype, model.ngeom, 0), std::fill_n(model.geom_conaffinity, model.ngeom, 0);
+  if (no_constraint || is_off(mjDSBL_LIMIT))
+    std::fill_n(model.jnt_limited, model.njnt, 0), std::fill_n(model.tendon_limited, model.ntendon, 0);
+  if (no_constraint || is_off(mjDSBL_EQUALITY)) std::fill_n(model.eq_active, model.neq, 0);
+  if (no_constraint || is_off(mjDSBL_FRICTIONLOSS))
+    std::fill_n(model.dof_frictionloss, model.nv, 0), std::fill_n(model.tendon_frictionloss, model.ntendon, 0);
+  if (is_off(mjDSBL_PASSIVE)) {  // springs and dampers
+    std::fill_n(model.jnt_stiffness, model.njnt, 0), std::fill_n(model.dof_damping, model.nv, 0);
+    std::fill_n(model.tendon_stiffness, model.ntendon, 0), std::fill_n(model.tendon_damping, model.ntendon, 0);
+  }
+  if (is_off(mjDSBL_ACTUATION)) std::fill_n(model.actuator_biastype, model.nu, static_cast<int>(mjBIAS_NONE));
+}
+
 std::vector<std::string> keyframes_of(const mjModel& model) {
   std::vector<std::string> names;
   for (int key = 0; key < model.nkey; ++key) {

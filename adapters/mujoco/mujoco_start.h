@@ -1,4 +1,4 @@
-// The state that a model of MuJoCo starts from.
+// What a model of MuJoCo is when it starts: without what its file switches off, and in which state.
 #pragma once
 
 #include <string>
@@ -7,6 +7,11 @@
 #include "adapters/mujoco/mujoco_library.h"
 
 namespace rigor {
+
+// What a file's <flag> switches off by name, and a scene can say: the model is one that does not have it.
+inline constexpr int kSwitchesTaken = mjDSBL_CONSTRAINT | mjDSBL_EQUALITY | mjDSBL_FRICTIONLOSS | mjDSBL_LIMIT |
+                                      mjDSBL_CONTACT | mjDSBL_PASSIVE | mjDSBL_GRAVITY | mjDSBL_ACTUATION;
+void take_switches(mjModel& model);
 
 // A keyframe without a name goes by its number, from 0.
 std::vector<std::string> keyframes_of(const mjModel& model);

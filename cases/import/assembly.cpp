@@ -30,7 +30,8 @@ class Assembler {
     add_joints();
     add_springs();
     settle_contacts(model_, *touching_, sources_, scene_);
-    if (scene_.bodies.empty()) throw InputError("nothing in it has mass or a shape");
+    if (scene_.bodies.empty())
+      throw InputError("nothing in it moves; allowed: at least one link that has mass and is not held by the world");
     validate(scene_);
     return std::move(scene_);
   }

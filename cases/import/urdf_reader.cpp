@@ -66,22 +66,30 @@ class UrdfReader {
     for (const XmlElement& visual : element.children("visual")) check_mesh(visual);
     Link link{element.name_attribute(), element.place(), {}};
     if (!links_.emplace(link.name, model_.links.size()).second) element.refuse("another link has this name, too");
-    if (const auto inertial = element.child("inertial")) link.inertial.push_back(inertial_of(*inertial));
+    if (const auto inertial = element.child("inertial")) link.inertial = inertial_of(*inertial);
     for (const XmlElement& collision : element.children("collision")) read_collision(collision, link);
     model_.links.push_back(std::move(link));
   }
 
-  LinkInertial inertial_of(const XmlElement& element) {
+  std::vector<LinkInertial> inertial_of(const XmlElement& element) {
     element.check({{}, {"origin", "mass", "inertia"}}, model_.left_out);
     const XmlElement mass = element.only("mass"), inertia = element.only("inertia");
     mass.check({{"value"}, {}}, model_.left_out);
-    inertia.check({{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}, {}}, model_.left_out);
+    constexpr const char* kOtherHalf = "is of the other half of a symmetric matrix: ixy, ixz and iyz are taken";
+    inertia.check({{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"},
+                   {},
+                   {{"iyx", kOtherHalf}, {"izx", kOtherHalf}, {"izy", kOtherHalf}}},
+                  model_.left_out);
+    if (mass.number("value") == 0) {
+      model_.left_out.add(mass.place(), "its inertia", "a mass of 0 is none: the link is taken as one without mass");
+      return {};
+    }
     LinkInertial out{mass.number("value"), origin_of(element),
                      symmetric(inertia.number("ixx"), inertia.number("iyy"), inertia.number("izz"),
                                inertia.number("ixy"), inertia.number("ixz"), inertia.number("iyz"))};
     check_mass(out.mass, mass);
     check_inertia(out.inertia, inertia);
-    return out;
+    return {out};
   }
 
   // A mesh is left out, but what it names is looked at: whoever reads it next may open it.

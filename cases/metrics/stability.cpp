@@ -74,7 +74,11 @@ EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double du
     if (n == 0) start = now;
     found.change = std::max(found.change, std::abs(now - start));
   }
-  if (!(found.kinetic > 0)) found.kinetic = energy_in_play(scene, duration);
+  // A truth that stays at an equilibrium, or nearly, as a pole that is balanced does, says nothing of what may come
+  // into motion beside it: what hardly moves has less than 1/30,000 of the speed that the scene has in play.
+  constexpr double kHardlyMoves = 1e-9;  // of the energy
+  const double of_scene = energy_in_play(scene, duration);
+  if (!(std::max(found.kinetic, found.change) > kHardlyMoves * of_scene)) found.kinetic = of_scene;
   return found;
 }
 

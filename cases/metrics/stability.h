@@ -19,8 +19,8 @@ Stability judge_stability(const JudgedRun& run, const std::optional<NotFinite>& 
 
 // J, of the truth over [0, duration].
 struct EnergyExtremes {
-  double kinetic = 0;  // the largest; without a truth, or where it never moves, the scene's energy in play
-                       // (energy_in_play.h)
+  double kinetic = 0;  // the largest; without a truth, or where it hardly moves (1e-9 of that), the scene's energy in
+                       // play (energy_in_play.h)
   double change = 0;   // the largest |E - E0|; 0 without a truth
 };
 EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double duration);

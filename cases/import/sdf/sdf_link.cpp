@@ -17,30 +17,45 @@ constexpr double kFrictionOfFormat = 1;
 constexpr const char* kSaysNothing = "says nothing of motion";
 constexpr const char* kOfASolver = "is a setting of one solver";
 
+// What a scene's bodies are anyway is not worth a word.
+struct Flag {
+  const char* word;
+  bool of_a_scene;
+  const char* why;
+};
+constexpr Flag kFlags[] = {{"gravity", true, "says that this link is not drawn by gravity, which in a scene all are"},
+                           {"kinematic", false, "says that this link is not moved by forces, which in a scene all are"},
+                           {"self_collide", false, "is read of models alone"},
+                           {"enable_wind", false, "is wind, which a scene does not have"}};
+
 class SdfLinkReader {
  public:
   SdfLinkReader(const XmlElement& element, const std::string& file, LeftOut& left_out)
       : element_(element), file_(file), left_out_(left_out) {}
 
   Link read() {
-    element_.check({{"name"},
-                    {"inertial", "collision", "pose"},
-                    {{"visual", kIsSeen},
-                     {"light", kIsSeen},
-                     {"projector", kIsSeen},
-                     {"particle_emitter", kIsSeen},
-                     {"sensor", "is a sensor"},
-                     {"audio_source", kSaysNothing},
-                     {"audio_sink", kSaysNothing},
-                     {"battery", kSaysNothing},
-                     {"plugin", "is a program"},
-                     {"gravity", "says whether this link is drawn by gravity, which in a scene all are"},
-                     {"kinematic", "says whether this link is moved by forces, which in a scene all are"},
-                     {"self_collide", "is read of models alone"},
-                     {"velocity_decay", "is damping by the world, which a scene does not have"},
-                     {"enable_wind", "is wind, which a scene does not have"},
-                     {"must_be_base_link", kSaysNothing}}},
-                   left_out_);
+    XmlKnown known{{"name"},
+                   {"inertial", "collision", "pose"},
+                   {{"visual", kIsSeen},
+                    {"light", kIsSeen},
+                    {"projector", kIsSeen},
+                    {"particle_emitter", kIsSeen},
+                    {"sensor", "is a sensor"},
+                    {"audio_source", kSaysNothing},
+                    {"audio_sink", kSaysNothing},
+                    {"battery", kSaysNothing},
+                    {"plugin", "is a program"},
+                    {"velocity_decay", "is damping by the world, which a scene does not have"},
+                    {"must_be_base_link", kSaysNothing}}};
+    for (const auto& [word, of_a_scene, why] : kFlags) {
+      const auto flag = element_.child(word);
+      if (flag && flag->flag_of_text() == of_a_scene) {
+        known.elements.push_back(word);
+      } else {
+        known.left_out.emplace_back(word, why);
+      }
+    }
+    element_.check(known, left_out_);
     Link link{element_.name_attribute(), element_.place(), {}};
     link.inertial.push_back(inertial());
     for (const XmlElement& visual : element_.children("visual")) check_mesh(visual);

@@ -166,6 +166,43 @@ BOOST_AUTO_TEST_CASE(what_it_says_and_a_scene_does_not_is_named) {
                  .starts_with("m.xml:3: MuJoCo refuses the model: "));
 }
 
+// Both worlds are one model's, so that what is switched off in one and not in the other would be seen in how they move.
+BOOST_AUTO_TEST_CASE(what_a_file_switches_off_is_not_in_the_scene) {
+  const auto with = [](const std::string& flags) {
+    return "<mujoco><option><flag " + flags + R"(/></option><worldbody>
+      <geom name="floor" type="plane" size="1 1 1"/>
+      <body name="a" pos="0 0 1"><joint name="j" axis="0 1 0" stiffness="30" springref="60" damping="0.4" limited="true" range="-10 10" frictionloss="1"/>
+        <geom name="g" type="capsule" fromto="0 0 0 0.4 0 0" size="0.05"/></body>
+      <body name="b" pos="0.4 0 1"><freejoint/><geom name="h" size="0.1"/></body></worldbody>
+      <equality><connect name="e" body1="a" body2="b" anchor="0.4 0 0"/></equality>
+      <actuator><position name="servo" joint="j" kp="5"/></actuator></mujoco>)";
+  };
+  const auto scene_with = [&](const std::string& flags) { return scene_of_text("m.xml", with(flags)); };
+  const Scene all = scene_with("warmstart='enable'");
+  BOOST_TEST((all.joints.size() == 2u && joint_named(all, "j").stiffness == 35 && joint_named(all, "j").upper < 1));
+  BOOST_TEST(body_named(all, "b").collides);
+  BOOST_TEST(!body_named(scene_with("contact='disable'"), "b").collides);
+  BOOST_TEST(std::isinf(joint_named(scene_with("limit='disable'"), "j").upper));
+  BOOST_TEST(scene_with("equality='disable'").joints.size() == 1u);
+  BOOST_TEST(scene_with("gravity='disable'").gravity.isZero(0));
+  const Scene passive = scene_with("passive='disable'"), still = scene_with("actuation='disable'");
+  BOOST_TEST((joint_named(passive, "j").stiffness == 5 && joint_named(passive, "j").damping == 0));
+  BOOST_TEST(joint_named(still, "j").stiffness == 30);
+  const Scene none = scene_with("constraint='disable'");
+  BOOST_TEST((none.joints.size() == 1u && std::isinf(none.joints[0].upper) && !body_named(none, "b").collides));
+  BOOST_TEST(!some_has(left_out_of_model("m.xml", with("contact='disable' frictionloss='disable'")), "frictionloss"));
+  BOOST_TEST(some_has(left_out_of_model("m.xml", with("filterparent='disable'")), "<flag>"));
+
+  // Its Euler step has dampers in its mass matrix, switched off or not: here without.
+  std::string off =
+      with("contact='disable' passive='disable' equality='disable' actuation='disable' frictionloss='disable'");
+  off.replace(off.find("damping=\"0.4\""), 13, "damping=\"0\"");
+  const Folder folder;
+  const std::string path = folder.write("m.xml", off);
+  Own own(path);
+  check_alike("switched off", apart_after(own, "mujoco", without_limits(scene_of_file(path)), 0.3));
+}
+
 BOOST_AUTO_TEST_CASE(a_thousand_bodies_take_less_than_a_second) {
   std::string text = "<mujoco><option gravity='0 0 -9.81'/><worldbody>";
   for (int k = 0; k < 1000; ++k) {

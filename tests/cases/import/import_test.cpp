@@ -232,6 +232,43 @@ BOOST_AUTO_TEST_CASE(sdf_takes_universal_ball_and_spring_and_models_in_models) {
   BOOST_TEST((joint_named(scene, "s").stiffness == 7 && joint_named(scene, "s").rest == -0.2));
 }
 
+// As files that simulators come with have it: a rail whose mass is 0, a matrix with its other half.
+BOOST_AUTO_TEST_CASE(a_mass_of_zero_is_none_and_half_a_matrix_is_enough) {
+  const std::string rail =
+      "<robot name='r'><link name='rail'><inertial><mass value='0'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
+      "izz='1'/></inertial></link><link name='cart'><inertial><mass value='2'/><inertia ixx='1' ixy='0.1' ixz='0.2' "
+      "iyx='0' iyy='2' iyz='0.3' izx='0' izy='0' izz='2.5'/></inertial></link><joint name='j' "
+      "type='continuous'><parent "
+      "link='rail'/><child link='cart'/></joint></robot>";
+  const Scene scene = scene_of_text("r.urdf", rail);
+  BOOST_TEST_REQUIRE(scene.bodies.size() == 1u);
+  BOOST_TEST(scene.joints[0].a == kWorld);
+  BOOST_TEST((scene.bodies[0].inertia(0, 1) == 0.1 && scene.bodies[0].inertia(2, 0) == 0.2));
+  const auto left_out = left_out_of_model("r.urdf", rail);
+  for (const char* part : {"link 'rail': <mass>: its inertia: a mass of 0 is none", "'iyx'", "'izx'", "'izy'"})
+    BOOST_TEST(some_has(left_out, part), part);
+  // Where something hangs on it and it moves, nothing can be simulated, as without an <inertial>.
+  const std::string between =
+      "<robot name='r'><link name='world'/><link name='a'><inertial><mass value='0'/><inertia ixx='1' ixy='0' ixz='0' "
+      "iyy='1' iyz='0' izz='1'/></inertial></link><link name='b'><inertial><mass value='1'/><inertia ixx='1' ixy='0' "
+      "ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link><joint name='j' type='continuous'><parent "
+      "link='world'/><child "
+      "link='a'/></joint><joint name='k' type='continuous'><parent link='a'/><child link='b'/></joint></robot>";
+  BOOST_TEST(refusal_of("r.urdf", between).find("nothing without mass can be simulated") != std::string::npos);
+}
+
+// What a scene's bodies do anyway is not named, so that what they do not do can be seen.
+BOOST_AUTO_TEST_CASE(only_flags_that_a_scene_does_not_keep_are_named) {
+  const auto left_out = [](const std::string& flags) {
+    return left_out_of_model("m.sdf",
+                             sdf_of("<model name='m'><link name='l'>" + flags + kBoxInertial + "</link></model>"));
+  };
+  BOOST_TEST(left_out("<gravity>1</gravity><kinematic>0</kinematic><self_collide>false</self_collide>").empty());
+  const auto named = left_out("<gravity>false</gravity><kinematic>1</kinematic><enable_wind>true</enable_wind>");
+  for (const char* part : {"<gravity>: says that this link is not drawn", "<kinematic>", "<enable_wind>"})
+    BOOST_TEST(some_has(named, part), part);
+}
+
 BOOST_AUTO_TEST_CASE(a_file_may_include_another_one_of_its_folder) {
   const Folder folder;
   folder.write("parts/leg.sdf",

@@ -1,0 +1,10 @@
+# Read by cpack before it packs: without these two it would fail in words of its own, or make a package that depends on nothing.
+foreach(program_of file:file dpkg-shlibdeps:dpkg-dev)
+  string(REPLACE ":" ";" pair ${program_of})
+  list(GET pair 0 program)
+  list(GET pair 1 package)
+  find_program(found_${package} ${program})
+  if(NOT found_${package})
+    message(FATAL_ERROR "a package's dependencies are found by ${program}, which is not here; install ${package}, or make the package by `cases/setup release deb`")
+  endif()
+endforeach()
