@@ -383,6 +383,7 @@ void PersistentForces::add_pushes() {
 }
 
 const double* PersistentForces::hold(BodyColumns state, const double* wrench, Rows rows) {
+  ++times_asked_;
   place(state);
   copy_wrench(joints_ ? joints_->hold(state, wrench, rows) : wrench);
   if (joints_) {
