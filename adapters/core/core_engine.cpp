@@ -133,12 +133,11 @@ std::vector<std::string> names_of(const Rows& rows) {
 }
 
 OptionInfo contact_option() {
-  OptionInfo option{
-      .name = "contact",
-      .meaning = "how touching bodies are treated; default event where at most " + std::to_string(kFewCollidingBodies) +
-                 " bodies that move collide (without friction, if there are joints), else the first that has what the "
-                 "scene needs",
-      .choices = names_of(contact_methods())};
+  OptionInfo option{.name = "contact",
+                    .meaning = "how touching bodies are treated; default event where at most " +
+                               std::to_string(kFewCollidingBodies) +
+                               " bodies that move collide, else the first that has what the scene needs",
+                    .choices = names_of(contact_methods())};
   for (const ContactMethod& method : contact_methods()) option.features_of_choice[method.name] = method.features;
   return option;
 }

@@ -49,8 +49,7 @@ struct ContactMethod {
 const std::vector<ContactMethod>& contact_methods();
 const ContactMethod& contact_method(const std::string& name);  // the name must be there
 // What a run that names no method gets: `event`, right whatever the step, where at most so many bodies that move
-// collide, and none of them rub while joints hold them; else the first of the table that expresses the scene, or the
-// first of all where none does.
+// collide; else the first of the table that expresses the scene, or the first of all where none does.
 inline constexpr int kFewCollidingBodies = 8;
 bool has_few_colliding_bodies(const Scene& scene);
 const ContactMethod& contact_method_for(const Scene& scene);

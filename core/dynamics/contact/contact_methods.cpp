@@ -20,20 +20,6 @@ const ContactMethod& contact_method(const std::string& name) {
   return *row;
 }
 
-namespace {
-
-// Of five random mechanisms with friction two by `event` with `dormand-prince` divide their steps without end. A slip
-// that begins on the verge of its cone, or that ends, is stiff: friction turns its direction within u m/(mu f_n), 1e-10
-// s at the 1e-9 m/s at which it gets a direction of its own, and that may be another than the one in which it was held.
-bool rubs_through_joints(const std::vector<Need>& needs) {
-  const auto needed = [&](const char* feature) {
-    return std::any_of(needs.begin(), needs.end(), [&](const Need& need) { return need.feature == feature; });
-  };
-  return needed("joints-with-contacts") && (needed("friction:coulomb") || needed("friction:infinite"));
-}
-
-}  // namespace
-
 bool has_few_colliding_bodies(const Scene& scene) {
   const auto count = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.collides && !body.fixed; });
@@ -50,7 +36,7 @@ const ContactMethod& contact_method_for(const Scene& scene) {
       return method.features.contains(need.feature) || !of_all.contains(need.feature);
     });
   };
-  if (has_few_colliding_bodies(scene) && expresses(kEventContact) && !rubs_through_joints(needs)) return kEventContact;
+  if (has_few_colliding_bodies(scene) && expresses(kEventContact)) return kEventContact;
   const auto& table = contact_methods();
   const auto found = std::find_if(table.begin(), table.end(), expresses);
   return found == table.end() ? table.front() : *found;

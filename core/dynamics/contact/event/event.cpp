@@ -156,7 +156,7 @@ class EventStepper : public ContactStepper {
     end_ = BodyColumns(state);
     pairs_.clear();
     if (persistent_contact_.is_at_rest(state)) return part_.to;
-    part_.to = std::min(part_.to, part_.from + std::min(longest_, persistent_contact_.longest_step()));
+    part_.to = std::min(part_.to, part_.from + std::min(longest_, persistent_contact_.longest_step(state)));
     longest_ = kInfinity;
     attempt(part_.length());
     shorten_until_bounded();

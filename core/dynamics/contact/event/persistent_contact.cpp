@@ -20,6 +20,8 @@ constexpr double kPulling = 2e-9;            // of the forces: twice what is sti
 constexpr double kLeastSize = 1e-6;          // m/s²: of accelerations; weaker forces are roundings
 constexpr double kStable = 2;                // of an explicit method: how much a step may be in units of what it damps
 constexpr double kShortest = 1e-5;           // s: what slips make of themselves within it is some 1e-4 m/s
+constexpr double kTurn = 0.25;               // rad, of a body among joints in a step of an explicit method
+constexpr long kAskedInStep = 64;            // times for forces, by a method that need not divide its step much
 constexpr double kReversed = 0.1;            // of the fastest slip at any stage: what stages differ by is less
 constexpr double kDeep = 0.1;                // of the smaller inradius: crowded steps leave up to 0.03 for a while
 constexpr double kSlow = 10;      // of the restitution threshold: what parts no faster, and comes back, stays
@@ -160,9 +162,10 @@ void PersistentContact::set_resting_aside(BodyColumns state) {
 void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, double t, double dt) {
   persistent_.begin_attempt();
   copy_columns(start, end);
-  ++passes_;
+  const long asked_before = persistent_.times_asked();
   if (joints_) joints_->note_only(noted_);
   (is_free() ? free_stepper_ : contact_stepper_)->step(end, t, dt);
+  passes_ += std::max(1L, (persistent_.times_asked() - asked_before) / kAskedInStep);
   for (std::size_t i = 0; i < end.size(); ++i) {
     if (!rests_[i]) continue;
     end.set_body(i, start.body(i));
@@ -180,14 +183,24 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
   if (motors_->needs_efforts()) motors_->note_efforts(end, wrench_beside_joints(wrench_at_end_));
 }
 
-double PersistentContact::longest_step() const {
+double PersistentContact::longest_step(BodyColumns state) const {
   double fastest = 0;
   for (const PersistentPoint& point : points()) {
     const double slip = point.velocity.tail<2>().norm();
     if (point.mode != PersistentPoint::Mode::slides || point.begins_to_slip || !(slip > 0)) continue;
     fastest = std::max(fastest, point.friction() * point.force.x() / (point.tangential_mass * slip));
   }
-  return fastest > 0 ? std::max(kShortest, kStable / fastest) : kForever;
+  const double of_slips = fastest > 0 ? std::max(kShortest, kStable / fastest) : kForever;
+  return std::min(of_slips, longest_turn(state));
+}
+
+// What joints hold while it turns by more than that in a step, an explicit method throws about; impacts leave small
+// links turning fast.
+double PersistentContact::longest_turn(BodyColumns state) const {
+  if (!joints_ || in_contact_.adaptive) return kForever;
+  double fastest = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) fastest = std::max(fastest, state.angular_velocity(i).norm());
+  return kTurn / fastest;
 }
 
 bool PersistentContact::is_at_rest(BodyColumns state) const {

@@ -26,8 +26,9 @@ class PersistentContact {
   // From `start` at t to `end` at t + dt.
   void advance(BodyColumns start, MutableBodyColumns end, double t, double dt);
   // s, from the start that select() was called for: friction damps slips across the direction of sliding within m u/(mu
-  // N), and an explicit method that steps over many of such times lets them grow.
-  double longest_step() const;
+  // N), and an explicit method that steps over many of such times lets them grow; so it is with jointed bodies that
+  // turn far.
+  double longest_step(BodyColumns state) const;
   // Whether nothing moves, and nothing will.
   bool is_at_rest(BodyColumns state) const;
   // Whether the body rests, with all that it touches, while others move: it does so until something else touches it, so
@@ -57,7 +58,8 @@ class PersistentContact {
   const std::vector<Loading>& largest_loads() const { return persistent_.largest_loads(); }
   const std::string& integrator_in_contact() const { return in_contact_.name; }
   bool has_joints() const { return joints_ != nullptr; }
-  long passes() const { return passes_; }  // steps of the integrator so far
+  // Steps of the integrator so far; one that an adaptive method divides much counts as several.
+  long passes() const { return passes_; }
   // What went wrong in closing gaps and stopping points since the last call; empty if nothing did.
   std::string take_projection_warning() { return projection_.take_solver_warning(); }
   // Of the last advance; empty if nothing went wrong.
@@ -69,6 +71,7 @@ class PersistentContact {
   const double* wrench_beside_joints(const double* loads);
   double margin() const;
   double slipping_margin() const;
+  double longest_turn(BodyColumns state) const;
   bool carries(const ContactPoint& contact) const;
   void set_resting_aside(BodyColumns state);
   void part_one_by_one(MutableBodyColumns state);

@@ -13,17 +13,22 @@ namespace {
 constexpr double kPenalty = 1e6;
 constexpr int kMostForceRounds = 6;
 constexpr double kSettled = 1e-15;  // of the accelerations without forces
-constexpr double kNoSlip = 1e-9;    // m/s: a slip that has no direction of its own
+constexpr double kNoSlip = 1e-6;    // m/s: a slip that has no direction of its own yet
+constexpr double kFading = 10;      // times that: a slip that has its own, but for a third of kNoSlip
 
 // Unit, in W: what friction acts against. Past the instant at which the point would stop it goes on as it was, so that
 // the instant can be found: of a slip that has turned against the direction it began with, that which is mirrored back.
 // So nothing jumps where a slip, as joints may make it, turns by a right angle before it stops: where friction jumps so
 // that either side leads back to the jump, no step of an adaptive method is short enough.
+//
+// Near rest the direction is that of slip + kNoSlip d, d the one that it began with: friction turns the direction of a
+// slip u within u m/(mu f_n), and so would take ever shorter steps of a slip that begins or ends. What is left of this
+// at a hundred times that speed is less than rounding.
 Vec3 braked_direction(const PersistentPoint& point) {
   const Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
-  const double size = slip.norm(), along = slip.dot(point.slip_direction);
-  if (!(size > kNoSlip)) return point.slip_direction;
-  return (along < 0 ? Vec3(slip - 2 * along * point.slip_direction) : slip) / size;
+  const double along = slip.dot(point.slip_direction), size = slip.norm() / (kFading * kNoSlip);
+  const Vec3 ahead = along < 0 ? Vec3(slip - 2 * along * point.slip_direction) : slip;
+  return (ahead + kNoSlip * std::exp(-size * size) * point.slip_direction).normalized();
 }
 
 }  // namespace
@@ -81,8 +86,7 @@ void PersistentForces::place(BodyColumns state) {
     const Vec3 bias = a.w.cross(kinematics.point_rate - a.v) - b.w.cross(kinematics.point_rate - b.v);
     point.velocity = point.frame.transpose() * u;
     point.bias = point.frame.transpose() * bias + Vec3(kinematics.normal_rate.dot(u), 0, 0);
-    const Vec3 slip = u - kinematics.normal * kinematics.normal.dot(u);
-    point.slip = std::copysign(slip.norm(), slip.dot(point.slip_direction));
+    point.slip = (u - kinematics.normal * kinematics.normal.dot(u)).dot(point.slip_direction);
     point.least_slip = std::min(point.least_slip, point.slip);
     point.largest_slip = std::max(point.largest_slip, point.slip);
   }
@@ -379,6 +383,7 @@ void PersistentForces::add_pushes() {
 }
 
 const double* PersistentForces::hold(BodyColumns state, const double* wrench, Rows rows) {
+  ++times_asked_;
   place(state);
   copy_wrench(joints_ ? joints_->hold(state, wrench, rows) : wrench);
   if (joints_) {

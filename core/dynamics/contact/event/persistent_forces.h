@@ -27,7 +27,7 @@ struct PersistentPoint {
   enum class Mode : std::uint8_t { sticks, slides } mode = Mode::sticks;
   ContactPoint contact;  // as it was at the start
   FeaturePair features;
-  // Unit, in W: of the slip at the start, or of how it begins. A slip against it counts as negative.
+  // Unit, in W: of the slip at the start, or of how it begins.
   Vec3 slip_direction = Vec3::Zero();
   bool begins_to_slip = false;
   double tangential_mass = 0;  // kg, the least, at the start
@@ -38,7 +38,7 @@ struct PersistentPoint {
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();    // m, in W
   Vec3 velocity = Vec3::Zero(), bias = Vec3::Zero();  // m/s and m/s², of a against b, in the frame
   Vec3 force = Vec3::Zero();                          // N, in the frame
-  double slip = 0;                                    // m/s, signed
+  double slip = 0;                                    // m/s, along slip_direction
   double least_slip = 0, largest_slip = 0;            // m/s, at all instants since begin_attempt()
 
   double friction() const { return contact.cone.friction; }
@@ -72,6 +72,7 @@ class PersistentForces : public ConstraintForces {
   // The most that was on each body at any instant since begin_attempt().
   const std::vector<Loading>& largest_loads() const { return largest_; }
   void begin_attempt();
+  long times_asked() const { return times_asked_; }  // by hold(), ever
 
  private:
   using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -119,6 +120,7 @@ class PersistentForces : public ConstraintForces {
   std::vector<int> island_;   // bodies of the island at hand, by place
   std::vector<Row> rows_;
   bool is_symmetric_ = true;
+  long times_asked_ = 0;
   Eigen::MatrixXd matrix_;
   DenseFactors factors_;
   Eigen::VectorXd acceleration_, residual_;
