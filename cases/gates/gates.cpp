@@ -8,16 +8,12 @@
 #include "adapters/engines.h"
 #include "cases/case/selection.h"
 #include "cases/gates/single_precision.h"
+#include "cases/results/baseline.h"
 #include "cases/results/observed_order.h"
 #include "cases/truth/provenance.h"
 
 namespace rigor {
 namespace {
-
-bool is_higher_better(const std::string& metric) {
-  return std::any_of(metrics().begin(), metrics().end(),
-                     [&](const MetricRow& row) { return row.name == metric && row.higher_is_better; });
-}
 
 // One gate over one case.
 class GateCheck {

@@ -23,13 +23,10 @@ constexpr const char* kTitleKey = "rigor_baseline";
 constexpr int kForm = 2;
 constexpr int kOldestSchema = 1, kSchema = 2;  // of results.json; in the first what is not finite is null
 
-// A time is measured anew each run; a shift in time has a sign; and of two metrics more is better.
+// A time is measured anew each run, and a p-value is as good as another until it is very small.
 bool is_compared(const std::string& metric) {
-  if (metric == "cost" || metric == "phase_error") return false;
-  for (const MetricRow& row : metrics()) {
-    if (row.name == metric) return !row.higher_is_better;
-  }
-  return false;
+  if (metric == "cost" || metric == "ensemble_p_value") return false;
+  return std::any_of(metrics().begin(), metrics().end(), [&](const MetricRow& row) { return row.name == metric; });
 }
 
 std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, "\t")); }
@@ -69,12 +66,12 @@ std::string verdict_at(const Json& json, const char* key, const std::string& pla
   }
 }
 
-// What was not finite is worse than any number.
-double value_from(const Json& value, const std::string& place) {
-  if (value.is_number()) return value.get<double>();
+// Of a shift in time its size; what was not finite is worse than any number.
+double value_from(const Json& value, const std::string& metric, const std::string& place) {
+  if (value.is_number()) return std::abs(value.get<double>());
   const bool is_not_finite = value.is_null() || value == "inf" || value == "-inf" || value == "nan";
   if (!is_not_finite) throw InputError(fmt::format("{}: found {}; allowed: a number", place, value.dump()));
-  return HUGE_VAL;
+  return is_higher_better(metric) ? 0 : HUGE_VAL;
 }
 
 const Json& object_at(const Json& json, const char* key, const std::string& place) {
@@ -93,7 +90,7 @@ Baseline::Cell cell_from(const Json& json, const std::string& place) {
       if (text_at(metric, "not_applicable").starts_with("not measured")) cell.not_asked.insert(name);
       continue;
     }
-    cell.metrics[name] = value_from(metric.at("value"), fmt::format("{}: {}", place, name));
+    cell.metrics[name] = value_from(metric.at("value"), name, fmt::format("{}: {}", place, name));
   }
   return cell;
 }
@@ -158,7 +155,7 @@ void add_line(const Json& json, Baseline& out) {
     Baseline::Cell cell{status_at(json, "cell"), "", {}, {}};
     if (json.contains("verdict")) cell.verdict = verdict_at(json, "verdict", "cell");
     for (const auto& [name, value] : object_at(json, "metrics", "cell").items())
-      cell.metrics[name] = value_from(value, name);
+      cell.metrics[name] = value_from(value, name, name);
     const std::string key = joined({text_at(json, "case"), text_at(json, "engine"), text_at(json, "dt")});
     if (!out.cells.emplace(key, cell).second) throw InputError("is there twice: " + key);
   }
@@ -205,6 +202,11 @@ Json json_of(const std::string& key, const Baseline::Cell& cell) {
 }
 
 }  // namespace
+
+bool is_higher_better(const std::string& metric) {
+  return std::any_of(metrics().begin(), metrics().end(),
+                     [&](const MetricRow& row) { return row.name == metric && row.higher_is_better; });
+}
 
 Baseline read_baseline(const std::string& path) {
   const std::string text = read_input_file(path, "a results.json or a baseline");

@@ -14,7 +14,7 @@ struct Baseline {
   struct Cell {
     std::string status;                     // "pass", "fail", ...
     std::string verdict;                    // "stable", "gaining", ...; empty if there is none, or it is not known
-    std::map<std::string, double> metrics;  // lower is better in all of them; none that is a measured time; or infinite
+    std::map<std::string, double> metrics;  // sizes, or infinite; none that is a measured time
     std::set<std::string> not_asked;        // metrics that were not measured because nobody asked for them
   };
   // Keys are made of parts parted by tabs, in this order; no name holds a tab.
@@ -24,6 +24,8 @@ struct Baseline {
   std::set<std::string> left_out;                  // metrics that a cell of a baseline has not where they are rounding
   std::map<std::string, std::string> case_errors;  // case -> why it could not be judged at all
 };
+
+bool is_higher_better(const std::string& metric);  // as its row says
 
 // Of a results.json or of a baseline. Throws InputError, with the line or the place in the JSON, for a file that cannot
 // be read, is neither, or holds a status, an answer or a value that there is not.

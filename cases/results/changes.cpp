@@ -52,7 +52,7 @@ void compare_errors(const std::string& key, const Baseline& before, const Baseli
     if (!was || !is) continue;
     const double low = std::max(kNoise, std::min(*was, *is)), high = std::max(*was, *is);
     if (!(high > factor * low)) continue;
-    (*is > *was ? out.grown : out.shrunk)
+    ((*is > *was) == is_higher_better(name) ? out.better : out.worse)
         .push_back(fmt::format("{}: {} is {:.4g}, was {:.4g}", named(key), name, *is, *was));
   }
 }
@@ -164,8 +164,8 @@ Changes changes_between(const Baseline& old_baseline, const Baseline& new_baseli
 
 std::string text_of(const Changes& changes, double factor) {
   std::string text = section("newly failing", changes.newly_failing) + section("newly passing", changes.newly_passing);
-  text += section(fmt::format("errors grown by more than {:g} times", factor), changes.grown);
-  text += section(fmt::format("errors shrunk by more than {:g} times", factor), changes.shrunk);
+  text += section(fmt::format("worse by more than {:g} times", factor), changes.worse);
+  text += section(fmt::format("better by more than {:g} times", factor), changes.better);
   text += section("no longer measured", changes.lost);
   text += section("settings that differ", changes.settings);
   text += section("gone", changes.gone) + section("added", changes.added);

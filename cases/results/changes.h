@@ -16,11 +16,11 @@ inline constexpr double kDefaultFactor = 1.25;
 struct Changes {
   // A sentence each, sorted.
   std::vector<std::string> newly_failing, newly_passing;
-  std::vector<std::string> grown, shrunk;  // errors, by more than the factor
-  std::vector<std::string> lost;           // errors that are measured no longer, though nobody asked for that
+  std::vector<std::string> worse, better;  // metrics, by more than the factor
+  std::vector<std::string> lost;           // metrics that are measured no longer, though nobody asked for that
   std::vector<std::string> settings;       // that differ
   std::vector<std::string> added, gone;    // cases, and runs or steps of a case
-  bool is_worse() const { return !newly_failing.empty() || !grown.empty() || !lost.empty() || !gone.empty(); }
+  bool is_worse() const { return !newly_failing.empty() || !worse.empty() || !lost.empty() || !gone.empty(); }
 };
 
 Changes changes_between(const Baseline& old_baseline, const Baseline& new_baseline, double factor = kDefaultFactor);

@@ -20,13 +20,14 @@ bool came_to_a_result(const Cell& cell) {
          cell.status == Status::unexpected_pass;
 }
 
+// Of a cell whose steps were not timed the cost is 0.
 std::vector<ErrorPoint> all_points(const CaseResult& result, std::size_t run, const std::string& metric) {
   std::vector<ErrorPoint> points;
   for (const Cell& cell : result.cells) {
     if (cell.run != run || !came_to_a_result(cell)) continue;
     const MetricValue *error = value_of(cell, metric), *cost = value_of(cell, "cost");
-    if (!error || !cost || !std::isfinite(error->value) || !(cost->value > 0)) continue;
-    points.push_back({cell.dt, std::max(error->value, error_floor(result)), cost->value});
+    if (!error || !std::isfinite(error->value)) continue;
+    points.push_back({cell.dt, std::max(error->value, error_floor(result)), cost ? cost->value : 0});
   }
   return points;
 }
@@ -57,7 +58,10 @@ std::vector<ErrorPoint> error_points(const CaseResult& result, std::size_t run, 
     const MetricValue* error = value_of(cell, metric);
     return cell.run == run && error && error->is_held_to_itself;
   });
-  return is_held_to_itself ? std::vector<ErrorPoint>{} : all_points(result, run, metric);
+  if (is_held_to_itself) return {};
+  std::vector<ErrorPoint> points = all_points(result, run, metric);
+  std::erase_if(points, [](const ErrorPoint& point) { return !(point.cost > 0); });
+  return points;
 }
 
 std::vector<std::string> errors_worth_comparing(const CaseResult& result) {

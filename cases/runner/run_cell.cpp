@@ -85,6 +85,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   const double leapfrog_stagger = method_of(engines.info_of(run_name.engine), run_name.settings).leapfrog_stagger;
   const bool is_timed = is_asked_for({"cost"}, definition, options);
   const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed);
+  if (!truth) check_start(run, scene);
   cell.settings = run.settings;
   cell.reduced_order = run.reduced_order;
   cell.cpu_seconds = is_timed ? timed_again(engine, run_name.settings, scene, run) : run.cpu_seconds;

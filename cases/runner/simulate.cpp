@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "core/dynamics/model/system.h"
 #include "core/engine/engine_failure.h"
 #include "core/engine/remote.h"
 
@@ -47,6 +49,16 @@ void step_as_agreed(World& world, double dt, long steps_before) {
   } catch (const EngineFailure& failure) {
     if (failure.kind() != FailureKind::unsupported || steps_before == 0) throw;
     throw EngineFailure(FailureKind::invalid, fmt::format("after {} steps {}", steps_before, failure.what()));
+  }
+}
+
+// A quaternion of no length is no rotation, and has no angle from any.
+void check_orientations(BodyColumns bodies, const Scene& scene, double t) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies.orientation(i).squaredNorm() > 0) continue;
+    throw EngineFailure(FailureKind::invalid, fmt::format("at {:.4g} s the orientation of '{}' is the zero quaternion, "
+                                                          "which is no rotation",
+                                                          t, scene.bodies[i].name));
   }
 }
 
@@ -91,6 +103,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
       run.reduced_order = reduced_order_of(*world);
       return run;
     }
+    check_orientations(now.bodies(), scene, now.time);
     if (n % every == 0 || n == steps)
       run.trajectory.samples.push_back({now.time, BodyTable(now.bodies()), reported_reactions(*world)});
     if (n == steps) {
@@ -106,6 +119,34 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
       run.solver_warning = world->solver_warning();
       if (!run.solver_warning.empty()) run.solver_warning_time = now.time;
     }
+  }
+}
+
+void check_start(const Simulation& run, const Scene& scene) {
+  constexpr double kOfSinglePrecision = 1e-5;  // rad, or of the largest: some hundred of its roundings
+  constexpr double kOfNothing = 1e-9;          // m, m/s, rad/s: where all of them are 0
+  if (run.trajectory.samples.empty()) return;
+  BodyTable start(scene.bodies.size());
+  set_initial_state(scene, start.columns());
+  const BodyColumns due = std::as_const(start).columns(), found = run.trajectory.samples.front().bodies.columns();
+  const auto check = [&](const char* what, const char* unit, std::size_t body, double off, double allowed) {
+    if (off <= allowed) return;
+    throw EngineFailure(FailureKind::invalid, fmt::format("at t = 0 the {} of '{}' is {:.4g} {} from the scene's", what,
+                                                          scene.bodies[body].name, off, unit));
+  };
+  double far = 0, fast = 0, quick = 0;
+  for (std::size_t i = 0; i < due.size(); ++i) {
+    far = std::max(far, due.position(i).norm()), fast = std::max(fast, due.velocity(i).norm());
+    quick = std::max(quick, due.angular_velocity(i).norm());
+  }
+  const auto allowed = [&](double largest) { return kOfSinglePrecision * largest + kOfNothing; };
+  for (std::size_t i = 0; i < due.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.shape && std::holds_alternative<Plane>(*body.shape)) continue;  // where its origin is means nothing
+    check("position", "m", i, (found.position(i) - due.position(i)).norm(), allowed(far));
+    check("orientation", "rad", i, angle_between(found.orientation(i), due.orientation(i)), kOfSinglePrecision);
+    check("velocity", "m/s", i, (found.velocity(i) - due.velocity(i)).norm(), allowed(fast));
+    check("angular velocity", "rad/s", i, (found.angular_velocity(i) - due.angular_velocity(i)).norm(), allowed(quick));
   }
 }
 

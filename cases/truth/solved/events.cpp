@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "cases/truth/provenance.h"
@@ -59,15 +60,32 @@ bool is_by_events(const RunName& run, const Scene& scene) {
   return options.contains("contact") ? options.at("contact") == "event" : contact_method_for(scene).name == "event";
 }
 
+// Beside contacts, limits and motors of given speed.
+const Features kWhatAnyMethodTakes = {"fixed-body",      "joint-damper",        "joint-spring", "joint:ball",
+                                      "joint:distance",  "joint:fixed",         "joint:hinge",  "joint:slider",
+                                      "joint:universal", "joints-with-dampers", "motor:effort", "spring",
+                                      "timed-force"};
+
+// A solution that is taken up between two of its nodes knows a hinge's angle, but not how often it has turned round.
+bool may_pass_half_a_turn_from_a_limit(const Joint& joint) {
+  if (!joint.has_limits() || !std::holds_alternative<HingeJoint>(joint.type)) return false;
+  return joint.lower <= -std::numbers::pi || joint.upper >= std::numbers::pi;
+}
+
 std::unique_ptr<Truth> make_events(const Scene& scene, double duration) {
   if (!anything_can_touch(scene))
     throw InputError("the truth 'events' is for scenes with contacts; in this one nothing can touch: take 'reference'");
-  const Features& contacts = contact_method("event").features;
   for (const Need& need : needs_of(scene)) {
-    if (need.feature == "fixed-body" || need.feature == "spring" || need.feature == "timed-force") continue;
-    if (contacts.contains(need.feature)) continue;
+    if (kWhatAnyMethodTakes.contains(need.feature) || contact_method("event").features.contains(need.feature)) continue;
     throw InputError(fmt::format("the truth 'events' is for what contact by events expresses; this scene has {}: {}",
                                  need.feature, need.because));
+  }
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    if (may_pass_half_a_turn_from_a_limit(scene.joints[k]))
+      throw InputError(
+          fmt::format("the truth 'events' is for hinges with two limits within half a turn, or none, for "
+                      "it does not count turns; this scene has {} with others",
+                      scene.joint_name(k)));
   }
   return std::make_unique<Events>(scene, duration);
 }
@@ -78,8 +96,8 @@ Provenance events_provenance() {
   return {
       "events",
       "solved by the core's own contact=event, in steps and integrators that differ: independent of every engine but "
-      "the core; it shares collision detection with the core's other runs, and with those by contact=event "
-      "everything, so that it judges none of these",
+      "the core; it shares collision detection and the forces of joints with the core's other runs, and with those by "
+      "contact=event everything, so that it judges none of these",
       is_by_events};
 }
 

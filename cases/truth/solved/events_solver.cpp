@@ -10,6 +10,7 @@
 
 #include "cases/truth/distance.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/dynamics/joints/joint_stops.h"
 
 namespace rigor {
 namespace {
@@ -41,7 +42,11 @@ class Stepping {
     settings.method = way.integrator;
     settings.options["restitution-threshold"] = way.restitution_threshold;
     settings.options["patience"] = kPatience;
-    stepper_ = contact_method("event").make(scene, {system_, integrator_, orientation_, settings});
+    if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_);
+    if (JointStops::has_speed_motors(scene))
+      motors_ = std::make_unique<JointStops>(scene, system_, system_.loads, *joints_, JointStops::Of::motors);
+    stepper_ = contact_method("event").make(
+        scene, {system_, integrator_, orientation_, settings, joints_.get(), motors_.get()});
   }
 
   BodyTable start() const {
@@ -58,7 +63,14 @@ class Stepping {
     }
     return state;
   }
-  ContactStepper& stepper() { return *stepper_; }
+  // Returns whether the method and the joints have nothing to say against it.
+  bool step(MutableBodyColumns state, double t, double dt) {
+    if (joints_) joints_->begin_step();
+    stepper_->step(state, t, dt);
+    if (joints_) joints_->end_step(state);
+    return stepper_->solver_warning().empty() && (!joints_ || joints_->warning().empty());
+  }
+  const ContactStepper& stepper() const { return *stepper_; }
 
  private:
   bool keeps_matrix() const { return orientation_ && orientation_->keeps_matrix; }
@@ -67,6 +79,8 @@ class Stepping {
   System system_;
   const Integrator& integrator_;
   const OrientationUpdate* orientation_ = nullptr;
+  std::unique_ptr<Joints> joints_;      // null where there are none
+  std::unique_ptr<JointStops> motors_;  // of given speed; null where there are none
   std::unique_ptr<ContactStepper> stepper_;
 };
 
@@ -86,9 +100,9 @@ ReferenceSolution solve(const Scene& scene, double duration, const Way& way, dou
   add_node(solution, 0, std::as_const(state).columns());
   const auto steps = static_cast<long>(std::ceil(duration / dt - 1e-9));
   for (long n = 0; n < steps; ++n) {
-    stepping.stepper().step(state.columns(), static_cast<double>(n) * dt, dt);
+    const bool is_sound = stepping.step(state.columns(), static_cast<double>(n) * dt, dt);
     work = static_cast<double>(stepping.stepper().work()) * static_cast<double>(state.size());
-    if (!stepping.stepper().solver_warning().empty() || work > kMostWork) return solution;
+    if (!is_sound || work > kMostWork) return solution;
     solution.states.back() = stepping.stepper().was_smooth() ? 1 : 0;
     add_node(solution, static_cast<double>(n + 1) * dt, std::as_const(state).columns());
   }
@@ -191,7 +205,7 @@ void state_at(const ReferenceSolution& solution, const Scene& scene, double t, M
   }
   Stepping stepping(scene, kWays[1]);
   BodyTable state = stepping.state_of(node);
-  stepping.stepper().step(state.columns(), static_cast<double>(solution.times[i]), after);
+  stepping.step(state.columns(), static_cast<double>(solution.times[i]), after);
   for (std::size_t b = 0; b < bodies; ++b) out.set_body(b, std::as_const(state).columns().body(b));
 }
 

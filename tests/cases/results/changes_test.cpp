@@ -93,8 +93,8 @@ BOOST_AUTO_TEST_CASE(an_error_that_grows_beyond_the_factor_is_worse_and_one_that
     Results after = gated_results();
     good_cell(after).metrics["position_error"].value *= row.times;
     both_ways(gated_results(), after, [&](const Changes& changes) {
-      BOOST_TEST(changes.grown.size() == row.grown);
-      BOOST_TEST(changes.shrunk.size() == row.shrunk);
+      BOOST_TEST(changes.worse.size() == row.grown);
+      BOOST_TEST(changes.better.size() == row.shrunk);
       BOOST_TEST(changes.is_worse() == (row.grown > 0));
     });
   }
@@ -106,33 +106,57 @@ BOOST_AUTO_TEST_CASE(roundings_are_noise_however_they_grow) {
   good_cell(after).metrics["position_error"].value = 9e-10;
   both_ways(before, after, [](const Changes& changes) { BOOST_TEST(!changes.is_worse()); });
   good_cell(after).metrics["position_error"].value = 2e-9;
-  both_ways(before, after, [](const Changes& changes) { BOOST_TEST(changes.grown.size() == 1u); });
+  both_ways(before, after, [](const Changes& changes) { BOOST_TEST(changes.worse.size() == 1u); });
 }
 
 BOOST_AUTO_TEST_CASE(what_nobody_measured_has_not_changed) {
   Results after = gated_results();
   good_cell(after).metrics["position_error"].not_applicable = "not measured";
   both_ways(gated_results(), after, [](const Changes& changes) {
-    BOOST_TEST(changes.shrunk.empty());
+    BOOST_TEST(changes.better.empty());
     BOOST_TEST(changes.lost.empty());  // which it would be, had it been asked for
   });
 }
 
-// Times are measured anew, shifts have signs, and of what is better the higher it is less is no gain.
-BOOST_AUTO_TEST_CASE(only_errors_are_compared) {
+// Times are measured anew, and p-values are chance.
+BOOST_AUTO_TEST_CASE(costs_and_p_values_are_not_compared) {
   Results before = gated_results(), after = gated_results();
-  std::set<std::string> not_compared = {"cost", "phase_error"};
-  for (const MetricRow& row : metrics()) {
-    if (row.higher_is_better) not_compared.insert(row.name);
-  }
-  BOOST_TEST(not_compared.size() > 2u);
-  for (const std::string& name : not_compared) {
+  for (const char* name : {"cost", "ensemble_p_value"}) {
     good_cell(before).metrics[name].value = 1, good_cell(after).metrics[name].value = 100;
     good_cell(before).metrics[name].not_applicable = good_cell(after).metrics[name].not_applicable = "";
   }
   both_ways(before, after, [](const Changes& changes) {
     BOOST_TEST(text_of(changes, 1.25) == "nothing changed by more than 1.25 times\nnot worse\n");
   });
+}
+
+BOOST_AUTO_TEST_CASE(each_other_metric_has_a_worse_way_and_a_better_one) {
+  for (const MetricRow& row : metrics()) {
+    if (row.name == "cost" || row.name == "ensemble_p_value") continue;
+    Results low = gated_results(), high = gated_results();
+    for (const auto& [grid, value] : {std::pair{&low, 0.3}, {&high, 0.9}}) {
+      good_cell(*grid).metrics[row.name].not_applicable = "";
+      good_cell(*grid).metrics[row.name].value = row.name == "phase_error" ? -value : value;
+    }
+    both_ways(low, high, [&](const Changes& c) { BOOST_TEST(c.is_worse() == !row.higher_is_better, row.name); });
+    both_ways(high, low, [&](const Changes& c) { BOOST_TEST(c.is_worse() == row.higher_is_better, row.name); });
+  }
+}
+
+// A shift is as bad to one side as to the other, and what is no number is the worst of either kind.
+BOOST_AUTO_TEST_CASE(a_sign_says_nothing_and_what_is_not_finite_is_worst) {
+  const auto with = [](const std::string& metric, double value) {
+    Results grid = gated_results();
+    good_cell(grid).metrics[metric].value = value, good_cell(grid).metrics[metric].not_applicable = "";
+    return grid;
+  };
+  both_ways(with("phase_error", 0.02), with("phase_error", -0.02),
+            [](const Changes& changes) { BOOST_TEST(!changes.is_worse()); });
+  for (const char* name : {"position_error", "tube"}) {
+    const Results good = with(name, 0.9), lost = with(name, std::nan(""));
+    both_ways(good, lost, [&](const Changes& changes) { BOOST_TEST(changes.is_worse(), name); });
+    both_ways(lost, good, [&](const Changes& changes) { BOOST_TEST(changes.better.size() >= 1u, name); });
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_regression_that_has_nothing_recorded_is_no_answer) {
@@ -220,7 +244,7 @@ BOOST_AUTO_TEST_CASE(an_error_that_is_measured_no_longer_is_worse) {
     both_ways(gated_results(), after, [](const Changes& changes) {
       BOOST_TEST(changes.lost ==
                  std::vector<std::string>{"family/case, good, 1/10: position_error is missing, was 0.25"});
-      BOOST_TEST((changes.grown.empty() && changes.shrunk.empty()));
+      BOOST_TEST((changes.worse.empty() && changes.better.empty()));
       BOOST_TEST(text_of(changes, 1.25).find("no longer measured") != std::string::npos);
       BOOST_TEST(changes.is_worse());
     });
@@ -232,11 +256,11 @@ BOOST_AUTO_TEST_CASE(an_error_that_is_not_finite_is_worse_than_any) {
     Results after = gated_results();
     good_cell(after).metrics["position_error"].value = value;
     both_ways(gated_results(), after, [](const Changes& changes) {
-      BOOST_TEST(changes.grown.size() == 1u);
+      BOOST_TEST(changes.worse.size() == 1u);
       BOOST_TEST(changes.is_worse());
     });
     both_ways(after, gated_results(), [](const Changes& changes) {
-      BOOST_TEST(changes.shrunk.size() == 1u);
+      BOOST_TEST(changes.better.size() == 1u);
       BOOST_TEST(!changes.is_worse());
     });
     both_ways(after, after, [](const Changes& changes) { BOOST_TEST(!changes.is_worse()); });

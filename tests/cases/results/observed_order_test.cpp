@@ -54,6 +54,17 @@ BOOST_AUTO_TEST_CASE(errors_at_the_floor_and_cells_that_blew_up_show_no_order) {
   BOOST_TEST(!none.text.empty());
 }
 
+// As in a gate's run: no cell's steps are timed unless a gate on the cost asks for it.
+BOOST_AUTO_TEST_CASE(an_order_needs_no_costs_and_work_precision_does) {
+  Results results = test::priced_results({{"a", power(3, 2, {0.1, 0.05})}});
+  for (Cell& cell : results.cases.front().cells) {
+    cell.metrics["cost"].value = 0;
+    cell.metrics["cost"].not_applicable = "the run's steps were not timed";
+  }
+  BOOST_TEST(order_of(results) == 2, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(error_points(results.cases.front(), 0, "position_error").empty());
+}
+
 BOOST_AUTO_TEST_CASE(only_the_steps_asked_for_are_fitted) {
   const Results results = test::priced_results({{"a", {{0.4, 100, 1}, {0.2, 0.2, 2}, {0.1, 0.1, 4}}}});
   const auto fine = [](const StepSize& dt) { return dt.seconds < 0.3; };

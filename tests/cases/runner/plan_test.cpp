@@ -4,7 +4,10 @@
 #include "cases/runner/case_process.h"
 #include "cases/runner/grid.h"
 #include "core/base/error.h"
+#include "core/dynamics/model/system.h"
+#include "core/engine/engine_failure.h"
 #include "tests/cases/runner/faulty_engine.h"
+#include "tests/cases/scripted_engine.h"
 #include "tests/scenes.h"
 
 using namespace rigor;
@@ -16,6 +19,16 @@ EngineTable engines_named(const std::vector<std::string>& names) {
   for (const std::string& name : names) table.add(std::make_unique<FaultyEngine>(name, [](double&) {}));
   return table;
 }
+
+class ScriptedWithMethod : public test::ScriptedEngine {
+ public:
+  using ScriptedEngine::ScriptedEngine;
+  EngineInfo info() const override {
+    EngineInfo info = ScriptedEngine::info();
+    info.methods.push_back({"only", "as its script says", 1, false, 0, {}});
+    return info;
+  }
+};
 
 RunName run_named(const std::string& name, const EngineTable& table) { return parse_run_name(name, infos_of(table)); }
 
@@ -139,6 +152,49 @@ BOOST_AUTO_TEST_CASE(a_cell_says_what_became_of_its_run) {
   const Cell both = cell_of(lost, "gave up");
   BOOST_TEST((both.status == Status::diverged));
   BOOST_TEST(both.reason == blown_up.reason + "; gave up");
+}
+
+// Without a truth a run is held to what it keeps, which it does from another start as well.
+BOOST_AUTO_TEST_CASE(a_run_without_a_truth_begins_as_the_scene_does) {
+  Case definition = drifting_body("a");
+  definition.scene.bodies.push_back(definition.scene.bodies[0]);
+  Body& other = definition.scene.bodies[1];
+  other.name = "other", other.position.x() += 3;
+  const auto cell_of = [&](const auto& change, const Truth* truth) {
+    test::Script script;
+    script.play = [&](int step, MutableBodyColumns bodies) {
+      if (step == 0) set_initial_state(definition.scene, bodies), change(bodies);
+    };
+    EngineTable table;
+    table.add(std::make_unique<ScriptedWithMethod>(script));
+    Cell planned;
+    planned.dt = definition.dt[0];
+    return run_cell(planned, definition, table, parse_run_name("scripted", infos_of(table)), truth,
+                    facts_of(definition, truth), {})
+        .cell;
+  };
+  const auto as_it_is = [](MutableBodyColumns) {};
+  const auto in_other_order = [](MutableBodyColumns bodies) {
+    const BodyState first = BodyColumns(bodies).body(0);
+    bodies.set_body(0, BodyColumns(bodies).body(1)), bodies.set_body(1, first);
+  };
+  const auto as_an_invalid = [](const EngineFailure& failure) {
+    return failure.kind() == FailureKind::invalid &&
+           std::string(failure.what()) == "at t = 0 the position of 'stone' is 3 m from the scene's";
+  };
+  BOOST_CHECK_NO_THROW(cell_of(as_it_is, nullptr));
+  BOOST_CHECK_EXCEPTION(cell_of(in_other_order, nullptr), EngineFailure, as_an_invalid);
+  // With one, its errors say so.
+  const auto truth = make_truth("reference", definition.scene, definition.duration);
+  BOOST_TEST(cell_of(in_other_order, truth.get()).metrics.at("position_error").value >= 3);
+  using Change = std::function<void(MutableBodyColumns)>;
+  for (const Change& change : {Change([](auto b) { b.set_orientation(1, Quat(std::cos(1e-4), std::sin(1e-4), 0, 0)); }),
+                               Change([](auto b) { b.set_velocity(1, Vec3(0, 0, 1e-3)); }),
+                               Change([](auto b) { b.set_angular_velocity(1, Vec3(0, 0, 1e-3)); })})
+    BOOST_CHECK_THROW(cell_of(change, nullptr), EngineFailure);
+  // As single precision has it.
+  BOOST_CHECK_NO_THROW(
+      cell_of([](MutableBodyColumns b) { b.column(0)[1] = static_cast<float>(b.column(0)[1]); }, nullptr));
 }
 
 // A costly metric is measured where a gate asks for it, a usual one always, and of those asked for by name no others.

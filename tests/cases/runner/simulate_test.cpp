@@ -4,6 +4,7 @@
 #include <ctime>
 #include <thread>
 
+#include "core/engine/engine_failure.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/scripted_engine.h"
 
@@ -41,6 +42,21 @@ BOOST_AUTO_TEST_CASE(every_step_is_recorded_from_the_start_on) {
   BOOST_TEST((run.settings == SettingsInForce{{"scripted", "yes"}}));
   BOOST_TEST(!run.not_finite.has_value());
   BOOST_TEST(run.solver_warning.empty());
+}
+
+// Which is no rotation, and no angle away from any.
+BOOST_AUTO_TEST_CASE(a_quaternion_of_no_length_makes_a_run_invalid) {
+  Scene scene = test::tumbling_body();
+  scene.bodies.push_back(scene.bodies[0]);
+  test::Script script;
+  script.play = [&](int step, MutableBodyColumns bodies) {
+    if (step == 4) bodies.set_orientation(1, Quat(0, 0, 0, 0));
+  };
+  BOOST_CHECK_EXCEPTION(
+      simulate(test::ScriptedEngine(script), {}, scene, 0.5, 10), EngineFailure, [&](const EngineFailure& failure) {
+        return failure.kind() == FailureKind::invalid &&
+               std::string(failure.what()).starts_with("at 2 s the orientation of '" + scene.bodies[1].name);
+      });
 }
 
 BOOST_AUTO_TEST_CASE(a_run_ends_before_the_first_number_that_is_not_finite) {

@@ -1,5 +1,6 @@
 // The truth by events against every closed form of the contact family, and what it refuses.
 #include <algorithm>
+#include <numbers>
 
 #include "cases/truth/distance.h"
 #include "core/base/error.h"
@@ -16,7 +17,20 @@ namespace {
 constexpr double kShort = 1;  // s: enough for impacts, stops and the end of slipping; many bodies roll on slowly
 
 bool has_closed_form(const Case& c) {
-  return anything_can_touch(c.scene) && c.scene.joints.empty() && c.truth != "none" && c.truth != "events" && c.truth != "reference";
+  return anything_can_touch(c.scene) && c.truth != "none" && c.truth != "events" && c.truth != "reference";
+}
+
+// A ball of 0.1 m, 1 m from a level hinge about z that it is as high as, and a wall that it touches where it hangs.
+Scene ball_beside_wall() {
+  Scene scene;
+  scene.gravity = {0, -9.81, 0};
+  Body ball = test::body("ball", 1, 0.004 * Vec3::Ones(), {-1, 0, 0});
+  ball.shape = Sphere{0.1}, ball.collides = true;
+  Body wall = test::body("wall", 1, Vec3::Ones(), Vec3::Zero());
+  wall.shape = Plane{-Vec3::UnitX(), -0.1}, wall.fixed = wall.collides = true;
+  scene.bodies = {ball, wall};
+  scene.joints.push_back({.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3::UnitZ()}});
+  return scene;
 }
 
 }  // namespace
@@ -86,13 +100,29 @@ BOOST_AUTO_TEST_CASE(its_horizon_ends_where_the_solutions_part) {
 BOOST_AUTO_TEST_CASE(what_it_is_not_for_it_refuses_in_words) {
   BOOST_CHECK_EXCEPTION(make_truth("events", test::fixed_spring(), 1), InputError,
                         test::says("nothing can touch: take 'reference'"));
-  Scene jointed = test::fixed_spring();
-  jointed.bodies[0].shape = Sphere{0.1}, jointed.bodies[0].collides = true;
-  Body floor = test::body("floor", 1, Vec3::Ones(), Vec3::Zero());
-  floor.shape = Plane{Vec3::UnitY(), -5}, floor.fixed = floor.collides = true;
-  jointed.bodies.push_back(floor);
-  jointed.joints.push_back({.a = kWorld, .b = 0, .type = BallJoint{Vec3::Zero()}});
-  BOOST_CHECK_EXCEPTION(make_truth("events", jointed, 1), InputError, test::says("joint:ball"));
+  // Of a hinge that may turn round and round before it comes to its one limit.
+  Scene jointed = ball_beside_wall();
+  jointed.joints[0].upper = 1;
+  BOOST_CHECK_EXCEPTION(make_truth("events", jointed, 1), InputError, test::says("two limits within half a turn"));
+}
+
+// A pendulum that strikes a plane of no friction where it hangs, against its limit there: a limit is a contact, too,
+// and nothing else of the two scenes is alike.
+BOOST_AUTO_TEST_CASE(a_limit_and_a_wall_at_one_place_are_one_motion) {
+  Scene at_wall = ball_beside_wall(), at_limit = ball_beside_wall();
+  at_limit.contact_default.restitution = at_wall.contact_default.restitution = 0.5;
+  at_limit.bodies[1].shape = Plane{Vec3::UnitY(), -5};
+  at_limit.joints[0].lower = -2, at_limit.joints[0].upper = 0.5 * std::numbers::pi;
+  at_limit.joints[0].restitution = 0.5;
+  constexpr double kEnd = 2;  // s: four blows
+  const auto wall = make_truth("events", at_wall, kEnd), limit = make_truth("events", at_limit, kEnd);
+  BOOST_TEST(wall->error(kEnd) < 1e-6);
+  BOOST_TEST(limit->error(kEnd) < 1e-6);
+  for (double t = 0; t <= kEnd; t += 0.037) {
+    const BodyTable a = test::truth_at(*wall, t, 2), b = test::truth_at(*limit, t, 2);
+    const double off = distance_between(a.columns(), b.columns());
+    BOOST_TEST(off <= wall->error(t) + limit->error(t), "at " << t << " s it is off by " << off);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
