@@ -67,10 +67,13 @@ class Search {
         divides_steps_(divides_its_steps(engine.info(), settings)) {}
 
   StableStep result() {
-    if (divides_steps_ && !scene_.joints.empty() && survives(kLargestStep) == true)
-      return {kLargestStep, true, false,
-              fmt::format("its method divides each step: {:g} s alone was tried", kLargestStep)};
-    if (!bracket() || !bisect()) return found_;
+    double longest = kLargestStep;
+    if (divides_steps_ && !scene_.joints.empty()) {
+      if (survives(longest) == true)
+        return {longest, true, false, fmt::format("its method divides each step: {:g} s alone was tried", longest)};
+      longest *= 0.5;
+    }
+    if (!bracket(longest) || !bisect()) return found_;
     if (steps_of_sweep() > steps_left_ / 2) {
       found_.cut = fmt::format("by bisection from {:.3g} s up: a sweep would take too many steps", doubled_);
     } else if (!sweep()) {
@@ -81,10 +84,9 @@ class Search {
   }
 
  private:
-  // Down by halves, for an unstable run ends early, until a step and its double are stable. False if the search ends
-  // here.
-  bool bracket() {
-    double dt = kLargestStep;
+  // From dt down by halves, for an unstable run ends early, until a step and its double are stable. False if the search
+  // ends here.
+  bool bracket(double dt) {
     int stable_in_a_row = 0;
     for (; dt >= kSmallestStep && stable_in_a_row < 2; dt *= 0.5) {
       const auto holds = survives(dt);

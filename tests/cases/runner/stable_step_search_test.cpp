@@ -42,10 +42,12 @@ class FussyWorld : public World {
 
 class FussyEngine : public Engine {
  public:
-  explicit FussyEngine(std::function<bool(double)> holds) : holds_(std::move(holds)) {}
+  explicit FussyEngine(std::function<bool(double)> holds, bool is_adaptive = false)
+      : holds_(std::move(holds)), is_adaptive_(is_adaptive) {}
   EngineInfo info() const override {
     EngineInfo info;
     info.name = "fussy";
+    info.methods.emplace_back().adaptive = is_adaptive_;
     return info;
   }
   std::string twin(const Settings&) const override { return ""; }
@@ -56,6 +58,7 @@ class FussyEngine : public Engine {
 
  private:
   std::function<bool(double)> holds_;
+  bool is_adaptive_;
 };
 
 Scene one_body() {
@@ -152,6 +155,19 @@ BOOST_AUTO_TEST_CASE(its_ends_are_half_a_second_and_ten_microseconds) {
     BOOST_TEST(all.dt == 0.5);
     BOOST_TEST(all.cut == "");
   }
+}
+
+// Among joints a method that divides its steps is tried at the largest one alone, if that holds, and else from half of
+// it on: no run is made twice.
+BOOST_AUTO_TEST_CASE(an_adaptive_method_among_joints_is_tried_once_at_the_largest_step) {
+  const FussyEngine always([](double) { return true; }, true), fine([](double dt) { return dt < 0.2; }, true);
+  BOOST_TEST(found_by(always, jointed(0)).dt == 0.5);
+  BOOST_TEST(always.tried.size() == 1);
+  const StableStep found = found_by(fine, jointed(0));
+  BOOST_TEST((found.dt < 0.2 && found.dt * 1.05 >= 0.2), found.dt);
+  const double expected[] = {0.5, 0.25, 0.125, 0.0625};
+  BOOST_TEST_REQUIRE(fine.tried.size() > 4);
+  for (std::size_t n = 0; n < 4; ++n) BOOST_TEST(fine.tried[n].dt == expected[n]);
 }
 
 // The last step goes beyond a horizon that is no multiple of it, unless roundings alone make it so.
