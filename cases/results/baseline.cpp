@@ -133,6 +133,12 @@ Baseline from_json(const Json& json) {
   for (const Json& one : json.at("cases")) {
     add_gates(one, fmt::format("cases[{}]", index++), out);
     if (!one.at("error").is_null()) out.case_errors[text_at(one, "id")] = text_at(one, "error");
+    if (one.contains("duration")) out.durations[text_at(one, "id")] = one.at("duration").get<double>();
+  }
+  if (!json.contains("stable_dt")) return out;
+  for (const Json& one : json.at("stable_dt")) {
+    if (one.at("dt").is_number())
+      out.stable_steps[joined({text_at(one, "case"), text_at(one, "engine")})] = one.at("dt");
   }
   return out;
 }
@@ -148,6 +154,10 @@ void add_line(const Json& json, Baseline& out) {
         fmt::format("{}", fmt::join(values, kBetweenValues));
   } else if (json.contains("error")) {
     out.case_errors[text_at(json, "case")] = text_at(json, "error");
+  } else if (json.contains("duration")) {
+    out.durations[text_at(json, "case")] = json.at("duration").get<double>();
+  } else if (json.contains("stable_dt")) {
+    out.stable_steps[joined({text_at(json, "case"), text_at(json, "engine")})] = json.at("stable_dt").get<double>();
   } else if (json.contains("gate")) {
     out.gates[joined({text_at(json, "case"), text_at(json, "gate"), text_at(json, "engine"), text_at(json, "dt")})] =
         answer_at(json, "gate");
@@ -232,6 +242,11 @@ std::string baseline_text(const Baseline& baseline) {
     text += line_of({{"engine", parts[0]}, {"setting", parts[1]}, {"values", split(values, kBetweenValues)}});
   }
   for (const auto& [id, error] : baseline.case_errors) text += line_of({{"case", id}, {"error", error}});
+  for (const auto& [id, duration] : baseline.durations) text += line_of({{"case", id}, {"duration", duration}});
+  for (const auto& [key, dt] : baseline.stable_steps) {
+    const auto parts = split(key, "\t");
+    text += line_of({{"case", parts[0]}, {"engine", parts[1]}, {"stable_dt", rounded_to_four(dt)}});
+  }
   for (const auto& [key, cell] : baseline.cells) text += line_of(json_of(key, cell));
   // A gate on one cell that holds follows from the cell's status.
   for (const auto& [key, answer] : baseline.gates) {

@@ -23,6 +23,8 @@ struct Baseline {
   std::map<std::string, std::string> settings;     // engine, setting -> its values over the cases
   std::set<std::string> left_out;                  // metrics that a cell of a baseline has not where they are rounding
   std::map<std::string, std::string> case_errors;  // case -> why it could not be judged at all
+  std::map<std::string, double> durations;         // case -> s; none of an older file
+  std::map<std::string, double> stable_steps;      // case, engine -> s, the largest stable step where it was looked for
 };
 
 bool is_higher_better(const std::string& metric);  // as its row says

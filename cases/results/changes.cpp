@@ -65,6 +65,34 @@ void compare_verdicts(const std::string& key, const Baseline& before, const Base
       .push_back(fmt::format("{}: its verdict is {}, was {}", named(key), is, was));
 }
 
+std::string case_of(const std::string& key) { return key.substr(0, key.find('\t')); }
+
+// Of an older file, which does not say, they count as alike.
+bool have_one_duration(const std::string& id, const Baseline& before, const Baseline& after) {
+  const auto was = before.durations.find(id), is = after.durations.find(id);
+  return was == before.durations.end() || is == after.durations.end() || was->second == is->second;
+}
+
+void compare_durations(const Baseline& before, const Baseline& after, Changes& out) {
+  for (const auto& [id, is] : after.durations) {
+    if (have_one_duration(id, before, after)) continue;
+    const double was = before.durations.at(id);
+    (is < was ? out.shorter : out.longer)
+        .push_back(fmt::format("{}: {:g} s, was {:g} s; its metrics are not compared", id, is, was));
+  }
+}
+
+void compare_stable_steps(const Baseline& before, const Baseline& after, double factor, Changes& out) {
+  for (const auto& [key, is] : after.stable_steps) {
+    const auto found = before.stable_steps.find(key);
+    if (found == before.stable_steps.end() || !have_one_duration(case_of(key), before, after)) continue;
+    const double was = found->second;
+    if (!(std::max(is, was) > factor * std::min(is, was))) continue;
+    (is < was ? out.worse : out.better)
+        .push_back(fmt::format("{}: the largest stable step is {:.4g} s, was {:.4g} s", named(key), is, was));
+  }
+}
+
 void compare_cells(const std::string& key, const Baseline& before, const Baseline& after, double factor, Changes& out) {
   const std::string &was = before.cells.at(key).status, &is = after.cells.at(key).status;
   if (badness(was) != badness(is)) {
@@ -72,14 +100,14 @@ void compare_cells(const std::string& key, const Baseline& before, const Baselin
         .push_back(fmt::format("{}: {}, was {}", named(key), is, was));
   }
   // Numbers and verdicts of a run that failed mean little.
-  if (badness(was) != 0 || badness(is) != 0) return;
+  if (badness(was) != 0 || badness(is) != 0 || !have_one_duration(case_of(key), before, after)) return;
   compare_verdicts(key, before, after, out);
   compare_errors(key, before, after, factor, out);
 }
 
 std::set<std::string> cases_of(const Baseline& baseline) {
   std::set<std::string> ids;
-  for (const auto& [key, cell] : baseline.cells) ids.insert(key.substr(0, key.find('\t')));
+  for (const auto& [key, cell] : baseline.cells) ids.insert(case_of(key));
   return ids;
 }
 
@@ -91,7 +119,7 @@ std::vector<std::string> only_in(const Baseline& one, const Baseline& other) {
     if (!of_other.contains(id)) names.push_back(id);
   }
   for (const auto& [key, cell] : one.cells) {
-    if (of_other.contains(key.substr(0, key.find('\t'))) && !other.cells.contains(key)) names.push_back(named(key));
+    if (of_other.contains(case_of(key)) && !other.cells.contains(key)) names.push_back(named(key));
   }
   return names;
 }
@@ -151,6 +179,8 @@ Changes changes_between(const Baseline& old_baseline, const Baseline& new_baseli
     if (old_baseline.cells.contains(key)) compare_cells(key, old_baseline, new_baseline, factor, out);
   }
   compare_gates(old_baseline, new_baseline, out);
+  compare_durations(old_baseline, new_baseline, out);
+  compare_stable_steps(old_baseline, new_baseline, factor, out);
   for (const auto& [id, error] : new_baseline.case_errors) {
     if (!old_baseline.case_errors.contains(id)) out.newly_failing.push_back(fmt::format("{}: {}", id, error));
   }
@@ -167,6 +197,7 @@ std::string text_of(const Changes& changes, double factor) {
   text += section(fmt::format("worse by more than {:g} times", factor), changes.worse);
   text += section(fmt::format("better by more than {:g} times", factor), changes.better);
   text += section("no longer measured", changes.lost);
+  text += section("run for less time", changes.shorter) + section("run for more time", changes.longer);
   text += section("settings that differ", changes.settings);
   text += section("gone", changes.gone) + section("added", changes.added);
   if (text.empty()) text = fmt::format("nothing changed by more than {:g} times\n", factor);

@@ -16,11 +16,14 @@ inline constexpr double kDefaultFactor = 1.25;
 struct Changes {
   // A sentence each, sorted.
   std::vector<std::string> newly_failing, newly_passing;
-  std::vector<std::string> worse, better;  // metrics, by more than the factor
-  std::vector<std::string> lost;           // metrics that are measured no longer, though nobody asked for that
-  std::vector<std::string> settings;       // that differ
-  std::vector<std::string> added, gone;    // cases, and runs or steps of a case
-  bool is_worse() const { return !newly_failing.empty() || !worse.empty() || !lost.empty() || !gone.empty(); }
+  std::vector<std::string> worse, better;    // metrics, by more than the factor
+  std::vector<std::string> lost;             // metrics that are measured no longer, though nobody asked for that
+  std::vector<std::string> settings;         // that differ
+  std::vector<std::string> shorter, longer;  // cases by their durations: their metrics are not compared
+  std::vector<std::string> added, gone;      // cases, and runs or steps of a case
+  bool is_worse() const {
+    return !newly_failing.empty() || !worse.empty() || !lost.empty() || !gone.empty() || !shorter.empty();
+  }
 };
 
 Changes changes_between(const Baseline& old_baseline, const Baseline& new_baseline, double factor = kDefaultFactor);

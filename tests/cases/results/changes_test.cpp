@@ -159,6 +159,39 @@ BOOST_AUTO_TEST_CASE(a_sign_says_nothing_and_what_is_not_finite_is_worst) {
   }
 }
 
+// Errors of a shorter run are smaller, and say nothing.
+BOOST_AUTO_TEST_CASE(a_shorter_run_is_worse_and_its_metrics_are_not_compared) {
+  const Results before = gated_results();
+  Results shorter = gated_results();
+  shorter.cases.front().definition.duration *= 0.5;
+  good_cell(shorter).metrics["position_error"].value *= 0.1;
+  both_ways(before, shorter, [](const Changes& changes) {
+    BOOST_TEST(changes.shorter.size() == 1u);
+    BOOST_TEST(changes.better.empty());
+    BOOST_TEST(changes.is_worse());
+  });
+  both_ways(shorter, before, [](const Changes& changes) {
+    BOOST_TEST(changes.longer.size() == 1u);
+    BOOST_TEST(changes.worse.empty());
+    BOOST_TEST(!changes.is_worse());
+  });
+}
+
+BOOST_AUTO_TEST_CASE(a_smaller_stable_step_is_worse) {
+  const auto with = [](double dt) {
+    Results grid = gated_results();
+    for (StableStepResult& stable : grid.cases.front().stable_steps) stable = {Status::pass, "", {dt, false, false}};
+    return grid;
+  };
+  BOOST_TEST_REQUIRE(!with(0.1).cases.front().stable_steps.empty());
+  both_ways(with(0.1), with(0.07), [](const Changes& changes) { BOOST_TEST(changes.is_worse()); });
+  both_ways(with(0.1), with(0.09), [](const Changes& changes) { BOOST_TEST(!changes.is_worse()); });
+  both_ways(with(0.07), with(0.1), [](const Changes& changes) {
+    BOOST_TEST(!changes.better.empty());
+    BOOST_TEST(!changes.is_worse());
+  });
+}
+
 BOOST_AUTO_TEST_CASE(a_regression_that_has_nothing_recorded_is_no_answer) {
   Results grid = sample_results();
   Gate gate;
