@@ -1,4 +1,5 @@
-# What is installed works from wherever it is put: the program finds its files, and another project finds the core.
+# What is installed works from wherever it is put: the program finds its files, and another project finds the core. The
+# package for Debian asks for the libraries that the program is linked to.
 # cmake -DBUILD=... -DFOLDER=... -DCOMPILER=... -P package_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -36,3 +37,15 @@ run(said ${FOLDER}/build/embedding ${FOLDER}/thrown.toml)
 if(NOT said MATCHES "^stone 1.000000 -5.000000 0.000000\n")
   message(FATAL_ERROR "the embedded core says: ${said}")
 endif()
+
+get_filename_component(tools ${CMAKE_COMMAND} DIRECTORY)
+run(said ${tools}/cpack --config ${BUILD}/CPackConfig.cmake -B ${FOLDER}/deb)
+file(GLOB package ${FOLDER}/deb/*.deb)
+run(depends dpkg-deb --field ${package} Depends)
+foreach(library libode8 libbullet libfmt9 libtinyxml2)
+  if(NOT depends MATCHES ${library})
+    message(FATAL_ERROR "the package does not depend on ${library}: ${depends}")
+  endif()
+endforeach()
+run(said dpkg-deb --extract ${package} ${FOLDER}/unpacked)
+run(said ${FOLDER}/unpacked/usr/bin/rigor list cases)
