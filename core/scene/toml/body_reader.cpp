@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/base/unit_vector.h"
 #include "core/scene/toml/row_fault.h"
 
@@ -44,7 +47,9 @@ Shape read_shape(const TomlValue& value) {
   Keys names, keys = {"type"};
   for (const ShapeRow& row : shape_rows()) {
     names.push_back(row.name);
-    keys.insert(keys.end(), row.keys.begin() + 1, row.keys.end());
+    std::copy_if(row.keys.begin(), row.keys.end(), std::back_inserter(keys), [&](const std::string& key) {
+      return std::find(keys.begin(), keys.end(), key) == keys.end();
+    });
   }
   TableReader table = value.table(keys);
   const std::string type = table.at("type").choice(names);
