@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dynamics/joints/islands.h"
+
 namespace rigor {
 namespace {
 
@@ -16,6 +18,21 @@ constexpr double kSeparatingShare = 1e-8, kSlipping = 1e-7, kEnding = 2;
 constexpr double kSlip = 1e4;  // of the accelerations: what a slip counts as beside them; its direction errs by 1/kSlip
 
 }  // namespace
+
+// On the verge of sliding there is a long way to the cones from the least forces, and none from those found last time.
+// Where points of an island slide, the least forces are the nearer.
+void ContactModes::start_from_cones() {
+  const std::vector<PersistentPoint>& points = persistent_.points();
+  std::vector<std::pair<int, int>> pairs;
+  for (const ConeConstraint& cone : cones_) pairs.emplace_back(cone.a, cone.b);
+  for (const Island& island : islands_of(system_, pairs, joints_)) {
+    const bool all_stick = std::all_of(island.points.begin(), island.points.end(), [&](std::size_t i) {
+      return points[i].mode == PersistentPoint::Mode::sticks && points[i].force_in_cone.x() > 0;
+    });
+    if (!all_stick) continue;
+    for (const std::size_t i : island.points) cones_[i].impulse = points[i].force_in_cone;
+  }
+}
 
 bool ContactModes::solve(BodyColumns state, const double* wrench) {
   accelerations_ = state;
@@ -35,6 +52,7 @@ bool ContactModes::solve(BodyColumns state, const double* wrench) {
     size_ = std::max(size_, (ConeSolver::velocity_at(cone, table) + point.bias).norm());
     cones_.push_back(cone);
   }
+  start_from_cones();
   for (std::size_t i = 0; i < cones_.size(); ++i) {
     const PersistentPoint& point = persistent_.points()[i];
     const double slip = point.velocity.tail<2>().norm();
@@ -45,6 +63,7 @@ bool ContactModes::solve(BodyColumns state, const double* wrench) {
   for (const ConeConstraint& cone : cones_) solver_.push(cone, cone.impulse, table);
   const bool has_settled = solver_.solve(table, cones_);
   for (const ConeConstraint& cone : cones_) size_ = std::max(size_, (cone.inverse_mass * cone.impulse).norm());
+  for (std::size_t i = 0; i < cones_.size(); ++i) persistent_.points()[i].force_in_cone = cones_[i].impulse;
   return has_settled;
 }
 

@@ -30,6 +30,7 @@ class ContactModes {
  private:
   bool drop_pulling_points(BodyColumns state, const double* wrench);
   bool solve(BodyColumns state, const double* wrench);
+  void start_from_cones();
   Vec3 acceleration_of(std::size_t point) const;  // m/s², in the frame
 
   ConeSolver solver_;

@@ -126,7 +126,10 @@ bool PersistentContact::select_points(MutableBodyColumns state, const std::vecto
     point.mode = slides ? PersistentPoint::Mode::slides : PersistentPoint::Mode::sticks;
     const auto old = std::find_if(old_points_.begin(), old_points_.end(),
                                   [&](const PersistentPoint& p) { return p.contact.same_place(contact); });
-    if (old != old_points_.end()) point.force = contact.cone.frame.transpose() * (old->frame * old->force);
+    if (old != old_points_.end()) {
+      point.force = contact.cone.frame.transpose() * (old->frame * old->force);
+      point.force_in_cone = contact.cone.frame.transpose() * (old->frame * old->force_in_cone);
+    }
     points.push_back(point);
   }
   if (points.empty()) return true;

@@ -38,6 +38,7 @@ struct PersistentPoint {
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();    // m, in W
   Vec3 velocity = Vec3::Zero(), bias = Vec3::Zero();  // m/s and m/s², of a against b, in the frame
   Vec3 force = Vec3::Zero();                          // N, in the frame
+  Vec3 force_in_cone = Vec3::Zero();                  // N, that the modes were last found with
   double slip = 0;                                    // m/s, along slip_direction
   double least_slip = 0, largest_slip = 0;            // m/s, at all instants since begin_attempt()
 
