@@ -6,7 +6,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "adapters/plugin/library_engine.h"
@@ -21,13 +20,6 @@ namespace {
 int log_descriptor() {
   static const int descriptor = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
   return descriptor;
-}
-
-std::uint64_t hash_of_file(const std::string& path, std::uint64_t so_far) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return content_hash(text.str(), so_far);
 }
 
 // The plug-in as it was named, and what it is made of, as far as its words name files: what one version has computed,

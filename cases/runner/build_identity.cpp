@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <link.h>
 
-#include <fstream>
 #include <vector>
 
 #include "core/base/content_hash.h"
@@ -16,16 +15,6 @@ int add_file(dl_phdr_info* about, std::size_t, void* files) {
   const std::string name = about->dlpi_name;
   static_cast<std::vector<std::string>*>(files)->push_back(name.empty() ? "/proc/self/exe" : name);
   return 0;
-}
-
-std::uint64_t hash_of_file(const std::string& path, std::uint64_t so_far) {
-  std::ifstream file(path, std::ios::binary);
-  std::string chunk(1 << 20, '\0');
-  while (file) {
-    file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-    so_far = content_hash({chunk.data(), static_cast<std::size_t>(file.gcount())}, so_far);
-  }
-  return so_far;
 }
 
 }  // namespace

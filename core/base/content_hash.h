@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace rigor {
@@ -14,5 +15,9 @@ inline std::uint64_t content_hash(std::string_view bytes, std::uint64_t so_far =
   for (const char c : bytes) so_far = (so_far ^ static_cast<unsigned char>(c)) * 1099511628211u;
   return so_far;
 }
+
+// Of a file's bytes, eight at a time: a program and its libraries are a hundred megabytes. What cannot be read counts
+// as empty.
+std::uint64_t hash_of_file(const std::string& path, std::uint64_t so_far = kHashOfNothing);
 
 }  // namespace rigor
