@@ -5,6 +5,15 @@
 #include <fstream>
 
 namespace rigor {
+namespace {
+
+// As a lane of Appleby's MurmurHash3 takes a word in.
+std::uint64_t mixed_in(std::uint64_t so_far, std::uint64_t word) {
+  word = std::rotl(word * 0x87c37b91114253d5u, 31) * 0x4cf5ad432745937fu;
+  return std::rotl(so_far ^ word, 27) * 5 + 0x52dce729u;
+}
+
+}  // namespace
 
 std::uint64_t hash_of_file(const std::string& path, std::uint64_t so_far) {
   std::ifstream file(path, std::ios::binary);
@@ -15,8 +24,7 @@ std::uint64_t hash_of_file(const std::string& path, std::uint64_t so_far) {
     std::size_t at = 0;
     for (std::uint64_t word = 0; at + sizeof word <= size; at += sizeof word) {
       std::memcpy(&word, chunk.data() + at, sizeof word);
-      // A product carries upwards only: turned, the word's high bits reach the low ones.
-      so_far = std::rotl((so_far ^ word) * 1099511628211u, 29);
+      so_far = mixed_in(so_far, word);
     }
     so_far = content_hash({chunk.data() + at, size - at}, so_far);
   }
