@@ -59,6 +59,11 @@ Results planned(const CommandLine& line, const EngineTable& engines, const std::
   for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
   if (line.quick) cases = quick_selection(cases, engines.infos());
   if (is_gate(line)) expect_gates(cases);
+  if (is_gate(line) && line.duration)
+    say(
+        fmt::format("limits hold for the cases' own durations, and are held here against {} s; no value is recorded "
+                    "for such runs",
+                    *line.duration));
   const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
   // Who names engines wants these and no others.
   const auto of_gates = line.engines.empty() ? without_those_on_request(runs_of_gates(cases, runs, engines.infos()))
@@ -159,6 +164,7 @@ std::string left_out_by_default(const CommandLine& line, const std::vector<Engin
 GridRun plan_run(const CommandLine& line, const EngineTable& engines) {
   auto deviations = read_known_deviations(line.adapters_dir, engines.infos());
   RecordedValues recorded = read_recorded_values(line.adapters_dir, engines.infos());
+  if (line.duration) recorded = {};  // of runs of other lengths
   Results grid = planned(line, engines, deviations);
   return {line, engines, std::move(deviations), std::move(recorded), std::move(grid)};
 }
@@ -198,11 +204,17 @@ std::vector<std::string> report_files() {
   return names;
 }
 
+// A gate of other runs or steps than were named is none of their business; but where no gate judged anything at all,
+// nothing held.
 void judge(GridRun& run) {
-  for (CaseResult& result : run.grid.cases) {
-    check_gates(result, run.grid, run.recorded);
-    apply_known_deviations(result, run.grid, run.deviations);
-  }
+  const auto check = [&](Asked asked) {
+    for (CaseResult& result : run.grid.cases) {
+      check_gates(result, run.grid, run.recorded, asked);
+      apply_known_deviations(result, run.grid, run.deviations);
+    }
+  };
+  check(run.line.engines.empty() && run.line.dt.empty() ? Asked::all : Asked::some);
+  if (is_gate(run.line) && !is_any_judged(run.grid)) check(Asked::all);
 }
 
 bool write_reports(const Results& grid, OutputFolder& folder) {

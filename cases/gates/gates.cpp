@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "adapters/engines.h"
 #include "cases/case/selection.h"
@@ -18,10 +19,11 @@ namespace {
 // One gate over one case.
 class GateCheck {
  public:
-  GateCheck(CaseResult& result, const Results& grid, const RecordedValues& recorded, std::size_t index)
+  GateCheck(CaseResult& result, const Results& grid, const RecordedValues& recorded, Asked asked, std::size_t index)
       : result_(result),
         grid_(grid),
         recorded_(recorded),
+        asked_(asked),
         index_(index),
         gate_(result.definition.gates[index]),
         selection_(gate_, grid.engines),
@@ -32,7 +34,7 @@ class GateCheck {
     if (gate_.metric == "observed_order") {
       fail_what_has_no_result();
       for (std::size_t run = 0; run < grid_.runs.size(); ++run) check_observed_order(run);
-    } else if (gate_.metric == "spread" || gate_.metric == "spread_orientation") {
+    } else if (is_spread()) {
       fail_what_has_no_result();
       for (const Spread& spread : result_.spreads) check_spread(spread);
     } else if (gate_.at_least_order) {
@@ -43,7 +45,7 @@ class GateCheck {
         gate_.regression ? check_regression(cell) : gate_.better_than.empty() ? check_cell(cell) : check_ranking(cell);
       }
     }
-    if (result_.gates.size() == before && !gate_.is_of_family) {
+    if (result_.gates.size() == before && !gate_.is_of_family && (asked_ == Asked::all || is_asked())) {
       add("", "", GateAnswer::not_checked,
           fmt::format("{}: no cell that ran has {} for this gate to judge{}", gate_.where, gate_.metric,
                       engine_to_ask_for()));
@@ -62,6 +64,25 @@ class GateCheck {
     }
     return "";
   }
+  // Whether cells that somebody chose could answer the gate. Of other runs and steps it was not asked, nor of what an
+  // engine cannot do.
+  bool is_asked() const {
+    std::map<std::size_t, std::size_t> steps;  // by run
+    for (const Cell& cell : result_.cells) {
+      if (selects(cell)) ++steps[cell.run];
+    }
+    if (is_spread()) return steps.size() > 1;
+    if (!gate_.better_than.empty()) {
+      const RunName other = parse_run_name(gate_.better_than, grid_.engines);
+      const auto is_there = [&](const Cell& cell) {
+        return cell.status != Status::unsupported && is_same_run(grid_.runs[cell.run], other);
+      };
+      if (std::none_of(result_.cells.begin(), result_.cells.end(), is_there)) return false;
+    }
+    const std::size_t fewest = gate_.at_least_order || gate_.metric == "observed_order" ? 2 : 1;
+    return std::any_of(steps.begin(), steps.end(), [&](const auto& of_run) { return of_run.second >= fewest; });
+  }
+  bool is_spread() const { return gate_.metric == "spread" || gate_.metric == "spread_orientation"; }
   bool selects(std::size_t run) const { return selection_.takes(grid_.runs[run]) && !is_made_like_truth(run); }
   bool selects(const StepSize& dt) const { return selection_.takes(dt); }
   bool selects(const Cell& cell) const {
@@ -326,6 +347,7 @@ class GateCheck {
   CaseResult& result_;
   const Results& grid_;
   const RecordedValues& recorded_;
+  Asked asked_;
   std::size_t index_;
   const Gate& gate_;
   GateSelection selection_;
@@ -334,9 +356,17 @@ class GateCheck {
 
 }  // namespace
 
-void check_gates(CaseResult& result, const Results& grid, const RecordedValues& recorded) {
+void check_gates(CaseResult& result, const Results& grid, const RecordedValues& recorded, Asked asked) {
   result.gates.clear();
-  for (std::size_t i = 0; i < result.definition.gates.size(); ++i) GateCheck(result, grid, recorded, i).check();
+  for (std::size_t i = 0; i < result.definition.gates.size(); ++i) GateCheck(result, grid, recorded, asked, i).check();
+}
+
+bool is_any_judged(const Results& grid) {
+  return std::any_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& result) {
+    return std::any_of(result.gates.begin(), result.gates.end(), [](const GateResult& gate) {
+      return gate.answer != GateAnswer::not_checked && gate.answer != GateAnswer::not_recorded;
+    });
+  });
 }
 
 bool all_gates_hold(const Results& grid) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cases/report/console/console_matrix.h"
 #include "cases/report/wording/comparison.h"
@@ -236,6 +237,30 @@ RowText row_text(const Results& results, const CaseResult& result, const Cell& c
   return row;
 }
 
+namespace {
+
+// What was named on the command line may leave gates out, and with them all that judges a case.
+std::string unjudged_text(const Results& results) {
+  std::size_t bounds = 0;
+  std::vector<std::string> cases;
+  for (const CaseResult& result : results.cases) {
+    std::set<std::size_t> answered;
+    for (const GateResult& answer : result.gates) {
+      if (answer.answer != GateAnswer::not_recorded) answered.insert(answer.gate);
+    }
+    const std::vector<Gate>& gates = result.definition.gates;
+    for (std::size_t i = 0; i < gates.size(); ++i)
+      bounds += !gates[i].is_of_family && !gates[i].regression && !answered.contains(i);
+    if (answered.empty() && !gates.empty()) cases.push_back(result.definition.id);
+  }
+  std::string text;
+  if (bounds > 0) text += fmt::format("bounds of other runs or steps than were asked for: {}\n", bounds);
+  if (!cases.empty()) text += wrapped(fmt::format("no gate judged {}", fmt::join(cases, ", ")), 2) + "\n";
+  return text;
+}
+
+}  // namespace
+
 std::string gate_summary(const Results& results) {
   using Counts = std::map<GateAnswer, int>;
   std::map<std::string, Counts> counts;
@@ -260,7 +285,8 @@ std::string gate_summary(const Results& results) {
   if (with_caveat > 0)
     bounds += fmt::format("warning: {} of them held by runs that were stepped in part by less than their method\n",
                           with_caveat);
-  return counts.contains("regression") ? bounds + line("regressions", counts["regression"]) : bounds;
+  return bounds + (counts.contains("regression") ? line("regressions", counts["regression"]) : "") +
+         unjudged_text(results);
 }
 
 std::string console_table(const Results& results) {

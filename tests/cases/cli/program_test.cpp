@@ -201,6 +201,31 @@ BOOST_AUTO_TEST_CASE(gate_answers_with_its_exit_code) {
   BOOST_TEST(unchecked.out.find("bound not checked") != std::string::npos, unchecked.out);
 }
 
+// An engine's author asks of that engine alone: gates of others are none of its business, and do not fail it.
+BOOST_AUTO_TEST_CASE(gates_of_runs_that_were_not_named_are_left_out) {
+  const std::string text = test::text_with("1"), gate = text.substr(text.find("[[gate]]"));
+  std::string of_ode = gate;
+  of_ode.replace(of_ode.find("core:rk4"), 8, "ode");
+  of_ode.replace(of_ode.find("max"), of_ode.find('\n', of_ode.find("max")) - of_ode.find("max"), "max = 1e3");
+  const std::string file = folder.write("both.toml", text + "\n" + of_ode);
+  const Answer ode = run({"gate", file, "--engine", "ode", "--out", out});
+  BOOST_TEST(ode.code == 0, ode.out);
+  BOOST_TEST(ode.out.find("bounds of other runs or steps than were asked for: 1") != std::string::npos, ode.out);
+  const Answer bullet = run({"gate", file, "--engine", "bullet", "--out", out});
+  BOOST_TEST(bullet.code == 1, bullet.out);
+  BOOST_TEST(bullet.out.find("bound not checked") != std::string::npos, bullet.out);
+  const Answer beside = run({"gate", file, "stone", "--engine", "ode", "--out", out});
+  BOOST_TEST(beside.code == 0, beside.out);
+  BOOST_TEST(beside.out.find("no gate judged air/stone") != std::string::npos, beside.out);
+}
+
+// Limits are of a case's own duration, and what is recorded was measured over it.
+BOOST_AUTO_TEST_CASE(a_gate_over_another_duration_says_so) {
+  const Answer answer = run({"gate", "stone", "--engine", "core:rk4", "--duration", "0.5", "--out", out});
+  BOOST_TEST(answer.code == 0, answer.out);
+  BOOST_TEST(answer.err.find("held here against 0.5 s") != std::string::npos, answer.err);
+}
+
 BOOST_AUTO_TEST_CASE(a_gate_over_what_no_gate_judges_is_refused) {
   const std::string text = test::text_with("1");
   const std::string file = folder.write("open.toml", text.substr(0, text.find("[[gate]]")));

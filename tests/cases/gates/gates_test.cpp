@@ -124,6 +124,54 @@ BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold)
              std::string::npos);
 }
 
+// Of what somebody chose, a gate is answered by what is there, or was not asked; what it should have and has not is a
+// fault all the same.
+BOOST_AUTO_TEST_CASE(a_gate_of_other_runs_or_steps_than_were_chosen_is_not_asked) {
+  const auto answers = [](const Gate& limit, auto change) {
+    GatedGrid chosen;  // of the runs and steps there are, "a" at all steps
+    std::erase_if(chosen.result().cells, [](const Cell& cell) { return cell.run != 0; });
+    chosen.result().definition.gates = {limit};
+    change(chosen);
+    check_gates(chosen.result(), chosen.grid, {}, Asked::some);
+    return chosen.result().gates;
+  };
+  const auto as_is = [](GatedGrid&) {};
+  const auto at_one_step = [](GatedGrid& chosen) { chosen.result().cells.resize(1); };
+  const auto unsupported = [](GatedGrid& chosen) {
+    for (Cell& cell : chosen.result().cells) cell.status = Status::unsupported;
+  };
+  const auto without_the_metric = [](GatedGrid& chosen) {
+    for (Cell& cell : chosen.result().cells) cell.metrics.clear();
+  };
+  Gate limit = gate("position_error"), of_b = limit, ranking = limit, order = limit, spread = gate("spread");
+  limit.max = of_b.max = spread.max = 1;
+  of_b.engines = {"b"};
+  ranking.better_than = "b";
+  order.at_least_order = 1;
+  BOOST_TEST(count(answers(limit, as_is), GateAnswer::held) > 0);
+  BOOST_TEST(answers(of_b, as_is).empty());
+  BOOST_TEST(answers(ranking, as_is).empty());
+  BOOST_TEST(answers(spread, as_is).empty());
+  BOOST_TEST(answers(limit, unsupported).empty());
+  BOOST_TEST(count(answers(order, as_is), GateAnswer::held) == 1);
+  BOOST_TEST(answers(order, at_one_step).empty());
+  BOOST_TEST(count(answers(limit, without_the_metric), GateAnswer::not_checked) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(what_no_gate_judged_is_told_from_what_held) {
+  GatedGrid run;
+  Gate limit = gate("position_error");
+  limit.max = 1e9;
+  run.check(limit);
+  BOOST_TEST(is_any_judged(run.grid));
+  limit.max = 1e-9;
+  run.check(limit);
+  BOOST_TEST(is_any_judged(run.grid));
+  limit.metric = "creep";
+  run.check(limit);
+  BOOST_TEST(!is_any_judged(run.grid));
+}
+
 BOOST_AUTO_TEST_CASE(a_cell_without_a_result_fails_every_gate_that_selects_it) {
   for (const Status status : {Status::crashed, Status::timed_out, Status::invalid}) {
     GatedGrid run;
