@@ -54,9 +54,8 @@ std::string left_out_text(const GridRun& run) {
 }
 
 Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
-  std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
+  std::vector<Case> cases = overridden_cases(line, vocabulary_of(engines.infos()));
   if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
-  for (Case& definition : cases) override_run(definition, {line.dt, line.duration});
   if (line.quick) cases = quick_selection(cases, engines.infos());
   if (is_gate(line)) expect_gates(cases);
   if (is_gate(line) && line.duration)

@@ -30,8 +30,7 @@ SweepInput input_of(const CommandLine& line, const Vocabulary& words) {
         "rigor sweep: takes at least one --vary KEY=VALUES, as dt=1/1000..1/10:log:20, iterations=10,20,50 "
         "or scene.spring[0].stiffness=1e2..1e6:log:25");
   SweepInput input;
-  input.cases = chosen_cases(line, words);
-  for (Case& definition : input.cases) override_run(definition, {line.dt, line.duration});
+  input.cases = overridden_cases(line, words);
   input.runs = runs_asked_for(line, words.engines);
   for (const std::string& text : line.vary) input.axes.push_back(parse_axis(text, line.samples > 0));
   input.metrics = line.metrics, input.samples = line.samples, input.seed = line.seed;

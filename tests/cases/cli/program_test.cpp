@@ -219,6 +219,25 @@ BOOST_AUTO_TEST_CASE(gates_of_runs_that_were_not_named_are_left_out) {
   BOOST_TEST(beside.out.find("no gate judged air/stone") != std::string::npos, beside.out);
 }
 
+BOOST_AUTO_TEST_CASE(a_case_that_is_shorter_than_a_step_is_left_out_of_a_suite_and_refused_by_name) {
+  std::string text = test::text_with("1");
+  text.replace(text.find("duration = 1"), 12, "duration = 0.2");
+  folder.write("suite/air/short.toml", text);
+  const std::vector<std::string> step = {"--engine", "core:rk4", "--dt", "1/4", "--out", out};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), step.begin(), step.end());
+    return run(words);
+  };
+  const Answer whole = with({"run"});
+  BOOST_TEST(whole.code == 0, whole.err);
+  BOOST_TEST(whole.err.find("left out: air/short: a step of 1/4 s is longer than the run") != std::string::npos,
+             whole.err);
+  BOOST_TEST(whole.out.find("air/stone") != std::string::npos, whole.out);
+  BOOST_TEST(with({"run", "air/short", "air/stone"}).code == 2);
+  fs::remove(folder.path / "suite/air/stone.toml"), fs::remove(folder.path / "suite/air/strict.toml");
+  BOOST_TEST(with({"run"}).code == 2);
+}
+
 // Limits are of a case's own duration, and what is recorded was measured over it.
 BOOST_AUTO_TEST_CASE(a_gate_over_another_duration_says_so) {
   const Answer answer = run({"gate", "stone", "--engine", "core:rk4", "--duration", "0.5", "--out", out});
