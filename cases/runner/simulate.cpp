@@ -137,7 +137,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
   const auto is_reported = [&](long step) {
     return reactions_every > 0 && step >= 2 && (step - 2) % reactions_every == 0;
   };
-  if (reactions_every > 0) ask_for_reactions(*world);
+  ask_for_reactions(*world);  // always: to be asked may change an engine's roundings
   if (!is_timed) run.cpu_seconds = std::numeric_limits<double>::quiet_NaN();
   for (long n = 0;; ++n) {
     if (const auto body = body_not_finite(now.bodies())) {
