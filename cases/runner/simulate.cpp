@@ -203,8 +203,8 @@ double timed_again(const Engine& engine, const Settings& settings, const Scene& 
   const auto& samples = run.trajectory.samples;
   const long steps = samples.empty() ? 0 : std::lround(samples.back().time / run.trajectory.dt);
   if (steps == 0 || run.cpu_seconds > kLongStep * static_cast<double>(steps)) return run.cpu_seconds;
-  const double step = run.cpu_seconds / static_cast<double>(steps);
-  const long first = step * static_cast<double>(steps) > kEnough ? std::lround(std::ceil(kEnough / step)) : steps;
+  const double step = run.cpu_seconds / static_cast<double>(steps) + cost_of_reading_the_clock();
+  const long first = std::min(steps, static_cast<long>(std::ceil(kEnough / step)));
   StepClock clock{engine, settings, scene, run.trajectory.dt, first};
   double quickest = clock.without_pause(), spent = quickest;
   if (first == steps) {
