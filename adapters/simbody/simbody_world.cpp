@@ -13,6 +13,7 @@
 #include "core/engine/clock.h"
 #include "core/engine/engine_failure.h"
 #include "core/engine/option_values.h"
+#include "core/engine/spared_reactions.h"
 
 namespace rigor {
 namespace {
@@ -67,7 +68,7 @@ double largest_in(const SimTK::Vector& numbers) {  // infinite if one is not fin
   return largest;
 }
 
-class SimbodyWorld : public World, public ReportsReactions {
+class SimbodyWorld : public World, public ReportsReactions, public SparesReactions {
  public:
   SimbodyWorld(const Scene& scene, const Settings& settings)
       : system_(scene),
@@ -105,6 +106,7 @@ class SimbodyWorld : public World, public ReportsReactions {
   void ask_for_reactions() override {
     if (moves_) reactions_.emplace(system_);
   }
+  void report_reactions(bool are_read) override { are_read_ = are_read; }
   std::vector<ReportedReaction> reactions() const override;
 
   void read(Snapshot& out) const override {
@@ -121,6 +123,7 @@ class SimbodyWorld : public World, public ReportsReactions {
 
  private:
   void refuse_what_has_no_forces() const;
+  bool reports() const { return reactions_ && are_read_; }
   void note_start(double dt);
   void note_begin_of_part(double from, bool differs);
   void note_end_of_part(double from, double to, bool is_last);
@@ -135,6 +138,7 @@ class SimbodyWorld : public World, public ReportsReactions {
   IntegratorPointer integrator_;
   Clock clock_;
   std::optional<SimbodyReactions> reactions_;  // once asked
+  bool are_read_ = true;                       // in this step
   BodyTable start_;                            // of the step
   double dt_ = 0;                              // s, of the step
   SimbodyReactions::Instant begin_, mean_;     // of the part of the step; of the step so far
@@ -189,7 +193,7 @@ SimbodyReactions::Instant SimbodyWorld::reactions_now() const {
 
 void SimbodyWorld::note_start(double dt) {
   share_ = 0;
-  if (!reactions_ || lost_) return;
+  if (!reports() || lost_) return;
   dt_ = dt;
   start_.resize(system_.scene().bodies.size());
   system_.system().realize(integrator_->getState(), SimTK::Stage::Velocity);
@@ -199,13 +203,13 @@ void SimbodyWorld::note_start(double dt) {
 
 // What was carried at the end of the step before is what is carried now, unless the loads are others.
 void SimbodyWorld::note_begin_of_part(double from, bool differs) {
-  if (!reactions_) return;
+  if (!reports()) return;
   begin_ = differs || end_time_ != from ? reactions_now() : end_;
 }
 
 // At the step's end that is only worked out if somebody asks.
 void SimbodyWorld::note_end_of_part(double from, double to, bool is_last) {
-  if (!reactions_) return;
+  if (!reports()) return;
   const double share = (to - from) / dt_;
   if (!is_last) end_ = reactions_now(), end_time_ = to;
   for (std::size_t k = 0; k < mean_.size(); ++k) {

@@ -10,8 +10,12 @@ namespace {
 
 MetricResult measure_reaction(const JudgedRun& run, const ReactionPart& part) {
   if (const std::string why = why_reactions_are_unknown(run.scene); !why.empty()) return {{}, why};
+  if (!run.truth) return {{}, kNoTruth};
+  const std::size_t count = samples_within(run, kTruthNeededPosition);
+  std::vector<std::size_t> compared;
+  for (std::size_t n = 0; n < count; n += samples_between_reactions(count)) compared.push_back(n);
   JointReactions reactions(run.scene);
-  return largest_reaction_difference(run, part, 0, [&](std::size_t n) -> std::optional<ComparedReactions> {
+  return largest_reaction_difference(run, part, compared, [&](std::size_t n) -> std::optional<ComparedReactions> {
     const Sample& sample = run.trajectory.samples[n];
     const BodyColumns truth = run.truth->bodies[n].columns();
     const auto unique = reactions.unique_at(truth);

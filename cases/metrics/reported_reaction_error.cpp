@@ -2,6 +2,8 @@
 // reads from its feedback. An engine's is the mean over a step, for it holds velocities at the step's end; the truth's
 // is taken as the mean of those at the step's two ends, which is right to second order. Directions and what has no
 // value are those of reaction_error.cpp.
+#include <algorithm>
+
 #include "cases/metrics/measures/joints/joint_series.h"
 #include "cases/metrics/measures/joints/reaction_difference.h"
 
@@ -49,13 +51,21 @@ class ReportedReactions {
 MetricResult measure_reports(const JudgedRun& run, const ReactionPart& part) {
   if (const std::string why = why_reactions_are_unknown(run.scene); !why.empty()) return {{}, why};
   const std::vector<Sample>& samples = run.trajectory.samples;
-  if (samples.size() < 2 || samples.back().reactions.empty()) return {{}, "the engine does not say what joints carry"};
+  if (!run.truth) return {{}, kNoTruth};
+  const auto is_reported = [](const Sample& sample) { return !sample.reactions.empty(); };
+  if (samples.size() < 2 || std::none_of(samples.begin(), samples.end(), is_reported))
+    return {{}, "the engine does not say what joints carry"};
   constexpr double kOneStep = 1.5;
   if (samples[1].time > kOneStep * run.trajectory.dt) return {{}, "steps are not recorded one by one"};
   ReportedReactions reported(run);
   // Not in the first step: it begins with velocities of its own instant and not of the step before, so that an engine
   // that holds them at steps' ends carries nothing yet of what turning takes.
-  return largest_reaction_difference(run, part, 2, [&](std::size_t n) { return reported.at(n); });
+  const std::size_t count = samples_within(run, kTruthNeededPosition);
+  std::vector<std::size_t> compared;
+  for (std::size_t n = 2; n < count; ++n) {
+    if (is_reported(samples[n])) compared.push_back(n);
+  }
+  return largest_reaction_difference(run, part, compared, [&](std::size_t n) { return reported.at(n); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <set>
 
+#include "cases/metrics/measures/joints/reaction_difference.h"
 #include "cases/metrics/measures/measuring.h"
 #include "cases/runner/case_process.h"
 #include "cases/runner/ensemble.h"
@@ -47,6 +48,16 @@ bool is_asked_for(const std::set<std::string>& metrics, const Case& definition, 
   return std::any_of(only.begin(), only.end(), [&](const std::string& name) { return metrics.contains(name); });
 }
 
+const std::set<std::string> kOfReports = {"reported_reaction_error", "reported_reaction_torque_error"};
+
+// Steps from one whose reactions are asked for to the next, as far as the truth is good for; 0: none is.
+long steps_between_reports(const Case& definition, double dt, const TruthFacts& facts, const GridOptions& options) {
+  const bool is_wanted = options.only_metrics.empty() || is_asked_for(kOfReports, definition, options);
+  if (!is_wanted || !why_reactions_are_unknown(definition.scene).empty()) return 0;
+  const long steps = steps_in(std::min(facts.horizon, definition.duration), dt);
+  return static_cast<long>(samples_between_reactions(static_cast<std::size_t>(steps) + 1));
+}
+
 // Their series over time come out apart: no result keeps them.
 std::map<std::string, MetricValue> measured(const JudgedRun& run, const RunName& name, const Case& definition,
                                             const GridOptions& options, std::vector<NamedSeries>& series) {
@@ -84,7 +95,9 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   const Engine& engine = find_engine(engines, run_name.engine);
   const double leapfrog_stagger = method_of(engines.info_of(run_name.engine), run_name.settings).leapfrog_stagger;
   const bool is_timed = is_asked_for({"cost"}, definition, options);
-  const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed);
+  const long reactions_every = truth ? steps_between_reports(definition, cell.dt.seconds, facts, options) : 0;
+  const Simulation run =
+      simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed, reactions_every);
   if (!truth) check_start(run, scene);
   cell.settings = run.settings;
   cell.reduced_order = run.reduced_order;

@@ -12,6 +12,7 @@
 #include "core/dynamics/model/system.h"
 #include "core/engine/engine_failure.h"
 #include "core/engine/remote.h"
+#include "core/engine/spared_reactions.h"
 
 namespace rigor {
 namespace {
@@ -39,6 +40,14 @@ double cost_of_reading_the_clock() {
     return costs[kPairs / 2];
   }();
   return cost;
+}
+
+// CPU seconds of one step, read on the clock before and after it.
+template <typename Step>
+double seconds_of_step(const World& world, const Step& step) {
+  const double begin = cpu_seconds_so_far(world);
+  step();
+  return std::max(0.0, cpu_seconds_so_far(world) - begin - cost_of_reading_the_clock());
 }
 
 // Whether it can an engine says when it is given the scene, or the step. Said of a later step it would leave out of
@@ -70,6 +79,36 @@ long steps_per_sample(long steps, BodyColumns bodies, std::size_t joints) {
   return std::max(1L, static_cast<long>(std::ceil(bytes * static_cast<double>(steps) / kLargestTrajectory)));
 }
 
+// CPU seconds of a world's first steps, from its start.
+struct StepClock {
+  const Engine& engine;
+  const Settings& settings;
+  const Scene& scene;
+  double dt;
+  long steps;
+
+  double without_pause() const {
+    const std::unique_ptr<World> world = engine.load(scene, settings);
+    expect_steps(*world, dt, steps, steps);
+    const double begin = cpu_seconds_so_far(*world);
+    for (long n = 0; n < steps; ++n) world->step(dt);
+    return cpu_seconds_so_far(*world) - begin;
+  }
+
+  // As simulate() does it.
+  double step_by_step() const {
+    const std::unique_ptr<World> world = engine.load(scene, settings);
+    expect_steps(*world, dt, steps, 1);
+    Snapshot now;
+    double sum = 0;
+    for (long n = 0; n < steps; ++n) {
+      sum += seconds_of_step(*world, [&] { world->step(dt); });
+      world->read(now);
+    }
+    return sum;
+  }
+};
+
 }  // namespace
 
 std::optional<int> body_not_finite(BodyColumns bodies) {
@@ -83,7 +122,7 @@ std::optional<int> body_not_finite(BodyColumns bodies) {
 }
 
 Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
-                    std::optional<long> steps_per_sample_told, bool is_timed) {
+                    std::optional<long> steps_per_sample_told, bool is_timed, long reactions_every) {
   const std::unique_ptr<World> world = engine.load(scene, settings);
   Simulation run;
   run.trajectory.dt = dt;
@@ -95,7 +134,10 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
              every = steps_per_sample_told.value_or(steps_per_sample(steps, now.bodies(), scene.joints.size()));
   run.steps_per_sample = every;
   expect_steps(*world, dt, steps, 1);  // each is looked at
-  ask_for_reactions(*world);
+  const auto is_reported = [&](long step) {
+    return reactions_every > 0 && step >= 2 && (step - 2) % reactions_every == 0;
+  };
+  ask_for_reactions(*world);  // always: to be asked may change an engine's roundings
   if (!is_timed) run.cpu_seconds = std::numeric_limits<double>::quiet_NaN();
   for (long n = 0;; ++n) {
     if (const auto body = body_not_finite(now.bodies())) {
@@ -105,15 +147,20 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     }
     check_orientations(now.bodies(), scene, now.time);
     if (n % every == 0 || n == steps)
-      run.trajectory.samples.push_back({now.time, BodyTable(now.bodies()), reported_reactions(*world)});
+      run.trajectory.samples.push_back({now.time, BodyTable(now.bodies()),
+                                        is_reported(n) ? reported_reactions(*world) : std::vector<ReportedReaction>()});
     if (n == steps) {
       run.settings = world->settings_in_force();  // some say what the run has made of them
       run.reduced_order = reduced_order_of(*world);
       return run;
     }
-    const double begin = is_timed ? cpu_seconds_so_far(*world) : 0;
-    step_as_agreed(*world, dt, n);
-    if (is_timed) run.cpu_seconds += std::max(0.0, cpu_seconds_so_far(*world) - begin - cost_of_reading_the_clock());
+    report_reactions(*world, is_reported(n + 1));
+    const auto step = [&] { step_as_agreed(*world, dt, n); };
+    if (is_timed) {
+      run.cpu_seconds += seconds_of_step(*world, step);
+    } else {
+      step();
+    }
     world->read(now);
     if (run.solver_warning.empty()) {
       run.solver_warning = world->solver_warning();
@@ -152,24 +199,25 @@ void check_start(const Simulation& run, const Scene& scene) {
 
 double timed_again(const Engine& engine, const Settings& settings, const Scene& scene, const Simulation& run) {
   constexpr double kLongStep = 20e-6, kEnough = 4e-3;  // s; a hundred times what the clock costs; of timing in all
-  constexpr double kLongRun = 1;                       // s: so long a run is not repeated for its clock's share
   constexpr int kMost = 100;                           // repeats
-  const double dt = run.trajectory.dt;
   const auto& samples = run.trajectory.samples;
-  const long steps = samples.empty() ? 0 : std::lround(samples.back().time / dt);
-  if (steps == 0 || run.cpu_seconds > std::min(kLongRun, kLongStep * static_cast<double>(steps)))
-    return run.cpu_seconds;
-  double quickest = run.cpu_seconds, spent = 0;
-  for (int repeat = 0; repeat < kMost && spent < kEnough; ++repeat) {
-    const std::unique_ptr<World> world = engine.load(scene, settings);
-    expect_steps(*world, dt, steps, steps);
-    const double begin = cpu_seconds_so_far(*world);
-    for (long n = 0; n < steps; ++n) world->step(dt);
-    const double seconds = cpu_seconds_so_far(*world) - begin;
-    quickest = repeat == 0 ? seconds : std::min(quickest, seconds);
-    spent += seconds;
+  const long steps = samples.empty() ? 0 : std::lround(samples.back().time / run.trajectory.dt);
+  if (steps == 0 || run.cpu_seconds > kLongStep * static_cast<double>(steps)) return run.cpu_seconds;
+  const double step = run.cpu_seconds / static_cast<double>(steps) + cost_of_reading_the_clock();
+  const long first = std::min(steps, static_cast<long>(std::ceil(kEnough / step)));
+  StepClock clock{engine, settings, scene, run.trajectory.dt, first};
+  double quickest = clock.without_pause(), spent = quickest;
+  if (first == steps) {
+    for (int repeat = 1; repeat < kMost && spent < kEnough; ++repeat) {
+      const double seconds = clock.without_pause();
+      quickest = std::min(quickest, seconds), spent += seconds;
+    }
+    return quickest;
   }
-  return quickest;
+  quickest = std::min(quickest, clock.without_pause());
+  const double each = std::min(clock.step_by_step(), clock.step_by_step());
+  const double of_clock = std::max(0.0, each - quickest) / static_cast<double>(first);
+  return std::max(quickest, run.cpu_seconds - of_clock * static_cast<double>(steps));
 }
 
 }  // namespace rigor

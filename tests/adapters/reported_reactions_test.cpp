@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "core/engine/run_name.h"
+#include "core/engine/spared_reactions.h"
 #include "tests/adapters/ode/jointed_scenes.h"
 #include "tests/adapters/seam_runs.h"
 
@@ -115,6 +116,31 @@ BOOST_AUTO_TEST_CASE(an_engine_that_is_asked_moves_as_if_it_were_not) {
         // ODE adds up what a joint does to its two bodies in another order.
         const double apart = (a.position - b.position).norm() + (a.velocity - b.velocity).norm();
         BOOST_TEST(apart < 1e-10, jointed.name << ", " << engine << ": " << apart);
+      }
+    }
+  }
+}
+
+// An engine that is spared its report in some steps says in the others what it says of each.
+BOOST_AUTO_TEST_CASE(a_report_does_not_hang_on_whether_others_were_asked_for) {
+  for (const test::JointedScene& jointed : test::jointed_scenes()) {
+    for (const auto& [engine, within] : reporting()) {
+      const RunName run = parse_run_name(engine, engines().infos());
+      if (!why_unsupported(find_engine(engines(), run.engine).info(), run.settings, jointed.scene, kStep).empty())
+        continue;
+      const auto each = load_named(engine, jointed.scene), some = load_named(engine, jointed.scene);
+      ask_for_reactions(*each), ask_for_reactions(*some);
+      for (int n = 1; n <= 12; ++n) {
+        const bool is_read = n == 2 || n == 7 || n == 8;
+        report_reactions(*some, is_read);
+        each->step(kStep), some->step(kStep);
+        const auto all = reported_reactions(*each), here = reported_reactions(*some);
+        if (!is_read) continue;
+        BOOST_REQUIRE_EQUAL(here.size(), all.size());
+        for (std::size_t k = 0; k < all.size(); ++k) {
+          BOOST_TEST(here[k].force == all[k].force, jointed.name << ", " << engine << " at step " << n);
+          BOOST_TEST(here[k].torque == all[k].torque, jointed.name << ", " << engine << " at step " << n);
+        }
       }
     }
   }

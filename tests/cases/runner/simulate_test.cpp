@@ -5,10 +5,47 @@
 #include <thread>
 
 #include "core/engine/engine_failure.h"
+#include "core/engine/spared_reactions.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/scripted_engine.h"
 
 using namespace rigor;
+
+namespace {
+
+// A world that notes the steps of which what its joints carry is to be reported.
+class SparedWorld : public test::ScriptedWorld, public ReportsReactions, public SparesReactions {
+ public:
+  SparedWorld(const test::Script& script, const Scene& scene, std::vector<int>& reported)
+      : ScriptedWorld(script, scene), reported_(reported) {}
+  void step(double dt) override {
+    ScriptedWorld::step(dt);
+    ++steps_;
+    if (are_read_) reported_.push_back(steps_);
+  }
+  void ask_for_reactions() override {}
+  void report_reactions(bool are_read) override { are_read_ = are_read; }
+  std::vector<ReportedReaction> reactions() const override { return {{0, Vec3::Constant(steps_), Vec3::Zero()}}; }
+
+ private:
+  std::vector<int>& reported_;
+  int steps_ = 0;
+  bool are_read_ = true;
+};
+
+class SparedEngine : public test::ScriptedEngine {
+ public:
+  SparedEngine() : ScriptedEngine({}) {}
+  std::unique_ptr<World> load(const Scene& scene, const Settings&) const override {
+    return std::make_unique<SparedWorld>(script_, scene, reported);
+  }
+  mutable std::vector<int> reported;
+
+ private:
+  test::Script script_;
+};
+
+}  // namespace
 
 BOOST_AUTO_TEST_SUITE(cases_runner_simulate)
 
@@ -130,6 +167,21 @@ BOOST_AUTO_TEST_CASE(the_time_of_every_thread_is_counted) {
   BOOST_TEST(counted >= 0.99 * spent);  // the clock's readings, microseconds a step, are taken off
 }
 
+BOOST_AUTO_TEST_CASE(reactions_are_asked_for_where_they_are_read_and_nowhere_else) {
+  const SparedEngine engine;
+  const Simulation run = simulate(engine, {}, test::tumbling_body(), 0.1, 1, {}, true, 3);
+  BOOST_TEST((engine.reported == std::vector<int>{2, 5, 8}));
+  for (std::size_t n = 0; n < run.trajectory.samples.size(); ++n) {
+    const auto& reactions = run.trajectory.samples[n].reactions;
+    BOOST_REQUIRE_EQUAL(reactions.size(), n == 2 || n == 5 || n == 8 ? 1u : 0u);
+    if (!reactions.empty()) BOOST_TEST(reactions[0].force.x() == static_cast<double>(n));
+  }
+  engine.reported.clear();
+  for (const Sample& sample : simulate(engine, {}, test::tumbling_body(), 0.1, 1).trajectory.samples)
+    BOOST_TEST(sample.reactions.empty());
+  BOOST_TEST(engine.reported.empty());
+}
+
 BOOST_AUTO_TEST_CASE(short_steps_are_timed_again_without_a_pause_and_long_ones_are_not) {
   int steps = 0;
   bool is_long = false;
@@ -148,6 +200,15 @@ BOOST_AUTO_TEST_CASE(short_steps_are_timed_again_without_a_pause_and_long_ones_a
   BOOST_TEST(steps % 100 == 0);
   BOOST_TEST(steps >= 300);  // 100 steps of nothing are repeated, up to a hundred times
   BOOST_TEST(again < 100 * 20e-6);
+
+  // Of a run that takes longer only its first milliseconds are, twice in each way.
+  const Simulation whole = simulate(engine, {}, scene, 0.1, 100'000);
+  steps = 0;
+  const double corrected = timed_again(engine, {}, scene, whole);
+  BOOST_TEST(corrected > 0);
+  BOOST_TEST(corrected <= whole.cpu_seconds);
+  BOOST_TEST(steps > 0);
+  BOOST_TEST(steps < 500'000);
 
   is_long = true;
   const Simulation slow = simulate(engine, {}, scene, 0.1, 1);

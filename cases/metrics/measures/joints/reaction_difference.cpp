@@ -25,15 +25,17 @@ bool add_differences(const JudgedRun& run, const ReactionPart& part, double time
 
 }  // namespace
 
-MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPart& part, std::size_t first,
-                                         const CompareReactions& compare) {
-  if (!run.truth) return {{}, kNoTruth};
-  const std::size_t count = samples_within(run, kTruthNeededPosition);
-  if (count <= first) return {{}, kNoSamples};
+std::size_t samples_between_reactions(std::size_t samples) {
   constexpr std::size_t kInstants = 100;
+  return std::max<std::size_t>(1, samples / kInstants);
+}
+
+MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPart& part,
+                                         const std::vector<std::size_t>& samples, const CompareReactions& compare) {
+  if (samples.empty()) return {{}, kNoSamples};
   TimeSeries series;
   bool is_any = false;
-  for (std::size_t n = first; n < count; n += std::max<std::size_t>(1, count / kInstants)) {
+  for (const std::size_t n : samples) {
     const auto reactions = compare(n);
     if (reactions) is_any |= add_differences(run, part, run.trajectory.samples[n].time, *reactions, series);
   }

@@ -1,5 +1,5 @@
 // What the metrics of joints' reactions share: what joints carry, found in one way or another, held against the truth's
-// in the directions in which it is unique, at up to a hundred instants, evenly through the run: a reaction takes a
+// in the directions in which it is unique, at a hundred instants or so, evenly through the run: a reaction takes a
 // hundred times what a distance does.
 #pragma once
 
@@ -28,8 +28,11 @@ struct ComparedReactions {
 // At a sample, by its number; nothing where the equations of motion do not tell.
 using CompareReactions = std::function<std::optional<ComparedReactions>(std::size_t sample)>;
 
-// From the sample `first` on; with the reason where there is none.
-MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPart& part, std::size_t first,
-                                         const CompareReactions& compare);
+// From one sample compared to the next, of so many.
+std::size_t samples_between_reactions(std::size_t samples);
+
+// At the samples, by their numbers; with the reason where there is none.
+MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPart& part,
+                                         const std::vector<std::size_t>& samples, const CompareReactions& compare);
 
 }  // namespace rigor
