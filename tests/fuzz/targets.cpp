@@ -17,7 +17,7 @@
 #include "cases/results/history.h"
 #include "cases/results/result_json.h"
 #include "cases/results/spread.h"
-#include "cases/runner/journal.h"
+#include "cases/runner/journal/journal.h"
 #include "cases/truth/solved/solution_cache.h"
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
