@@ -11,7 +11,7 @@ using bullet::to_bullet;
 using bullet::to_rigor;
 
 constexpr bool kMaySleep = false;
-constexpr double kNoLimit = 1e30;
+constexpr double kUnlimited = 1e30;
 
 }  // namespace
 
@@ -42,10 +42,10 @@ void BulletMultibodyWorld::add_limits(const Scene& scene, bool matched) {
     if (!joint.has_limits()) continue;
     const Coordinate& at = coordinates_[k];
     make_findable(at);
-    const double low = std::max(at.sign > 0 ? joint.lower : -joint.upper, -kNoLimit),
-                 high = std::min(at.sign > 0 ? joint.upper : -joint.lower, kNoLimit);
+    const double low = std::max(at.sign > 0 ? joint.lower : -joint.upper, -kUnlimited),
+                 high = std::min(at.sign > 0 ? joint.upper : -joint.lower, kUnlimited);
     limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(at.tree, at.link, low, high));
-    if (matched) limits_.back()->setMaxAppliedImpulse(kNoLimit);
+    if (matched) limits_.back()->setMaxAppliedImpulse(kUnlimited);
     world_.addMultiBodyConstraint(limits_.back().get());
   }
 }
@@ -121,7 +121,7 @@ void BulletMultibodyWorld::add_tree(const Scene& scene, const bullet::Tree& tree
                            scene.joints[static_cast<std::size_t>(branch.joint)], ends_at_start(scene, branch));
   if (matched) {
     made.setLinearDamping(0), made.setAngularDamping(0);
-    made.setMaxCoordinateVelocity(kNoLimit);  // rad/s, m/s: as shipped a faster joint is held back
+    made.setMaxCoordinateVelocity(kUnlimited);  // rad/s, m/s: as shipped a faster joint is held back
   }
   world_.addMultiBody(&made);
 }
