@@ -24,6 +24,7 @@ inline Mat3 to_rigor(const btMatrix3x3& m) {
   for (int row = 0; row < 3; ++row) out.row(row) = to_rigor(m[row]);
   return out;
 }
+inline btQuaternion to_bullet(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 inline Quat to_rigor(const btQuaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 struct PrincipalFrame {

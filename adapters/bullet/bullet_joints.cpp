@@ -144,7 +144,7 @@ void Joints::enter(btDynamicsWorld& world) {
 }
 
 void Joints::ask_for_reactions() {
-  feedback_.assign(of_joint_.size(), {});
+  feedback_ = std::vector<btJointFeedback>(of_joint_.size());
   for (std::size_t k = 0; k < of_joint_.size(); ++k) of_joint_[k]->setJointFeedback(&feedback_[k]);
 }
 

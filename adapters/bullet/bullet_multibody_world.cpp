@@ -10,115 +10,8 @@ namespace {
 using bullet::to_bullet;
 using bullet::to_rigor;
 
-constexpr bool kMaySleep = false, kCollidesWithParent = false;
-constexpr double kNoLimit = 1e30;
-
-btQuaternion to_bullet(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
-
-// A frame at t = 0: of a body, principal; of the world, W.
-struct Frame {
-  Vec3 origin = Vec3::Zero();
-  Quat q = Quat::Identity();  // to W
-  Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
-
-  btVector3 seen(const Vec3& direction_W) const { return bullet::to_bullet(Vec3(q.conjugate() * direction_W)); }
-};
-
-// Of the world, and of a fixed body, W itself.
-Frame frame_at_start(const Scene& scene, int body, const Quat& q_WP) {
-  if (body == kWorld || scene.bodies[static_cast<std::size_t>(body)].fixed) return {};
-  const Body& of = scene.bodies[static_cast<std::size_t>(body)];
-  return {of.position, q_WP, of.velocity, of.angular_velocity};
-}
-
-// Where the joint's point is for both: its anchor, or the child's centre.
-struct PointOf {
-  const Frame& child;
-  Vec3 operator()(const BallJoint& joint) const { return joint.anchor; }
-  Vec3 operator()(const HingeJoint& joint) const { return joint.anchor; }
-  Vec3 operator()(const UniversalJoint& joint) const { return joint.anchor; }
-  template <typename Other>
-  Vec3 operator()(const Other&) const {
-    return child.origin;
-  }
-};
-
-// A universal joint's axes, exactly at right angles: the first fixed in the parent, the second in the child.
-struct UniversalAxes {
-  Vec3 first, second;  // unit, in W at t = 0
-};
-UniversalAxes axes_of(const UniversalJoint& joint, bool child_is_b) {
-  const Vec3 axis2 = (joint.axis2 - joint.axis2.dot(joint.axis) * joint.axis).normalized();
-  return child_is_b ? UniversalAxes{joint.axis, axis2} : UniversalAxes{axis2, joint.axis};
-}
-
-// Adds the links of one joint to a tree.
-struct AddLinks {
-  btMultiBody& tree;
-  int link, parent;  // Bullet's numbers
-  const Frame &child, &above;
-  double mass;        // kg
-  btVector3 moments;  // kg m²
-  bool child_is_b;
-  Vec3 point;  // in W
-
-  btQuaternion turn() const { return to_bullet(Quat(child.q.conjugate() * above.q)); }
-  btVector3 from_parent() const { return above.seen(point - above.origin); }
-  btVector3 to_child() const { return child.seen(child.origin - point); }
-
-  void operator()(const BallJoint&) const {
-    tree.setupSpherical(link, mass, moments, parent, turn(), from_parent(), to_child(), !kCollidesWithParent);
-  }
-  void operator()(const HingeJoint& joint) const {
-    tree.setupRevolute(link, mass, moments, parent, turn(), child.seen(joint.axis), from_parent(), to_child(),
-                       !kCollidesWithParent);
-  }
-  void operator()(const SliderJoint& joint) const {
-    tree.setupPrismatic(link, mass, moments, parent, turn(), child.seen(joint.axis), from_parent(), to_child(),
-                        !kCollidesWithParent);
-  }
-  void operator()(const FixedJoint&) const {
-    tree.setupFixed(link, mass, moments, parent, turn(), from_parent(), to_child(), !kCollidesWithParent);
-  }
-  void operator()(const UniversalJoint& joint) const {
-    const UniversalAxes axes = axes_of(joint, child_is_b);
-    const btVector3 nothing(0, 0, 0);
-    tree.setupRevolute(link, 0, nothing, parent, turn(), child.seen(axes.first), from_parent(), nothing,
-                       !kCollidesWithParent);
-    tree.setupRevolute(link + 1, mass, moments, link, btQuaternion::getIdentity(), child.seen(axes.second), nothing,
-                       to_child(), !kCollidesWithParent);
-  }
-  void operator()(const DistanceJoint&) const {}  // refused before
-};
-
-// Sets a joint's velocities from those of its ends in W.
-struct SetVelocities {
-  btMultiBody& tree;
-  int link;  // of the child
-  const Frame &child, &above;
-  bool child_is_b;
-
-  Vec3 turning() const { return child.angular_velocity - above.angular_velocity; }
-
-  void operator()(const BallJoint&) const {
-    const Vec3 rate = child.q.conjugate() * turning();
-    tree.setJointVelMultiDof(link, rate.data());
-  }
-  void operator()(const HingeJoint& joint) const { tree.setJointVel(link, joint.axis.dot(turning())); }
-  void operator()(const SliderJoint& joint) const {
-    const Vec3 carried = above.velocity + above.angular_velocity.cross(child.origin - above.origin);
-    tree.setJointVel(link, joint.axis.dot(child.velocity - carried));
-  }
-  void operator()(const UniversalJoint& joint) const {
-    const UniversalAxes axes = axes_of(joint, child_is_b);
-    tree.setJointVel(link - 1, axes.first.dot(turning()));
-    tree.setJointVel(link, axes.second.dot(turning()));
-  }
-  void operator()(const FixedJoint&) const {}
-  void operator()(const DistanceJoint&) const {}
-};
-
-int links_of(const Joint& joint) { return std::holds_alternative<UniversalJoint>(joint.type) ? 2 : 1; }
+constexpr bool kMaySleep = false;
+constexpr double kUnlimited = 1e30;
 
 }  // namespace
 
@@ -149,10 +42,10 @@ void BulletMultibodyWorld::add_limits(const Scene& scene, bool matched) {
     if (!joint.has_limits()) continue;
     const Coordinate& at = coordinates_[k];
     make_findable(at);
-    const double low = std::max(at.sign > 0 ? joint.lower : -joint.upper, -kNoLimit),
-                 high = std::min(at.sign > 0 ? joint.upper : -joint.lower, kNoLimit);
+    const double low = std::max(at.sign > 0 ? joint.lower : -joint.upper, -kUnlimited),
+                 high = std::min(at.sign > 0 ? joint.upper : -joint.lower, kUnlimited);
     limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(at.tree, at.link, low, high));
-    if (matched) limits_.back()->setMaxAppliedImpulse(kNoLimit);
+    if (matched) limits_.back()->setMaxAppliedImpulse(kUnlimited);
     world_.addMultiBodyConstraint(limits_.back().get());
   }
 }
@@ -198,7 +91,7 @@ BulletMultibodyWorld::~BulletMultibodyWorld() {
 void BulletMultibodyWorld::add_tree(const Scene& scene, const bullet::Tree& tree, bool matched) {
   int links = 0;
   for (const bullet::Branch& branch : tree.branches)
-    links += links_of(scene.joints[static_cast<std::size_t>(branch.joint)]);
+    links += bullet::links_of(scene.joints[static_cast<std::size_t>(branch.joint)]);
   const bool floats = tree.base != kWorld;
   const auto base = static_cast<std::size_t>(tree.base);
   const double mass = floats ? scene.bodies[base].mass : 0;
@@ -216,17 +109,19 @@ void BulletMultibodyWorld::add_tree(const Scene& scene, const bullet::Tree& tree
   int link = 0;
   for (const bullet::Branch& branch : tree.branches) {
     add_branch(scene, branch, made, link);
-    link += links_of(scene.joints[static_cast<std::size_t>(branch.joint)]);
+    link += bullet::links_of(scene.joints[static_cast<std::size_t>(branch.joint)]);
   }
   made.finalizeMultiDof();
   if (floats) {
     made.setBaseVel(to_bullet(scene.bodies[base].velocity));
     made.setBaseOmega(to_bullet(scene.bodies[base].angular_velocity));
   }
-  for (const bullet::Branch& branch : tree.branches) set_velocities(scene, branch, made);
+  for (const bullet::Branch& branch : tree.branches)
+    bullet::set_velocities(made, rows_[static_cast<std::size_t>(branch.body)].link,
+                           scene.joints[static_cast<std::size_t>(branch.joint)], ends_at_start(scene, branch));
   if (matched) {
     made.setLinearDamping(0), made.setAngularDamping(0);
-    made.setMaxCoordinateVelocity(kNoLimit);  // rad/s, m/s: as shipped a faster joint is held back
+    made.setMaxCoordinateVelocity(kUnlimited);  // rad/s, m/s: as shipped a faster joint is held back
   }
   world_.addMultiBody(&made);
 }
@@ -235,34 +130,27 @@ void BulletMultibodyWorld::add_branch(const Scene& scene, const bullet::Branch& 
                                       int first_link) {
   const Joint& joint = scene.joints[static_cast<std::size_t>(branch.joint)];
   Row& row = rows_[static_cast<std::size_t>(branch.body)];
-  row.tree = &tree, row.link = first_link + links_of(joint) - 1;
+  row.tree = &tree, row.link = first_link + bullet::links_of(joint) - 1;
   body_of_link_.back()[static_cast<std::size_t>(row.link) + 1] = branch.body;
   coordinates_[static_cast<std::size_t>(branch.joint)] = {&tree, row.link, joint.b == branch.body ? 1.0 : -1.0};
   hanging_.emplace_back(branch.joint, HangingJoint(scene, branch.joint, branch.body));
-  const bool on_world = branch.parent == kWorld;
-  const Row* above = on_world ? nullptr : &rows_[static_cast<std::size_t>(branch.parent)];
-  const Frame child = frame_at_start(scene, branch.body, row.q_WP_start),
-              parent = on_world ? Frame{} : frame_at_start(scene, branch.parent, above->q_WP_start);
-  const AddLinks add{.tree = tree,
-                     .link = first_link,
-                     .parent = on_world ? -1 : above->link,
-                     .child = child,
-                     .above = parent,
+  const int parent = branch.parent == kWorld ? -1 : rows_[static_cast<std::size_t>(branch.parent)].link;
+  bullet::add_links(tree, joint, ends_at_start(scene, branch),
+                    {.first = first_link,
+                     .parent = parent,
                      .mass = scene.bodies[static_cast<std::size_t>(branch.body)].mass,
-                     .moments = to_bullet(row.frame.moments),
-                     .child_is_b = joint.b == branch.body,
-                     .point = std::visit(PointOf{child}, joint.type)};
-  std::visit(add, joint.type);
+                     .moments = to_bullet(row.frame.moments)});
 }
 
-void BulletMultibodyWorld::set_velocities(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree) {
-  const Joint& joint = scene.joints[static_cast<std::size_t>(branch.joint)];
-  const Row& row = rows_[static_cast<std::size_t>(branch.body)];
-  const Frame child = frame_at_start(scene, branch.body, row.q_WP_start);
-  Frame parent;
-  if (branch.parent != kWorld)
-    parent = frame_at_start(scene, branch.parent, rows_[static_cast<std::size_t>(branch.parent)].q_WP_start);
-  std::visit(SetVelocities{tree, row.link, child, parent, joint.b == branch.body}, joint.type);
+bullet::JointEnds BulletMultibodyWorld::ends_at_start(const Scene& scene, const bullet::Branch& branch) const {
+  const auto frame = [&](int body) {
+    if (body == kWorld) return bullet::LinkFrame{};
+    return bullet::frame_at_start(scene.bodies[static_cast<std::size_t>(body)],
+                                  rows_[static_cast<std::size_t>(body)].q_WP_start);
+  };
+  return {.child = frame(branch.body),
+          .parent = frame(branch.parent),
+          .child_is_b = scene.joints[static_cast<std::size_t>(branch.joint)].b == branch.body};
 }
 
 void BulletMultibodyWorld::step(double dt) {

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "adapters/bullet/bullet_convert.h"
+#include "adapters/bullet/bullet_links.h"
 #include "adapters/bullet/bullet_tree.h"
 #include "adapters/external_loads.h"
 #include "adapters/hanging_joint.h"
@@ -64,7 +65,7 @@ class BulletMultibodyWorld : public World, public ReportsReactions {
 
   void add_tree(const Scene& scene, const bullet::Tree& tree, bool matched);
   void add_branch(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree, int first_link);
-  void set_velocities(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree);
+  bullet::JointEnds ends_at_start(const Scene& scene, const bullet::Branch& branch) const;
   void make_findable(const Coordinate& coordinate);
   void add_limits(const Scene& scene, bool matched);
   void add_motors(const Scene& scene);

@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <new>
 
 #include "adapters/mujoco/mujoco_library.h"
 #include "adapters/mujoco/mujoco_start.h"
@@ -26,21 +24,6 @@ Vec3 vector_at(const mjtNum* numbers, int row) {
 }
 Quat turn_at(const mjtNum* numbers, int row) {
   return Quat(numbers[4 * row], numbers[4 * row + 1], numbers[4 * row + 2], numbers[4 * row + 3]).normalized();
-}
-
-// "XML Error: ... Element 'geom', line 5, column -1", or of its compiler "id = 0, line = 5": the line goes where lines
-// go.
-[[noreturn]] void refuse(const std::string& path, std::string text) {
-  if (text.find("Could not allocate memory") != std::string::npos) throw std::bad_alloc();
-  constexpr const char* kLine = "line ";
-  const std::size_t at = text.find(kLine),
-                    first = at == std::string::npos ? at : text.find_first_not_of("= ", at + std::string(kLine).size());
-  const std::size_t end =
-      first == std::string::npos ? first : std::min(text.find_first_not_of("0123456789", first), text.size());
-  const std::string number = end == std::string::npos || end == first ? "1" : text.substr(first, end - first);
-  for (char& c : text) c = c == '\n' ? ' ' : c;
-  throw InputError(
-      fmt::format("{}:{}: MuJoCo refuses the model: {}", path, number, text.substr(0, text.find_last_not_of(' ') + 1)));
 }
 
 class Importer {
@@ -162,8 +145,12 @@ class Importer {
                  "is the inertia of a drive's rotor, which a scene does not have");
     leave_out_if(m_.dof_frictionloss[dof] != 0, where, "frictionloss",
                  "is dry friction in a joint, which a scene does not have");
-    if (has_coordinate) return;
-    leave_out_if(m_.dof_damping[dof] != 0, where, "damping", kOfTwo);
+    if (!has_coordinate) leave_out_springs(joint);
+  }
+
+  void leave_out_springs(int joint) {
+    const std::string where = at("joint", mjOBJ_JOINT, joint);
+    leave_out_if(m_.dof_damping[m_.jnt_dofadr[joint]] != 0, where, "damping", kOfTwo);
     leave_out_if(m_.jnt_stiffness[joint] != 0, where, "stiffness", kOfTwo);
     leave_out_if(m_.jnt_limited[joint], where, "range", kOfTwo);
   }
@@ -192,12 +179,7 @@ class Importer {
     constexpr double kRight = 1e-9, kIndependent = 1e-3;
     if (count == 2 && std::abs(axis.dot(axis2)) > kRight) return false;
     if (count == 3 && std::abs(axis.cross(axis2).dot(axis_of(first + 2))) < kIndependent) return false;
-    for (int k = first; k < first + count; ++k) {
-      const std::string where = at("joint", mjOBJ_JOINT, k);
-      leave_out_if(m_.dof_damping[m_.jnt_dofadr[k]] != 0, where, "damping", kOfTwo);
-      leave_out_if(m_.jnt_stiffness[k] != 0, where, "stiffness", kOfTwo);
-      leave_out_if(m_.jnt_limited[k], where, "range", kOfTwo);
-    }
+    for (int k = first; k < first + count; ++k) leave_out_springs(k);
     if (count == 2) row.joint.type = UniversalJoint{anchor_of(first), axis, axis2};
     if (count == 3) row.joint.type = BallJoint{anchor_of(first)};
     return true;
@@ -338,17 +320,7 @@ class Importer {
 }  // namespace
 
 LinkModel read_with_mujoco(const std::string& path, const std::string& keyframe) {
-  mujoco_library::start();
-  std::array<char, 1000> error{};
-  mujoco_library::Model model;
-  try {
-    model.reset(mj_loadXML(path.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::runtime_error& failure) {  // thrown by the handler of its errors
-    refuse(path, failure.what());
-  }
-  if (!model) refuse(path, error.data());
+  const mujoco_library::Model model = mujoco_library::read_file(path);
   take_switches(*model);
   const mujoco_library::Data start = mujoco_start(*model, path, keyframe);
   LinkModel read = Importer(path, *model, *start).read();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 #include <mutex>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -41,6 +42,21 @@ class Files {
   std::unique_ptr<mjVFS> vfs_;
 };
 
+// "XML Error: ... Element 'geom', line 5, column -1", or of its compiler "id = 0, line = 5": the line goes where lines
+// go.
+[[noreturn]] void refuse(const std::string& path, std::string text) {
+  if (text.find("Could not allocate memory") != std::string::npos) throw std::bad_alloc();
+  constexpr const char* kLine = "line ";
+  const std::size_t at = text.find(kLine),
+                    first = at == std::string::npos ? at : text.find_first_not_of("= ", at + std::string(kLine).size());
+  const std::size_t end =
+      first == std::string::npos ? first : std::min(text.find_first_not_of("0123456789", first), text.size());
+  const std::string number = end == std::string::npos || end == first ? "1" : text.substr(first, end - first);
+  for (char& c : text) c = c == '\n' ? ' ' : c;
+  throw InputError(
+      fmt::format("{}:{}: MuJoCo refuses the model: {}", path, number, text.substr(0, text.find_last_not_of(' ') + 1)));
+}
+
 }  // namespace
 
 void start() {
@@ -57,6 +73,21 @@ Model compile(const std::string& mjcf) {
   std::array<char, 1000> error{};
   Model model(mj_loadXML(kName, files.get(), error.data(), static_cast<int>(error.size())));
   if (!model) throw InputError(fmt::format("MuJoCo refuses the scene: {}", error.data()));
+  return model;
+}
+
+Model read_file(const std::string& path) {
+  start();
+  std::array<char, 1000> error{};
+  Model model;
+  try {
+    model.reset(mj_loadXML(path.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& failure) {  // thrown by the handler of its errors
+    refuse(path, failure.what());
+  }
+  if (!model) refuse(path, error.data());
   return model;
 }
 

@@ -25,5 +25,7 @@ std::string take_warnings();  // of this thread since the last call; empty if no
 
 // Compiles MJCF; throws InputError with MuJoCo's own words.
 Model compile(const std::string& mjcf);
+// The same of a file, with its path and line.
+Model read_file(const std::string& path);
 
 }  // namespace rigor::mujoco_library

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "adapters/plugin/in_quotes.h"
+#include "core/base/json.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::json;
 
 std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -59,7 +57,7 @@ void refuse_answer(const Asked& asked, const std::string& fault) {
 Json parsed_answer(const std::string& line, const Asked& asked) {
   Json answer;
   try {
-    answer = Json::parse(line);
+    answer = parse_json(line);
   } catch (const Json::exception&) {
     refuse_answer(asked, fmt::format("the line {} is not JSON", in_quotes(line)));
   }

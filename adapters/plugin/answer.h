@@ -1,10 +1,10 @@
 // One answer of an engine from outside, read strictly: what is not one is an EngineFailure that quotes it.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
+#include "core/base/json_fwd.h"
 #include "core/engine/body_table.h"
 #include "core/engine/engine_failure.h"
 
@@ -29,13 +29,13 @@ struct Asked {
 
 // The object in the line, if it says "ok": true. Throws EngineFailure: unsupported, diverged (EngineDiverged) or
 // crashed, as the engine says; invalid for a line that is not an answer to what was asked.
-nlohmann::json parsed_answer(const std::string& line, const Asked& asked);
+Json parsed_answer(const std::string& line, const Asked& asked);
 
 // Of "bodies": a row of thirteen finite numbers for each. Throws EngineFailure (invalid) for anything else.
-void read_bodies(const nlohmann::json& answer, const Asked& asked, MutableBodyColumns into);
+void read_bodies(const Json& answer, const Asked& asked, MutableBodyColumns into);
 
 // Of "time" [s]: what it should be after so many steps, but for roundings of a clock in single precision.
-void check_time(const nlohmann::json& answer, const Asked& asked, double due, double dt);
+void check_time(const Json& answer, const Asked& asked, double due, double dt);
 
 bool is_time(double time, double due, double dt);
 void check_time(double time, const Asked& asked, double due, double dt);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "adapters/option_values.h"
@@ -15,6 +14,7 @@
 #include "adapters/plugin/memory_limit.h"
 #include "adapters/plugin/rigor_loads.h"
 #include "adapters/plugin/shared_library.h"
+#include "core/base/json.h"
 #include "core/engine/clock.h"
 #include "core/scene/toml/scene_writer.h"
 
@@ -139,7 +139,7 @@ class LibraryWorld : public World {
   }
 
   void take_settings() {
-    const nlohmann::json told = nlohmann::json::parse(room_.data(), nullptr, false);
+    const Json told = parse_json_or_discard(room_.data());
     if (told.is_object()) {
       for (const auto& [name, value] : told.items())
         in_force_.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "adapters/plugin/answer.h"
 #include "adapters/plugin/in_quotes.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::json;
 
 // A table of the info, and the name by which messages call it: "methods[0]".
 class InfoTable {
@@ -206,9 +204,9 @@ Scene loads_left_to_rigor(Scene scene, const PluginInfo& info) {
 }
 
 std::string settings_json(const PluginInfo& info, const Settings& settings) {
-  nlohmann::ordered_json json = {{"method", settings.method},
-                                 {"track", settings.track == Track::matched ? "matched" : "stock"},
-                                 {"options", nlohmann::ordered_json::object()}};
+  Json json = {{"method", settings.method},
+               {"track", settings.track == Track::matched ? "matched" : "stock"},
+               {"options", Json::object()}};
   for (const OptionInfo& option : method_of(info.engine, settings).options) {
     const auto value = settings.options.find(option.name);
     if (value == settings.options.end()) continue;

@@ -4,16 +4,14 @@
 
 #include <bit>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "adapters/plugin/answer.h"
 #include "adapters/plugin/in_quotes.h"
+#include "core/base/json.h"
 #include "core/scene/toml/scene_writer.h"
 
 namespace rigor {
 namespace {
-
-using Json = nlohmann::json;
 
 static_assert(std::endian::native == std::endian::little, "columns of doubles are read as they come");
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "adapters/plugin/answer.h"
 #include "adapters/plugin/child_process.h"
 #include "adapters/plugin/plugin_info.h"
+#include "core/base/json_fwd.h"
 
 namespace rigor {
 
@@ -39,11 +39,11 @@ class ProcessSession {
   const std::string& warning() const { return warning_; }
 
  private:
-  nlohmann::json ask(const std::string& line, const std::string& call, std::size_t longest, int world = 0);
+  Json ask(const std::string& line, const std::string& call, std::size_t longest, int world = 0);
   // Reads an answer's parts; where that fails the conversation is out of step.
   template <typename Read>
   void checked(const Read& read);
-  void keep_warning(const nlohmann::json& answer);
+  void keep_warning(const Json& answer);
   void receive_raw(const Asked& asked, std::size_t bodies);
   void copy_raw(const Asked& asked, std::size_t n, MutableBodyColumns into) const;
 

@@ -20,6 +20,7 @@
 #include "cases/report/reports.h"
 #include "cases/runner/build_identity.h"
 #include "core/base/error.h"
+#include "core/base/near_match.h"
 
 namespace rigor {
 namespace {

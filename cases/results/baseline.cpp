@@ -115,16 +115,29 @@ void check_schema(const Json& json) {
     throw InputError(fmt::format("its schema is {}; allowed: {} to {}", schema, kOldestSchema, kSchema));
 }
 
+// By case, where a long result says it once.
+std::map<std::string, std::set<std::string>> metrics_not_measured(const Json& cases) {
+  std::map<std::string, std::set<std::string>> found;
+  for (const Json& one : cases) {
+    if (one.contains("not_measured")) found[text_at(one, "id")] = one.at("not_measured").get<std::set<std::string>>();
+  }
+  return found;
+}
+
 Baseline from_json(const Json& json) {
   check_schema(json);
   Baseline out;
+  const auto not_measured = metrics_not_measured(json.at("cases"));
   std::map<std::string, std::set<std::string>> settings;
   std::size_t index = 0;
   for (const Json& cell : json.at("cells")) {
     const std::string engine = text_at(cell, "engine"), place = fmt::format("cells[{}]", index++);
     const std::string key = joined({text_at(cell, "case"), engine, text_at(cell, "dt")});
-    if (!out.cells.emplace(key, cell_from(cell, place)).second)
-      throw InputError(fmt::format("{}: is there twice: {}", place, key));
+    const auto [made, is_new] = out.cells.emplace(key, cell_from(cell, place));
+    if (!is_new) throw InputError(fmt::format("{}: is there twice: {}", place, key));
+    const auto unmeasured = not_measured.find(text_at(cell, "case"));
+    if (unmeasured != not_measured.end() && !cell.at("metrics").empty())
+      made->second.not_asked.insert(unmeasured->second.begin(), unmeasured->second.end());
     for (const auto& [name, value] : cell.at("settings").items())
       settings[joined({engine, name})].insert(value.get<std::string>());
   }

@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "cases/results/result_json.h"
-#include "cases/runner/build_identity.h"
 #include "cases/runner/ensemble.h"
 #include "cases/runner/executor.h"
+#include "cases/runner/journal/case_journal.h"
 #include "cases/runner/shards/shard.h"
 #include "cases/runner/stable_step.h"
 #include "core/base/error.h"
@@ -272,58 +272,7 @@ std::size_t jobs_in(const CaseResult& planned) {
          std::count_if(planned.stable_steps.begin(), planned.stable_steps.end(), is_one);
 }
 
-// `share`: of the case; 0: all of it.
-std::string journal_of(std::size_t of_case, int share, const GridOptions& options) {
-  if (options.journals.empty()) return "";
-  return share == 0 ? fmt::format("{}/{}.journal", options.journals, of_case)
-                    : fmt::format("{}/{}.{}.journal", options.journals, of_case, share);
-}
-
-std::size_t index_of(const CaseResult& planned, const Results& grid) {
-  return static_cast<std::size_t>(&planned - grid.cases.data());
-}
-
 }  // namespace
-
-std::string plan_of(const Results& grid, const CaseResult& planned, const EngineTable& engines,
-                    const GridOptions& options) {
-  const Case& definition = planned.definition;
-  std::string plan = fmt::format("{}\n{}\n{}\n{:.17g} {} {} {}\n", build_identity(), definition.id, definition.text,
-                                 definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
-  for (const auto& recorder : options.recorders) plan += recorder->name() + "\n";
-  for (const RunName& run : grid.runs) plan += fmt::format("{} {}\n", run.text, engines.identity_of(run.engine));
-  for (const Gate& gate : definition.gates) plan += gate.metric + "\n";  // some metrics are measured for a gate alone
-  for (const Cell& cell : planned.cells)
-    plan += fmt::format("{} {:.17g} {} {}\n", cell.run, cell.dt.seconds, word_of(cell.status), cell.trajectory);
-  for (const StableStepResult& stable : planned.stable_steps) plan += word_of(stable.status) + "\n";
-  return plan;
-}
-
-std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned, const EngineTable& engines,
-                                          const GridOptions& options) {
-  const std::size_t index = index_of(planned, grid);
-  const Partition::OfCase shares = options.executor ? Partition(grid, kShares).cases()[index] : Partition::OfCase();
-  std::vector<Journal::Record> answers;
-  for (const int share : options.executor ? shares_in(shares) : std::vector<int>{0}) {
-    CaseResult own = planned;
-    if (share != 0) leave_to_others(own, shares, share);
-    const Journal journal(journal_of(index, share, options), plan_of(grid, own, engines, options));
-    for (const auto& [job, record] : journal.found()) {
-      if (job != Journal::kTruth) answers.push_back(record);
-    }
-  }
-  return answers;
-}
-
-PathsOfCells paths_in(const CaseResult& planned, const std::vector<Journal::Record>& answers) {
-  PathsOfCells paths;
-  CaseResult scratch = planned;
-  for (const Journal::Record& answer : answers) {
-    const MessageSubject subject = apply_message(scratch, answer.message);
-    if (!answer.path.empty()) paths[subject.index] = unpacked(answer.path);
-  }
-  return paths;
-}
 
 std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths) {
   std::vector<Spread> found;
@@ -339,40 +288,10 @@ std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& pa
   return found;
 }
 
-namespace {
-
-// Whether a cell came to nothing in an engine from outside: its files are not all known, nor what else was in its way,
-// so that another try may end otherwise. An engine of this program would do the same again.
-bool may_end_otherwise(const Cell& cell, const Results& grid, const EngineTable& engines) {
-  const bool came_to_nothing = cell.status == Status::crashed || cell.status == Status::timed_out;
-  return came_to_nothing && !engines.identity_of(grid.runs[cell.run].engine).empty();
-}
-
-// Not believed: what cannot be read, a cell whose trajectory is no longer there, and one that may end otherwise.
-void forget_what_is_wrong(Journal& journal, const Results& grid, const CaseResult& planned, const EngineTable& engines,
-                          const GridOptions& options) {
-  CaseResult scratch = planned;
-  journal.forget_if([&](const Journal::Record& record) {
-    try {
-      const MessageSubject subject = apply_message(scratch, record.message);
-      if (subject.part != MessageSubject::Part::cell) return false;
-      const Cell& cell = scratch.cells[subject.index];
-      if (may_end_otherwise(cell, grid, engines)) return true;
-      return std::any_of(options.recorders.begin(), options.recorders.end(),
-                         [&](const auto& recorder) { return !recorder->still_has(cell); });
-    } catch (const std::exception&) {
-      return true;
-    }
-  });
-}
-
-}  // namespace
-
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel) {
   const Case& definition = planned.definition;
-  Journal journal(journal_of(index_of(planned, grid), options.share, options),
-                  plan_of(grid, planned, engines, options));
+  Journal journal(journal_of(planned, grid, options.share, options), plan_of(grid, planned, engines, options));
   forget_what_is_wrong(journal, grid, planned, engines, options);
   const auto known_truth = journal.found().find(Journal::kTruth);
   const bool is_done = known_truth != journal.found().end() && journal.found().size() == 1 + jobs_in(planned);

@@ -2,10 +2,8 @@
 // own, which inherits the truth. Results go to the grid's process as messages (cases/results/result_json.h).
 #pragma once
 
-#include <map>
-
 #include "cases/runner/grid.h"
-#include "cases/runner/journal.h"
+#include "cases/runner/journal/case_journal.h"
 #include "cases/runner/process_pool.h"
 #include "cases/runner/truth_samples.h"
 
@@ -29,18 +27,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
 // `truth` may be null.
 TruthFacts facts_of(const Case& definition, const Truth* truth);
 
-// All that the case's results depend on: another program, too, makes other results.
-std::string plan_of(const Results& grid, const CaseResult& planned, const EngineTable& engines,
-                    const GridOptions& options);
-
-// What the cells and stable steps of a case that has run have left in its journals; those that failed left nothing.
-// `grid` as it was planned.
-std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned, const EngineTable& engines,
-                                          const GridOptions& options);
-
 // Of every pair of runs at the same dt that both left a path.
-using PathsOfCells = std::map<std::size_t, Path>;  // by index of the cell
-PathsOfCells paths_in(const CaseResult& planned, const std::vector<Journal::Record>& answers);
 std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths);
 
 }  // namespace rigor

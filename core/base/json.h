@@ -1,5 +1,5 @@
-// JSON by nlohmann's library, of which each reader and writer takes a compiler seconds: they are compiled in json.cpp,
-// for all.
+// JSON by nlohmann's library, of which each reader and writer takes a compiler seconds: what all use of it is compiled
+// in json.cpp, once.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,10 @@
 
 #include "core/base/json_fwd.h"
 
-extern template class nlohmann::basic_json<nlohmann::ordered_map>;
+extern template nlohmann::basic_json<nlohmann::ordered_map>::basic_json(const basic_json&);
+extern template nlohmann::basic_json<nlohmann::ordered_map>::basic_json(initializer_list_t, bool, value_t);
+extern template void nlohmann::basic_json<nlohmann::ordered_map>::json_value::destroy(value_t);
+extern template std::string nlohmann::basic_json<nlohmann::ordered_map>::dump(int, char, bool, error_handler_t) const;
 
 namespace rigor {
 

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "adapters/plugin/answer.h"
 #include "adapters/plugin/plugin_info.h"
@@ -17,10 +16,11 @@
 #include "cases/results/history.h"
 #include "cases/results/result_json.h"
 #include "cases/results/spread.h"
-#include "cases/runner/journal.h"
+#include "cases/runner/journal/journal.h"
 #include "cases/truth/solved/solution_cache.h"
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 #include "tests/cases/vocabulary.h"
 
 namespace rigor::fuzz {
@@ -122,7 +122,7 @@ void read_plugin(const std::string& bytes) {
   read_or_refuse([&] { read_plugin_info(bytes, "fuzzed"); });
   try {
     const Asked asked{"fuzzed", "read", 1};
-    const nlohmann::json answer = parsed_answer(bytes, asked);
+    const Json answer = parsed_answer(bytes, asked);
     BodyTable bodies(2);
     check_time(answer, asked, 1, 0.5);
     read_bodies(answer, asked, bodies.columns());

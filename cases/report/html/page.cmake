@@ -1,4 +1,4 @@
-# Builds the page of report.html into rigor_light, a part of cases. npm installs what package-lock.json names into the build tree, once;
+# Builds the page of report.html into rigor_cases_light, a part of cases. npm installs what package-lock.json names into the build tree, once;
 # esbuild bundles it with page/src; the outcome is a C++ source. Nothing of it is needed when Rigor runs.
 set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/../reports.cpp PROPERTIES
   COMPILE_DEFINITIONS RIGOR_HTML_REPORT=$<BOOL:${RIGOR_HTML_REPORT}>)
@@ -8,9 +8,9 @@ file(MAKE_DIRECTORY ${page_build})
 set(RIGOR_PAGE_MODULES ${page_build}/node_modules)
 
 if(NOT RIGOR_HTML_REPORT)
-  get_target_property(sources rigor_light SOURCES)
+  get_target_property(sources rigor_cases_light SOURCES)
   list(FILTER sources EXCLUDE REGEX "/html_report\\.cpp$")
-  set_target_properties(rigor_light PROPERTIES SOURCES "${sources}")
+  set_target_properties(rigor_cases_light PROPERTIES SOURCES "${sources}")
   return()
 endif()
 
@@ -34,6 +34,6 @@ add_custom_command(OUTPUT ${page_build}/page_bundle.cpp
   COMMAND ${RIGOR_NODE} ${page}/build.mjs ${RIGOR_PAGE_MODULES} ${page_build}/page_bundle.cpp
   DEPENDS ${page_build}/installed ${page}/build.mjs ${page_sources}
   COMMENT "Bundling the report's page" VERBATIM)
-target_sources(rigor_light PRIVATE ${page_build}/page_bundle.cpp)
+target_sources(rigor_cases_light PRIVATE ${page_build}/page_bundle.cpp)
 # The whole page is one string literal, of which clang says that other compilers need not take it.
 set_source_files_properties(${page_build}/page_bundle.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)

@@ -1,6 +1,7 @@
 #include "cases/report/json/leave_out_details.h"
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "cases/results/result_json.h"
@@ -22,9 +23,50 @@ void keep_values(Json& metrics) {
   metrics = kept;
 }
 
-void drop_text_of_held(Json& answers) {
+// What a gate that held says of one cell is its metric's value, which stands with the cell.
+void shorten_answers(Json& answers) {
   for (Json& answer : answers) {
-    if (answer.at("answer") == "held") answer.erase("text");
+    if (answer.at("caveat") == "") answer.erase("caveat");
+    if (answer.at("answer") != "held") continue;
+    answer.erase("text");
+    if (answer.at("dt") != "") answer.erase("value");
+  }
+}
+
+// A gate asks one thing or two of seven.
+Json without_nulls(const Json& gate) {
+  Json kept = Json::object();
+  for (const auto& [key, value] : gate.items()) {
+    if (!value.is_null()) kept[key] = value;
+  }
+  return kept;
+}
+
+// By case: the metrics that were measured in none of its cells, for nobody asked for them.
+std::map<std::string, std::set<std::string>> unmeasured_in(const Json& cells) {
+  std::map<std::string, std::set<std::string>> found;
+  for (const Json& cell : cells) {
+    std::set<std::string> own;
+    for (const auto& [name, metric] : cell.at("metrics").items()) {
+      if (!metric.contains("value")) own.insert(name);
+    }
+    if (cell.at("metrics").empty()) continue;
+    auto& of_case = found.try_emplace(cell.at("case").get<std::string>(), own).first->second;
+    std::erase_if(of_case, [&](const std::string& name) { return !own.contains(name); });
+  }
+  return found;
+}
+
+void gather_unmeasured(Json& results) {
+  const auto unmeasured = unmeasured_in(results.at("cells"));
+  for (Json& cell : results.at("cells")) {
+    const auto found = unmeasured.find(cell.at("case").get<std::string>());
+    if (found == unmeasured.end()) continue;
+    for (const std::string& name : found->second) cell.at("metrics").erase(name);
+  }
+  for (Json& one : results.at("cases")) {
+    const auto found = unmeasured.find(one.at("id").get<std::string>());
+    if (found != unmeasured.end() && !found->second.empty()) one["not_measured"] = found->second;
   }
 }
 
@@ -61,12 +103,16 @@ void shorten_cells(Json& cells) {
 
 void leave_out_details(Json& results) {
   shorten_cells(results.at("cells"));
+  gather_unmeasured(results);
   drop_rows_that([](const Json& row) { return row.at("reason") == "not asked for"; }, results.at("stable_dt"));
   for (Json& one : results.at("cases")) {
     one.at("spread").clear();
     drop_rows_that([](const Json& order) { return order.at("value").is_null(); }, one.at("observed_order"));
     for (Json& order : one.at("observed_order")) order.erase("errors");
-    for (Json& gate : one.at("gates")) drop_text_of_held(gate.at("answers"));
+    for (Json& gate : one.at("gates")) {
+      shorten_answers(gate.at("answers"));
+      gate = without_nulls(gate);
+    }
   }
 }
 

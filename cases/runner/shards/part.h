@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cases/runner/grid.h"
-#include "cases/runner/journal.h"
+#include "cases/runner/journal/journal.h"
 #include "cases/runner/shards/shard.h"
 
 namespace rigor {

@@ -93,7 +93,7 @@ int* BoxTree::append_overlapping(const Node& node, const Aabb& box, Places child
   std::int64_t is_apart[kChildren] = {};
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t k = 0; k < kChildren; ++k)
-      is_apart[k] |= (node.low[axis][k] > box.high[axis]) | (box.low[axis] > node.high[axis][k]);
+      is_apart[k] |= int(node.low[axis][k] > box.high[axis]) | int(box.low[axis] > node.high[axis][k]);
   }
   const std::int64_t* is_next_apart = is_apart;
   for (const int child : children) {

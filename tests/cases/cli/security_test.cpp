@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <map>
 
-#include "cases/runner/journal.h"
+#include "cases/runner/journal/journal.h"
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;

@@ -10,6 +10,7 @@
 
 #include "cases/gates/gates.h"
 #include "cases/metrics/metric.h"
+#include "cases/report/json/leave_out_details.h"
 #include "cases/report/reports.h"
 #include "core/base/error.h"
 #include "tests/cases/judged.h"
@@ -116,6 +117,24 @@ BOOST_AUTO_TEST_CASE(what_nobody_measured_has_not_changed) {
     BOOST_TEST(changes.better.empty());
     BOOST_TEST(changes.lost.empty());  // which it would be, had it been asked for
   });
+}
+
+// A long result says it once, of the case.
+BOOST_AUTO_TEST_CASE(nor_has_what_nobody_measured_in_a_case_of_many) {
+  Results before = gated_results();
+  while (before.cases.size() <= kMostCasesInDetail) {
+    before.cases.push_back(before.cases.front());
+    before.cases.back().definition.id += std::to_string(before.cases.size());
+  }
+  const auto lost_where = [&](const std::string& why) {
+    Results after = before;
+    for (Cell& cell : after.cases.front().cells) {
+      if (!cell.metrics.empty()) cell.metrics["position_error"].not_applicable = why;
+    }
+    return changes_between(outcomes_of(before), outcomes_of(after)).lost.size();
+  };
+  BOOST_TEST(lost_where("not measured: no gate asks for it") == 0u);
+  BOOST_TEST(lost_where("nothing moves") > 0u);
 }
 
 // Times are measured anew, and p-values are chance.

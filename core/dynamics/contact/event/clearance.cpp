@@ -68,7 +68,9 @@ double Clearance::least_gap(const Pairs& pairs, const std::vector<ContactPoint>&
   for (const auto& [a, b] : pairs) {
     if (stays(a) && stays(b)) continue;
     double drift = 0;
-    const auto is_of_pair = [a = a, b = b](const ContactPoint& point) { return point.a == a && point.b == b; };
+    const auto is_of_pair = [one = a, other = b](const ContactPoint& point) {
+      return point.a == one && point.b == other;
+    };
     for (const ContactPoint& point : touching) {
       if (is_of_pair(point)) drift = std::max(drift, kRounding - point.gap);
     }

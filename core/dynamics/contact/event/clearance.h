@@ -5,7 +5,7 @@
 #pragma once
 
 #include "core/dynamics/collision/conservative_advancement.h"
-#include "core/dynamics/contact/event/persistent_contact.h"
+#include "core/dynamics/contact/event/persistent/persistent_contact.h"
 
 namespace rigor {
 

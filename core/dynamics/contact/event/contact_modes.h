@@ -5,7 +5,7 @@
 // which PersistentForces, of the same accelerations, need not be.
 #pragma once
 
-#include "core/dynamics/contact/event/persistent_forces.h"
+#include "core/dynamics/contact/event/persistent/persistent_forces.h"
 
 namespace rigor {
 

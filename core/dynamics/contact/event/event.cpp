@@ -24,7 +24,7 @@
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/event/clearance.h"
 #include "core/dynamics/contact/event/crowded_steps.h"
-#include "core/dynamics/contact/event/persistent_contact.h"
+#include "core/dynamics/contact/event/persistent/persistent_contact.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {

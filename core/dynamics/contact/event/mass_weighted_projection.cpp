@@ -96,4 +96,15 @@ const std::vector<PoseStep>& MassWeightedProjection::project(BodyColumns state,
   return motion_;
 }
 
+ProjectionTarget target_of(const ConeConstraint& cone, int axis, double amount, bool bilateral) {
+  return {.a = cone.a,
+          .b = cone.b,
+          .arm_a = cone.arm_a,
+          .arm_b = cone.arm_b,
+          .direction = cone.frame.col(axis),
+          .is_of_turning = cone.is_couple,
+          .amount = amount,
+          .bilateral = bilateral};
+}
+
 }  // namespace rigor

@@ -24,6 +24,9 @@ struct ProjectionTarget {
   bool bilateral = true;       // false: unilateral, b may push a along the direction but not pull it
 };
 
+// Along an axis of the cone's frame.
+ProjectionTarget target_of(const ConeConstraint& cone, int axis, double amount, bool bilateral);
+
 // Three of a body's speeds along and three about W's axes, or what these make of its pose.
 using PoseStep = Eigen::Matrix<double, 6, 1>;
 

@@ -95,8 +95,34 @@ BOOST_AUTO_TEST_CASE(only_a_held_gate_says_nothing_more_among_many_cases) {
                          {0, "wild", "1/10", GateAnswer::failed, "0.3 m, at most 0.2 m", 0.3}};
   const auto told = nlohmann::json::parse(json_report(grid));
   const auto& answers = told.at("cases").at(0).at("gates").at(0).at("answers");
-  BOOST_TEST(!answers.at(0).contains("text"));
+  BOOST_TEST(
+      (!answers.at(0).contains("text") && !answers.at(0).contains("value") && !answers.at(0).contains("caveat")));
+  BOOST_TEST(answers.at(1).at("value") == 0.3);
   BOOST_TEST(answers.at(1).at("text") == "0.3 m, at most 0.2 m");
+}
+
+BOOST_AUTO_TEST_CASE(among_many_cases_a_gate_names_the_limits_that_it_has) {
+  Results grid = many_cases();
+  grid.cases[0].definition.gates.resize(1);
+  const auto full = results_json(grid).at("cases").at(0).at("gates").at(0);
+  const auto told = nlohmann::json::parse(json_report(grid)).at("cases").at(0).at("gates").at(0);
+  for (const auto& [key, value] : full.items()) BOOST_TEST(told.contains(key) == !value.is_null(), key);
+}
+
+// As a result of few cases has it in each cell.
+BOOST_AUTO_TEST_CASE(what_no_cell_of_a_case_was_asked_for_stands_with_the_case) {
+  Results grid = many_cases();
+  for (Cell& cell : grid.cases[0].cells) {
+    if (!cell.metrics.empty()) cell.metrics["tube"].not_applicable = kNotAsked;
+  }
+  grid.cases[0].definition.id = "family/first";
+  const auto told = nlohmann::json::parse(json_report(grid));
+  BOOST_TEST(told.at("cases").at(0).at("not_measured") == nlohmann::json({"tube"}));
+  BOOST_TEST(!told.at("cases").at(1).contains("not_measured"));  // of these one cell alone was not asked
+  for (const auto& cell : told.at("cells")) {
+    if (cell.at("case") == "family/first") BOOST_TEST(!cell.at("metrics").contains("tube"));
+  }
+  BOOST_TEST(told.at("cells").at(4).at("metrics").at("tube").at("not_applicable") == "not measured");
 }
 
 BOOST_AUTO_TEST_CASE(stable_steps_that_nobody_asked_for_are_no_rows_among_many_cases) {

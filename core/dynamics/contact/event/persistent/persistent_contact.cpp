@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/event/persistent_contact.h"
+#include "core/dynamics/contact/event/persistent/persistent_contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,33 +11,21 @@ namespace rigor {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr double kClosed = 1e-13;  // m: a few roundings of a position of one metre
-constexpr int kMostMoves = 20, kMostSweeps = 200;
-constexpr std::size_t kMostTogether = 2000;  // points: a second or two of the projection's time
-constexpr double kTouching = 1e-3;           // m: a point that drifted further than this is not in contact any more
-constexpr double kBeginning = 1e-11;         // m/s: how much a slip that begins may go the wrong way, by rounding
-constexpr double kPulling = 2e-9;            // of the forces: twice what is still chosen
-constexpr double kLeastSize = 1e-6;          // m/s²: of accelerations; weaker forces are roundings
-constexpr double kStable = 2;                // of an explicit method: how much a step may be in units of what it damps
-constexpr double kShortest = 1e-5;           // s: what slips make of themselves within it is some 1e-4 m/s
-constexpr double kTurn = 0.25;               // rad, of a body among joints in a step of an explicit method
-constexpr long kAskedInStep = 64;            // times for forces, by a method that need not divide its step much
-constexpr double kReversed = 0.1;            // of the fastest slip at any stage: what stages differ by is less
-constexpr double kDeep = 0.1;                // of the smaller inradius: crowded steps leave up to 0.03 for a while
-constexpr double kSlow = 10;      // of the restitution threshold: what parts no faster, and comes back, stays
-constexpr double kStill = 1e-15;  // of the speeds: what is left of a velocity that is to be zero
+constexpr double kBeginning = 1e-11;  // m/s: how much a slip that begins may go the wrong way, by rounding
+constexpr double kPulling = 2e-9;     // of the forces: twice what is still chosen
+constexpr double kLeastSize = 1e-6;   // m/s²: of accelerations; weaker forces are roundings
+constexpr double kStable = 2;         // of an explicit method: how much a step may be in units of what it damps
+constexpr double kShortest = 1e-5;    // s: what slips make of themselves within it is some 1e-4 m/s
+constexpr double kTurn = 0.25;        // rad, of a body among joints in a step of an explicit method
+constexpr long kAskedInStep = 64;     // times for forces, by a method that need not divide its step much
+constexpr double kReversed = 0.1;     // of the fastest slip at any stage: what stages differ by is less
+constexpr double kSlow = 10;          // of the restitution threshold: what parts no faster, and comes back, stays
+constexpr double kStill = 1e-15;      // of the speeds: what is left of a velocity that is to be zero
 
 // Of no lower order than `own`, and asks for forces at its stages.
 const Integrator& integrator_in_contact(const Integrator& own) {
   if (own.holds_at_stages) return own;
   return integrator(own.order <= 4 ? "rkmk4" : "dormand-prince");
-}
-
-void move(MutableBodyColumns state, std::size_t i, const PoseStep& motion) {
-  state.set_position(i, state.position(i) + motion.head<3>());
-  const Quat rotation = rotation_by(motion.tail<3>());
-  state.set_orientation(i, (rotation * state.orientation(i)).normalized());
-  if (state.has_rotation()) state.set_rotation(i, rotation.toRotationMatrix() * state.rotation(i));
 }
 
 }  // namespace
@@ -55,6 +43,7 @@ PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& c
           in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, nullptr, &persistent_})),
       loads_(system_),
       projection_(system_, parts.joints),
+      gaps_(system_, parts.joints, contact_points, projection_),
       restitution_threshold_(number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
       rests_(parts.system.size(), 0) {}
 
@@ -252,69 +241,9 @@ double PersistentContact::distance_from_change_of_points() {
   return violation > 0 ? -violation : least;
 }
 
-bool PersistentContact::carries(const ContactPoint& contact) const {
-  return std::any_of(points().begin(), points().end(), [&](const PersistentPoint& point) {
-    return point.contact.same_place(contact) && point.force.x() > 0;
-  });
-}
-
 bool PersistentContact::close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,
                                    Closing which) {
-  double before = kForever;
-  bool is_one_by_one = false;
-  for (int k = 0, most = kMostMoves; k < most; ++k) {
-    open_.clear(), targets_.clear();
-    contact_points_.find(state, pairs, kTouching, open_);
-    deepest_ = ContactPoint();
-    double widest = 0;
-    for (const ContactPoint& contact : open_) {
-      if (contact.gap < deepest_.gap && !contact.is_limit()) deepest_ = contact;
-      const bool is_carrying = which == Closing::all && carries(contact);
-      if (!(contact.gap < 0 || is_carrying)) continue;
-      widest = std::max(widest, std::abs(contact.gap));
-      add_target(contact.cone, 0, -contact.gap, is_carrying);
-    }
-    if (!(widest > kClosed)) return k > 0;
-    const bool has_stalled = widest > 0.5 * before;
-    before = widest;
-    if (!is_one_by_one && (targets_.size() > kMostTogether || (has_stalled && jam())))
-      is_one_by_one = true, most = k + kMostSweeps;
-    if (is_one_by_one) {
-      part_one_by_one(state);
-      close_joints(state);
-      continue;
-    }
-    if (has_stalled) return k > 0;  // by rounding
-    const std::vector<PoseStep>& motion = projection_.project(state, targets_);
-    for (std::size_t i = 0; i < motion.size(); ++i) {
-      if (!motion[i].isZero(0)) move(state, i, motion[i]);
-    }
-    close_joints(state);
-  }
-  return true;
-}
-
-const ContactPoint* PersistentContact::jam() const {
-  if (!(deepest_.gap < 0)) return nullptr;
-  const auto& colliders = contact_points_.colliders();
-  const double size = std::min(colliders[deepest_.a].inradius, colliders[deepest_.b].inradius);
-  return deepest_.gap < -kDeep * size ? &deepest_ : nullptr;
-}
-
-// Of more than can be parted together, or that cannot: each two by what is left of their overlap, without turning them.
-void PersistentContact::part_one_by_one(MutableBodyColumns state) {
-  moved_.assign(state.size(), Vec3::Zero());
-  for (const ContactPoint& contact : open_) {
-    if (contact.is_limit()) continue;
-    const int a = contact.cone.a, b = contact.cone.b;
-    const Vec3 n = contact.cone.frame.col(0);
-    const double left = -contact.gap - n.dot(moved_[a] - moved_[b]);
-    if (!(left > 0)) continue;
-    const double of_a = system_.bodies[a].inverse_mass, of_b = system_.bodies[b].inverse_mass;
-    moved_[a] += left * of_a / (of_a + of_b) * n;
-    moved_[b] -= left * of_b / (of_a + of_b) * n;
-  }
-  for (std::size_t i = 0; i < state.size(); ++i) state.set_position(i, state.position(i) + moved_[i]);
+  return gaps_.close(state, pairs, which == Closing::all ? std::span(points()) : std::span<const PersistentPoint>());
 }
 
 void PersistentContact::close_joints(MutableBodyColumns state) {
@@ -333,7 +262,7 @@ void PersistentContact::stop_points(MutableBodyColumns state, When when) {
     const bool stands = point.mode == PersistentPoint::Mode::sticks || (when == When::before && point.begins_to_slip);
     const int last = stands ? 2 : 0;
     for (int axis = 0; axis <= last; ++axis) {
-      add_target(cone, axis, -point.velocity[axis], true);
+      targets_.push_back(target_of(cone, axis, -point.velocity[axis], true));
       most = std::max(most, std::abs(point.velocity[axis]));
     }
     for (const int body : {cone.a, cone.b}) {
@@ -351,17 +280,6 @@ void PersistentContact::stop_points(MutableBodyColumns state, When when) {
 
 std::string PersistentContact::solver_warning() const {
   return is_free() ? free_stepper_->solver_warning() : contact_stepper_->solver_warning();
-}
-
-void PersistentContact::add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral) {
-  targets_.push_back({.a = cone.a,
-                      .b = cone.b,
-                      .arm_a = cone.arm_a,
-                      .arm_b = cone.arm_b,
-                      .direction = cone.frame.col(axis),
-                      .is_of_turning = cone.is_couple,
-                      .amount = amount,
-                      .bilateral = bilateral});
 }
 
 }  // namespace rigor

@@ -9,6 +9,7 @@
 #include "core/dynamics/contact/event/contact_modes.h"
 #include "core/dynamics/contact/event/impacts.h"
 #include "core/dynamics/contact/event/mass_weighted_projection.h"
+#include "core/dynamics/contact/event/persistent/gap_closing.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/joints/joint_stops.h"
 #include "core/dynamics/model/wrench_columns.h"
@@ -50,7 +51,7 @@ class PersistentContact {
   void close_joints(MutableBodyColumns state);
   // The point at which the last close_gaps() left two bodies deep in each other, for they have no room; null if there
   // is none.
-  const ContactPoint* jam() const;
+  const ContactPoint* jam() const { return gaps_.jam(); }
   // Takes the velocities away that the points must not have. `before` they move: what begins to slip does not slip yet.
   enum class When { before, after };
   void stop_points(MutableBodyColumns state, When when);
@@ -72,10 +73,7 @@ class PersistentContact {
   double margin() const;
   double slipping_margin() const;
   double longest_turn(BodyColumns state) const;
-  bool carries(const ContactPoint& contact) const;
   void set_resting_aside(BodyColumns state);
-  void part_one_by_one(MutableBodyColumns state);
-  void add_target(const ConeConstraint& cone, int axis, double amount, bool bilateral);
 
   bool is_free() const { return points().empty() && !joints_; }
 
@@ -91,14 +89,12 @@ class PersistentContact {
   WrenchColumns loads_;
   Columns beside_joints_;
   MassWeightedProjection projection_;
+  GapClosing gaps_;
   double restitution_threshold_;  // m/s
   BodyColumns end_;
   const double* wrench_at_end_ = nullptr;
   std::vector<PersistentPoint> old_points_, resting_points_;
   std::vector<char> rests_;  // by body
-  std::vector<ContactPoint> open_;
-  ContactPoint deepest_{};  // of the points that the last close_gaps() left open
-  std::vector<Vec3> moved_;
   std::vector<ProjectionTarget> targets_;
   long passes_ = 0;
 };

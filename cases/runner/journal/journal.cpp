@@ -1,4 +1,4 @@
-#include "cases/runner/journal.h"
+#include "cases/runner/journal/journal.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/event/persistent_forces.h"
+#include "core/dynamics/contact/event/persistent/persistent_forces.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -8,13 +8,8 @@
 namespace rigor {
 namespace {
 
-// rho of a row, in units of its own effective mass. Each round leaves some 1/rho of an error and loses as many digits,
-// which the next one wins back.
-constexpr double kPenalty = 1e6;
-constexpr int kMostForceRounds = 6;
-constexpr double kSettled = 1e-15;  // of the accelerations without forces
-constexpr double kNoSlip = 1e-6;    // m/s: a slip that has no direction of its own yet
-constexpr double kFading = 10;      // times that: a slip that has its own, but for a third of kNoSlip
+constexpr double kNoSlip = 1e-6;  // m/s: a slip that has no direction of its own yet
+constexpr double kFading = 10;    // times that: a slip that has its own, but for a third of kNoSlip
 
 // Unit, in W: what friction acts against. Past the instant at which the point would stop it goes on as it was, so that
 // the instant can be found: of a slip that has turned against the direction it began with, that which is mirrored back.
@@ -37,6 +32,7 @@ PersistentForces::PersistentForces(const System& system, const ContactPoints& co
     : system_(system),
       contact_points_(contact_points),
       joints_(joints),
+      equations_(joints != nullptr),
       place_(system.size(), -1),
       largest_(system.size()) {
   if (joints_) through_joints_.emplace(system, *joints_);
@@ -104,9 +100,8 @@ void PersistentForces::place_limit(BodyColumns state, PersistentPoint& point) co
 void PersistentForces::add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force) {
   const PersistentPoint& at = points_[point];
   const ConeConstraint cone = at.cone();
-  Row row;
+  ForceEquations::Row row;
   row.point = point, row.axis = axis;
-  double square = 0;
   for (int end = 0; end < 2; ++end) {
     const int body = end == 0 ? cone.a : cone.b, place = body == kWorld ? -1 : place_[body];
     if (place < 0) continue;
@@ -114,16 +109,14 @@ void PersistentForces::add_row(std::size_t point, int axis, const Vec3& directio
     const auto scaled = [&](const Vec6& of) {
       return joined(root * of.head<3>(), root_W_[place].transpose() * of.tail<3>());
     };
-    Side& side = row.side[end];
+    ForceEquations::Side& side = row.side[end];
     side.place = place;
     side.of_J = scaled(cone.row(end, direction)), side.of_P = scaled(cone.row(end, force));
-    square += side.of_J.squaredNorm();
   }
-  if (square == 0) return;
+  if (row.square() == 0) return;
   row.bias = at.bias[axis];
-  row.weight = kPenalty / square;
   if (joints_) row.response = response_to(cone, force);
-  rows_.push_back(row);
+  equations_.add(std::move(row), direction == force);
 }
 
 Eigen::VectorXd PersistentForces::response_to(const ConeConstraint& at, const Vec3& force) {
@@ -139,8 +132,7 @@ Eigen::VectorXd PersistentForces::response_to(const ConeConstraint& at, const Ve
 }
 
 void PersistentForces::list_rows(const Island& island) {
-  rows_.clear();
-  is_symmetric_ = true;
+  equations_.clear();
   for (const std::size_t i : island.points) {
     const PersistentPoint& point = points_[i];
     const Vec3 n = point.kinematics.normal;
@@ -153,7 +145,6 @@ void PersistentForces::list_rows(const Island& island) {
       continue;
     }
     add_row(i, 0, n, n - point.friction() * braked_direction(point));
-    is_symmetric_ = false;
   }
 }
 
@@ -193,103 +184,6 @@ double PersistentForces::largest_force() const {
   return largest;
 }
 
-// What the rows' accelerations still lack.
-double PersistentForces::find_residuals(const Eigen::VectorXd& free) {
-  acceleration_ = free;
-  for (const Row& row : rows_) {
-    if (joints_) {
-      acceleration_ += row.multiplier * row.response;
-      continue;
-    }
-    for (const Side& side : row.side) {
-      if (side.place >= 0) acceleration_.segment<6>(6 * side.place) += row.multiplier * side.of_P;
-    }
-  }
-  residual_.resize(static_cast<Eigen::Index>(rows_.size()));
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    double r = -rows_[i].bias;
-    for (const Side& side : rows_[i].side) {
-      if (side.place >= 0) r -= side.of_J.dot(acceleration_.segment<6>(6 * side.place));
-    }
-    residual_[static_cast<Eigen::Index>(i)] = r;
-  }
-  return rows_.empty() ? 0 : residual_.cwiseAbs().maxCoeff();
-}
-
-// dl = rho (r - J dV'),   (M + Pᵀ rho J) dV' = Pᵀ rho r.
-Eigen::VectorXd PersistentForces::change_through_accelerations(Eigen::Index size) const {
-  Eigen::VectorXd right_side = Eigen::VectorXd::Zero(size), change(residual_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double weighed = rows_[i].weight * residual_[static_cast<Eigen::Index>(i)];
-    for (const Side& side : rows_[i].side) {
-      if (side.place >= 0) right_side.segment<6>(6 * side.place) += weighed * side.of_P;
-    }
-  }
-  const Eigen::VectorXd by = factors_.solve(right_side);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    double r = residual_[static_cast<Eigen::Index>(i)];
-    for (const Side& side : rows_[i].side) {
-      if (side.place >= 0) r -= side.of_J.dot(by.segment<6>(6 * side.place));
-    }
-    change[static_cast<Eigen::Index>(i)] = rows_[i].weight * r;
-  }
-  return change;
-}
-
-void PersistentForces::assemble_in_accelerations(Eigen::Index size) {
-  matrix_.setIdentity(size, size);
-  for (const Row& row : rows_) {
-    for (const Side& of : row.side) {
-      for (const Side& by : row.side) {
-        if (of.place >= 0 && by.place >= 0)
-          matrix_.block<6, 6>(6 * of.place, 6 * by.place).noalias() +=
-              (row.weight * of.of_P).lazyProduct(by.of_J.transpose());
-      }
-    }
-  }
-}
-
-// What a unit of one row's force adds to the acceleration of another.
-double PersistentForces::effect(const Row& of, const Row& by) const {
-  double sum = 0;
-  for (const Side& of_side : of.side) {
-    if (of_side.place < 0) continue;
-    if (joints_) {
-      sum += of_side.of_J.dot(by.response.segment<6>(6 * of_side.place));
-      continue;
-    }
-    for (const Side& by_side : by.side) {
-      if (of_side.place == by_side.place) sum += of_side.of_J.dot(by_side.of_P);
-    }
-  }
-  return sum;
-}
-
-void PersistentForces::assemble_in_forces() {
-  const auto count = static_cast<Eigen::Index>(rows_.size());
-  matrix_.setZero(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Row& row = rows_[static_cast<std::size_t>(i)];
-    matrix_(i, i) = 1 / row.weight;
-    for (Eigen::Index j = 0; j < count; ++j) matrix_(i, j) += effect(row, rows_[static_cast<std::size_t>(j)]);
-  }
-}
-
-// In whichever there are fewer of; through joints in forces.
-void PersistentForces::find_multipliers(const Eigen::VectorXd& free) {
-  const bool in_forces = joints_ || static_cast<Eigen::Index>(rows_.size()) < free.size();
-  in_forces ? assemble_in_forces() : assemble_in_accelerations(free.size());
-  factors_.factorise(matrix_, is_symmetric_ ? DenseFactors::Kind::positive_definite : DenseFactors::Kind::general);
-  double size = 0;
-  for (int round = 0; round < kMostForceRounds; ++round) {
-    const double largest = find_residuals(free);
-    if (round == 0) size = largest;
-    if (!(largest > kSettled * size)) break;
-    const Eigen::VectorXd change = in_forces ? factors_.solve(residual_) : change_through_accelerations(free.size());
-    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].multiplier += change[static_cast<Eigen::Index>(i)];
-  }
-}
-
 void PersistentForces::solve(const Island& island, BodyColumns state, const double* wrench) {
   island_ = island.bodies;
   root_W_.resize(island.bodies.size());
@@ -305,7 +199,7 @@ void PersistentForces::solve(const Island& island, BodyColumns state, const doub
         inertia_root_B_[body].transpose() * (system_.bodies[body].inertia_B * (R.transpose() * angular));
   }
   list_rows(island);
-  find_multipliers(free);
+  equations_.solve(free);
   for (const std::size_t i : island.points) points_[i].force.setZero();
   set_forces();
   if (joints_) add_wrenches_through_joints(island, free.size());
@@ -313,13 +207,12 @@ void PersistentForces::solve(const Island& island, BodyColumns state, const doub
 
 // M times what the rows make of the accelerations: their own forces, and what these make of the joints'.
 void PersistentForces::add_wrenches_through_joints(const Island& island, Eigen::Index size) {
-  acceleration_.setZero(size);
-  for (const Row& row : rows_) acceleration_ += row.multiplier * row.response;
+  const Eigen::VectorXd accelerations = equations_.accelerations_through_joints(size);
   for (std::size_t k = 0; k < island.bodies.size(); ++k) {
     const int body = island.bodies[k];
     const auto at = 6 * static_cast<Eigen::Index>(k);
-    const Vec3 force = std::sqrt(system_.bodies[body].mass) * acceleration_.segment<3>(at);
-    const Vec3 torque = root_W_[k].inverse().transpose() * acceleration_.segment<3>(at + 3);
+    const Vec3 force = std::sqrt(system_.bodies[body].mass) * accelerations.segment<3>(at);
+    const Vec3 torque = root_W_[k].inverse().transpose() * accelerations.segment<3>(at + 3);
     for (int c = 0; c < 3; ++c) {
       wrench_.column(static_cast<std::size_t>(kForce + c))[body] += force[c];
       wrench_.column(static_cast<std::size_t>(kTorque + c))[body] += torque[c];
@@ -329,7 +222,7 @@ void PersistentForces::add_wrenches_through_joints(const Island& island, Eigen::
 }
 
 void PersistentForces::set_forces() {
-  for (const Row& row : rows_) {
+  for (const ForceEquations::Row& row : equations_.rows()) {
     PersistentPoint& point = points_[row.point];
     point.force[row.axis] += row.multiplier;
     if (point.mode == PersistentPoint::Mode::sticks || point.friction() == 0) continue;

@@ -4,19 +4,17 @@
 //   M V' = f + Pᵀ l,   J V' = -J'V.
 // A point that sticks or rolls has three rows in both. One that slides has its normal n in J, and n - mu t in P, t the
 // direction of its slip: Coulomb's force. Points may be more than the motion can tell apart; then, of all l that do it,
-// nearly the least is taken, by rounds of
-//   (J M⁻¹ Pᵀ + 1/rho) dl = -J'V - J V',
-// each solved in forces or, where points are many, in the bodies' accelerations, of which there are six a body; each
-// island by itself. Where joints hold the bodies, V' is what they leave of the accelerations under f, and M⁻¹ what they
-// leave of the inverse masses (impulse_responses.h). A limit of a joint is a point that slides without friction.
+// nearly the least is taken (force_equations.h), each island by itself. Where joints hold the bodies, V' is what they
+// leave of the accelerations under f, and M⁻¹ what they leave of the inverse masses (impulse_responses.h). A limit of a
+// joint is a point that slides without friction.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/base/factors.h"
 #include "core/dynamics/contact/event/contact_features.h"
 #include "core/dynamics/contact/event/contact_points.h"
+#include "core/dynamics/contact/event/persistent/force_equations.h"
 #include "core/dynamics/joints/islands.h"
 #include "core/dynamics/model/constraint_forces.h"
 #include "core/engine/columns.h"
@@ -77,33 +75,13 @@ class PersistentForces : public ConstraintForces {
 
  private:
   using Vec6 = Eigen::Matrix<double, 6, 1>;
-  // All of them in units of the bodies' square roots of mass.
-  struct Side {
-    int place = -1;  // of a moving body, or -1
-    Vec6 of_J = Vec6::Zero(), of_P = Vec6::Zero();
-  };
-  struct Row {
-    std::size_t point = 0;
-    int axis = 0;  // of the frame
-    Side side[2];
-    double bias = 0, weight = 0;  // m/s², kg
-    double multiplier = 0;        // N
-    Eigen::VectorXd response;     // of all bodies of the island to a unit of P, through joints; empty without
-  };
-
   void find_islands();
   void place_limit(BodyColumns state, PersistentPoint& point) const;
   void list_rows(const Island& island);
   void add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force);
   Eigen::VectorXd response_to(const ConeConstraint& at, const Vec3& force);
-  double effect(const Row& of, const Row& by) const;
   void solve(const Island& island, BodyColumns state, const double* wrench);
-  void find_multipliers(const Eigen::VectorXd& free);
   void add_wrenches_through_joints(const Island& island, Eigen::Index size);
-  void assemble_in_accelerations(Eigen::Index size);
-  void assemble_in_forces();
-  double find_residuals(const Eigen::VectorXd& free);
-  Eigen::VectorXd change_through_accelerations(Eigen::Index size) const;
   void copy_wrench(const double* wrench);
   void note_loads_of_joints(const double* wrench);
   void add_pushes();
@@ -112,6 +90,7 @@ class PersistentForces : public ConstraintForces {
   const System& system_;
   const ContactPoints& contact_points_;
   Joints* joints_;
+  ForceEquations equations_;  // of the island at hand
   std::optional<ImpulseResponses> through_joints_;
   std::vector<Mat3> inertia_root_B_;  // G with G Gᵀ the inverse inertia, of each body
   std::vector<PersistentPoint> points_;
@@ -119,12 +98,7 @@ class PersistentForces : public ConstraintForces {
   std::vector<int> place_;    // of each body in its island, or -1
   std::vector<Mat3> root_W_;  // R G, by place
   std::vector<int> island_;   // bodies of the island at hand, by place
-  std::vector<Row> rows_;
-  bool is_symmetric_ = true;
   long times_asked_ = 0;
-  Eigen::MatrixXd matrix_;
-  DenseFactors factors_;
-  Eigen::VectorXd acceleration_, residual_;
   Columns wrench_;
   std::vector<Loading> now_, largest_;  // by body
 };

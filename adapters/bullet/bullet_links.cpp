@@ -1,0 +1,125 @@
+#include "adapters/bullet/bullet_links.h"
+
+#include <variant>
+
+namespace rigor::bullet {
+namespace {
+
+constexpr bool kCollidesWithParent = false;
+
+// Where the joint's point is for both: its anchor, or the child's centre.
+struct PointOf {
+  const LinkFrame& child;
+  Vec3 operator()(const BallJoint& joint) const { return joint.anchor; }
+  Vec3 operator()(const HingeJoint& joint) const { return joint.anchor; }
+  Vec3 operator()(const UniversalJoint& joint) const { return joint.anchor; }
+  template <typename Other>
+  Vec3 operator()(const Other&) const {
+    return child.origin;
+  }
+};
+
+// A universal joint's axes, exactly at right angles: the first fixed in the parent, the second in the child.
+struct UniversalAxes {
+  Vec3 first, second;  // unit, in W at t = 0
+};
+UniversalAxes axes_of(const UniversalJoint& joint, bool child_is_b) {
+  const Vec3 axis2 = (joint.axis2 - joint.axis2.dot(joint.axis) * joint.axis).normalized();
+  return child_is_b ? UniversalAxes{joint.axis, axis2} : UniversalAxes{axis2, joint.axis};
+}
+
+// Adds the links of one joint to a tree.
+struct AddLinks {
+  btMultiBody& tree;
+  int link, parent;  // Bullet's numbers
+  const LinkFrame &child, &above;
+  double mass;
+  btVector3 moments;
+  bool child_is_b;
+  Vec3 point;  // in W
+
+  btQuaternion turn() const { return to_bullet(Quat(child.q.conjugate() * above.q)); }
+  btVector3 from_parent() const { return above.seen(point - above.origin); }
+  btVector3 to_child() const { return child.seen(child.origin - point); }
+
+  void operator()(const BallJoint&) const {
+    tree.setupSpherical(link, mass, moments, parent, turn(), from_parent(), to_child(), !kCollidesWithParent);
+  }
+  void operator()(const HingeJoint& joint) const {
+    tree.setupRevolute(link, mass, moments, parent, turn(), child.seen(joint.axis), from_parent(), to_child(),
+                       !kCollidesWithParent);
+  }
+  void operator()(const SliderJoint& joint) const {
+    tree.setupPrismatic(link, mass, moments, parent, turn(), child.seen(joint.axis), from_parent(), to_child(),
+                        !kCollidesWithParent);
+  }
+  void operator()(const FixedJoint&) const {
+    tree.setupFixed(link, mass, moments, parent, turn(), from_parent(), to_child(), !kCollidesWithParent);
+  }
+  void operator()(const UniversalJoint& joint) const {
+    const UniversalAxes axes = axes_of(joint, child_is_b);
+    const btVector3 nothing(0, 0, 0);
+    tree.setupRevolute(link, 0, nothing, parent, turn(), child.seen(axes.first), from_parent(), nothing,
+                       !kCollidesWithParent);
+    tree.setupRevolute(link + 1, mass, moments, link, btQuaternion::getIdentity(), child.seen(axes.second), nothing,
+                       to_child(), !kCollidesWithParent);
+  }
+  void operator()(const DistanceJoint&) const {}  // refused before
+};
+
+// Sets a joint's velocities from those of its ends in W.
+struct SetVelocities {
+  btMultiBody& tree;
+  int link;  // of the child
+  const LinkFrame &child, &above;
+  bool child_is_b;
+
+  Vec3 turning() const { return child.angular_velocity - above.angular_velocity; }
+
+  void operator()(const BallJoint&) const {
+    const Vec3 rate = child.q.conjugate() * turning();
+    tree.setJointVelMultiDof(link, rate.data());
+  }
+  void operator()(const HingeJoint& joint) const { tree.setJointVel(link, joint.axis.dot(turning())); }
+  void operator()(const SliderJoint& joint) const {
+    const Vec3 carried = above.velocity + above.angular_velocity.cross(child.origin - above.origin);
+    tree.setJointVel(link, joint.axis.dot(child.velocity - carried));
+  }
+  void operator()(const UniversalJoint& joint) const {
+    const UniversalAxes axes = axes_of(joint, child_is_b);
+    tree.setJointVel(link - 1, axes.first.dot(turning()));
+    tree.setJointVel(link, axes.second.dot(turning()));
+  }
+  void operator()(const FixedJoint&) const {}
+  void operator()(const DistanceJoint&) const {}
+};
+
+}  // namespace
+
+btVector3 LinkFrame::seen(const Vec3& direction_W) const { return to_bullet(Vec3(q.conjugate() * direction_W)); }
+
+LinkFrame frame_at_start(const Body& body, const Quat& q_WP) {
+  if (body.fixed) return {};
+  return {body.position, q_WP, body.velocity, body.angular_velocity};
+}
+
+int links_of(const Joint& joint) { return std::holds_alternative<UniversalJoint>(joint.type) ? 2 : 1; }
+
+void add_links(btMultiBody& tree, const Joint& joint, const JointEnds& ends, const NewLinks& links) {
+  const AddLinks add{.tree = tree,
+                     .link = links.first,
+                     .parent = links.parent,
+                     .child = ends.child,
+                     .above = ends.parent,
+                     .mass = links.mass,
+                     .moments = links.moments,
+                     .child_is_b = ends.child_is_b,
+                     .point = std::visit(PointOf{ends.child}, joint.type)};
+  std::visit(add, joint.type);
+}
+
+void set_velocities(btMultiBody& tree, int link, const Joint& joint, const JointEnds& ends) {
+  std::visit(SetVelocities{tree, link, ends.child, ends.parent, ends.child_is_b}, joint.type);
+}
+
+}  // namespace rigor::bullet
