@@ -58,11 +58,12 @@ std::vector<Fault> step_faults() {
       on_stepping("single-precision state", each_moving(round_to_single)),
       moving_by("speed clamped at {} m/s", 5,
                 [](Body& b, double, double most) {
-                  if (b.velocity.norm() > most) b.velocity *= most / b.velocity.norm();
+                  if (most > 0 && b.velocity.norm() > most) b.velocity *= most / b.velocity.norm();
                 }),
       moving_by("spin clamped at {} rad/s", 5,
                 [](Body& b, double, double most) {
-                  if (b.angular_velocity.norm() > most) b.angular_velocity *= most / b.angular_velocity.norm();
+                  if (most > 0 && b.angular_velocity.norm() > most)
+                    b.angular_velocity *= most / b.angular_velocity.norm();
                 }),
       moving_by("linear damping of {} /s left on", 0.001,
                 [](Body& b, double dt, double rate) { b.velocity *= 1 - rate * dt; }),

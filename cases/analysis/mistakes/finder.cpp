@@ -160,8 +160,8 @@ void MistakeFinder::add_amounts(const Trace& trace, const Table& table, std::vec
   std::vector<std::pair<double, Hypothesis>> found;
   for (const Hypothesis& hypothesis : table.hypotheses) {
     if (!hypothesis.fault->by) continue;
-    const Trace::Fit fit = trace.fit(hypothesis);
-    if (fit.cosine > kSameShape) found.emplace_back(fit.cosine, hypothesis);
+    const double cosine = std::abs(trace.fit(hypothesis).cosine);  // too little of it is too much by a negative amount
+    if (cosine > kSameShape) found.emplace_back(cosine, hypothesis);
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   found.resize(std::min<std::size_t>(found.size(), kMost));

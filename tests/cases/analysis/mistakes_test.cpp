@@ -251,8 +251,12 @@ BOOST_AUTO_TEST_CASE(one_that_is_not_in_the_table_is_not_named) {
 BOOST_AUTO_TEST_CASE(the_amount_of_a_mistake_is_found) {
   for (const Fault& fault : faults()) {
     if (fault.name != "gravity off by 0.1 %") continue;
-    const MistakeReport report = finders().of("ode", fault.by(0.5));
-    BOOST_TEST(is_named("gravity off by 0.5 %", report), first_line(report));
+    for (const char* engine : {"ode", "toy-py"}) {
+      for (const double percent : {0.5, -1.0}) {
+        const MistakeReport report = finders().of(engine, fault.by(percent));
+        BOOST_TEST(is_named(fmt::format("gravity off by {} %", percent), report), engine << ": " << first_line(report));
+      }
+    }
   }
 }
 
