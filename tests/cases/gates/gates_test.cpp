@@ -156,6 +156,18 @@ BOOST_AUTO_TEST_CASE(a_gate_of_other_runs_or_steps_than_were_chosen_is_not_asked
   BOOST_TEST(count(answers(order, as_is), GateAnswer::held) == 1);
   BOOST_TEST(answers(order, at_one_step).empty());
   BOOST_TEST(count(answers(limit, without_the_metric), GateAnswer::not_checked) == 1);
+  // Of both runs of the ranking, without the metric: it was asked, and is not answered; of one that cannot, it was not.
+  const auto ranked = [&](Status its) {
+    return answers(ranking, [&](GatedGrid& chosen) {
+      chosen.result().cells = GatedGrid().result().cells;
+      for (Cell& cell : chosen.result().cells) {
+        cell.metrics.clear();
+        if (cell.run == 1) cell.status = its;
+      }
+    });
+  };
+  BOOST_TEST(count(ranked(Status::pass), GateAnswer::not_checked) == 1);
+  BOOST_TEST(ranked(Status::unsupported).empty());
 }
 
 BOOST_AUTO_TEST_CASE(what_no_gate_judged_is_told_from_what_held) {
