@@ -114,6 +114,7 @@ BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold)
   check(no_metric, limit);
   for (Cell& cell : unsupported.result().cells) cell.status = Status::unsupported, cell.metrics.clear();
   check(unsupported, limit);
+  BOOST_TEST(unsupported.result().gates.front().text.find("where it is asked for") == std::string::npos);
   limit.dt = {{1. / 30, "1/30"}};
   check(other_step, limit);
   other_step.grid.engines.push_back(other_step.grid.engines.front());
