@@ -116,6 +116,81 @@ BOOST_AUTO_TEST_CASE(a_row_that_no_gate_can_meet_is_refused) {
   check_known_deviations(rows, {definition}, infos());
 }
 
+// Each of what a gate has to share with a row to be met by it.
+BOOST_AUTO_TEST_CASE(a_gate_of_another_metric_or_step_or_a_regression_is_none_that_a_row_meets) {
+  const auto check = [](const auto& change) {
+    Case definition = drifting_body("drift");
+    Gate gate;
+    gate.metric = "position_error", gate.max = 1, gate.engines = {"ode"};
+    change(gate);
+    definition.gates = {gate};
+    check_known_deviations(read(kRow), {definition}, infos());
+  };
+  check([](Gate&) {});
+  BOOST_CHECK_THROW(check([](Gate& gate) { gate.metric = "energy_drift"; }), InputError);
+  BOOST_CHECK_THROW(check([](Gate& gate) { gate.max = {}, gate.regression = 1.25; }), InputError);
+  BOOST_CHECK_THROW(check([](Gate& gate) { gate.dt = {{0.05, "1/20"}}; }), InputError);
+}
+
+// One over all steps of a run is spoken of by a row that names no steps.
+BOOST_AUTO_TEST_CASE(an_answer_without_a_step_is_known_by_a_row_without_steps) {
+  for (const bool names_step : {false, true}) {
+    std::string text = kRow;
+    if (!names_step) text.erase(text.find("dt "), std::string("dt      = [\"1/10\"]\n").size());
+    Results grid = judged(0.5, 0.5, {});
+    CaseResult& result = grid.cases.front();
+    result.gates.front().dt = "", result.gates.front().answer = GateAnswer::failed;
+    result.gates.resize(1);
+    apply_known_deviations(result, grid, read(text));
+    BOOST_TEST((result.gates.front().answer == (names_step ? GateAnswer::failed : GateAnswer::known_deviation)));
+    for (const Cell& cell : result.cells) BOOST_TEST(word_of(cell.status) == "pass");  // it is no answer of one cell
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_row_of_another_case_metric_or_run_says_nothing) {
+  const auto with = [](const std::string& part, const std::string& instead) {
+    std::string text = kRow;
+    return text.replace(text.find(part), part.size(), instead);
+  };
+  for (const std::string& text :
+       {with("\"drift\"", "\"another\""), with("position_error", "energy_drift"), with("\"ode\"", "\"ode:quickstep\"")})
+    BOOST_TEST(word_of(judged(2, 0.5, read(text)).cases.front().cells[0].status) == "fail", text);
+}
+
+BOOST_AUTO_TEST_CASE(a_cell_counts_as_what_is_worst_among_its_answers) {
+  Results grid = judged(2, 0.5, read(kRow));
+  CaseResult& result = grid.cases.front();
+  GateResult unexpected = result.gates.front(), failed = unexpected;
+  unexpected.answer = GateAnswer::unexpected_pass, unexpected.text = "it held";
+  failed.answer = GateAnswer::failed, failed.text = "it failed";
+  const auto concluded = [&](std::vector<GateResult> more) {
+    result.cells[0].status = Status::pass;
+    result.gates.resize(1);  // which is a known deviation
+    result.gates.insert(result.gates.end(), more.begin(), more.end());
+    apply_known_deviations(result, grid, {});
+    return word_of(result.cells[0].status) + ": " + result.cells[0].reason;
+  };
+  BOOST_TEST(concluded({}).starts_with("known-deviation: "));
+  BOOST_TEST(concluded({unexpected}) == "unexpected-pass: it held");
+  BOOST_TEST(concluded({unexpected, failed}) == "fail: it failed");
+  failed.engine = "ode:quickstep";  // of another run
+  BOOST_TEST(concluded({failed}).starts_with("known-deviation: "));
+  result.cells[0].status = Status::diverged;
+  apply_known_deviations(result, grid, {});
+  BOOST_TEST((result.cells[0].status == Status::diverged));
+}
+
+BOOST_AUTO_TEST_CASE(a_row_without_runs_is_of_its_engine_and_a_step_may_be_a_number) {
+  std::string text = kRow;
+  text.erase(text.find("engines"), std::string("engines = [\"ode\"]\n").size());
+  text.replace(text.find("\"1/10\""), 6, "0.1");
+  const auto rows = read(text);
+  BOOST_TEST_REQUIRE(rows.size() == 1u);
+  BOOST_TEST_REQUIRE(rows[0].runs.size() == 1u);
+  BOOST_TEST((rows[0].runs[0].engine == "ode" && rows[0].runs[0].text == "ode"));
+  BOOST_TEST(word_of(judged(2, 0.5, rows).cases.front().cells[0].status) == "known-deviation");
+}
+
 BOOST_AUTO_TEST_CASE(a_row_of_several_runs_is_met_by_a_gate_of_one_of_them) {
   std::string text = kRow;
   text.replace(text.find("\"ode\""), 5, "\"ode\", \"ode:quickstep\"");

@@ -114,6 +114,7 @@ BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold)
   check(no_metric, limit);
   for (Cell& cell : unsupported.result().cells) cell.status = Status::unsupported, cell.metrics.clear();
   check(unsupported, limit);
+  BOOST_TEST(unsupported.result().gates.front().text.find("where it is asked for") == std::string::npos);
   limit.dt = {{1. / 30, "1/30"}};
   check(other_step, limit);
   other_step.grid.engines.push_back(other_step.grid.engines.front());
@@ -156,6 +157,20 @@ BOOST_AUTO_TEST_CASE(a_gate_of_other_runs_or_steps_than_were_chosen_is_not_asked
   BOOST_TEST(count(answers(order, as_is), GateAnswer::held) == 1);
   BOOST_TEST(answers(order, at_one_step).empty());
   BOOST_TEST(count(answers(limit, without_the_metric), GateAnswer::not_checked) == 1);
+  const auto one_without = [&](GatedGrid& chosen) { at_one_step(chosen), without_the_metric(chosen); };
+  BOOST_TEST(count(answers(limit, one_without), GateAnswer::not_checked) == 1);
+  // Of both runs of the ranking, without the metric: it was asked, and is not answered; of one that cannot, it was not.
+  const auto ranked = [&](Status its) {
+    return answers(ranking, [&](GatedGrid& chosen) {
+      chosen.result().cells = GatedGrid().result().cells;
+      for (Cell& cell : chosen.result().cells) {
+        cell.metrics.clear();
+        if (cell.run == 1) cell.status = its;
+      }
+    });
+  };
+  BOOST_TEST(count(ranked(Status::pass), GateAnswer::not_checked) == 1);
+  BOOST_TEST(ranked(Status::unsupported).empty());
 }
 
 BOOST_AUTO_TEST_CASE(what_no_gate_judged_is_told_from_what_held) {
@@ -167,6 +182,10 @@ BOOST_AUTO_TEST_CASE(what_no_gate_judged_is_told_from_what_held) {
   limit.max = 1e-9;
   run.check(limit);
   BOOST_TEST(is_any_judged(run.grid));
+  run.grid.cases.push_back(run.grid.cases.front());
+  run.grid.cases.back().gates.clear();
+  BOOST_TEST(is_any_judged(run.grid));  // one case is enough
+  run.grid.cases.pop_back();
   limit.metric = "creep";
   run.check(limit);
   BOOST_TEST(!is_any_judged(run.grid));

@@ -100,6 +100,43 @@ BOOST_AUTO_TEST_CASE(a_method_is_held_to_the_order_that_it_declares_where_its_er
   BOOST_TEST(answers_of(1, 8, 0.1, true).empty());     // an adaptive method's errors do not follow from dt
 }
 
+// A step that is too long for a method, and what is within its roundings, say nothing of the order that it declares.
+BOOST_AUTO_TEST_CASE(a_declared_order_is_judged_where_the_run_is_near_its_limit) {
+  const auto answers_of = [](auto change) {
+    GatedGrid run(2);
+    run.grid.engines[0].methods.front().order = 2;
+    CaseResult& result = run.result();
+    Cell third = result.cells[1];
+    third.dt = {0.025, "1/40"}, third.metrics["position_error"].value = 0.025 * 0.025;
+    result.cells.push_back(third);
+    change(result.cells[0], result);
+    Gate declares = gate("position_error");
+    declares.at_least_order = 0.1, declares.declares_order = true, declares.is_of_family = true;
+    declares.engines = {"a"};
+    return run.check(declares);
+  };
+  const auto all_held = [&](auto change) {
+    const auto answers = answers_of(change);
+    return answers.size() == 1 && answers.front().answer == GateAnswer::held;
+  };
+  BOOST_TEST(all_held([](Cell&, CaseResult&) {}));
+  BOOST_TEST(all_held([](Cell& longest, CaseResult&) { longest.status = Status::diverged; }));
+  const auto crashed = answers_of([](Cell& longest, CaseResult&) { longest.status = Status::crashed; });
+  BOOST_TEST(count(crashed, GateAnswer::failed) == 1);
+  // The finest step's would spoil the fit if it were large, the longest's if it were small.
+  BOOST_TEST(all_held([](Cell&, CaseResult& result) { result.cells.back().metrics["position_error"].value = 0.03; }));
+  const auto longest_is = [](double error) {
+    return [error](Cell& longest, CaseResult&) { longest.metrics["position_error"].value = error; };
+  };
+  BOOST_TEST(all_held(longest_is(1e-10)));
+  BOOST_TEST(!all_held(longest_is(2e-10)));
+  // A truth sure of 1e-7 m shows nothing of errors up to a hundred times that.
+  BOOST_TEST(all_held([](Cell& longest, CaseResult& result) {
+    result.truth.emplace();
+    result.truth->error_at_end = 0x1p-23, longest.metrics["position_error"].value = 100 * 0x1p-23;
+  }));
+}
+
 BOOST_AUTO_TEST_CASE(a_ranking_holds_each_run_against_another_at_the_same_step) {
   GatedGrid run;  // a: .01 .0025; b: .1 .025
   Gate ranking = gate("position_error");

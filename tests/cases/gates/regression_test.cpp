@@ -138,6 +138,7 @@ BOOST_AUTO_TEST_CASE(a_line_that_is_none_is_refused_with_its_place) {
       {kLine + "[1]\n", ":2:1: is no JSON object"},
       {kLine + "\n", ":2:1: is not JSON"},
       {"{\"run\":\"good\",\"dt\":\"1\"}\n", ":1:1: case: missing"},
+      {"{\"case\":\"a\",\"run\":\"god\",\"dt\":\"1\"}\n", ":1:1: run: "},
       {"{\"case\":\"a\",\"run\":\"god\",\"dt\":\"1\"}\n", "did you mean 'good'?"},
       {"{\"case\":\"a\",\"run\":\"wild\",\"dt\":\"1\"}\n", ":1:1: run: found 'wild'; allowed: runs of good"},
       {"{\"case\":\"a\",\"run\":\"good\",\"dt\":\"x\"}\n", ":1:1: dt"},

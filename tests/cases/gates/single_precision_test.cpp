@@ -59,4 +59,13 @@ BOOST_AUTO_TEST_CASE(without_a_truth_the_start_and_the_fall_say_how_fast_it_gets
   }
 }
 
+// A run of one step, or of none, has one step's roundings.
+BOOST_AUTO_TEST_CASE(the_fewest_roundings_are_those_of_one_step) {
+  const double relative = 8 * std::ldexp(1, -24), size = 5 + 2 * 3 + 2 * 3;
+  for (const double dt : {3.0, 4.0}) {
+    const double allowance = single_precision_allowance(thrown(4), dt, "m");
+    BOOST_TEST(std::abs(allowance - relative * size) <= 1e-12 * relative * size, dt << ": " << allowance);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -63,6 +63,16 @@ BOOST_AUTO_TEST_CASE(a_truth_that_is_good_at_the_start_alone_measures_nothing) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_orientation_error_is_of_any_body) {
+  for (const int body : {0, 1}) {
+    AtRest made;
+    made.at(1).set_orientation(body, rotation_by({0, 0, 0.25}));
+    const Measurement m = *test::measured("orientation_error", made.run()).measurement;
+    BOOST_TEST(m.value == 0.25, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST((m.worst.body == body && m.worst.time == 1));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_orientation_error_is_an_angle_whatever_the_quaternions_sign_and_length) {
   AtRest made;
   const Quat turned(Eigen::AngleAxisd(0.25, Vec3(1, 2, 2) / 3));

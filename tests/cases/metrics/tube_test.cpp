@@ -33,6 +33,7 @@ BOOST_AUTO_TEST_SUITE(cases_metrics_tube)
 
 BOOST_AUTO_TEST_CASE(a_run_beside_the_truth_is_inside_up_to_a_hundredth_of_its_extent) {
   BOOST_TEST(tube_of([](double t) { return at_place(10 * t, 0.0999); }).value == 1);
+  BOOST_TEST(tube_of([](double t) { return at_place(10 * t, 0.0999); }).worst.time == 0);  // which it never leaves
   const Measurement outside = tube_of([](double t) { return at_place(10 * t, t > 0.45 ? 0.1001 : 0); });
   BOOST_TEST(outside.value == 5.0 / 11);  // eleven samples, the first five of them inside
   BOOST_TEST(outside.worst.time == 0.5, boost::test_tools::tolerance(1e-12));

@@ -259,6 +259,85 @@ BOOST_AUTO_TEST_CASE(settings_that_differ_are_told_and_are_not_worse) {
   });
 }
 
+// A setting may have one value in one scene and another in the next: it differs where a value is new.
+BOOST_AUTO_TEST_CASE(a_setting_of_several_values_differs_where_one_of_them_is_new) {
+  const auto with = [](const char* first, const char* second) {
+    Results grid = gated_results();
+    auto& cells = grid.cases.front().cells;
+    cells[0].settings = {{"solver", first}}, cells[1].settings = {{"solver", second}};
+    return grid;
+  };
+  const Results both = with("exact", "rough");
+  const auto differ = [](const Results& before, const Results& after) {
+    std::vector<std::vector<std::string>> found;
+    both_ways(before, after, [&](const Changes& changes) { found.push_back(changes.settings); });
+    BOOST_TEST((found[0] == found[1]));
+    return found[0];
+  };
+  BOOST_TEST(differ(both, with("rough", "rough")).empty());
+  BOOST_TEST(differ(both, with("exact", "exact")).empty());
+  BOOST_TEST(differ(with("rough", "rough"), both) ==
+             std::vector<std::string>{"good, solver: exact | rough, was rough"});
+  BOOST_TEST(differ(both, with("exact", "new")) ==
+             std::vector<std::string>{"good, solver: exact | new, was exact | rough"});
+}
+
+// Of the answers to one question the worst counts, and one over several steps has no cell that would tell of it.
+BOOST_AUTO_TEST_CASE(an_answer_over_several_steps_is_kept_and_the_worst_of_two_counts) {
+  const auto with = [](std::vector<GateAnswer> answers) {
+    Results grid = gated_results();
+    auto& gates = grid.cases.front().gates;
+    for (const GateAnswer answer : answers) gates.push_back({0, "good", "", answer, ""});
+    return grid;
+  };
+  using enum GateAnswer;
+  const Results good = with({held});
+  for (const std::vector<GateAnswer>& answers : {std::vector{failed}, {failed, held}, {held, failed}}) {
+    both_ways(good, with(answers), [](const Changes& changes) {
+      BOOST_TEST(changes.newly_failing ==
+                 std::vector<std::string>{"gate of family/case, position_error, good: failed, was held"});
+    });
+    both_ways(with(answers), good, [](const Changes& changes) { BOOST_TEST(changes.newly_passing.size() == 1u); });
+  }
+  both_ways(good, with({known_deviation}), [](const Changes& changes) { BOOST_TEST(!changes.is_worse()); });
+  BOOST_TEST(baseline_text(outcomes_of(good)).find("\"answer\":\"held\"") != std::string::npos);
+}
+
+// Infinity was null in results.json of the first schema; a metric of another version is none that there is.
+BOOST_AUTO_TEST_CASE(results_of_other_versions_are_read_as_far_as_they_mean_the_same) {
+  const Folder folder;
+  const auto read = [&](const auto& change) {
+    auto json = nlohmann::json::parse(json_report(gated_results()));
+    change(json["cells"][0]["metrics"], json);
+    return read_baseline(folder.write("results.json", json.dump())).cells.begin()->second.metrics;
+  };
+  const auto old = read([](auto& metrics, auto& json) {
+    json["schema"] = 1, metrics["position_error"]["value"] = nullptr;
+    metrics["niceness"] = metrics["energy_drift"];
+  });
+  BOOST_TEST(old.at("position_error") == HUGE_VAL);
+  BOOST_TEST(old.at("energy_drift") == 0.5);
+  BOOST_TEST(!old.contains("niceness"));
+  for (const char* word : {"inf", "-inf", "nan"}) {
+    const auto values = read([&](auto& metrics, auto&) { metrics["position_error"]["value"] = word; });
+    BOOST_TEST(values.at("position_error") == HUGE_VAL, word);
+  }
+  for (const int schema : {0, 3})
+    BOOST_CHECK_THROW(read([&](auto&, auto& json) { json["schema"] = schema; }), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(each_kind_of_change_has_its_heading_and_its_lines) {
+  Changes changes;
+  BOOST_TEST(!changes.is_worse());
+  changes.newly_failing = {"a"}, changes.newly_passing = {"b", "c"}, changes.worse = {"d"}, changes.better = {"e"};
+  changes.lost = {"f"}, changes.shorter = {"g"}, changes.longer = {"h"}, changes.settings = {"i"};
+  changes.gone = {"j"}, changes.added = {"k"};
+  BOOST_TEST(text_of(changes, 1.25) ==
+             "newly failing: 1\n  a\nnewly passing: 2\n  b\n  c\nworse by more than 1.25 times: 1\n  d\n"
+             "better by more than 1.25 times: 1\n  e\nno longer measured: 1\n  f\nrun for less time: 1\n  g\n"
+             "run for more time: 1\n  h\nsettings that differ: 1\n  i\ngone: 1\n  j\nadded: 1\n  k\nworse\n");
+}
+
 BOOST_AUTO_TEST_CASE(a_case_that_is_gone_is_worse_and_one_that_is_new_is_not) {
   Results two = gated_results();
   two.cases.push_back(two.cases.front());

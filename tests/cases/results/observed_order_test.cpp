@@ -65,6 +65,33 @@ BOOST_AUTO_TEST_CASE(an_order_needs_no_costs_and_work_precision_does) {
   BOOST_TEST(error_points(results.cases.front(), 0, "position_error").empty());
 }
 
+// A hundred times what the truth is sure of is where a scheme's own error begins.
+BOOST_AUTO_TEST_CASE(an_error_up_to_a_hundred_times_the_floor_is_none_of_the_schemes) {
+  const auto is_fitted = [](double of_floor) {
+    Results results = test::priced_results({{"a", {{0.2, 1e-3, 1}, {0.1, of_floor * 0x1p-30, 2}}}});
+    results.cases.front().truth->error_at_end = 0x1p-30;
+    return observed_order(results.cases.front(), 0, "position_error").value.has_value();
+  };
+  BOOST_TEST(!is_fitted(100));
+  BOOST_TEST(is_fitted(100.5));
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_is_held_to_itself_or_has_no_number_has_no_points) {
+  Results results = test::priced_results({{"a", power(3, 2, {0.1, 0.05})}, {"b", power(3, 2, {0.1, 0.05})}});
+  CaseResult& result = results.cases.front();
+  const auto points = [&](std::size_t run) { return error_points(result, run, "position_error").size(); };
+  BOOST_TEST((points(0) == 2u && points(1) == 2u));
+  result.cells[0].metrics["position_error"].is_held_to_itself = true;
+  BOOST_TEST((points(0) == 0u && points(1) == 2u));
+  result.cells[0].metrics["position_error"].is_held_to_itself = false;
+  result.cells[0].metrics["position_error"].value = std::nan("");
+  BOOST_TEST(points(0) == 1u);
+  for (const Status status : {Status::fail, Status::known_deviation, Status::unexpected_pass, Status::timed_out}) {
+    result.cells[1].status = status;
+    BOOST_TEST(points(0) == (status == Status::timed_out ? 0u : 1u), word_of(status));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(only_the_steps_asked_for_are_fitted) {
   const Results results = test::priced_results({{"a", {{0.4, 100, 1}, {0.2, 0.2, 2}, {0.1, 0.1, 4}}}});
   const auto fine = [](const StepSize& dt) { return dt.seconds < 0.3; };

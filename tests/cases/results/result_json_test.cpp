@@ -52,6 +52,61 @@ BOOST_AUTO_TEST_CASE(every_number_comes_back_with_its_bits) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(every_word_comes_back) {
+  CaseResult result = sample_results().cases.front();
+  const Scene& scene = result.definition.scene;
+  Cell cell = result.cells.front();
+  cell.status = Status::invalid, cell.reason = "it is so", cell.trajectory = "";
+  cell.stability = {Verdict::gaining, 0.5, kWorld, "it rose", 0.13};
+  cell.settings = {{"solver", "exact"}, {"steps", "7"}};
+  cell.recordings = {{"scene", {"one", "two"}}};
+  cell.metrics["position_error"].is_held_to_itself = true;
+  cell.scheme.without_gyroscopic_term["energy_drift"] = cell.metrics["energy_drift"];
+  apply_message(result, message_of_cell(1, cell, scene));
+  const Cell& back = result.cells[1];
+  BOOST_TEST((back.status == Status::invalid && back.reason == "it is so" && back.trajectory.empty()));
+  BOOST_TEST((back.stability.verdict == Verdict::gaining && back.stability.body == kWorld));
+  BOOST_TEST((back.stability.why == "it rose" && back.stability.amount == 0.13));
+  BOOST_TEST((back.settings == cell.settings));
+  BOOST_TEST((back.recordings == cell.recordings));
+  BOOST_TEST(back.metrics.at("position_error").is_held_to_itself);
+  BOOST_TEST(!back.metrics.at("energy_drift").is_held_to_itself);
+  BOOST_TEST(
+      (back.metrics.at("position_error").worst.body == 0 && back.metrics.at("energy_drift").worst.body == kWorld));
+  BOOST_TEST(back.metrics.at("orientation_error").not_applicable == "nothing turns");
+  BOOST_TEST(back.scheme.twin == "core:its-twin");
+  BOOST_TEST(back.scheme.metrics.at("position_error").value == 0.24);
+  BOOST_TEST(back.scheme.without_gyroscopic_term.at("energy_drift").value == 0.5);
+  for (const bool is_cap : {true, false}) {
+    apply_message(result, message_of_stable_step(1, {Status::pass, "cut", {0.25, is_cap, !is_cap}}));
+    const StableStep& step = result.stable_steps[1].step;
+    BOOST_TEST((step.dt == 0.25 && step.is_cap == is_cap && step.is_floor == !is_cap && step.cut == "cut"));
+  }
+  apply_message(result, message_of_stable_step(1, {Status::timed_out, "no result", {}}));
+  BOOST_TEST((result.stable_steps[1].status == Status::timed_out && result.stable_steps[1].reason == "no result"));
+  apply_message(result, message_of_truth({1, 2, 3, 4, {{"scene", {"one"}}}}));
+  BOOST_TEST((result.truth->horizon == 2 && result.truth->largest_kinetic_energy == 3));
+  BOOST_TEST((result.truth->recordings == Recordings{{"scene", {"one"}}}));
+}
+
+// A pair that never parted has no time of it; a body that there is not has no place.
+BOOST_AUTO_TEST_CASE(a_spread_comes_back_with_its_pair_and_its_bodies) {
+  CaseResult result = sample_results().cases.front();
+  apply_message(result, message_of_spreads({{0, 1, {0.1, "1/10"}, {0.5, 0.25, 0}, {0.75, 1, 0}, {}, 1}}));
+  const Spread& spread = result.spreads.front();
+  BOOST_TEST((spread.first == 0 && spread.second == 1 && spread.dt.seconds == 0.1 && spread.dt.text == "1/10"));
+  BOOST_TEST((spread.distance.value == 0.5 && spread.distance.time == 0.25 && spread.angle.value == 0.75));
+  BOOST_TEST(!spread.parted_at.has_value());
+  const int beyond = static_cast<int>(result.definition.scene.bodies.size());
+  BOOST_CHECK_THROW(apply_message(result, message_of_spreads({{0, 1, {0.1, "1/10"}, {1, 1, beyond}, {}, {}, 1}})),
+                    std::exception);
+  for (const auto& [first, second] : {std::pair(2, 1), std::pair(0, 2)}) {
+    Spread of_others = spread;
+    of_others.first = first, of_others.second = second;
+    BOOST_CHECK_THROW(apply_message(result, message_of_spreads({of_others})), std::runtime_error);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_garbled_message_is_refused_and_changes_nothing) {
   CaseResult result = sample_results().cases.front();
   const Scene& scene = result.definition.scene;

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <thread>
 
+#include "core/dynamics/model/system.h"
 #include "core/engine/engine_failure.h"
 #include "core/engine/spared_reactions.h"
 #include "tests/cases/judged.h"
@@ -215,6 +216,48 @@ BOOST_AUTO_TEST_CASE(short_steps_are_timed_again_without_a_pause_and_long_ones_a
   steps = 0;
   BOOST_TEST(timed_again(engine, {}, scene, slow) == slow.cpu_seconds);
   BOOST_TEST(steps == 0);
+}
+
+// Each of the four by itself: as far off as single precision makes it, and half as far again.
+BOOST_AUTO_TEST_CASE(a_run_has_to_start_where_the_scene_says) {
+  Scene scene;
+  scene.bodies = {test::body("far", 1, {1, 1, 1}, {30, 0, 40}), test::body("ground", 1, {1, 1, 1})};
+  scene.bodies[0].velocity = {3, 4, 0}, scene.bodies[0].angular_velocity = {0, 0, 2};
+  scene.bodies[1].shape = Plane{Vec3::UnitZ(), 0}, scene.bodies[1].fixed = true;
+  const auto fault = [&](std::size_t body, const Vec3& moved, double turned, const Vec3& faster, const Vec3& quicker) {
+    BodyTable start(2);
+    set_initial_state(scene, start.columns());
+    BodyState state = std::as_const(start).columns().body(body);
+    state.position += moved, state.velocity += faster, state.angular_velocity += quicker;
+    state.orientation = rotation_by({turned, 0, 0}) * state.orientation;
+    start.columns().set_body(body, state);
+    Simulation run;
+    run.trajectory.samples.push_back({0, start});
+    try {
+      check_start(run, scene);
+    } catch (const EngineFailure& failure) {
+      return failure.kind() == FailureKind::invalid ? std::string(failure.what()) : "another kind";
+    }
+    return std::string();
+  };
+  const Vec3 none = Vec3::Zero(), x(1e-5, 0, 0);  // of the largest: 50 m, 5 m/s, 2 rad/s
+  BOOST_TEST(fault(0, 49 * x, 0.98e-5, 4.9 * x, 1.96 * x) == "");
+  BOOST_TEST(fault(0, 75 * x, 0, none, none).starts_with("at t = 0 the position of 'far' is 0.00075 m from"));
+  BOOST_TEST(fault(0, none, 1.5e-5, none, none).starts_with("at t = 0 the orientation of 'far' is 1.5e-05 rad from"));
+  BOOST_TEST(fault(0, none, 0, 7.5 * x, none).starts_with("at t = 0 the velocity of 'far' is 7.5e-05 m/s from"));
+  BOOST_TEST(fault(0, none, 0, none, 3 * x).starts_with("at t = 0 the angular velocity of 'far' is 3e-05 rad/s from"));
+  BOOST_TEST(fault(1, 1e6 * x, 0.1, none, none) == "");  // where a plane's origin is means nothing
+  scene.bodies[1].shape = Sphere{0.5};
+  BOOST_TEST(fault(1, 1e6 * x, 0, none, none).starts_with("at t = 0 the position of 'ground' is 10 m from"));
+  // Where nothing moves a rounding is one of nothing.
+  scene.bodies.resize(1), scene.bodies[0].shape.reset();
+  scene.bodies[0].position = scene.bodies[0].velocity = scene.bodies[0].angular_velocity = none;
+  scene.bodies.push_back(scene.bodies[0]);
+  BOOST_TEST(fault(0, 0.9e-4 * x, 0, 0.9e-4 * x, 0.9e-4 * x) == "");
+  BOOST_TEST(fault(0, 1.2e-4 * x, 0, none, none) != "");
+  BOOST_TEST(fault(1, none, 0, 1.2e-4 * x, none) != "");
+  BOOST_TEST(fault(1, none, 0, none, 1.2e-4 * x) != "");
+  check_start({}, scene);  // of a run without a sample there is nothing to say
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -153,4 +153,12 @@ BOOST_AUTO_TEST_CASE(every_pair_in_reach_is_found_once) {
   BOOST_TEST((found == expected));
 }
 
+// 2-3-6 has a diagonal of 7.
+BOOST_AUTO_TEST_CASE(a_shape_is_within_its_bounding_radius) {
+  BOOST_TEST(bounding_radius(Sphere{0.5}) == 0.5);
+  BOOST_TEST(bounding_radius(Capsule{0.25, 3}) == 1.75);
+  BOOST_TEST(bounding_radius(Box{{2, 3, 6}}) == 3.5, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(std::isinf(bounding_radius(Plane{Vec3::UnitZ(), 0})));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
