@@ -23,13 +23,15 @@ void keep_values(Json& metrics) {
   metrics = kept;
 }
 
-// What a gate that held says of one cell is its metric's value, which stands with the cell.
-void shorten_answers(Json& answers) {
-  for (Json& answer : answers) {
+// What a bound that held says of one cell is its metric's value, which stands with the cell; of a regression it is what
+// is recorded.
+void shorten_answers(Json& gate) {
+  const bool is_bound = gate.at("kind") == "bound";
+  for (Json& answer : gate.at("answers")) {
     if (answer.at("caveat") == "") answer.erase("caveat");
     if (answer.at("answer") != "held") continue;
     answer.erase("text");
-    if (answer.at("dt") != "") answer.erase("value");
+    if (is_bound && answer.at("dt") != "") answer.erase("value");
   }
 }
 
@@ -110,7 +112,7 @@ void leave_out_details(Json& results) {
     drop_rows_that([](const Json& order) { return order.at("value").is_null(); }, one.at("observed_order"));
     for (Json& order : one.at("observed_order")) order.erase("errors");
     for (Json& gate : one.at("gates")) {
-      shorten_answers(gate.at("answers"));
+      shorten_answers(gate);
       gate = without_nulls(gate);
     }
   }

@@ -1,11 +1,15 @@
 #include "cases/gates/regression.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
 
 #include "cases/gates/failures.h"
 #include "cases/gates/gates.h"
+#include "cases/report/json/leave_out_details.h"
 #include "cases/report/reports.h"
 #include "core/base/error.h"
 #include "tests/cases/report/sample_results.h"
@@ -130,6 +134,23 @@ BOOST_AUTO_TEST_CASE(the_file_made_of_results_holds_them) {
     if (answer.engine == "good") BOOST_TEST((answer.answer == GateAnswer::held), answer.text);
   }
   BOOST_CHECK_THROW(regression_text((path / "results.json").string(), "wild"), InputError);  // it has no value
+}
+
+// A long result leaves out what stands twice; not what is recorded.
+BOOST_AUTO_TEST_CASE(the_file_made_of_a_long_result_holds_values_that_held) {
+  Gate gate;
+  gate.metric = "position_error", gate.regression = 1.25;
+  result().definition.gates = {gate};
+  check_gates(result(), grid, recorded(kLine));
+  for (std::size_t n = 0; n < kMostCasesInDetail; ++n) {
+    grid.cases.push_back(grid.cases.front());
+    grid.cases.back().definition.id = fmt::format("family/other {}", n);
+  }
+  const RegressionText made = regression_text(write("results.json", json_report(grid)), "good");
+  BOOST_TEST(
+      made.text.starts_with("{\"case\":\"family/case\",\"run\":\"good\",\"dt\":\"1/10\",\"position_error\":0.25}\n"),
+      made.text);
+  BOOST_TEST(static_cast<std::size_t>(std::count(made.text.begin(), made.text.end(), '\n')) == 2 * grid.cases.size());
 }
 
 BOOST_AUTO_TEST_CASE(a_line_that_is_none_is_refused_with_its_place) {
