@@ -43,6 +43,13 @@ void expect_gates(const std::vector<Case>& cases) {
   if (!without.empty()) say(fmt::format("no gate judges {}", fmt::join(without, ", ")));
 }
 
+// Of a gate over another duration than the cases' own, in s.
+void tell_of_duration(double duration) {
+  say(fmt::format(
+      "limits hold for the cases' own durations, and are held here against {} s; no value is recorded for such runs",
+      duration));
+}
+
 std::vector<RunName> without_those_on_request(std::vector<RunName> runs) {
   std::erase_if(runs, [](const RunName& run) { return is_on_request(run.engine); });
   return runs;
@@ -59,11 +66,7 @@ Results planned(const CommandLine& line, const EngineTable& engines, const std::
   if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
   if (line.quick) cases = quick_selection(cases, engines.infos());
   if (is_gate(line)) expect_gates(cases);
-  if (is_gate(line) && line.duration)
-    say(
-        fmt::format("limits hold for the cases' own durations, and are held here against {} s; no value is recorded "
-                    "for such runs",
-                    *line.duration));
+  if (is_gate(line) && line.duration) tell_of_duration(*line.duration);
   const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
   // Who names engines wants these and no others.
   const auto of_gates = line.engines.empty() ? without_those_on_request(runs_of_gates(cases, runs, engines.infos()))
