@@ -85,7 +85,7 @@ void add_joint(const Scene& scene, std::size_t k, NeedList& needs) {
 }
 
 bool is_damped(const Scene& scene) {
-  const auto damps = [](const auto& row) { return row.damping > 0; };
+  const auto damps = [](const auto& row) { return row.damping != 0; };
   return std::any_of(scene.springs.begin(), scene.springs.end(), damps) ||
          std::any_of(scene.joints.begin(), scene.joints.end(), damps);
 }

@@ -54,7 +54,7 @@ Loads::Loads(const Scene& scene)
     : gravity_(scene.gravity), springs_(scene.springs), forces_(scene.forces), schedule_(scene.forces) {
   for (const Body& body : scene.bodies) masses_.push_back(body.fixed ? 0 : body.mass);
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_drive(scene, k);
-  const auto damps = [](const auto& row) { return row.damping > 0; };
+  const auto damps = [](const auto& row) { return row.damping != 0; };
   damped_ = std::any_of(springs_.begin(), springs_.end(), damps) || std::any_of(drives_.begin(), drives_.end(), damps);
 }
 

@@ -84,7 +84,8 @@ BOOST_AUTO_TEST_CASE(each_converges_at_its_stated_order) {
   free_body.bodies[0].angular_velocity *= 5;  // fast enough that a method of order 8 has an error to see
   const std::pair<const char*, Scene> scenes[] = {{"a free body of three moments", free_body},
                                                   {"coupled bodies without damping", test::coupled_bodies(0)},
-                                                  {"coupled bodies with damping", test::coupled_bodies(3)}};
+                                                  {"coupled bodies with damping", test::coupled_bodies(3)},
+                                                  {"coupled bodies with dampers that drive", test::coupled_bodies(-1)}};
   for (const auto& [what, scene] : scenes) {
     const BodyTable truth = accurate(scene, 1);
     for (const Method& method : every_method()) {
