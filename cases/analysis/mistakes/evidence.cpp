@@ -44,8 +44,8 @@ std::pair<std::size_t, std::size_t> range_of(Observation::Part part, std::size_t
 }  // namespace
 
 Observation::Observation(const View& view, std::size_t view_index, Part part, const Sight& base, std::size_t bodies)
-    : view_(view_index), part_(part), base_(base) {
-  std::tie(begin_, end_) = range_of(part, bodies * kMotionColumns, base.states.size());
+    : view_(view_index), part_(part), base_(base), sample_(bodies * kMotionColumns) {
+  std::tie(begin_, end_) = range_of(part, sample_, base.states.size());
   per_ = std::max<double>(1, static_cast<double>(end_ - begin_) / kMotionColumns);
   tolerance_ = is_loaded() ? kOfLoading : view.tolerance;
   // What hardly moves is measured by a metre, and by its own time.
@@ -80,6 +80,27 @@ double Observation::uncertainty(const Sight& sight) const {
   for (std::size_t i = begin_; i < std::min({end_, sight.coarse.size(), sight.states.size()}); ++i)
     sum += std::pow(weight(i) * (sight.states[i] - sight.coarse[i]), 2);
   return std::sqrt(sum / per_);
+}
+
+Observation Observation::until_lost(const Sight& engine) const {
+  constexpr double kManyTimes = 10, kUnsure = 0.03;
+  Observation kept = *this;
+  const std::size_t size = std::min(base_.states.size(), engine.states.size());
+  const bool blows_up = engine.states.size() < base_.states.size();
+  for (std::size_t at = sample_; sample_ > 0 && at + sample_ <= size; at += sample_) {
+    double away = 0, open = 0;
+    for (std::size_t i = at; i < at + sample_; ++i) {
+      away += std::pow(weight(i) * (engine.states[i] - base_.states[i]), 2);
+      if (i < engine.coarse.size()) open += std::pow(weight(i) * (engine.states[i] - engine.coarse[i]), 2);
+    }
+    const double bodies = static_cast<double>(sample_) / kMotionColumns;
+    if (away < bodies * kManyTimes * kManyTimes) continue;
+    if (!blows_up && open < kUnsure * kUnsure * away) continue;
+    kept.end_ = std::clamp(at + sample_, begin_, end_);  // that it has left is seen
+    kept.per_ = std::max<double>(1, static_cast<double>(kept.end_ - begin_) / kMotionColumns);
+    break;
+  }
+  return kept;
 }
 
 std::vector<double> Observation::difference(const Sight& sight) const {

@@ -29,6 +29,10 @@ class Observation {
   Distances distances(const Sight& engine, const Sight& mistake) const;
   // Distance of a sight from its own coarse one: what extrapolation, or chaos, leaves open.
   double uncertainty(const Sight& sight) const;
+  // As far as the engine's motion says where it goes: where it blows up, or grows beyond what its steps resolve, not on
+  // from where it has left by many times its size.
+  Observation until_lost(const Sight& engine) const;
+  bool is_empty() const { return begin_ == end_; }
   // The scaled difference of a sight from the base.
   std::vector<double> difference(const Sight& sight) const;
 
@@ -42,6 +46,7 @@ class Observation {
   std::size_t view_;
   Part part_;
   const Sight& base_;
+  std::size_t sample_;       // numbers of all bodies at one instant
   std::size_t begin_, end_;  // of the states
   double per_ = 1;           // samples times bodies
   double tolerance_;

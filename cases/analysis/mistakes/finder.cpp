@@ -35,7 +35,8 @@ std::vector<Hypothesis> of_table() {
 }
 
 // An engine that gets its loads from Rigor, by wrenches, gets them worked out from what it tells: what it tells wrongly
-// moves it otherwise too, by which its motion is not the mistake's alone.
+// moves it otherwise too, by which its motion is not the mistake's alone. Before the first step no load has had a
+// share.
 bool is_fed_back(const Fault& fault, const Scene& scene, const EngineInfo& engine) {
   const bool tells_wrongly = fault.read || fault.reads_late;
   return tells_wrongly && engine.features.contains("wrench") && !(scene.springs.empty() && scene.forces.empty());
@@ -109,7 +110,8 @@ std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector
   for (Hypothesis& hypothesis : hypotheses) {
     for (const View& view : table.views) {
       const bool is_left_out = is_fed_back(*hypothesis.fault, *probes_[view.probe].scene, engine);
-      hypothesis.sights.push_back(is_left_out ? Sight{{}, {}, "left out"} : seen(view, motions, at));
+      hypothesis.sights.push_back(seen(view, motions, at));
+      hypothesis.sights.back().as_loaded_alone = is_left_out;
       at += view.dt.size();
     }
   }

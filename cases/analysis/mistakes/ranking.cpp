@@ -14,6 +14,9 @@ constexpr double kSingleLoaded = 1e-6, kSingleMoved = 1e-4;
 // An observation counts where there is this many times more in it than the nearest of all mistakes leaves there: the
 // rest is taken for what the engine's scheme does otherwise than the base.
 constexpr double kClear = 20;
+// Of the pairs, some 140 are tried: in two numbers, as the place and the speed of a body that slides, one of them
+// comes by chance to within a twentieth once in three times, to within this part once in a hundred.
+constexpr double kClearOfPair = 120;
 
 constexpr double kExplained = 0.01;  // what may be left of an error that is explained
 
@@ -27,9 +30,19 @@ double share_left(const Distances& d) {
 
 Trace::Trace(const std::vector<View>& views, const std::vector<Observation>& observations, std::vector<Sight> engine,
              bool is_single)
-    : views_(views), observations_(observations), engine_(std::move(engine)), is_single_(is_single) {}
+    : views_(views), engine_(std::move(engine)), is_single_(is_single) {
+  for (const Observation& observation : observations) {
+    observations_.push_back(observation.until_lost(engine_[observation.view_index()]));
+    if (observations_.back().is_empty()) observations_.pop_back();
+  }
+}
 
 bool Trace::is_seen(std::size_t o) const { return engine_[observations_[o].view_index()].why.empty(); }
+
+bool Trace::is_seen(std::size_t o, const Hypothesis& hypothesis) const {
+  const Sight& sight = hypothesis.sights[observations_[o].view_index()];
+  return is_seen(o) && sight.why.empty() && (observations_[o].is_loaded() || !sight.as_loaded_alone);
+}
 
 double Trace::tolerance(std::size_t o) const {
   const Observation& observation = observations_[o];
@@ -57,9 +70,10 @@ std::vector<double> Trace::nearest(const std::vector<Hypothesis>& hypotheses) co
     const std::size_t v = observations_[o].view_index();
     least[o] = observations_[o].distances(engine_[v], engine_[v]).error;
     for (const Hypothesis& hypothesis : hypotheses) {
-      if (!hypothesis.sights[v].why.empty()) continue;
+      if (!is_seen(o, hypothesis)) continue;
       const Distances d = observations_[o].distances(engine_[v], hypothesis.sights[v]);
-      if (d.ends_alike && d.rest < least[o]) least[o] = d.rest;
+      const double rest = d.rest * (hypothesis.names.size() > 1 ? kClearOfPair / kClear : 1);
+      if (d.ends_alike) least[o] = std::min(least[o], rest);
     }
   }
   return least;
@@ -75,13 +89,16 @@ bool Trace::is_active(std::size_t o, double size, double error, double nearest) 
 }
 
 // Where bodies touch, or a method of high order is off otherwise, what is left is of the engine's way with contacts as
-// well as of the mistake; and what is hardly seen beside what extrapolation leaves open says little.
-double Trace::weight_of(std::size_t o, double size) const {
+// well as of the mistake; and what is hardly seen beside what extrapolation leaves open, of the engine's motion or of
+// the mistake's, says little.
+double Trace::weight_of(std::size_t o, double size, const Sight& mistake) const {
   constexpr double kOfAccurate = 0.25, kSeen = 0.03;
   const Observation& observation = observations_[o];
   if (observation.is_loaded()) return 1;
   if (views_[observation.view_index()].kind == View::Kind::accurate) return kOfAccurate;
-  const double blur = observation.uncertainty(engine_[observation.view_index()]) / (kSeen * size);
+  const double open =
+      std::hypot(observation.uncertainty(engine_[observation.view_index()]), observation.uncertainty(mistake));
+  const double blur = open / (kSeen * size);
   return std::isfinite(blur) ? 1 / (1 + blur * blur) : 0;
 }
 
@@ -108,11 +125,11 @@ std::vector<Suspect> Trace::ranked(const std::vector<Hypothesis>& hypotheses,
     std::map<std::size_t, CaseShare> cases;  // by probe
     for (std::size_t o = 0; o < observations_.size(); ++o) {
       const std::size_t v = observations_[o].view_index();
-      if (!is_seen(o) || !hypotheses[h].sights[v].why.empty()) continue;
+      if (!is_seen(o, hypotheses[h])) continue;
       const Distances d = observations_[o].distances(engine_[v], hypotheses[h].sights[v]);
       if (!is_active(o, std::max(d.error, d.predicted), d.error, least[o])) continue;
       const double left = share_left(d);
-      const double weight = weight_of(o, std::max(d.error, d.predicted));
+      const double weight = weight_of(o, std::max(d.error, d.predicted), hypotheses[h].sights[v]);
       squares += weight * left * left, count += weight;
       if (!is_active(o, d.error, d.error, least[o])) continue;
       CaseShare& share = cases[views_[v].probe];
@@ -142,7 +159,7 @@ Trace::Fit Trace::fit(const Hypothesis& hypothesis, bool of_contacts) const {
   double together = 0, predicted = 0, error = 0;
   for (std::size_t o = 0; o < observations_.size(); ++o) {
     const std::size_t v = observations_[o].view_index();
-    if (!is_seen(o) || !hypothesis.sights[v].why.empty()) continue;
+    if (!is_seen(o, hypothesis)) continue;
     if (!of_contacts && !observations_[o].is_loaded() && views_[v].kind == View::Kind::accurate) continue;
     const Distances d = observations_[o].distances(engine_[v], hypothesis.sights[v]);
     if (std::max(d.error, d.predicted) < tolerance(o)) continue;
@@ -160,7 +177,7 @@ std::vector<std::size_t> Trace::explained_by(const Hypothesis& hypothesis, const
   std::vector<std::size_t> explained;
   for (std::size_t o = 0; o < observations_.size(); ++o) {
     const std::size_t v = observations_[o].view_index();
-    if (!is_seen(o) || !hypothesis.sights[v].why.empty()) continue;
+    if (!is_seen(o, hypothesis)) continue;
     const Distances d = observations_[o].distances(engine_[v], hypothesis.sights[v]);
     if (is_active(o, d.error, d.error, least[o]) && share_left(d) < kExplained) explained.push_back(o);
   }
@@ -180,7 +197,7 @@ std::vector<Trace::Sum> Trace::sums(const std::vector<Hypothesis>& hypotheses) c
     std::vector<std::vector<double>> moved(n);
     std::vector<double> e = observations_[o].difference(engine_[v]), left(e.size());
     for (std::size_t h = 0; h < n; ++h) {
-      if (hypotheses[h].sights[v].why.empty()) moved[h] = observations_[o].difference(hypotheses[h].sights[v]);
+      if (is_seen(o, hypotheses[h])) moved[h] = observations_[o].difference(hypotheses[h].sights[v]);
       moved[h].resize(e.size(), 0.0);
     }
     for (std::size_t i = 0; i < n; ++i) {

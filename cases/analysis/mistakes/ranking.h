@@ -57,11 +57,12 @@ class Trace {
 
  private:
   Fit fit(const Hypothesis& hypothesis, bool of_contacts) const;
-  bool is_seen(std::size_t observation) const;  // the engine has a sight there
+  bool is_seen(std::size_t observation) const;                                // the engine has a sight there
+  bool is_seen(std::size_t observation, const Hypothesis& hypothesis) const;  // both have
   double tolerance(std::size_t observation) const;
   double certain_error(std::size_t observation) const;  // beyond it the engine is off whatever explains it
   // Of what is left there, for an error of this size.
-  double weight_of(std::size_t observation, double size) const;
+  double weight_of(std::size_t observation, double size, const Sight& mistake) const;
   // Of each observation, how near any hypothesis comes, the motion without mistakes included.
   std::vector<double> nearest(const std::vector<Hypothesis>& hypotheses) const;
   bool is_clear(std::size_t observation, double size, double nearest) const;
@@ -69,7 +70,7 @@ class Trace {
   bool is_active(std::size_t observation, double size, double error, double nearest) const;
 
   const std::vector<View>& views_;
-  const std::vector<Observation>& observations_;
+  std::vector<Observation> observations_;  // each until the engine's motion is lost
   std::vector<Sight> engine_;
   bool is_single_;
 };

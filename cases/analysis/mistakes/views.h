@@ -32,7 +32,8 @@ struct Sight {
   // The same less surely, to see what is left open: of an extrapolated one from the two finer steps alone; of an
   // engine's beside its twin as roundings may move it (nudged_tasks); else empty.
   std::vector<double> coarse;
-  std::string why;  // there is none; empty if there is
+  std::string why;               // there is none; empty if there is
+  bool as_loaded_alone = false;  // of a mistake: nothing is held against its motion after that
 };
 
 // The views of a run on the probes. `of_points`: the base of Kind::same_method; null where that is not needed.
