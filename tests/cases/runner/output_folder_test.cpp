@@ -225,6 +225,29 @@ BOOST_AUTO_TEST_CASE(publishing_that_is_killed_anywhere_leaves_the_old_or_the_ne
   BOOST_TEST(kills - old > 10);
 }
 
+// Who links a folder means what is behind it; who has put a link inside it has not asked for what that points to.
+BOOST_AUTO_TEST_CASE(a_link_to_the_folder_is_followed_and_links_inside_it_are_replaced) {
+  const Folder place;
+  place.write("real/results.json", "old");
+  place.write("elsewhere/mine.txt", "mine"), place.write("elsewhere/a--b--c.csv", "mine, too");
+  fs::create_directory_symlink(place.path / "real", place.path / "out");
+  fs::create_symlink(place.path / "elsewhere/mine.txt", place.path / "real/report.md");
+  fs::create_directory_symlink(place.path / "elsewhere", place.path / "real/trajectories");
+  {
+    OutputFolder folder((place.path / "out").string(), {"results.json", "report.md"});
+    folder.write("results.json", "new"), folder.write("report.md", "new");
+    std::ofstream(fs::path(folder.trajectories()) / "a--b--c.csv") << "rows";
+    folder.publish({"a--b--c.csv"});
+  }
+  BOOST_TEST(fs::is_symlink(place.path / "out"));
+  BOOST_TEST(content(place.path / "real/results.json") == "new");
+  BOOST_TEST(content(place.path / "real/report.md") == "new");
+  BOOST_TEST(content(place.path / "real/trajectories/a--b--c.csv") == "rows");
+  BOOST_TEST(content(place.path / "elsewhere/mine.txt") == "mine");
+  BOOST_TEST(content(place.path / "elsewhere/a--b--c.csv") == "mine, too");
+  BOOST_TEST(entries(place.path / "elsewhere") == 2u);
+}
+
 BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written_is_refused) {
   const Folder place;
   const std::string file = place.write("file", "");
