@@ -90,7 +90,7 @@ void ProcessSession::read(int world, double due, double dt, MutableBodyColumns i
   });
 }
 
-void ProcessSession::run(int world, double begin, double dt, long count, long every, std::vector<BodyTable>& samples) {
+void ProcessSession::run(int world, double begin, double dt, long count, long every, std::vector<KeptBodies>& samples) {
   const Asked asked = asked_of(child_->name(), "run", world);
   const std::size_t due = samples.size(), bodies = samples.front().size();
   const std::string line =

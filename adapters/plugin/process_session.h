@@ -33,7 +33,7 @@ class ProcessSession {
   void step(int world, double dt, const std::vector<double>& wrenches);               // none: no wrenches
   void read(int world, double due, double dt, MutableBodyColumns into);
   // `count` steps, of which each `every`-th, and the last, is sampled into one of the tables; `begin`: s.
-  void run(int world, double begin, double dt, long count, long every, std::vector<BodyTable>& samples);
+  void run(int world, double begin, double dt, long count, long every, std::vector<KeptBodies>& samples);
   void unload(int world);
   // What the engine said of its last step or run: why it is not what the method promises.
   const std::string& warning() const { return warning_; }

@@ -80,7 +80,7 @@ void ProcessWorld::run_ahead() {
   const long samples_each = std::clamp(kMostSteps / ahead_.every, 1L, most_samples);
   ahead_.count = std::min(ahead_.left, samples_each * ahead_.every), ahead_.taken = 0;
   ahead_.samples.assign(static_cast<std::size_t>((ahead_.count + ahead_.every - 1) / ahead_.every),
-                        BodyTable(bodies()));
+                        KeptBodies(bodies()));
   try {
     session_->run(world_, clock_.time(), ahead_.dt, ahead_.count, ahead_.every, ahead_.samples);
     warning_ = session_->warning();

@@ -29,7 +29,7 @@ class ProcessWorld : public RemoteWorld {
     double dt = 0;
     long left = 0, every = 1;   // of what was announced, not yet asked for
     long count = 0, taken = 0;  // of the last request, and how many of its steps have been handed out
-    std::vector<BodyTable> samples;
+    std::vector<KeptBodies> samples;
   };
 
   void run_ahead();

@@ -15,7 +15,7 @@ namespace rigor {
 
 // The truth at the instants of a trajectory's samples, so that no metric recomputes it.
 struct TruthSamples {
-  std::vector<BodyTable> bodies;  // one for each sample of the trajectory
+  std::vector<KeptBodies> bodies;  // one for each sample of the trajectory
   std::vector<double> error;      // the truth's own error at each, see Truth::error
   double largest_kinetic_energy;  // J, over the whole run
   const Truth* source = nullptr;  // what was sampled, to be asked between the first sample and the last

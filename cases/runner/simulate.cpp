@@ -147,7 +147,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     }
     check_orientations(now.bodies(), scene, now.time);
     if (n % every == 0 || n == steps)
-      run.trajectory.samples.push_back({now.time, BodyTable(now.bodies()),
+      run.trajectory.samples.push_back({now.time, KeptBodies(now.bodies()),
                                         is_reported(n) ? reported_reactions(*world) : std::vector<ReportedReaction>()});
     if (n == steps) {
       run.settings = world->settings_in_force();  // some say what the run has made of them

@@ -7,7 +7,7 @@ namespace rigor {
 void TruthOnSteps::keep(const Truth& truth, double dt, double duration, std::size_t bodies) {
   constexpr double kMostBytes = 128e6;
   const long steps = steps_in(duration, dt);
-  const double bytes_each = sizeof(double) * static_cast<double>(kRotation * bodies) + sizeof(BodyTable);
+  const double bytes_each = sizeof(double) * static_cast<double>(kRotation * bodies) + sizeof(KeptBodies);
   if (bytes_each * static_cast<double>(steps) > kMostBytes) return;
   const auto [place, is_new] = by_dt_.try_emplace(dt);
   if (!is_new) return;

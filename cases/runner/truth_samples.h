@@ -19,7 +19,7 @@ class TruthOnSteps {
  private:
   struct Kept {
     std::vector<double> times;  // s
-    std::vector<BodyTable> bodies;
+    std::vector<KeptBodies> bodies;
     std::vector<double> error;
   };
   std::map<double, Kept> by_dt_;

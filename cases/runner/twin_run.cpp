@@ -117,7 +117,7 @@ TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& s
   for (long n = 0; own->is_finite() && (!is_compared || first->world().is_finite()); ++n) {
     if (is_sample(n)) {
       if (samples.size() == run.trajectory.samples.size()) break;
-      samples.push_back({own->time(), BodyTable(own->bodies())});
+      samples.push_back({own->time(), KeptBodies(own->bodies())});
       if (is_compared) is_compared = first->raise_rounding(samples.size() - 1, out) && samples.size() < length.compared;
       if (!is_compared && !length.is_whole) break;
     }

@@ -9,19 +9,24 @@ void copy_columns(BodyColumns from, MutableBodyColumns to) {
   for (int c = 0; c < count; ++c) std::copy_n(from.column(c), to.size(), to.column(c));
 }
 
-void BodyTable::resize(std::size_t size, bool has_rotation) {
+template <bool kIsPadded>
+void BodyTableOf<kIsPadded>::resize(std::size_t size, bool has_rotation) {
   size_ = size;
   has_rotation_ = has_rotation;
-  stride_ = column_stride(size);
+  stride_ = kIsPadded ? column_stride(size) : size;
   data_.assign(stride_ * (has_rotation ? 22 : 13), 0.0);
 }
 
-BodyTable& BodyTable::operator=(BodyColumns source) {
+template <bool kIsPadded>
+BodyTableOf<kIsPadded>& BodyTableOf<kIsPadded>::operator=(BodyColumns source) {
   if (size_ != source.size() || has_rotation_ != source.has_rotation() || data_.empty()) {
     resize(source.size(), source.has_rotation());
   }
   copy_columns(source, columns());
   return *this;
 }
+
+template class BodyTableOf<true>;
+template class BodyTableOf<false>;
 
 }  // namespace rigor

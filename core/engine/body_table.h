@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "core/base/math.h"
 #include "core/engine/body_column.h"
@@ -83,13 +84,16 @@ using MutableBodyColumns = BodyColumnsOf<double>;
 // Both of the same size, and both with or without rotation matrices.
 void copy_columns(BodyColumns from, MutableBodyColumns to);
 
-// Owns its columns.
-class BodyTable {
+// Owns its columns. Padded ones (columns.h) are what kernels work on; without padding, a thirteenth of the memory for
+// a single body, are the many that are kept of a run and only looked at.
+template <bool kIsPadded>
+class BodyTableOf {
  public:
-  BodyTable() = default;
-  explicit BodyTable(std::size_t size, bool has_rotation = false) { resize(size, has_rotation); }
-  explicit BodyTable(BodyColumns source) { *this = source; }
-  BodyTable& operator=(BodyColumns source);  // copies what the view shows
+  BodyTableOf() = default;
+  explicit BodyTableOf(std::size_t size, bool has_rotation = false) { resize(size, has_rotation); }
+  explicit BodyTableOf(BodyColumns source) { *this = source; }
+  BodyTableOf(const BodyTableOf<!kIsPadded>& source) { *this = source.columns(); }
+  BodyTableOf& operator=(BodyColumns source);  // copies what the view shows
 
   void resize(std::size_t size, bool has_rotation = false);
   std::size_t size() const { return size_; }
@@ -99,9 +103,13 @@ class BodyTable {
   MutableBodyColumns columns() { return {data_.data(), stride_, size_, has_rotation_}; }
 
  private:
-  AlignedDoubles data_;
+  std::conditional_t<kIsPadded, AlignedDoubles, std::vector<double>> data_;
   std::size_t size_ = 0, stride_ = 0;  // see column_stride()
   bool has_rotation_ = false;
 };
+extern template class BodyTableOf<true>;
+extern template class BodyTableOf<false>;
+using BodyTable = BodyTableOf<true>;
+using KeptBodies = BodyTableOf<false>;
 
 }  // namespace rigor

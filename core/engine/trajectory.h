@@ -10,7 +10,7 @@ namespace rigor {
 
 struct Sample {
   double time;  // s
-  BodyTable bodies;
+  KeptBodies bodies;
   std::vector<ReportedReaction> reactions = {};  // by joint, of the step that ended then; none where no engine says
 };
 

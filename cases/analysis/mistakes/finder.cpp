@@ -20,9 +20,6 @@ namespace {
 constexpr double kNamed = 0.85;
 constexpr double kSure =
     0.999;  // nothing better is looked for: a thousandth is left by rounding alone in chaotic cases
-// What two together have to leave less than, of what one leaves: half where one alone does not do; a tenth where it
-// does but for what extrapolation may leave (views.cpp; below a fiftieth of the error of smooth motion).
-constexpr double kDoes = 0.98, kWorthASecond = 0.5, kWorthASecondThen = 0.1;
 constexpr double kAlike = 1e-3;  // suspects that explain as much, to within this part of what is left of 1
 constexpr std::size_t kShown = 5;
 constexpr double kMostOfMistake = 0.5;  // s of CPU time: some mistakes make scenes on which the core works for long
@@ -44,19 +41,6 @@ bool is_fed_back(const Fault& fault, const Scene& scene, const EngineInfo& engin
 
 Hypothesis pair_of(const Hypothesis& first, const Hypothesis& second) {
   return {std::make_shared<Fault>(combined(*first.fault, *second.fault)), {first.names[0], second.names[0]}, {}};
-}
-
-// Less the pairs of which one mistake does as well alone.
-std::vector<Suspect> without_idle_seconds(std::vector<Suspect> ranked, const std::vector<Hypothesis>& hypotheses) {
-  double alone = 1;
-  for (const Suspect& suspect : ranked) {
-    if (hypotheses[suspect.hypothesis].names.size() == 1) alone = std::min(alone, 1 - suspect.explains);
-  }
-  const double worth = 1 - alone < kDoes ? kWorthASecond : kWorthASecondThen;
-  std::erase_if(ranked, [&](const Suspect& suspect) {
-    return hypotheses[suspect.hypothesis].names.size() > 1 && 1 - suspect.explains > worth * alone;
-  });
-  return ranked;
 }
 
 }  // namespace
@@ -252,7 +236,7 @@ MistakeReport MistakeFinder::report(const Engine& engine) {
   if (best() < kSure) add_amounts(trace, table, hypotheses);
   if (best() < kSure) add_pairs(trace, table, hypotheses);
   for (const std::size_t probe : trace.probes_off(hypotheses)) report.off.push_back(probes_[probe].id);
-  const std::vector<Suspect> ranked = without_idle_seconds(trace.ranked(hypotheses, probes_), hypotheses);
+  const std::vector<Suspect> ranked = trace.ranked(hypotheses, probes_);
   for (const Suspect& suspect : ranked) {
     if (report.suspects.size() == kShown || suspect.explains < kNotable) break;
     report.suspects.push_back(

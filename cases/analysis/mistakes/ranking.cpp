@@ -18,6 +18,10 @@ constexpr double kClear = 20;
 // comes by chance to within a twentieth once in three times, to within this part once in a hundred.
 constexpr double kClearOfPair = 120;
 
+// What two together have to leave less than, of what one leaves: half where one alone does not do; a tenth where it
+// does but for what extrapolation may leave (views.cpp; below a fiftieth of the error of smooth motion).
+constexpr double kDoes = 0.98, kWorthASecond = 0.5, kWorthASecondThen = 0.1;
+
 constexpr double kExplained = 0.01;  // what may be left of an error that is explained
 
 double share_left(const Distances& d) {
@@ -116,29 +120,34 @@ std::vector<std::size_t> Trace::probes_off(const std::vector<Hypothesis>& hypoth
   return off;
 }
 
+double Trace::left_by(const Hypothesis& mistake, const Hypothesis& seen_with, const std::vector<double>& least,
+                      std::map<std::size_t, CaseShare>* cases) const {
+  double squares = 0, count = 0;
+  for (std::size_t o = 0; o < observations_.size(); ++o) {
+    const std::size_t v = observations_[o].view_index();
+    if (!is_seen(o, mistake) || !is_seen(o, seen_with)) continue;
+    const Distances d = observations_[o].distances(engine_[v], mistake.sights[v]);
+    if (!is_active(o, std::max(d.error, d.predicted), d.error, least[o])) continue;
+    const double left = share_left(d);
+    const double weight = weight_of(o, std::max(d.error, d.predicted), mistake.sights[v]);
+    squares += weight * left * left, count += weight;
+    if (!cases || !is_active(o, d.error, d.error, least[o])) continue;
+    CaseShare& share = (*cases)[views_[v].probe];
+    share.error = std::max(share.error, d.error), share.rest = std::max(share.rest, left);
+  }
+  return count > 0 ? std::sqrt(squares / count) : 1;
+}
+
 std::vector<Suspect> Trace::ranked(const std::vector<Hypothesis>& hypotheses,
                                    const std::vector<ProbeScene>& probes) const {
   const std::vector<double> least = nearest(hypotheses);
   std::vector<Suspect> suspects;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-    double squares = 0, count = 0;
     std::map<std::size_t, CaseShare> cases;  // by probe
-    for (std::size_t o = 0; o < observations_.size(); ++o) {
-      const std::size_t v = observations_[o].view_index();
-      if (!is_seen(o, hypotheses[h])) continue;
-      const Distances d = observations_[o].distances(engine_[v], hypotheses[h].sights[v]);
-      if (!is_active(o, std::max(d.error, d.predicted), d.error, least[o])) continue;
-      const double left = share_left(d);
-      const double weight = weight_of(o, std::max(d.error, d.predicted), hypotheses[h].sights[v]);
-      squares += weight * left * left, count += weight;
-      if (!is_active(o, d.error, d.error, least[o])) continue;
-      CaseShare& share = cases[views_[v].probe];
-      share.id = probes[views_[v].probe].id;
-      share.error = std::max(share.error, d.error), share.rest = std::max(share.rest, left);
-    }
-    if (cases.empty() || !(count > 0)) continue;
-    Suspect suspect{h, 1 - std::sqrt(squares / count), {}, 0};
+    Suspect suspect{h, 1 - left_by(hypotheses[h], hypotheses[h], least, &cases), {}, 0};
+    if (cases.empty()) continue;
     for (auto& [probe, share] : cases) {
+      share.id = probes[probe].id;
       suspect.explained += share.rest < kExplained;
       suspect.cases.push_back(share);
     }
@@ -146,7 +155,24 @@ std::vector<Suspect> Trace::ranked(const std::vector<Hypothesis>& hypotheses,
   }
   std::stable_sort(suspects.begin(), suspects.end(),
                    [](const Suspect& a, const Suspect& b) { return a.explains > b.explains; });
+  const auto best_alone = std::find_if(suspects.begin(), suspects.end(), [&](const Suspect& suspect) {
+    return hypotheses[suspect.hypothesis].names.size() == 1;
+  });
+  const Hypothesis* best = best_alone == suspects.end() ? nullptr : &hypotheses[best_alone->hypothesis];
+  std::erase_if(suspects, [&](const Suspect& suspect) { return has_idle_second(suspect, hypotheses, best, least); });
   return suspects;
+}
+
+bool Trace::has_idle_second(const Suspect& suspect, const std::vector<Hypothesis>& hypotheses, const Hypothesis* best,
+                            const std::vector<double>& least) const {
+  const Hypothesis& pair = hypotheses[suspect.hypothesis];
+  if (pair.names.size() == 1) return false;
+  double alone = best ? left_by(*best, pair, least, nullptr) : 1;
+  for (const Hypothesis& one : hypotheses) {
+    const bool is_of_pair = one.names.size() == 1 && std::ranges::find(pair.names, one.names[0]) != pair.names.end();
+    if (is_of_pair) alone = std::min(alone, left_by(one, pair, least, nullptr));
+  }
+  return 1 - suspect.explains > (1 - alone < kDoes ? kWorthASecond : kWorthASecondThen) * alone;
 }
 
 Trace::Fit Trace::fit(const Hypothesis& hypothesis) const {

@@ -1,6 +1,7 @@
 // Which of many suspected mistakes explains an engine's error, and how well.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,7 +37,7 @@ class Trace {
   Trace(const std::vector<View>& views, const std::vector<Observation>& observations, std::vector<Sight> engine,
         bool is_single);
 
-  // The best first; none that says nothing of any observation.
+  // The best first; none that says nothing of any observation, and no pair of which one mistake does as well alone.
   std::vector<Suspect> ranked(const std::vector<Hypothesis>& hypotheses, const std::vector<ProbeScene>& probes) const;
   // Whether the engine's error passes what its scheme, rounding and the view leave open in any observation; with its
   // cases, by index.
@@ -63,6 +64,13 @@ class Trace {
   double certain_error(std::size_t observation) const;  // beyond it the engine is off whatever explains it
   // Of what is left there, for an error of this size.
   double weight_of(std::size_t observation, double size, const Sight& mistake) const;
+  // 0..1, the root of the mean square over the observations that both say something of; adds the cases, by probe.
+  double left_by(const Hypothesis& mistake, const Hypothesis& seen_with, const std::vector<double>& least,
+                 std::map<std::size_t, CaseShare>* cases) const;
+  // Whether one of a pair, or the best of all single ones, does as well over what the pair says something of: with a
+  // mistake in what an engine tells that is less than what is seen of a single one.
+  bool has_idle_second(const Suspect& suspect, const std::vector<Hypothesis>& hypotheses, const Hypothesis* best,
+                       const std::vector<double>& least) const;
   // Of each observation, how near any hypothesis comes, the motion without mistakes included.
   std::vector<double> nearest(const std::vector<Hypothesis>& hypotheses) const;
   bool is_clear(std::size_t observation, double size, double nearest) const;

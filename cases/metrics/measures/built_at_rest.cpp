@@ -13,7 +13,7 @@ std::string why_not_built_at_rest(const JudgedRun& run) {
   if (run.trajectory.samples.empty()) return "the run has no finite sample";
   if (!scene.forces.empty() || !scene.springs.empty() || !scene.joints.empty()) return "more than gravity acts";
   if (run.truth) {
-    for (const BodyTable& table : run.truth->bodies) {
+    for (const KeptBodies& table : run.truth->bodies) {
       for (std::size_t i = 0; i < table.size(); ++i) {
         if (!table.columns().velocity(i).isZero(0)) return "bodies move in truth";
       }

@@ -32,7 +32,7 @@ std::vector<double> truths_energies(const JudgedRun& run, std::size_t count) {
   auto& known = run.energies.of_truth;
   if (!known) {
     known.emplace();
-    for (const BodyTable& bodies : run.truth->bodies) known->push_back(energy(run.scene, bodies.columns()));
+    for (const KeptBodies& bodies : run.truth->bodies) known->push_back(energy(run.scene, bodies.columns()));
   }
   return {known->begin(), known->begin() + static_cast<long>(count)};
 }

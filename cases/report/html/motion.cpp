@@ -35,7 +35,7 @@ Motion::Motion(const Scene& scene, const Trajectory& trajectory, const TruthSamp
     expected.add(body.position), smallest_ = std::max(smallest_, bounding_radius_of(body));
   const Vec3 start = expected.low;
   if (truth) {
-    for (const BodyTable& bodies : truth->bodies) expected.add(bodies.columns());
+    for (const KeptBodies& bodies : truth->bodies) expected.add(bodies.columns());
   }
   const double farthest = kFarthest * (expected.size() + smallest_ + 1);
   for (std::size_t n = 0; n < samples_.size(); ++n) {

@@ -285,7 +285,7 @@ Packings packed_truth(const Scene& scene, const Truth& truth, double duration, d
   Trajectory trajectory{.dt = duration / kSamples, .samples = {}};
   std::vector<double> energies;
   for (int n = 0; n <= kSamples; ++n) {
-    trajectory.samples.push_back({duration * n / kSamples, BodyTable(scene.bodies.size())});
+    trajectory.samples.push_back({duration * n / kSamples, KeptBodies(scene.bodies.size())});
     truth.at(trajectory.samples.back().time, trajectory.samples.back().bodies.columns());
     energies.push_back(energy(scene, trajectory.samples.back().bodies.columns()));
   }
