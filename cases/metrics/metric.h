@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,14 @@ struct TruthSamples {
   std::vector<double> error;      // the truth's own error at each, see Truth::error
   double largest_kinetic_energy;  // J, over the whole run
   const Truth* source = nullptr;  // what was sampled, to be asked between the first sample and the last
+};
+
+struct ComparedReactions;  // measures/joints/reaction_difference.h
+// By sample: what joints carry, for the force and the couple are asked for one after the other; nothing where the
+// equations of motion do not tell.
+using ReactionsBySample = std::map<std::size_t, std::shared_ptr<const ComparedReactions>>;
+struct ReactionsKnown {
+  ReactionsBySample at_states, reported;
 };
 
 // The run's twin: its own scheme, repeated by the core (Engine::twin), at the instants of the run's samples; fewer if
@@ -51,7 +60,8 @@ struct JudgedRun {
   double survived = std::numeric_limits<double>::quiet_NaN();     // s, until it blew up, or `duration`
   double duration = 0;                                            // s, of the case
   const Ensembles* ensembles = nullptr;                           // null where the case asks for none
-  mutable EnergiesKnown energies = {};                            // filled in by energies_of and energy_series
+  mutable EnergiesKnown energies = {};    // filled in by energies_of and energy_series
+  mutable ReactionsKnown reactions = {};  // filled in by largest_reaction_difference
 };
 
 // Where a metric is worst. Body kWorld: the system as a whole.

@@ -14,15 +14,18 @@ MetricResult measure_reaction(const JudgedRun& run, const ReactionPart& part) {
   const std::size_t count = samples_within(run, kTruthNeededPosition);
   std::vector<std::size_t> compared;
   for (std::size_t n = 0; n < count; n += samples_between_reactions(count)) compared.push_back(n);
-  JointReactions reactions(run.scene);
-  return largest_reaction_difference(run, part, compared, [&](std::size_t n) -> std::optional<ComparedReactions> {
+  std::optional<JointReactions> reactions;  // made only where something is not known yet
+  const auto compare = [&](std::size_t n) -> std::optional<ComparedReactions> {
+    if (!reactions) reactions.emplace(run.scene);
     const Sample& sample = run.trajectory.samples[n];
     const BodyColumns truth = run.truth->bodies[n].columns();
-    const auto unique = reactions.unique_at(truth);
-    const auto expected = reactions.at(truth, sample.time), found = reactions.at(sample.bodies.columns(), sample.time);
+    const auto expected = reactions->at(truth, sample.time);
+    const auto unique = reactions->unique();
+    const auto found = reactions->at(sample.bodies.columns(), sample.time);
     if (!unique || !expected || !found) return std::nullopt;
     return ComparedReactions{*unique, *found, *expected};
-  });
+  };
+  return largest_reaction_difference(run, part, compared, run.reactions.at_states, compare);
 }
 
 }  // namespace

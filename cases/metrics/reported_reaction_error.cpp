@@ -30,8 +30,8 @@ class ReportedReactions {
   std::optional<ComparedReactions> at(std::size_t n) {
     const Sample &before = run_.trajectory.samples[n - 1], &sample = run_.trajectory.samples[n];
     const BodyColumns start = run_.truth->bodies[n - 1].columns(), end = run_.truth->bodies[n].columns();
-    const auto unique = reactions_.unique_at(end);
     const auto first = reactions_.at(start, before.time), last = reactions_.at(end, sample.time);
+    const auto unique = reactions_.unique();
     if (!unique || !first || !last) return std::nullopt;
     ComparedReactions all{*unique, {}, {}};
     for (std::size_t k = 0; k < geometry_.size(); ++k) {
@@ -57,7 +57,7 @@ MetricResult measure_reports(const JudgedRun& run, const ReactionPart& part) {
     return {{}, "the engine does not say what joints carry"};
   constexpr double kOneStep = 1.5;
   if (samples[1].time > kOneStep * run.trajectory.dt) return {{}, "steps are not recorded one by one"};
-  ReportedReactions reported(run);
+  std::optional<ReportedReactions> reported;  // made only where something is not known yet
   // Not in the first step: it begins with velocities of its own instant and not of the step before, so that an engine
   // that holds them at steps' ends carries nothing yet of what turning takes.
   const std::size_t count = samples_within(run, kTruthNeededPosition);
@@ -65,7 +65,10 @@ MetricResult measure_reports(const JudgedRun& run, const ReactionPart& part) {
   for (std::size_t n = 2; n < count; ++n) {
     if (is_reported(samples[n])) compared.push_back(n);
   }
-  return largest_reaction_difference(run, part, compared, [&](std::size_t n) { return reported.at(n); });
+  return largest_reaction_difference(run, part, compared, run.reactions.reported, [&](std::size_t n) {
+    if (!reported) reported.emplace(run);
+    return reported->at(n);
+  });
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
 constexpr double kStepPrecision = 1.01;                     // 1 %
 constexpr double kCoarsePrecision = 1.05;                   // where steps are tried 20 % apart
 constexpr double kMostWork = 10e6;                          // steps of one free body: some three seconds
-constexpr double kMostJointedWork = 1e6;                    // likewise in jointed scenes, which are many and dear
+constexpr double kMostJointedWork = 0.25e6;                 // likewise in jointed scenes, which are many and dear
 // s: a method that divides its own steps counts as taking one of them in each; it takes any number.
 constexpr double kInnerStep = 1e-3;
 
@@ -73,7 +73,13 @@ class Search {
         return {longest, true, false, fmt::format("its method divides each step: {:g} s alone was tried", longest)};
       longest *= 0.5;
     }
-    if (!bracket(longest) || !bisect()) return found_;
+    if (!bracket(longest)) return found_;
+    if (divides_steps_ && !scene_.joints.empty()) {
+      found_ = {good_, false, false, fmt::format("its method divides each step: halves of {:g} s alone were tried",
+                                                 kLargestStep)};
+      return found_;
+    }
+    if (!bisect()) return found_;
     if (steps_of_sweep() > steps_left_ / 2) {
       found_.cut = fmt::format("by bisection from {:.3g} s up: a sweep would take too many steps", doubled_);
     } else if (!sweep()) {

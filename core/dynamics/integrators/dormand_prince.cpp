@@ -22,6 +22,7 @@ constexpr int kMostTries = 20000;  // inner steps, refused ones included, in one
 // Of a step of jointed bodies: where so short an inner step is refused they are in a singular position, in which what
 // errs is rounding and no step is short enough.
 constexpr double kShortest = 1e-6;
+constexpr int kMostTriesBeyond = 16;  // in each step after such a one: whatever it took, the motion is no more known
 
 class DormandPrince : public Stepper {
  public:
@@ -61,7 +62,7 @@ class DormandPrince : public Stepper {
       take_stages(t, length, h);
       const double error = error_of_stages(h) / tolerance_;
       const bool is_stuck = parts_.joints && error > 1 && std::abs(h) < kShortest * std::abs(length);
-      const bool given_up = ++tries == kMostTries || is_stuck || !is_finite(y_);
+      const bool given_up = ++tries >= (is_beyond_ ? kMostTriesBeyond : kMostTries) || is_stuck || !is_finite(y_);
       if (!(error <= 1 || given_up)) {
         if (parts_.joints) parts_.joints->note_only(noted);
       } else {
@@ -71,8 +72,11 @@ class DormandPrince : public Stepper {
           equations_.rates(y_, t, length, equations_.rates_of_stage(0), ConstraintForces::Rows::chosen_anew);
       }
       if (given_up) {
-        solver_warning_ = fmt::format(
-            "the tolerance of {} was not met in {} inner steps; the rest of the step was left out", tolerance_, tries);
+        is_beyond_ |= is_stuck;
+        solver_warning_ = fmt::format("{}the tolerance of {} was not met in {} inner steps; the rest of the step was "
+                                      "left out",
+                                      is_stuck ? "in a singular position of the joints, or beside it, " : "",
+                                      tolerance_, tries);
       }
       longest = std::abs(h) * next_length(error);
     }
@@ -115,6 +119,7 @@ class DormandPrince : public Stepper {
   MotionEquations equations_;
   Wrenches wrenches_;
   BodyTable y_, next_, estimate_;
+  bool is_beyond_ = false;  // a singular position that it could not pass
   std::string solver_warning_;
 };
 

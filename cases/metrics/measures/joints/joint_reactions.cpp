@@ -161,8 +161,7 @@ std::optional<std::vector<JointReaction>> JointReactions::at(BodyColumns bodies,
 
 // A row d that is left out is minus a combination of those in use: with S λ = -J M⁻¹ Jᵀ e_d, λ + e_d is a load in
 // balance.
-std::optional<std::vector<UniqueReaction>> JointReactions::unique_at(BodyColumns bodies) {
-  find_rows(bodies);
+std::optional<std::vector<UniqueReaction>> JointReactions::unique() {
   if (!is_regular_) return {};
   std::vector<Mat3> forces(joints_.size(), Mat3::Zero()), couples = forces, can_push = forces, can_turn = forces;
   for (const Held& held : held_) {

@@ -31,12 +31,17 @@ std::size_t samples_between_reactions(std::size_t samples) {
 }
 
 MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPart& part,
-                                         const std::vector<std::size_t>& samples, const CompareReactions& compare) {
+                                         const std::vector<std::size_t>& samples, ReactionsBySample& known,
+                                         const CompareReactions& compare) {
   if (samples.empty()) return {{}, kNoSamples};
   TimeSeries series;
   bool is_any = false;
   for (const std::size_t n : samples) {
-    const auto reactions = compare(n);
+    const auto [place, is_new] = known.try_emplace(n);
+    auto& reactions = place->second;
+    if (is_new) {
+      if (auto compared = compare(n)) reactions = std::make_shared<const ComparedReactions>(*std::move(compared));
+    }
     if (reactions) is_any |= add_differences(run, part, run.trajectory.samples[n].time, *reactions, series);
   }
   if (!is_any) return {{}, "the equations of motion leave no joint's " + part.what + " unique"};

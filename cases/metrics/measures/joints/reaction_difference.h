@@ -31,8 +31,9 @@ using CompareReactions = std::function<std::optional<ComparedReactions>(std::siz
 // From one sample compared to the next, of so many.
 std::size_t samples_between_reactions(std::size_t samples);
 
-// At the samples, by their numbers; with the reason where there is none.
+// At the samples, by their numbers; with the reason where there is none. What is `known` is not compared again.
 MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPart& part,
-                                         const std::vector<std::size_t>& samples, const CompareReactions& compare);
+                                         const std::vector<std::size_t>& samples, ReactionsBySample& known,
+                                         const CompareReactions& compare);
 
 }  // namespace rigor

@@ -85,4 +85,17 @@ BOOST_AUTO_TEST_CASE(cranks_that_fold_flat_are_named_and_regular_mechanisms_are_
     BOOST_TEST(said_by(regular, 1.0 / 1000, 2) == "", regular);
 }
 
+// The four-bar linkages of A02 fold flat half a turn after another: there no inner step is short enough for the tolerance.
+BOOST_AUTO_TEST_CASE(an_adaptive_method_names_the_position_that_it_cannot_pass) {
+  const auto world = CoreEngine().load(test::suite_scene("mechanisms/iftomm-a02-2"),
+                                       {.method = "dormand-prince", .options = {}});
+  Snapshot now;
+  while (world->solver_warning().empty()) {
+    world->step(0.01), world->read(now);
+    BOOST_TEST_REQUIRE(now.time < 1);
+  }
+  BOOST_TEST(now.time == 0.72, boost::test_tools::tolerance(1e-9));  // the first level position is at 0.7144 s
+  BOOST_TEST(world->solver_warning().starts_with("in a singular position of the joints, or beside it, the tolerance"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
