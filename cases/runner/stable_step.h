@@ -11,7 +11,7 @@ namespace rigor {
 // to 5 %) among bodies that touch or are jointed and have no springs, over a factor of two below it.
 // `energy_in_play`: J, see judge_stability.
 //
-// A search takes no more than some 10 million steps of one body; in a jointed scene a quarter of a million, a joint
+// A search takes no more than some 10 million steps of one body; in a jointed scene 0.4 million, a joint
 // counting as thirty, one with limits as three hundred, and n joints that close loops as n³/16 more. Where trying so
 // many steps would take half of what is left, the limit is found by bisection alone; where all is used up, the search
 // ends with the last step known to hold (is_cap), or known not to (is_floor). Of a method that divides its own steps
