@@ -1,8 +1,23 @@
 #include "core/engine/body_table.h"
 
 #include <algorithm>
+#include <memory_resource>
 
 namespace rigor {
+namespace {
+
+// Never destroyed: what it holds may live as long as the program.
+std::pmr::memory_resource& pool() {
+  constexpr std::size_t kLargest = 1 << 16;  // bytes: six hundred bodies
+  static auto* all = new std::pmr::synchronized_pool_resource({.max_blocks_per_chunk = 0,
+                                                               .largest_required_pool_block = kLargest});
+  return *all;
+}
+
+}  // namespace
+
+void* take_from_pool(std::size_t bytes) { return pool().allocate(bytes, alignof(double)); }
+void give_to_pool(void* place, std::size_t bytes) { pool().deallocate(place, bytes, alignof(double)); }
 
 void copy_columns(BodyColumns from, MutableBodyColumns to) {
   const int count = to.has_rotation() ? 22 : 13;

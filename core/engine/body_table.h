@@ -84,6 +84,23 @@ using MutableBodyColumns = BodyColumnsOf<double>;
 // Both of the same size, and both with or without rotation matrices.
 void copy_columns(BodyColumns from, MutableBodyColumns to);
 
+// From a pool that gives nothing back and is shared by all threads. What is kept of a run step by step would otherwise
+// lie in between what its engine takes and frees in each step, and leave room of its size nowhere: an engine that is
+// made anew in each step took gigabytes.
+void* take_from_pool(std::size_t bytes);
+void give_to_pool(void* place, std::size_t bytes);
+
+template <typename T>
+struct PoolAllocator {
+  using value_type = T;
+  PoolAllocator() = default;
+  template <typename U>
+  PoolAllocator(const PoolAllocator<U>&) {}
+  T* allocate(std::size_t count) { return static_cast<T*>(take_from_pool(count * sizeof(T))); }
+  void deallocate(T* place, std::size_t count) { give_to_pool(place, count * sizeof(T)); }
+  bool operator==(const PoolAllocator&) const { return true; }
+};
+
 // Owns its columns. Padded ones (columns.h) are what kernels work on; without padding, a thirteenth of the memory for
 // a single body, are the many that are kept of a run and only looked at.
 template <bool kIsPadded>
@@ -103,7 +120,7 @@ class BodyTableOf {
   MutableBodyColumns columns() { return {data_.data(), stride_, size_, has_rotation_}; }
 
  private:
-  std::conditional_t<kIsPadded, AlignedDoubles, std::vector<double>> data_;
+  std::vector<double, std::conditional_t<kIsPadded, CacheLineAllocator<double>, PoolAllocator<double>>> data_;
   std::size_t size_ = 0, stride_ = 0;  // see column_stride()
   bool has_rotation_ = false;
 };

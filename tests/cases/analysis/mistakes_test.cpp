@@ -283,6 +283,17 @@ BOOST_AUTO_TEST_CASE(the_amount_of_a_mistake_is_found) {
   }
 }
 
+// Of an engine that gets its loads from Rigor, what it tells wrongly counts as loaded alone: beside another mistake such
+// a one explains the few observations that the two are seen in as well as the other does by itself.
+BOOST_AUTO_TEST_CASE(a_mistake_alone_is_not_led_by_itself_with_another) {
+  for (const Fault& fault : faults()) {
+    if (fault.name != "quaternion order swapped on loading") continue;
+    const MistakeReport report = finders().of("toy-py", fault);
+    BOOST_TEST_REQUIRE(is_named(fault.name, report), first_line(report));
+    BOOST_TEST(report.suspects.front().names.size() == 1, first_line(report));
+  }
+}
+
 // A pair of which one is named is neither both named nor, for that, a wrong name. Four are too few to show a share of
 // 0.7: the short form fails where it would see so few, if the share were 0.7, less than once in twenty times; the full
 // form asks for the share itself.
