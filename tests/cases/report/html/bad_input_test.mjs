@@ -72,8 +72,8 @@ try {
     if (one.id.startsWith("crowd")) writeFileSync(join(shots, "crowd.png"), await browser.screenshot());
     expect(await browser.run("return window.harm === undefined"), `${one.id}: what stands in a name was run`);
   }
-  const solver_warnings = (await browser.solver_warnings()).filter((text) => !text.includes("GPU stall due to ReadPixels"));
-  expect(!solver_warnings.length, solver_warnings.join("\n"));
+  const complaints = (await browser.complaints()).filter((text) => !text.includes("GPU stall due to ReadPixels"));
+  expect(!complaints.length, complaints.join("\n"));
   // Even if a name got into the page as markup: no script of it runs, no handler, and nothing is fetched.
   await browser.run(`
     const script = document.createElement("script"), holder = document.createElement("div");

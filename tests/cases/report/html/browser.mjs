@@ -1,6 +1,10 @@
 // A headless Chromium, driven through chromedriver as the W3C's WebDriver says: HTTP and JSON, nothing else.
 import { spawn } from "node:child_process";
+import { once } from "node:events";
+import { mkdtemp, rm } from "node:fs/promises";
 import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
 
 const freePort = () =>
@@ -17,7 +21,12 @@ export class Browser {
     const browser = new Browser(),
       port = await freePort();
     browser.base = `http://127.0.0.1:${port}`;
-    browser.driver = spawn("chromedriver", [`--port=${port}`, "--silent"], { stdio: "ignore" });
+    // Profiles go with the browser: a driver that is stopped leaves them behind.
+    browser.files = await mkdtemp(join(tmpdir(), "rigor-browser-"));
+    browser.driver = spawn("chromedriver", [`--port=${port}`, "--silent"], {
+      stdio: "ignore",
+      env: { ...process.env, TMPDIR: browser.files },
+    });
     browser.driver.on("error", (error) => {
       browser.failure = error;
     });
@@ -159,7 +168,7 @@ export class Browser {
     return Buffer.from(data, "base64");
   }
   // What the page has complained of since the last call.
-  async solver_warnings() {
+  async complaints() {
     const log = await this.post("/se/log", { type: "browser" });
     return log
       .filter((entry) => entry.level === "SEVERE" || entry.level === "WARNING")
@@ -172,6 +181,8 @@ export class Browser {
     } catch {
       /* gone already */
     }
-    this.driver.kill();
+    const ended = once(this.driver, "exit");
+    if (this.driver.kill()) await ended;
+    await rm(this.files, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
   }
 }

@@ -98,8 +98,8 @@ export async function withoutWebgl() {
     );
     expect((await colours(browser, ".stage canvas")) > 8, "the picture is empty");
     await shoot(browser, "case-without-webgl");
-    const solver_warnings = (await browser.solver_warnings()).filter((text) => !/webgl/i.test(text)); // Chromium's own word that there is none
-    expect(!solver_warnings.length, solver_warnings.join("\n"));
+    const complaints = (await browser.complaints()).filter((text) => !/webgl/i.test(text)); // Chromium's own word that there is none
+    expect(!complaints.length, complaints.join("\n"));
   });
   await browser.close();
 }

@@ -29,8 +29,8 @@ export const equal = (found, wanted, what) =>
 
 // Chromium tells of screenshots that they cost time; of the page it must have nothing to say.
 export async function quiet(browser) {
-  const solver_warnings = (await browser.solver_warnings()).filter((text) => !text.includes("GPU stall due to ReadPixels"));
-  expect(!solver_warnings.length, solver_warnings.join("\n"));
+  const complaints = (await browser.complaints()).filter((text) => !text.includes("GPU stall due to ReadPixels"));
+  expect(!complaints.length, complaints.join("\n"));
 }
 export const shoot = async (browser, name, whole = false) =>
   writeFileSync(join(shots, `${name}.png`), await browser.screenshot({ whole }));
