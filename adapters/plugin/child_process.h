@@ -25,8 +25,9 @@ class ChildProcess {
   std::string ask(const std::string& line, const std::string& request, std::size_t longest_answer);
   // The raw bytes that follow the last answer.
   void receive(char* into, std::size_t bytes, const std::string& request);
-  double cpu_seconds() const;  // of the child so far
-  bool is_ours() const;        // false in a fork of the process that started it
+  double cpu_seconds() const;                        // of the child so far
+  double looked_for() const { return looked_for_; }  // s of this process's CPU time, in looking whether it has answered
+  bool is_ours() const;                              // false in a fork of the process that started it
   const std::string& name() const { return name_; }
 
  private:
@@ -35,6 +36,8 @@ class ChildProcess {
   // Until `done`: writes what is left of `out_`, reads into `in_`.
   template <typename Done>
   void exchange(const std::string& request, const Done& done);
+  void send();
+  void look_briefly();
   bool read_answer();  // false at its end
   void read_words();
   void pass_on(const std::string& words);
@@ -51,6 +54,7 @@ class ChildProcess {
   std::string out_, in_, words_;
   std::size_t passed_on_ = 0;  // bytes
   double asleep_ = 0;          // s, since it was asked
+  double looked_for_ = 0;
   std::chrono::steady_clock::time_point begin_, asked_;
 };
 

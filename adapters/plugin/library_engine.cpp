@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -21,6 +23,8 @@
 namespace rigor {
 namespace {
 
+constexpr std::uint64_t bits_of(double number) { return std::bit_cast<std::uint64_t>(number); }
+
 // The thirteen columns that a library writes, each between guards that it must not: a write past its end is found at
 // once, before it is believed.
 class GuardedColumns {
@@ -36,9 +40,11 @@ class GuardedColumns {
   // The column beside which something was written, -1 if none.
   int overrun() const {
     for (int c = 0; c < 13; ++c) {
-      for (std::size_t k = 0; k < kGuards; ++k) {
-        if (columns_[c][-1 - std::ptrdiff_t(k)] != kGuard || columns_[c][bodies_ + k] != kGuard) return c;
-      }
+      const double *const before = columns_[c] - kGuards, *const behind = columns_[c] + bodies_;
+      std::uint64_t difference = 0;
+      for (std::size_t k = 0; k < kGuards; ++k)
+        difference |= (bits_of(before[k]) ^ bits_of(kGuard)) | (bits_of(behind[k]) ^ bits_of(kGuard));
+      if (difference) return c;
     }
     return -1;
   }

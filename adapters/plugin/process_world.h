@@ -21,7 +21,9 @@ class ProcessWorld : public RemoteWorld {
   SettingsInForce settings_in_force() const override { return in_force_; }
   std::string solver_warning() const override { return lost_why_.empty() ? warning_ : lost_why_; }
   void expect(double dt, long steps, long every) override;
-  double remote_cpu_seconds() const override { return session_->child().cpu_seconds(); }
+  double remote_cpu_seconds() const override {
+    return session_->child().cpu_seconds() - session_->child().looked_for();
+  }
 
  private:
   // Steps that are announced, and those of them that the engine has taken already.

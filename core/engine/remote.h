@@ -11,7 +11,7 @@ class RemoteWorld : public World {
   // The next `steps` steps are all of dt, and of them only each `every`-th is read, and the last: so that many of them
   // can be one request. Anything else asked for before they are done is our own mistake.
   virtual void expect(double dt, long steps, long every) = 0;
-  // CPU seconds that its own process has spent so far.
+  // CPU seconds that its own process has spent so far, less those that this one has spent in waiting for it.
   virtual double remote_cpu_seconds() const = 0;
 };
 

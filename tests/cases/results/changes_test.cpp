@@ -5,6 +5,7 @@
 
 #include "cases/gates/gates.h"
 #include "cases/metrics/metric.h"
+#include "cases/report/json/leave_out_details.h"
 #include "core/base/error.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/results/gated_results.h"
