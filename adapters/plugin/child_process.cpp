@@ -188,7 +188,7 @@ void ChildProcess::send() {
   if (count < 0 && errno != EAGAIN && errno != EINTR) out_.clear();  // it no longer listens, but may have answered
 }
 
-// What is answered soon is not slept for: to be woken takes longer than most steps. Whoever waits for this core gets it.
+// What is answered soon is not slept for: to be woken takes longer than most steps. Who waits for this core gets it.
 void ChildProcess::look_briefly() {
   const double begin = seconds_of(CLOCK_THREAD_CPUTIME_ID);
   while (in_.empty() && seconds_since(asked_) < kBrief && read_answer()) sched_yield();
