@@ -17,9 +17,9 @@ namespace rigor {
 // The truth at the instants of a trajectory's samples, so that no metric recomputes it.
 struct TruthSamples {
   std::vector<KeptBodies> bodies;  // one for each sample of the trajectory
-  std::vector<double> error;      // the truth's own error at each, see Truth::error
-  double largest_kinetic_energy;  // J, over the whole run
-  const Truth* source = nullptr;  // what was sampled, to be asked between the first sample and the last
+  std::vector<double> error;       // the truth's own error at each, see Truth::error
+  double largest_kinetic_energy;   // J, over the whole run
+  const Truth* source = nullptr;   // what was sampled, to be asked between the first sample and the last
 };
 
 struct ComparedReactions;  // measures/joints/reaction_difference.h
@@ -60,8 +60,8 @@ struct JudgedRun {
   double survived = std::numeric_limits<double>::quiet_NaN();     // s, until it blew up, or `duration`
   double duration = 0;                                            // s, of the case
   const Ensembles* ensembles = nullptr;                           // null where the case asks for none
-  mutable EnergiesKnown energies = {};    // filled in by energies_of and energy_series
-  mutable ReactionsKnown reactions = {};  // filled in by largest_reaction_difference
+  mutable EnergiesKnown energies = {};                            // filled in by energies_of and energy_series
+  mutable ReactionsKnown reactions = {};                          // filled in by largest_reaction_difference
 };
 
 // Where a metric is worst. Body kWorld: the system as a whole.

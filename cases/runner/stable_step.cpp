@@ -20,7 +20,7 @@ constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
 constexpr double kStepPrecision = 1.01;                     // 1 %
 constexpr double kCoarsePrecision = 1.05;                   // where steps are tried 20 % apart
 constexpr double kMostWork = 10e6;                          // steps of one free body: some three seconds
-constexpr double kMostJointedWork = 0.4e6;                 // likewise in jointed scenes, which are many and dear
+constexpr double kMostJointedWork = 0.4e6;                  // likewise in jointed scenes, which are many and dear
 // s: a method that divides its own steps counts as taking one of them in each; it takes any number.
 constexpr double kInnerStep = 1e-3;
 
@@ -75,8 +75,8 @@ class Search {
     }
     if (!bracket(longest)) return found_;
     if (divides_steps_ && !scene_.joints.empty()) {
-      found_ = {good_, false, false, fmt::format("its method divides each step: halves of {:g} s alone were tried",
-                                                 kLargestStep)};
+      found_ = {good_, false, false,
+                fmt::format("its method divides each step: halves of {:g} s alone were tried", kLargestStep)};
       return found_;
     }
     if (!bisect()) return found_;

@@ -39,7 +39,7 @@ class JointReactions {
   // One for each joint at t [s]; nothing at a singular position. Of a joint's reaction the parts that are not unique
   // are some that the equations allow.
   std::optional<std::vector<JointReaction>> at(BodyColumns bodies, double t);
-  // At the state that at() was last asked for, where the joints have to hold: a truth's; nothing at a singular position.
+  // At the state that at() was last asked for, where the joints have to hold, so a truth's; nothing where singular.
   std::optional<std::vector<UniqueReaction>> unique();
 
   // The velocities nearest to the bodies' own, weighed by mass, that the joints allow. Left as they are at a singular
