@@ -1,10 +1,10 @@
 #include "core/dynamics/contact/event/cone_solver.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "core/dynamics/contact/event/cone_newton.h"
+#include "core/dynamics/contact/event/cone_sweeps.h"
 #include "core/dynamics/joints/islands.h"
 
 namespace rigor {
@@ -16,16 +16,6 @@ constexpr double kCreeping = 0.99;       // of a sequence whose ratio is not kno
 constexpr double kSlow = 0.9;            // from here on Newton's method is quicker
 constexpr int kFewestSweeps = 5;         // before that is judged
 constexpr double kHeldByJoints = 1e-12;  // of the free bodies' inverse mass: what joints do not let move at all
-
-double disc(double friction, double normal) {
-  if (!(normal > 0)) return 0;
-  return std::isinf(friction) ? friction : friction * normal;
-}
-
-Eigen::Vector2d onto_disc(const Eigen::Vector2d& p, double radius) {
-  const double size = p.norm();
-  return size <= radius ? p : Eigen::Vector2d(p * (radius / size));
-}
 
 // Larger eigenvalue of a 2 x 2 matrix that is symmetric.
 double larger_eigenvalue(const Eigen::Matrix2d& m) {
@@ -42,45 +32,6 @@ Mat3 contact_frame(const Vec3& n) {
   Mat3 frame;
   frame << n, t, n.cross(t);
   return frame;
-}
-
-namespace {
-
-// Normal and tangential parts in turn; from one sweep to the next they settle together.
-Vec3 impulse_in_turns(const ConeConstraint& point, const Vec3& free) {
-  constexpr int kTurns = 8;
-  const Mat3& W = point.inverse_mass;
-  Vec3 p = point.impulse;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    const Vec3 before = p;
-    p.x() = std::max(0.0, (point.target_velocity - free.x() - W(0, 1) * p.y() - W(0, 2) * p.z()) / W(0, 0));
-    const Vec3 slip = free + W * p;
-    const double radius = point.grips ? kInfiniteFriction : disc(point.friction, p.x());
-    p.tail<2>() = onto_disc(p.tail<2>() - point.tangent_effective_mass * slip.tail<2>(), radius);
-    if (p == before) break;
-  }
-  return p;
-}
-
-}  // namespace
-
-Vec3 impulse_at(const ConeConstraint& point, const Vec3& u) {
-  const Mat3& W = point.inverse_mass;
-  const Vec3 free = u - W * point.impulse;  // the velocity there would be without this point's impulse
-  if (free.x() >= point.target_velocity && !point.grips) return Vec3::Zero();
-  if (W(0, 0) == 0) return Vec3::Zero();
-  if (point.friction == 0 && point.response >= 0) return {(point.target_velocity - free.x()) / W(0, 0), 0, 0};
-  // Joints may leave fewer ways to move than W has rows.
-  if (point.response >= 0) return impulse_in_turns(point, free);
-  // Sticking, if the cone allows it.
-  const Vec3 stick = W.inverse() * (Vec3(point.target_velocity, 0, 0) - free);
-  if (stick.x() > 0 && (point.grips || stick.tail<2>().norm() <= disc(point.friction, stick.x()))) return stick;
-  if (point.grips) {
-    const Eigen::Vector2d slip = free.tail<2>(), grip = W.bottomRightCorner<2, 2>().inverse() * -slip;
-    return {0, grip.x(), grip.y()};
-  }
-  if (point.friction == 0) return {(point.target_velocity - free.x()) / W(0, 0), 0, 0};
-  return impulse_in_turns(point, free);
 }
 
 void ConeSolver::prepare(BodyColumns state, std::vector<ConeConstraint>& points) {
@@ -171,20 +122,6 @@ void ConeSolver::push(const ConeConstraint& point, const Vec3& impulse, MutableB
   change(point.b, point.arm_b, -1);
 }
 
-// By a share of what each point asks for. Returns the largest change of a point's velocity.
-double ConeSolver::sweep(MutableBodyColumns state, std::vector<ConeConstraint>& points, double share) const {
-  double largest = 0;
-  for (ConeConstraint& point : points) {
-    const Vec3 asked = impulse_at(point, velocity_at(point, state) + point.offset);
-    const Vec3 change = share * (asked - point.impulse);
-    if (change.isZero(0)) continue;
-    push(point, change, state);
-    point.impulse += change;
-    largest = std::max(largest, (point.inverse_mass * change).norm());
-  }
-  return largest;
-}
-
 bool ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points, double tolerance,
                                    int& steps) const {
   const std::vector<ConeConstraint> before = points;
@@ -225,22 +162,33 @@ bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& po
 }
 
 bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
+  ConeSweeps sweeps(system_, inverse_inertia_W_, responses_);
+  sweeps.set_up(state, points);
   double size = 0, last = 0, ratio = kCreeping;
   int steps = kMostNewtonSteps;
   for (int turn = 0; turn < accuracy_.most_turns; ++turn) {
     // Sliding points may pass an impulse to and fro for ever, unless each gives way.
     const double share = accuracy_.by_newton || turn == 0 ? 1 : 0.5;
     for (int k = 0; k < kSweepsAtATime; ++k) {
-      const double change = sweep(state, points, share);
-      if (k == 0) size = std::max(size, size_of(state, points));
+      const double change = sweeps.sweep(points, share);
+      ++sweeps_;
+      if (k == 0) {
+        sweeps.write(state);
+        size = std::max(size, size_of(state, points));
+      }
       if (!std::isfinite(change)) return false;
       // Of a creeping sequence, what is still to come counts.
       if (k > 0) ratio = std::min(change / last, kCreeping);
       last = change;
-      if (change * ratio <= accuracy_.at_rest * size * (1 - ratio)) return true;
+      if (change * ratio <= accuracy_.at_rest * size * (1 - ratio)) {
+        sweeps.write(state);
+        return true;
+      }
       if (accuracy_.by_newton && k >= kFewestSweeps && ratio > kSlow) break;
     }
+    sweeps.write(state);
     if (!accuracy_.by_newton || !take_newton_steps(state, points, accuracy_.at_rest * size, steps)) continue;
+    sweeps.read(state);
     ratio = 0.5;  // what Newton's method leaves is no sequence: it counts as it is
   }
   return last <= accuracy_.near_rest * size;

@@ -3,7 +3,7 @@
 //   0 <= u'_n - target  ⊥  p_n >= 0,    |p_t| <= mu p_n,  with p_t against u'_t on the disc's rim where u'_t is not
 //   zero
 // (Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; Jean, The non-smooth contact dynamics
-// method, 1999). Solved by block Gauss–Seidel, one point after another, and by Newton's method (cone_newton.h) where
+// method, 1999). Solved by block Gauss–Seidel, one point after another (cone_sweeps.h), and by Newton's method (cone_newton.h) where
 // that creeps, until nothing changes but rounding; each island (islands.h) by itself. Where joints hold the bodies,
 // each impulse acts through them (impulse_responses.h), on all bodies that are connected with the two.
 #pragma once
@@ -67,6 +67,8 @@ class ConeSolver {
   bool solve(MutableBodyColumns state, std::vector<ConeConstraint>& points) const;
   // Newton steps so far, of some 20 µs each where ten bodies touch.
   long work() const { return work_; }
+  // Of islands so far.
+  long sweeps() const { return sweeps_; }
   // The relative velocity at the point, in its frame.
   static Vec3 velocity_at(const ConeConstraint& point, BodyColumns state);
   // Adds an impulse, in the frame, to the velocities.
@@ -86,18 +88,14 @@ class ConeSolver {
   double size_of(BodyColumns state, const std::vector<ConeConstraint>& points) const;
   bool take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points, double tolerance,
                          int& steps) const;
-  double sweep(MutableBodyColumns state, std::vector<ConeConstraint>& points, double share) const;
 
   const System& system_;
   ConeAccuracy accuracy_;
-  mutable long work_ = 0;
+  mutable long work_ = 0, sweeps_ = 0;
   std::vector<Mat3> inverse_inertia_W_;  // 1/(kg m²)
   Joints* joints_;
   std::optional<ImpulseResponses> through_joints_;
   std::vector<Response> responses_;  // of the points that were prepared last, with joints
 };
-
-// The impulse at one point that meets the laws, given the velocity u that is there with `impulse` acting.
-Vec3 impulse_at(const ConeConstraint& point, const Vec3& u);
 
 }  // namespace rigor

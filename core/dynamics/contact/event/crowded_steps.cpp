@@ -14,7 +14,6 @@ namespace {
 constexpr double kLongest = 1.0 / 120;  // s
 constexpr double kShare = 1.0 / 4;      // of a step: shorter steps are to be nearer to the truth here too
 constexpr double kOverlap = 1e-10;      // m: a gap this small is closed; see event.cpp
-constexpr double kNewEnergy = 1e-12;    // of the energy before: rounding
 
 // A step errs by its own length squared; impulses that are nearer to the laws than that are not worth their time.
 // Sweeps that begin with no impulses and ask for no rebound never add energy, finished or not.

@@ -8,7 +8,6 @@ namespace rigor {
 namespace {
 
 constexpr int kMostImpactRounds = 2000;  // before every touching point is taken together, without rebound
-constexpr double kNewEnergy = 1e-12;     // of the energy before: rounding
 // Infinite friction stops a slip at once, by an impulse that needs a normal one, however small: one that leaves so
 // little of a speed [m/s]. Slower slips are none.
 constexpr int kRoundsOfInfinity = 2;

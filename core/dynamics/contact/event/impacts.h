@@ -16,6 +16,7 @@ inline constexpr double kRestitutionThreshold = 1e-7;  // m/s, unless a run name
 // What the roundings of an impact leave of a velocity that should be zero.
 inline constexpr double kStillSpeed = 1e-10;  // m/s
 
+inline constexpr double kNewEnergy = 1e-12;  // of the energy before an impact: rounding, and no gain
 double kinetic_energy(const System& system, BodyColumns state);  // J
 
 class Impacts {

@@ -1,0 +1,144 @@
+#include "core/dynamics/contact/event/cone_sweeps.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+double disc(double friction, double normal) {
+  if (!(normal > 0)) return 0;
+  return std::isinf(friction) ? friction : friction * normal;
+}
+
+Eigen::Vector2d onto_disc(const Eigen::Vector2d& p, double radius) {
+  const double square = p.squaredNorm();
+  return square <= radius * radius ? p : Eigen::Vector2d(p * (radius / std::sqrt(square)));
+}
+
+// Normal and tangential parts in turn; from one sweep to the next they settle together, so that turns that are small
+// beside what the sweep changes are the next one's.
+Vec3 impulse_in_turns(const ConeConstraint& point, const Vec3& free) {
+  constexpr int kTurns = 8;
+  constexpr double kSmall = 1e-2;
+  const Mat3& W = point.inverse_mass;
+  const double per_normal = 1 / W(0, 0);
+  Vec3 p = point.impulse;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const Vec3 before = p;
+    p.x() = std::max(0.0, (point.target_velocity - free.x() - W(0, 1) * p.y() - W(0, 2) * p.z()) * per_normal);
+    const Vec3 slip = free + W * p;
+    const double radius = point.grips ? kInfiniteFriction : disc(point.friction, p.x());
+    p.tail<2>() = onto_disc(p.tail<2>() - point.tangent_effective_mass * slip.tail<2>(), radius);
+    if ((p - before).squaredNorm() <= kSmall * kSmall * (p - point.impulse).squaredNorm()) break;
+  }
+  return p;
+}
+
+// That meets the laws, given the velocity u that is there with point.impulse acting.
+Vec3 impulse_at(const ConeConstraint& point, const Mat3& sticking, const Vec3& u) {
+  const Mat3& W = point.inverse_mass;
+  const Vec3 free = u - W * point.impulse;  // the velocity there would be without this point's impulse
+  if (free.x() >= point.target_velocity && !point.grips) return Vec3::Zero();
+  if (W(0, 0) == 0) return Vec3::Zero();
+  if (point.friction == 0 && point.response >= 0) return {(point.target_velocity - free.x()) / W(0, 0), 0, 0};
+  // Joints may leave fewer ways to move than W has rows.
+  if (point.response >= 0) return impulse_in_turns(point, free);
+  // Sticking, if the cone allows it.
+  const Vec3 stick = sticking * (Vec3(point.target_velocity, 0, 0) - free);
+  const double radius = disc(point.friction, stick.x());
+  if (stick.x() > 0 && (point.grips || stick.tail<2>().squaredNorm() <= radius * radius)) return stick;
+  if (point.grips) {
+    const Eigen::Vector2d slip = free.tail<2>(), grip = W.bottomRightCorner<2, 2>().inverse() * -slip;
+    return {0, grip.x(), grip.y()};
+  }
+  if (point.friction == 0) return {(point.target_velocity - free.x()) / W(0, 0), 0, 0};
+  return impulse_in_turns(point, free);
+}
+
+}  // namespace
+
+int ConeSweeps::place_of(int body) {
+  if (body == kWorld || system_.bodies[body].fixed) return -1;
+  if (place_[body] < 0) {
+    place_[body] = static_cast<int>(bodies_.size());
+    bodies_.push_back(body);
+  }
+  return place_[body];
+}
+
+void ConeSweeps::set_up(BodyColumns state, const std::vector<ConeConstraint>& points) {
+  place_.assign(system_.size(), -1);
+  bodies_.clear(), rows_.clear();
+  for (const ConeConstraint& point : points) rows_.push_back(row_of(point));
+  read(state);
+}
+
+ConeSweeps::Row ConeSweeps::row_of(const ConeConstraint& point) {
+  Row row;
+  row.given.head<3>() = point.offset;
+  const auto add = [&](int body, int end, int& place, Side& by, Effect& to) {
+    if (body == kWorld) return;
+    place = place_of(body);
+    if (place < 0) return;
+    for (int axis = 0; axis < 3; ++axis) by.row(axis) = point.row(end, point.frame.col(axis));
+    to << system_.bodies[body].inverse_mass * by.topLeftCorner<3, 3>().transpose(),
+        inverse_inertia_W_[body] * by.topRightCorner<3, 3>().transpose();
+  };
+  add(point.a, 0, row.a, row.by_a, row.to_a);
+  add(point.b, 1, row.b, row.by_b, row.to_b);
+  if (point.response < 0) {
+    row.sticking = point.inverse_mass.inverse();
+    return row;
+  }
+  for (const ConeSolver::Change& change : responses_[static_cast<std::size_t>(point.response)]) place_of(change.body);
+  return row;
+}
+
+void ConeSweeps::read(BodyColumns state) {
+  speeds_.clear();
+  for (const int body : bodies_) speeds_.push_back(joined(state.velocity(body), state.angular_velocity(body)));
+}
+
+void ConeSweeps::write(MutableBodyColumns state) const {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    state.set_velocity(bodies_[k], speeds_[k].head<3>());
+    state.set_angular_velocity(bodies_[k], speeds_[k].tail<3>());
+  }
+}
+
+Vec3 ConeSweeps::velocity_at(const Row& row) const {
+  Eigen::Vector4d u = row.given;
+  if (row.a >= 0) u.noalias() += row.by_a * speeds_[row.a];
+  if (row.b >= 0) u.noalias() += row.by_b * speeds_[row.b];
+  return u.head<3>();
+}
+
+void ConeSweeps::push(const ConeConstraint& point, const Row& row, const Vec3& impulse) {
+  if (point.response >= 0) {
+    for (const ConeSolver::Change& change : responses_[static_cast<std::size_t>(point.response)]) {
+      const int place = place_[change.body];
+      if (place >= 0) speeds_[place].noalias() += change.by * impulse;
+    }
+    return;
+  }
+  if (row.a >= 0) speeds_[row.a].noalias() += row.to_a * impulse;
+  if (row.b >= 0) speeds_[row.b].noalias() += row.to_b * impulse;
+}
+
+double ConeSweeps::sweep(std::vector<ConeConstraint>& points, double share) {
+  double largest = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ConeConstraint& point = points[i];
+    const Row& row = rows_[i];
+    const Vec3 change = share * (impulse_at(point, row.sticking, velocity_at(row)) - point.impulse);
+    if (change.isZero(0)) continue;
+    push(point, row, change);
+    point.impulse += change;
+    largest = std::max(largest, (point.inverse_mass * change).squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace rigor
