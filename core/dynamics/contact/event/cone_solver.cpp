@@ -15,6 +15,7 @@ constexpr int kMostNewtonSteps = 400;    // of an island; what settles takes som
 constexpr double kCreeping = 0.99;       // of a sequence whose ratio is not known yet
 constexpr double kSlow = 0.9;            // from here on Newton's method is quicker
 constexpr int kFewestSweeps = 5;         // before that is judged
+constexpr int kBetweenLeaps = 6;         // sweeps
 constexpr double kHeldByJoints = 1e-12;  // of the free bodies' inverse mass: what joints do not let move at all
 
 // Larger eigenvalue of a 2 x 2 matrix that is symmetric.
@@ -147,7 +148,7 @@ double ConeSolver::size_of(BodyColumns state, const std::vector<ConeConstraint>&
   return size;
 }
 
-bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
+bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& points, Means means) const {
   std::vector<std::pair<int, int>> pairs;
   for (const ConeConstraint& point : points) pairs.emplace_back(point.a, point.b);
   bool have_settled = true;
@@ -155,22 +156,20 @@ bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& po
   for (const Island& island : islands_of(system_, pairs, joints_)) {
     of_island.clear();
     for (const std::size_t i : island.points) of_island.push_back(points[i]);
-    have_settled = solve_island(state, of_island) && have_settled;
+    have_settled = solve_island(state, of_island, means) && have_settled;
     for (std::size_t k = 0; k < island.points.size(); ++k) points[island.points[k]] = of_island[k];
   }
   return have_settled;
 }
 
-bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points) const {
+bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points, Means means) const {
   ConeSweeps sweeps(system_, inverse_inertia_W_, responses_);
   sweeps.set_up(state, points);
   double size = 0, last = 0, ratio = kCreeping;
   int steps = kMostNewtonSteps;
   for (int turn = 0; turn < accuracy_.most_turns; ++turn) {
-    // Sliding points may pass an impulse to and fro for ever, unless each gives way.
-    const double share = accuracy_.by_newton || turn == 0 ? 1 : 0.5;
     for (int k = 0; k < kSweepsAtATime; ++k) {
-      const double change = sweeps.sweep(points, share);
+      const double change = sweeps.sweep(points);
       ++sweeps_;
       if (k == 0) {
         sweeps.write(state);
@@ -178,12 +177,15 @@ bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstrai
       }
       if (!std::isfinite(change)) return false;
       // Of a creeping sequence, what is still to come counts.
-      if (k > 0) ratio = std::min(change / last, kCreeping);
+      if (k > 0) ratio = last > 0 ? std::min(change / last, kCreeping) : kCreeping;
       last = change;
       if (change * ratio <= accuracy_.at_rest * size * (1 - ratio)) {
         sweeps.write(state);
         return true;
       }
+      // What leaps leave is judged after the next two sweeps.
+      const bool may_leap = means == Means::all && !accuracy_.by_newton && k + 1 < kSweepsAtATime;
+      if (may_leap && (k + 1) % kBetweenLeaps == 0 && sweeps.leap(points)) last = 0;
       if (accuracy_.by_newton && k >= kFewestSweeps && ratio > kSlow) break;
     }
     sweeps.write(state);

@@ -3,9 +3,10 @@
 //   0 <= u'_n - target  ⊥  p_n >= 0,    |p_t| <= mu p_n,  with p_t against u'_t on the disc's rim where u'_t is not
 //   zero
 // (Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; Jean, The non-smooth contact dynamics
-// method, 1999). Solved by block Gauss–Seidel, one point after another (cone_sweeps.h), and by Newton's method (cone_newton.h) where
-// that creeps, until nothing changes but rounding; each island (islands.h) by itself. Where joints hold the bodies,
-// each impulse acts through them (impulse_responses.h), on all bodies that are connected with the two.
+// method, 1999). Solved by block Gauss–Seidel, one point after another (cone_sweeps.h), and where that creeps by Newton's
+// method (cone_newton.h), until nothing changes but rounding, or by leaps, to less; each island (islands.h) by itself.
+// Where joints hold the bodies, each impulse acts through them (impulse_responses.h), on all bodies that are connected
+// with the two.
 #pragma once
 
 #include <optional>
@@ -50,7 +51,7 @@ struct ConeAccuracy {
   double at_rest = 1e-13;
   double near_rest = 1e-9;  // what is left after the last turn: points on the verge of sliding may never come closer
   int most_turns = 12;      // of sweeps and Newton's method
-  bool by_newton = true;    // where sweeps creep; what it leaves undone may have more energy than there was
+  bool by_newton = true;    // where sweeps creep, else by leaps; what either leaves may have more energy than there was
 };
 
 class ConeSolver {
@@ -63,8 +64,10 @@ class ConeSolver {
 
   // Takes the inertias from `state`.
   void prepare(BodyColumns state, std::vector<ConeConstraint>& points);
+  // Of sweeps alone, which begin with no impulses and ask for no rebound, none adds energy, finished or not.
+  enum class Means { all, sweeps };
   // Changes impulses and, with them, the velocities of `state`. Returns false if it did not come to rest.
-  bool solve(MutableBodyColumns state, std::vector<ConeConstraint>& points) const;
+  bool solve(MutableBodyColumns state, std::vector<ConeConstraint>& points, Means means = Means::all) const;
   // Newton steps so far, of some 20 µs each where ten bodies touch.
   long work() const { return work_; }
   // Of islands so far.
@@ -84,7 +87,7 @@ class ConeSolver {
  private:
   void find_responses(BodyColumns state, std::vector<ConeConstraint>& points);
   void find_response(ConeConstraint& point);
-  bool solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points) const;
+  bool solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points, Means means) const;
   double size_of(BodyColumns state, const std::vector<ConeConstraint>& points) const;
   bool take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points, double tolerance,
                          int& steps) const;

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace rigor {
 namespace {
@@ -36,6 +37,37 @@ Vec3 impulse_in_turns(const ConeConstraint& point, const Vec3& free) {
   return p;
 }
 
+// On the cone's rim, p = p_n (1, mu d), with d against the slip that it leaves: Newton's method for d, from the direction
+// that is there. None where it goes astray.
+std::optional<Vec3> sliding_impulse(const ConeConstraint& point, const Vec3& free) {
+  constexpr int kSteps = 6;
+  constexpr double kSmall = 1e-4;  // rad: what is left of the error is its square, and after the next sweep that again
+  const Mat3& W = point.inverse_mass;
+  const Eigen::Vector2d before = point.impulse.tail<2>(), start = before.isZero(0) ? -free.tail<2>() : before;
+  Eigen::Vector2d d = start.normalized();
+  const auto along = [&](const Eigen::Vector2d& t) { return W(0, 1) * t.x() + W(0, 2) * t.y(); };
+  const auto impulse = [&] {
+    const double normal = (point.target_velocity - free.x()) / (W(0, 0) + point.friction * along(d));
+    return Vec3(normal, point.friction * normal * d.x(), point.friction * normal * d.y());
+  };
+  for (int k = 0; k < kSteps; ++k) {
+    const Vec3 p = impulse();
+    if (!(p.x() > 0)) return {};
+    const Eigen::Vector2d slip = (free + W * p).tail<2>(), across(-d.y(), d.x());
+    // p' by the angle of d.
+    const double share = -point.friction * along(across) / (W(0, 0) + point.friction * along(d));
+    const Vec3 rate = share * p + point.friction * p.x() * Vec3(0, across.x(), across.y());
+    const double slope = across.dot((W * rate).tail<2>()) - d.dot(slip);
+    if (!(slope > 0)) return {};
+    const double turn = -across.dot(slip) / slope;
+    d = (d + turn * across).normalized();
+    if (!(std::abs(turn) <= kSmall)) continue;
+    if (d.dot(slip) > 0) return {};
+    return impulse();
+  }
+  return {};
+}
+
 // That meets the laws, given the velocity u that is there with point.impulse acting.
 Vec3 impulse_at(const ConeConstraint& point, const Mat3& sticking, const Vec3& u) {
   const Mat3& W = point.inverse_mass;
@@ -54,7 +86,8 @@ Vec3 impulse_at(const ConeConstraint& point, const Mat3& sticking, const Vec3& u
     return {0, grip.x(), grip.y()};
   }
   if (point.friction == 0) return {(point.target_velocity - free.x()) / W(0, 0), 0, 0};
-  return impulse_in_turns(point, free);
+  const std::optional<Vec3> sliding = sliding_impulse(point, free);
+  return sliding ? *sliding : impulse_in_turns(point, free);
 }
 
 }  // namespace
@@ -71,6 +104,7 @@ int ConeSweeps::place_of(int body) {
 void ConeSweeps::set_up(BodyColumns state, const std::vector<ConeConstraint>& points) {
   place_.assign(system_.size(), -1);
   bodies_.clear(), rows_.clear();
+  change_.assign(points.size(), Vec3::Zero()), change_before_ = change_;
   for (const ConeConstraint& point : points) rows_.push_back(row_of(point));
   read(state);
 }
@@ -127,18 +161,41 @@ void ConeSweeps::push(const ConeConstraint& point, const Row& row, const Vec3& i
   if (row.b >= 0) speeds_[row.b].noalias() += row.to_b * impulse;
 }
 
-double ConeSweeps::sweep(std::vector<ConeConstraint>& points, double share) {
+double ConeSweeps::sweep(std::vector<ConeConstraint>& points) {
   double largest = 0;
+  change_.swap(change_before_);
   for (std::size_t i = 0; i < points.size(); ++i) {
     ConeConstraint& point = points[i];
     const Row& row = rows_[i];
-    const Vec3 change = share * (impulse_at(point, row.sticking, velocity_at(row)) - point.impulse);
+    const Vec3 change = impulse_at(point, row.sticking, velocity_at(row)) - point.impulse;
+    change_[i] = change;
     if (change.isZero(0)) continue;
     push(point, row, change);
     point.impulse += change;
     largest = std::max(largest, (point.inverse_mass * change).squaredNorm());
   }
   return std::sqrt(largest);
+}
+
+bool ConeSweeps::leap(std::vector<ConeConstraint>& points) {
+  constexpr double kAlong = 0.9;                    // the cosine between two changes of one way
+  constexpr double kSlowest = 0.995, kQuickest = 0.6;  // ratios of theirs
+  double both = 0, before = 0, now = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    both += change_[i].dot(change_before_[i]);
+    before += change_before_[i].squaredNorm(), now += change_[i].squaredNorm();
+  }
+  const double ratio = std::min(both / before, kSlowest);
+  if (!(ratio > kQuickest && both * both > kAlong * kAlong * before * now)) return false;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 old = points[i].impulse;
+    Vec3 p = old + ratio / (1 - ratio) * change_[i];
+    p.x() = std::max(0.0, p.x());
+    p.tail<2>() = onto_disc(p.tail<2>(), points[i].grips ? kInfiniteFriction : disc(points[i].friction, p.x()));
+    push(points[i], rows_[i], p - old);
+    points[i].impulse = p;
+  }
+  return true;
 }
 
 }  // namespace rigor

@@ -16,9 +16,11 @@ class ConeSweeps {
 
   // For points that ConeSolver::prepare() has seen.
   void set_up(BodyColumns state, const std::vector<ConeConstraint>& points);
-  // Changes the points' impulses, each by a share of what it asks for. Returns the largest change of a point's velocity
-  // [m/s].
-  double sweep(std::vector<ConeConstraint>& points, double share);
+  // Changes the points' impulses. Returns the largest change of a point's velocity [m/s].
+  double sweep(std::vector<ConeConstraint>& points);
+  // Where the last sweeps crept along one way, takes what of it is still to come at once (Aitken, 1926). Returns whether
+  // it did.
+  bool leap(std::vector<ConeConstraint>& points);
   // The bodies' velocities, which sweep() keeps to itself.
   void read(BodyColumns state);
   void write(MutableBodyColumns state) const;
@@ -44,6 +46,7 @@ class ConeSweeps {
   const std::vector<Mat3>& inverse_inertia_W_;
   const std::vector<ConeSolver::Response>& responses_;  // through joints
   std::vector<Row> rows_;
+  std::vector<Vec3> change_, change_before_;  // N s, of the impulses in the last two sweeps
   std::vector<int> place_, bodies_;  // by body of the system, or -1; those that move
   std::vector<Vec6> speeds_;         // of these
 };

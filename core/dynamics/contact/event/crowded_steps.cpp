@@ -16,7 +16,6 @@ constexpr double kShare = 1.0 / 4;      // of a step: shorter steps are to be ne
 constexpr double kOverlap = 1e-10;      // m: a gap this small is closed; see event.cpp
 
 // A step errs by its own length squared; impulses that are nearer to the laws than that are not worth their time.
-// Sweeps that begin with no impulses and ask for no rebound never add energy, finished or not.
 constexpr ConeAccuracy kAccuracy{.at_rest = 1e-4, .near_rest = 5e-2, .most_turns = 2, .by_newton = false};
 
 const char* const kNotSettled = "the impulses between touching bodies did not settle";
@@ -94,7 +93,7 @@ void CrowdedSteps::stop_overlaps(MutableBodyColumns state, double h) {
   if (kinetic_energy(system_, state) > energy * (1 + kNewEnergy)) {
     copy_columns(std::as_const(free_).columns(), state);
     for (ConeConstraint& cone : cones_) cone.target_velocity = 0, cone.impulse.setZero();
-    has_settled = solver_.solve(state, cones_);
+    has_settled = solver_.solve(state, cones_, ConeSolver::Means::sweeps);
   }
   if (!has_settled) solver_warning_ = kNotSettled;
 }

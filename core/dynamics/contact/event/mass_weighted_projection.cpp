@@ -1,7 +1,5 @@
 #include "core/dynamics/contact/event/mass_weighted_projection.h"
 
-#include "core/base/factors.h"
-
 namespace rigor {
 namespace {
 
@@ -9,6 +7,8 @@ namespace {
 // refinement take the error out again of all that is not redundant.
 constexpr double kRegularisation = 1e-6;
 constexpr int kRounds = 4;
+// Rows up to which a dense matrix is quicker. Without joints it is positive definite, by what is added.
+constexpr Eigen::Index kMostDense = 64;
 constexpr int kMostActiveSets = 10;  // of unilateral targets
 
 }  // namespace
@@ -42,7 +42,6 @@ MassWeightedProjection::Row MassWeightedProjection::row_of(BodyColumns state, co
 Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<ProjectionTarget>& targets,
                                                     const std::vector<bool>& is_used) {
   const auto count = static_cast<Eigen::Index>(targets.size());
-  std::vector<Eigen::Triplet<double>> entries;
   using Entries = std::vector<std::pair<Eigen::Index, const PoseStep*>>;
   std::vector<Entries> by_body(system_.size()), to_body(system_.size());
   Eigen::VectorXd regularisation = Eigen::VectorXd::Ones(count), amounts = Eigen::VectorXd::Zero(count);
@@ -53,19 +52,37 @@ Eigen::VectorXd MassWeightedProjection::multipliers(const std::vector<Projection
     for (const Part& part : rows_[i].by) by_body[part.body].emplace_back(i, &part.of);
     for (const Part& part : rows_[i].to) to_body[part.body].emplace_back(i, &part.of);
   }
-  for (std::size_t body = 0; body < system_.size(); ++body) {
-    for (const auto& [i, by] : by_body[body])
-      for (const auto& [j, to] : to_body[body]) entries.emplace_back(i, j, by->dot(*to));
+  const auto each_entry = [&](const auto& take) {
+    for (std::size_t body = 0; body < system_.size(); ++body) {
+      for (const auto& [i, by] : by_body[body])
+        for (const auto& [j, to] : to_body[body]) take(i, j, by->dot(*to));
+    }
+  };
+  const auto refined = [&](const auto& delassus, const auto& factors) {
+    Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(count);
+    for (int round = 0; round < kRounds; ++round) multiplier += factors.solve(amounts - delassus * multiplier);
+    return multiplier;
+  };
+  if (!joints_ && count <= kMostDense) {
+    Eigen::MatrixXd delassus = Eigen::MatrixXd::Zero(count, count), regularised;
+    each_entry([&](Eigen::Index i, Eigen::Index j, double entry) { delassus(i, j) += entry; });
+    regularised = delassus;
+    regularised.diagonal() += regularisation;
+    dense_.factorise(regularised, DenseFactors::Kind::positive_definite);
+    const Eigen::VectorXd multiplier = refined(delassus, dense_);
+    if (multiplier.allFinite()) return multiplier;
   }
+  std::vector<Eigen::Triplet<double>> entries;
+  each_entry([&](Eigen::Index i, Eigen::Index j, double entry) { entries.emplace_back(i, j, entry); });
   Eigen::SparseMatrix<double> delassus(count, count), regularised;
   delassus.setFromTriplets(entries.begin(), entries.end());
   regularised = delassus;
   for (Eigen::Index i = 0; i < count; ++i) regularised.coeffRef(i, i) += regularisation[i];
   const SparseFactors factors(regularised);
-  Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(count);
-  for (int round = 0; round < kRounds && factors.is_regular(); ++round)
-    multiplier += factors.solve(amounts - delassus * multiplier);
-  if (factors.is_regular() && multiplier.allFinite()) return multiplier;
+  if (factors.is_regular()) {
+    const Eigen::VectorXd multiplier = refined(delassus, factors);
+    if (multiplier.allFinite()) return multiplier;
+  }
   solver_warning_ = "no motion of touching bodies closes the gaps between them: its equations are singular";
   return Eigen::VectorXd::Zero(count);
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/factors.h"
 #include "core/dynamics/contact/event/cone_solver.h"
 
 namespace rigor {
@@ -57,6 +58,7 @@ class MassWeightedProjection {
   Joints* joints_;
   std::optional<ImpulseResponses> through_joints_;
   std::vector<Row> rows_;
+  DenseFactors dense_;
   std::vector<PoseStep> motion_;
   std::string solver_warning_;
 };
