@@ -10,7 +10,8 @@
 //
 // Where events crowd, as in the infinitely many small impacts with which a row of dominoes comes to lie, a run has a
 // budget: once it has spent it, the rest of a step is taken in steps that do not look for events (crowded_steps.h), and
-// the run says from when on (reduced_order()).
+// the run says from when on (reduced_order()). So it is where more bodies touch each other than their forces can be found
+// for at each stage.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,6 +40,10 @@ constexpr int kMostInstants = 100;    // in a step
 constexpr double kMostSaved = 6000, kForEachStep = 200;
 constexpr double kForEachPart = 3;    // of such steps: what it costs to find what touches, and how
 constexpr double kForNoForces = 400;  // the same, where in the end no forces are found
+
+// Bodies in contact with each other: the equations of their forces are full, of some six rows each, and a stage of the
+// integrator takes 0.04 s with so many, growing as their cube.
+constexpr std::size_t kMostTogether = 128;
 
 constexpr int kMostPieces = 200;  // of the time to the next event, while bodies are not seen to stay apart
 
@@ -94,7 +99,9 @@ class EventStepper : public ContactStepper {
   long work() const override { return persistent_contact_.passes(); }
   std::optional<ReducedOrder> reduced_order() const override {
     if (!crowded_from_) return {};
-    return ReducedOrder{*crowded_from_, "in part by " + crowded_.wording() + ", for events crowd there"};
+    const std::string many = fmt::format(" or more than {} bodies touch each other", kMostTogether);
+    return ReducedOrder{*crowded_from_,
+                        "in part by " + crowded_.wording() + ", for events crowd there" + (are_many_ ? many : "")};
   }
 
   SettingsInForce settings_in_force() const override {
@@ -139,6 +146,10 @@ class EventStepper : public ContactStepper {
     pairs_ = contact_points_.candidates(state);
     touching_.clear();
     contact_points_.find(state, pairs_, kClosedGap, touching_);
+    if (static_cast<double>(persistent_contact_.most_together(touching_)) > patience_ * kMostTogether) {
+      are_many_ = true;
+      return take_crowded_step(state, crowded_step_);
+    }
     start_ = BodyColumns(state);
     persistent_contact_.let_go_motors(state);
     if (impacts_.resolve(state, touching_)) is_smooth_ = false;
@@ -311,6 +322,7 @@ class EventStepper : public ContactStepper {
   double saved_ = std::numeric_limits<double>::max();  // of the budget, in steps of the integrator
   double crowded_step_ = 0;                            // s
   std::optional<double> crowded_from_;                 // s
+  bool are_many_ = false;                              // somewhere, more than kMostTogether
   Part part_;
   double longest_ = kInfinity;  // s, of the next part
   int instants_ = 0;            // skipped in this step

@@ -128,6 +128,14 @@ bool PersistentContact::select_points(MutableBodyColumns state, const std::vecto
   return are_found;
 }
 
+std::size_t PersistentContact::most_together(const std::vector<ContactPoint>& contact_points) const {
+  std::vector<std::pair<int, int>> pairs;
+  for (const ContactPoint& contact : contact_points) pairs.emplace_back(contact.cone.a, contact.cone.b);
+  std::size_t most = 0;
+  for (const Island& island : islands_of(system_, pairs, joints_)) most = std::max(most, island.bodies.size());
+  return most;
+}
+
 void PersistentContact::forget_points() {
   persistent_.points().clear(), resting_points_.clear();
   rests_.assign(system_.size(), 0);

@@ -21,6 +21,8 @@ class PersistentContact {
   PersistentContact(const ContactParts& parts, ContactPoints& contact_points);
 
   const std::vector<PersistentPoint>& points() const { return persistent_.points(); }
+  // Of the bodies that move, the most that these points and joints connect.
+  std::size_t most_together(const std::vector<ContactPoint>& contact_points) const;
   // Which of the touching points stay in contact from t on, for some of dt, and which motors keep their speeds. False
   // if there are no forces that obey the laws.
   bool select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t, double dt);
