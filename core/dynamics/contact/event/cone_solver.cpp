@@ -11,6 +11,7 @@ namespace rigor {
 namespace {
 
 constexpr int kSweepsAtATime = 30;
+constexpr int kMostTurnsToBeNear = 10;   // of what is not near its rest after the turns it is allowed: a tall heap
 constexpr int kMostNewtonSteps = 400;    // of an island; what settles takes some 50
 constexpr double kCreeping = 0.99;       // of a sequence whose ratio is not known yet
 constexpr double kSlow = 0.9;            // from here on Newton's method is quicker
@@ -167,7 +168,10 @@ bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstrai
   sweeps.set_up(state, points);
   double size = 0, last = 0, ratio = kCreeping;
   int steps = kMostNewtonSteps;
-  for (int turn = 0; turn < accuracy_.most_turns; ++turn) {
+  const auto goes_on = [&](int turn) {
+    return turn < accuracy_.most_turns || (turn < kMostTurnsToBeNear && last > accuracy_.near_rest * size);
+  };
+  for (int turn = 0; goes_on(turn); ++turn) {
     for (int k = 0; k < kSweepsAtATime; ++k) {
       const double change = sweeps.sweep(points);
       ++sweeps_;

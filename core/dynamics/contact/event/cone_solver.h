@@ -3,10 +3,10 @@
 //   0 <= u'_n - target  ⊥  p_n >= 0,    |p_t| <= mu p_n,  with p_t against u'_t on the disc's rim where u'_t is not
 //   zero
 // (Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; Jean, The non-smooth contact dynamics
-// method, 1999). Solved by block Gauss–Seidel, one point after another (cone_sweeps.h), and where that creeps by Newton's
-// method (cone_newton.h), until nothing changes but rounding, or by leaps, to less; each island (islands.h) by itself.
-// Where joints hold the bodies, each impulse acts through them (impulse_responses.h), on all bodies that are connected
-// with the two.
+// method, 1999). Solved by block Gauss–Seidel, one point after another (cone_sweeps.h), and where that creeps by
+// Newton's method (cone_newton.h), until nothing changes but rounding, or by leaps, to less; each island (islands.h) by
+// itself. Where joints hold the bodies, each impulse acts through them (impulse_responses.h), on all bodies that are
+// connected with the two.
 #pragma once
 
 #include <optional>

@@ -37,8 +37,8 @@ Vec3 impulse_in_turns(const ConeConstraint& point, const Vec3& free) {
   return p;
 }
 
-// On the cone's rim, p = p_n (1, mu d), with d against the slip that it leaves: Newton's method for d, from the direction
-// that is there. None where it goes astray.
+// On the cone's rim, p = p_n (1, mu d), with d against the slip that it leaves: Newton's method for d, from the
+// direction that is there. None where it goes astray.
 std::optional<Vec3> sliding_impulse(const ConeConstraint& point, const Vec3& free) {
   constexpr int kSteps = 6;
   constexpr double kSmall = 1e-4;  // rad: what is left of the error is its square, and after the next sweep that again
@@ -178,7 +178,7 @@ double ConeSweeps::sweep(std::vector<ConeConstraint>& points) {
 }
 
 bool ConeSweeps::leap(std::vector<ConeConstraint>& points) {
-  constexpr double kAlong = 0.9;                    // the cosine between two changes of one way
+  constexpr double kAlong = 0.9;                       // the cosine between two changes of one way
   constexpr double kSlowest = 0.995, kQuickest = 0.6;  // ratios of theirs
   double both = 0, before = 0, now = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {

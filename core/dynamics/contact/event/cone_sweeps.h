@@ -1,6 +1,6 @@
 // The sweeps of cone_solver.h over the points of one island: the laws at one point after another, each with the
-// velocity that the impulses before it have left. What every sweep asks of a point is worked out once, and the speeds of
-// the bodies lie side by side.
+// velocity that the impulses before it have left. What every sweep asks of a point is worked out once, and the speeds
+// of the bodies lie side by side.
 #pragma once
 
 #include "core/dynamics/contact/event/cone_solver.h"
@@ -18,8 +18,8 @@ class ConeSweeps {
   void set_up(BodyColumns state, const std::vector<ConeConstraint>& points);
   // Changes the points' impulses. Returns the largest change of a point's velocity [m/s].
   double sweep(std::vector<ConeConstraint>& points);
-  // Where the last sweeps crept along one way, takes what of it is still to come at once (Aitken, 1926). Returns whether
-  // it did.
+  // Where the last sweeps crept along one way, takes what of it is still to come at once (Aitken, 1926). Returns
+  // whether it did.
   bool leap(std::vector<ConeConstraint>& points);
   // The bodies' velocities, which sweep() keeps to itself.
   void read(BodyColumns state);
@@ -30,8 +30,8 @@ class ConeSweeps {
   using Side = Eigen::Matrix<double, 4, 6>;
   using Effect = Eigen::Matrix<double, 6, 3>;
   struct Row {
-    int a = -1, b = -1;                           // places of the moving bodies; -1 of what does not move
-    Side by_a = Side::Zero(), by_b = Side::Zero();  // of the point's velocity, to a body's six speeds
+    int a = -1, b = -1;                                   // places of the moving bodies; -1 of what does not move
+    Side by_a = Side::Zero(), by_b = Side::Zero();        // of the point's velocity, to a body's six speeds
     Effect to_a = Effect::Zero(), to_b = Effect::Zero();  // what an impulse makes of them
     Eigen::Vector4d given = Eigen::Vector4d::Zero();      // m/s: the offset
     Mat3 sticking = Mat3::Zero();                         // kg, of the impulse, to minus the velocity
@@ -47,8 +47,8 @@ class ConeSweeps {
   const std::vector<ConeSolver::Response>& responses_;  // through joints
   std::vector<Row> rows_;
   std::vector<Vec3> change_, change_before_;  // N s, of the impulses in the last two sweeps
-  std::vector<int> place_, bodies_;  // by body of the system, or -1; those that move
-  std::vector<Vec6> speeds_;         // of these
+  std::vector<int> place_, bodies_;           // by body of the system, or -1; those that move
+  std::vector<Vec6> speeds_;                  // of these
 };
 
 }  // namespace rigor

@@ -10,8 +10,8 @@
 //
 // Where events crowd, as in the infinitely many small impacts with which a row of dominoes comes to lie, a run has a
 // budget: once it has spent it, the rest of a step is taken in steps that do not look for events (crowded_steps.h), and
-// the run says from when on (reduced_order()). So it is where more bodies touch each other than their forces can be found
-// for at each stage.
+// the run says from when on (reduced_order()). So it is where more bodies touch each other than their forces can be
+// found for at each stage.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -41,6 +41,30 @@ BOOST_AUTO_TEST_CASE(spheres_in_one_place_part_to_all_sides_without_speed) {
   }
 }
 
+// More than forces at each stage can be found for: it took minutes for a second. They come apart within the first step,
+// fall and come to lie, and the run says by what law.
+BOOST_AUTO_TEST_CASE(five_hundred_spheres_in_one_place_above_a_floor_part_and_fall) {
+  constexpr int kCount = 500, kSteps = 15;
+  for (const double height : {1.5, 0.0}) {
+    std::vector<Body> bodies;
+    for (int i = 0; i < kCount; ++i) bodies.push_back(solid("s" + std::to_string(i), Sphere{0.1}, {0, 0, height}));
+    const Scene scene = on_floor(bodies, {0, 0.5});
+    ContactRun run(scene, "event");
+    run.step(kStep);
+    BOOST_TEST_CONTEXT("from " << height << " m") {
+      BOOST_REQUIRE(run.reduced_order());
+      BOOST_TEST(run.reduced_order()->from == 0);
+      BOOST_TEST(run.reduced_order()->how.find("more than 128 bodies touch each other") != std::string::npos);
+      const double after_parting = energy(scene, run.state());
+      run.run(kStep, kSteps);
+      BOOST_TEST(run.solver_warning() == "");
+      BOOST_TEST(energy(scene, run.state()) < after_parting);
+      BOOST_TEST(least_distance(run.state(), kCount) > 0.2 - 0.01);
+      for (int i = 0; i < kCount; ++i) BOOST_TEST(run.state().position(i).z() > 0.1 - 0.01);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_body_without_room_is_named) {
   Scene scene = on_floor({solid("ball", Sphere{0.1}, {0, 0, 0.5})}, {0, 0.5});
   for (const double side : {1.0, -1.0}) {
