@@ -153,18 +153,19 @@ bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& po
   std::vector<std::pair<int, int>> pairs;
   for (const ConeConstraint& point : points) pairs.emplace_back(point.a, point.b);
   bool have_settled = true;
+  ConeSweeps sweeps(system_, inverse_inertia_W_, responses_);
   std::vector<ConeConstraint> of_island;
   for (const Island& island : islands_of(system_, pairs, joints_)) {
     of_island.clear();
     for (const std::size_t i : island.points) of_island.push_back(points[i]);
-    have_settled = solve_island(state, of_island, means) && have_settled;
+    have_settled = solve_island(state, of_island, sweeps, means) && have_settled;
     for (std::size_t k = 0; k < island.points.size(); ++k) points[island.points[k]] = of_island[k];
   }
   return have_settled;
 }
 
-bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points, Means means) const {
-  ConeSweeps sweeps(system_, inverse_inertia_W_, responses_);
+bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points, ConeSweeps& sweeps,
+                              Means means) const {
   sweeps.set_up(state, points);
   double size = 0, last = 0, ratio = kCreeping;
   int steps = kMostNewtonSteps;

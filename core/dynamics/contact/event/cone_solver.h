@@ -42,6 +42,8 @@ struct ConeConstraint {
   }
 };
 
+class ConeSweeps;
+
 // Two unit vectors across n and each other.
 Mat3 contact_frame(const Vec3& n);
 
@@ -87,7 +89,8 @@ class ConeSolver {
  private:
   void find_responses(BodyColumns state, std::vector<ConeConstraint>& points);
   void find_response(ConeConstraint& point);
-  bool solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points, Means means) const;
+  bool solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points, ConeSweeps& sweeps,
+                    Means means) const;
   double size_of(BodyColumns state, const std::vector<ConeConstraint>& points) const;
   bool take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points, double tolerance,
                          int& steps) const;

@@ -46,24 +46,24 @@ std::optional<Vec3> sliding_impulse(const ConeConstraint& point, const Vec3& fre
   const Eigen::Vector2d before = point.impulse.tail<2>(), start = before.isZero(0) ? -free.tail<2>() : before;
   Eigen::Vector2d d = start.normalized();
   const auto along = [&](const Eigen::Vector2d& t) { return W(0, 1) * t.x() + W(0, 2) * t.y(); };
-  const auto impulse = [&] {
-    const double normal = (point.target_velocity - free.x()) / (W(0, 0) + point.friction * along(d));
-    return Vec3(normal, point.friction * normal * d.x(), point.friction * normal * d.y());
-  };
   for (int k = 0; k < kSteps; ++k) {
-    const Vec3 p = impulse();
-    if (!(p.x() > 0)) return {};
+    const double mass = 1 / (W(0, 0) + point.friction * along(d));
+    const double normal = mass * (point.target_velocity - free.x());
+    if (!(normal > 0)) return {};
+    const Vec3 p(normal, point.friction * normal * d.x(), point.friction * normal * d.y());
     const Eigen::Vector2d slip = (free + W * p).tail<2>(), across(-d.y(), d.x());
     // p' by the angle of d.
-    const double share = -point.friction * along(across) / (W(0, 0) + point.friction * along(d));
-    const Vec3 rate = share * p + point.friction * p.x() * Vec3(0, across.x(), across.y());
+    const Vec3 rate = point.friction * (normal * Vec3(0, across.x(), across.y()) - mass * along(across) * p);
     const double slope = across.dot((W * rate).tail<2>()) - d.dot(slip);
     if (!(slope > 0)) return {};
     const double turn = -across.dot(slip) / slope;
+    if (std::abs(turn) <= kSmall) {
+      if (d.dot(slip) > 0) return {};
+      d = (1 - 0.5 * turn * turn) * (d + turn * across);
+      const double last = (point.target_velocity - free.x()) / (W(0, 0) + point.friction * along(d));
+      return Vec3(last, point.friction * last * d.x(), point.friction * last * d.y());
+    }
     d = (d + turn * across).normalized();
-    if (!(std::abs(turn) <= kSmall)) continue;
-    if (d.dot(slip) > 0) return {};
-    return impulse();
   }
   return {};
 }
@@ -102,8 +102,9 @@ int ConeSweeps::place_of(int body) {
 }
 
 void ConeSweeps::set_up(BodyColumns state, const std::vector<ConeConstraint>& points) {
-  place_.assign(system_.size(), -1);
+  for (const int body : bodies_) place_[body] = -1;
   bodies_.clear(), rows_.clear();
+  rows_.reserve(points.size());
   change_.assign(points.size(), Vec3::Zero()), change_before_ = change_;
   for (const ConeConstraint& point : points) rows_.push_back(row_of(point));
   read(state);

@@ -12,7 +12,7 @@ class ConeSweeps {
   // `inverse_inertia_W` and `responses` must outlive it.
   ConeSweeps(const System& system, const std::vector<Mat3>& inverse_inertia_W,
              const std::vector<ConeSolver::Response>& responses)
-      : system_(system), inverse_inertia_W_(inverse_inertia_W), responses_(responses) {}
+      : system_(system), inverse_inertia_W_(inverse_inertia_W), responses_(responses), place_(system.size(), -1) {}
 
   // For points that ConeSolver::prepare() has seen.
   void set_up(BodyColumns state, const std::vector<ConeConstraint>& points);
