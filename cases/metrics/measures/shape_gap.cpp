@@ -92,11 +92,11 @@ double between(const Cuboid& a, const Cuboid& b) {
         (a.axes.transpose() * axis).cwiseAbs().dot(a.half) + (b.axes.transpose() * axis).cwiseAbs().dot(b.half);
     widest = std::max(widest, (std::abs(apart.dot(axis)) - reach) / length);
   };
-  for (int i = 0; i < 3; ++i) {
-    try_axis(a.axes.col(i));
-    try_axis(b.axes.col(i));
-    for (int j = 0; j < 3; ++j) try_axis(a.axes.col(i).cross(b.axes.col(j)));
+  for (const Vec3 of_a : a.axes.colwise()) {
+    try_axis(of_a);
+    for (const Vec3 of_b : b.axes.colwise()) try_axis(of_a.cross(of_b));
   }
+  for (const Vec3 of_b : b.axes.colwise()) try_axis(of_b);
   return widest;
 }
 

@@ -35,6 +35,8 @@ BOOST_AUTO_TEST_CASE(a_scene_without_joints_has_no_value) {
   Trajectory still{1, {{0, BodyTable(1)}}};
   for (const char* metric : kOfJoints)
     BOOST_TEST(test::measured(metric, {scene, still, nullptr, 0}).not_applicable == "the scene has no joints");
+  for (const char* metric : {"reported_reaction_error", "reported_reaction_torque_error"})
+    BOOST_TEST(test::measured(metric, {scene, still, nullptr, 0}).not_applicable == "the scene has no joints");
 }
 
 BOOST_AUTO_TEST_CASE(a_truth_holds_its_joints_and_carries_what_it_carries) {
@@ -68,9 +70,12 @@ BOOST_AUTO_TEST_CASE(no_joint_holds_an_angle_no_twist) {
   Scene scene = pendulum();
   scene.joints[0].type = BallJoint{Vec3::Zero()};
   Trajectory still{1, {{0, BodyTable(1)}}};
-  for (const char* metric : {"joint_twist", "joint_twist_rate", "reaction_torque_error"})
+  for (const char* metric :
+       {"joint_twist", "joint_twist_rate", "reaction_torque_error", "reported_reaction_torque_error"})
     BOOST_TEST(test::measured(metric, {scene, still, nullptr, 0}).not_applicable ==
                "no joint of the scene holds an angle");
+  scene.joints.push_back(pendulum().joints[0]);  // one that does is enough
+  BOOST_TEST(value_of("joint_twist", {scene, still, nullptr, 0}) == 0);
 }
 
 // A tenth faster, the hinge carries m d w² ((1.1)² - 1) more towards it.
@@ -141,6 +146,36 @@ BOOST_AUTO_TEST_CASE(a_report_is_held_against_the_mean_over_its_step) {
   const TruthSamples at_those = test::sampled(*truth, thinned, scene, 5);
   BOOST_TEST(test::measured("reported_reaction_error", {scene, thinned, &at_those, 0}).not_applicable ==
              "steps are not recorded one by one");
+}
+
+// Of a joint whose second end is the world's the report is on its first body, and as much the other way.
+BOOST_AUTO_TEST_CASE(a_report_may_be_on_either_body_and_counts_as_far_as_the_truth_is_good) {
+  Scene scene = pendulum();
+  std::swap(scene.joints[0].a, scene.joints[0].b);
+  const auto truth = make_truth("reference", scene, 1);
+  Trajectory run = test::played(*truth, scene, 0.01, 100);
+  TruthSamples samples = test::sampled(*truth, run, scene, 5);
+  JointReactions reactions(scene);
+  for (std::size_t n = 1; n < run.samples.size(); ++n) {
+    const BodyColumns start = run.samples[n - 1].bodies.columns(), end = run.samples[n].bodies.columns();
+    const JointReaction first = (*reactions.at(start, 0))[0], last = (*reactions.at(end, 0))[0];
+    const Vec3 on_rod = -0.5 * (first.force + last.force), couple = -0.5 * (first.couple + last.couple);
+    run.samples[n].reactions = {{0, on_rod, couple - start.position(0).cross(on_rod)}};
+  }
+  for (std::size_t n = 51; n < samples.error.size(); ++n) samples.error[n] = 1;
+  run.samples[51].reactions[0].force += Vec3(1, 2, 3);
+  const auto value = [&](const std::string& metric) { return value_of(metric, {scene, run, &samples, 0}); };
+  BOOST_TEST(value("reported_reaction_error") < 1e-12);
+  BOOST_TEST(value("reported_reaction_torque_error") < 1e-12);
+  run.samples[50].reactions[0].force += Vec3(0, 0, 0.5);
+  BOOST_TEST(value("reported_reaction_error") == 0.5, boost::test_tools::tolerance(1e-9));
+  // The first step says nothing of a scheme, and two samples are no more than that.
+  run.samples.resize(2), samples.bodies.resize(2), samples.error.resize(2);
+  BOOST_TEST(test::measured("reported_reaction_error", {scene, run, &samples, 0}).not_applicable ==
+             "there is no sample after the start at which the truth is good enough");
+  run.samples.resize(1);
+  BOOST_TEST(test::measured("reported_reaction_error", {scene, run, &samples, 0}).not_applicable ==
+             "the engine does not say what joints carry");
 }
 
 BOOST_AUTO_TEST_CASE(what_the_equations_do_not_tell_has_no_reaction_error) {

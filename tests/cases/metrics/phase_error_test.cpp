@@ -44,6 +44,36 @@ double shift_of(const Motion& truth, const Motion& run, double dt = 0.05, int st
   return result.measurement->value;
 }
 
+// 2 sin(3 t) m: half the mean square distance from its start is 1 m², and its mean square speed 18 m²/s².
+BodyState swinging_about_its_start(double t) {
+  BodyState state;
+  state.position = {2 * std::sin(3 * t), 0, 0}, state.velocity = {6 * std::cos(3 * t), 0, 0};
+  return state;
+}
+
+// How often the truth is asked for each of the samples that are compared: so many shifts were tried.
+double shifts_tried(const Motion& motion, double lag, double dt, int steps, std::size_t compared) {
+  std::size_t asked = 0;
+  bool counts = false;
+  const double found = [&] {
+    Scene scene;
+    scene.bodies = {test::body("b", 2, {1, 2, 3})};
+    const test::StatedTruth run([&](double t) { return motion(t - lag); });
+    const test::StatedTruth truth([&](double t) {
+      asked += counts;
+      return motion(t);
+    });
+    const Trajectory trajectory = test::played(run, scene, dt, steps);
+    const TruthSamples samples = test::sampled(truth, trajectory, scene, 1);
+    counts = true;
+    const MetricResult result = test::measured("phase_error", {scene, trajectory, &samples, 0});
+    BOOST_TEST_REQUIRE(result.measurement.has_value(), result.not_applicable);
+    return result.measurement->value;
+  }();
+  BOOST_TEST(std::abs(found - lag) < 1e-11, found << " of " << lag);
+  return static_cast<double>(asked) / static_cast<double>(compared);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(cases_metrics_phase_error)
@@ -106,6 +136,127 @@ BOOST_AUTO_TEST_CASE(what_stands_still_or_is_beyond_the_search_has_no_phase) {
     return state;
   };
   BOOST_TEST(!phase_of(passing, lost, 0.1, 100).measurement.has_value());
+}
+
+// Of a turn half a period, 0.785 s: 0.53 of it late is 0.47 of it early.
+BOOST_AUTO_TEST_CASE(the_search_goes_half_a_period_of_the_faster_motion_either_way) {
+  const double period = 2 * std::numbers::pi / 4;
+  BOOST_TEST(shift_of(spinning, [&](double t) { return spinning(t - 0.53 * period); }) == -0.47 * period,
+             boost::test_tools::tolerance(1e-9));
+  const auto both = [](double t) {
+    BodyState state = spinning(t);
+    state.position = swinging_about_its_start(t).position, state.velocity = swinging_about_its_start(t).velocity;
+    return state;
+  };
+  BOOST_TEST(shift_of(both, [&](double t) { return both(t - 0.3); }) == 0.3, boost::test_tools::tolerance(1e-9));
+  // Of a swing about its start 1/√2 of a period counts as one: 0.74 s are half of that.
+  const std::string why = phase_of(
+                              both, [&](double t) { return both(t - 0.9); }, 0.05, 200)
+                              .not_applicable;
+  BOOST_TEST(why.starts_with("the best shift is 0.74"), why);
+}
+
+// A tremble of 1e-7 m at 300 rad/s has 2e-11 of the energy that spinning has, and ten times as fast 2e-9 of it: its
+// period of 21 ms or 2 ms then ends the search. Likewise of a swing that trembles as it turns.
+BOOST_AUTO_TEST_CASE(a_trace_of_motion_says_nothing_of_the_period) {
+  const auto trembling_spin = [](double speed) {
+    return [speed](double t) {
+      BodyState state = spinning(t);
+      state.position.x() = 1e-7 * std::sin(300 * t), state.velocity.x() = speed * std::cos(300 * t);
+      return state;
+    };
+  };
+  const auto trembling_swing = [](double speed) {
+    return [speed](double t) {
+      BodyState state = swinging_about_its_start(t);
+      state.orientation = rotation_by({1e-7 * std::sin(300 * t), 0, 0});
+      state.angular_velocity.x() = speed * std::cos(300 * t);
+      return state;
+    };
+  };
+  for (const Motion& motion : {Motion(trembling_spin(3e-5)), Motion(trembling_swing(3e-5))}) {
+    const auto late = [&](double t) { return motion(t - 0.2); };
+    BOOST_TEST(shift_of(motion, late) == 0.2, boost::test_tools::tolerance(1e-5));
+  }
+  for (const Motion& motion : {Motion(trembling_spin(1e-3)), Motion(trembling_swing(1e-3))}) {
+    const auto late = [&](double t) { return motion(t - 0.2); };
+    BOOST_TEST(phase_of(motion, late, 0.05, 200).not_applicable.find("or more, where the search ends") !=
+               std::string::npos);
+  }
+}
+
+// 1.2 nm at all samples but the first are more than a nanometre, and 0.8 nm are not, whatever the mass.
+BOOST_AUTO_TEST_CASE(what_moves_by_more_than_a_nanometre_moves) {
+  const auto why_of = [](double far) {
+    const auto moved = [far](double t) {
+      BodyState state;
+      state.position.x() = t > 0 ? far : 0, state.velocity.x() = 1e-9;
+      return state;
+    };
+    return phase_of(moved, moved, 0.1, 100).not_applicable;
+  };
+  BOOST_TEST(why_of(0.8e-9) == "the truth does not move");
+  BOOST_TEST(why_of(1.2e-9) != "the truth does not move");
+  // What is elsewhere without ever having a speed is not moving.
+  for (const bool turns : {true, false}) {
+    const auto displaced = [=](double t) {
+      BodyState state;
+      if (turns) state.orientation = rotation_by({0.1 * t, 0, 0});
+      if (!turns) state.position.x() = t;
+      return state;
+    };
+    BOOST_TEST(phase_of(displaced, displaced, 0.1, 100).not_applicable == "the truth does not move");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_samples_a_quarter_from_both_ends_are_three_at_least) {
+  BOOST_TEST(phase_of(passing, passing, 1, 3).not_applicable.find("too few samples") != std::string::npos);
+  const MetricResult three = phase_of(
+      passing, [](double t) { return passing(t - 0.5); }, 1, 4);
+  BOOST_TEST_REQUIRE(three.measurement.has_value(), three.not_applicable);
+  const Measurement& found = *three.measurement;
+  BOOST_TEST(found.value == 0.5, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(found.worst.component == "shift");
+  BOOST_TEST(found.worst.body == kWorld);
+  BOOST_TEST(found.worst.time == 4);
+  BOOST_TEST(found.worst.found == found.value);
+  BOOST_TEST(found.compared_until == 4);
+}
+
+// The truth's samples tell which shift is the best one, however far apart they are: the truth itself is asked there, at
+// both beside it, and as often between these as the root of the slope takes, which of an even motion is once. The
+// samples that are compared are 93, from 0.74 s to 19.26 s and a little more of the spin, and of passing 41, from 10 s
+// to 30 s.
+BOOST_AUTO_TEST_CASE(the_truth_is_asked_at_few_shifts) {
+  for (const double lag : {0.4, -0.4, 0.02, 0.6}) {
+    BOOST_TEST(shifts_tried(swinging_about_its_start, lag, 0.2, 100, 93) <= 8);
+    BOOST_TEST(shifts_tried(spinning, lag, 0.2, 100, 93) <= 11);
+    BOOST_TEST(shifts_tried(passing, lag * 5, 0.5, 80, 41) == 4);
+  }
+}
+
+// A truth whose velocities are not those of its positions: at 0.5 m/s, but for the instants that one of the shifts
+// beside the best asks for. The misfit is a parabola all the same, and its vertex the lag. Best of shifts by 2.5/16 s
+// is the third, 0.46875 s; its neighbours ask for samples, 0.05 s apart, less 0.3125 s and less 0.625 s.
+BOOST_AUTO_TEST_CASE(where_the_slope_has_no_root_the_vertex_of_the_misfit_counts) {
+  for (const double beside : {0.0375, 0.025}) {
+    for (const double speed : {-0.5, 0.0}) {
+      const auto truth = [=](double t) {
+        BodyState state;
+        const double into = std::fmod(t + 10, 0.05);
+        const bool is_asked_beside = std::abs(into - beside) < 1e-6;
+        state.position.y() = 0.5 * t, state.velocity.y() = is_asked_beside ? speed : 0.5;
+        return state;
+      };
+      const auto late = [=](double t) {
+        BodyState state;
+        state.position.y() = 0.5 * (t - 0.4);
+        return state;
+      };
+      BOOST_TEST_CONTEXT(beside << " " << speed)
+      BOOST_TEST(shift_of(truth, late) == 0.4, boost::test_tools::tolerance(1e-9));
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -63,6 +63,18 @@ BOOST_AUTO_TEST_CASE(a_truth_that_is_good_at_the_start_alone_measures_nothing) {
   }
 }
 
+// A run that has no more than its start is compared there, for there is nothing else; one that has more is not.
+BOOST_AUTO_TEST_CASE(a_run_that_is_its_start_alone_is_compared_there) {
+  AtRest made;
+  made.truth.error = {0, 1, 1, 1};
+  for (const auto& [count, is_measured] : {std::pair{1, true}, {2, false}}) {
+    AtRest shorter = made;
+    shorter.trajectory.samples.resize(count);
+    for (const char* name : {"position_error", "orientation_error"})
+      BOOST_TEST(test::measured(name, shorter.run()).measurement.has_value() == is_measured, name);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_orientation_error_is_of_any_body) {
   for (const int body : {0, 1}) {
     AtRest made;
@@ -136,6 +148,20 @@ BOOST_AUTO_TEST_CASE(a_run_is_held_against_its_twin_until_roundings_alone_may_ha
   BOOST_TEST(compared_until({0, 0, 0, 0}) == 3);
   BOOST_TEST(compared_until({0, 1e-10, 3.74e-10, 3.75e-10}) == 2);
   BOOST_TEST(compared_until({0, 3.75e-10, 3.75e-10, 3.75e-10}) == 0);
+}
+
+// Of one radian, just 1e-10.
+BOOST_AUTO_TEST_CASE(orientations_are_held_against_the_twins_up_to_just_what_roundings_may_have_made) {
+  AtRest made;
+  const TwinRun twin{made.trajectory, {0, 0, 0, 0}, {0, 1e-10, 1e-10, 1.2e-10}};
+  made.at(1).set_orientation(0, rotation_by({0, 0.25, 0}));
+  made.at(3).set_orientation(1, rotation_by({0, 2, 0}));
+  JudgedRun run = made.run();
+  run.twin = &twin, run.truth = nullptr;
+  const Measurement m = *test::measured("unexplained_rotation", run).measurement;
+  BOOST_TEST(m.compared_until == 2);
+  BOOST_TEST(m.value == 0.25, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST((m.worst.body == 0 && m.worst.time == 1));
 }
 
 BOOST_AUTO_TEST_CASE(without_a_truth_only_what_needs_none_is_measured) {

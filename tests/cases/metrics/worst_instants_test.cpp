@@ -253,6 +253,25 @@ BOOST_AUTO_TEST_CASE(impact_times_are_compared_one_by_one_up_to_the_truths_horiz
   BOOST_TEST(first.compared_until == 2, boost::test_tools::tolerance(1e-12));
 }
 
+// One that misses the first is late by all that is left of 1.7 s; one that has it and no other is late by nothing.
+BOOST_AUTO_TEST_CASE(an_impact_that_never_comes_is_late_by_the_rest_if_it_is_the_first) {
+  const Scene scene = ball_over_ground(5, 0.6, 0);
+  const auto truth = make_truth("bounce", scene, 3);
+  Trajectory run = test::played(*truth, scene, 0.01, 270);
+  const TruthSamples samples = test::sampled(*truth, run, scene, 100);
+  const auto error = [&](double stops) {
+    for (Sample& sample : run.samples) {
+      if (sample.time < stops) continue;
+      sample.bodies.columns().set_position(1, {0, 0, 9}), sample.bodies.columns().set_velocity(1, Vec3::Zero());
+    }
+    return *test::measured("impact_time_error", {scene, run, &samples, 0}).measurement;
+  };
+  BOOST_TEST(error(1.5).value < 1e-9);
+  const Measurement none = error(0.5);
+  BOOST_TEST(none.value == 1.7, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(none.worst.found == 2.7, boost::test_tools::tolerance(1e-9));
+}
+
 BOOST_AUTO_TEST_CASE(single_numbers_say_what_they_are_of) {
   const Resting made;
   JudgedRun run{made.scene, made.trajectory, nullptr, 0};

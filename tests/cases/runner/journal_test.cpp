@@ -1,5 +1,7 @@
 #include "cases/runner/journal/journal.h"
 
+#include <sys/stat.h>
+
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
 #include <iterator>
@@ -33,9 +35,11 @@ BOOST_AUTO_TEST_CASE(what_was_added_is_found_again_by_the_same_plan_alone) {
     BOOST_TEST_REQUIRE(journal.found().size() == 2u);
     BOOST_TEST(journal.found().at(3).message == "three");
     BOOST_TEST(journal.found().at(3).path == bytes);
-    journal.add(4, {"four", ""});
+    journal.add(4, {"", ""});  // as short as a record may be
   }
-  BOOST_TEST(Journal(file, "plan").found().size() == 3u);
+  const Journal later(file, "plan");
+  BOOST_TEST_REQUIRE(later.found().size() == 3u);
+  BOOST_TEST(later.found().at(4).message == "");
   BOOST_TEST(Journal(file, "another plan").found().empty());
   BOOST_TEST(Journal(file, "plan").found().empty());  // the other one has begun anew
 }
@@ -61,6 +65,18 @@ BOOST_AUTO_TEST_CASE(a_journal_cut_anywhere_or_spoilt_keeps_its_whole_records) {
   spoilt.back() = '?';
   folder.write("journal", spoilt);
   BOOST_TEST(Journal(file, "plan").found().size() == 1u);
+}
+
+// As far as this process makes files that others may read.
+BOOST_AUTO_TEST_CASE(a_journal_is_a_file_like_any_other) {
+  const Folder folder;
+  const std::string file = (folder.path / "journal").string();
+  const mode_t mask = umask(022);
+  Journal(file, "plan").add(1, {"one", ""});
+  umask(mask);
+  struct stat about {};
+  BOOST_TEST_REQUIRE(stat(file.c_str(), &about) == 0);
+  BOOST_TEST((about.st_mode & 0777) == 0644u);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_forgotten_is_replaced_by_what_is_added) {

@@ -8,6 +8,8 @@
 #include <ctime>
 #include <thread>
 
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
@@ -138,6 +140,64 @@ BOOST_AUTO_TEST_CASE(the_last_words_are_kept_however_much_was_said) {
   });
   BOOST_TEST((outcome.end.how == Ending::killed));
   BOOST_TEST(outcome.end.last_words == "the [31m last words");  // the control character is blanked
+}
+
+// What a test has printed is not printed again by a child that calls exit(), nor taken for its words.
+BOOST_AUTO_TEST_CASE(what_was_printed_before_is_not_a_childs) {
+  std::printf("said before\n");
+  const Outcome outcome = outcome_of([](const Channel&) { std::exit(0); });
+  BOOST_TEST((outcome.end.how == Ending::exited));
+  BOOST_TEST(outcome.end.last_words == "");
+}
+
+BOOST_AUTO_TEST_CASE(of_the_last_words_three_hundred_are_kept) {
+  for (const std::size_t length : {299, 300, 301}) {
+    const Outcome outcome = outcome_of([&](const Channel&) {
+      std::fprintf(stderr, "before\n%s z", std::string(length - 2, 'x').c_str());
+      std::abort();
+    });
+    const std::string whole = std::string(length - 2, 'x') + " z";
+    BOOST_TEST(outcome.end.last_words == whole.substr(0, 300));
+  }
+}
+
+// It dies with its parent, leaves no core file, and a file that grows too large is a write that fails.
+BOOST_AUTO_TEST_CASE(a_child_is_what_it_has_to_be) {
+  std::signal(SIGUSR1, [](int) {});
+  const Outcome outcome = outcome_of([](const Channel& channel) {
+    int with_parent = 0;
+    prctl(PR_GET_PDEATHSIG, &with_parent);
+    rlimit core{1, 1};
+    getrlimit(RLIMIT_CORE, &core);
+    struct sigaction large {
+    }, own{};
+    sigaction(SIGXFSZ, nullptr, &large), sigaction(SIGUSR1, nullptr, &own);
+    channel.send(std::to_string(with_parent) + " " + std::to_string(core.rlim_cur) + " " +
+                 std::to_string(large.sa_handler == SIG_IGN) + " " + std::to_string(own.sa_handler == SIG_DFL));
+  });
+  std::signal(SIGUSR1, SIG_DFL);
+  BOOST_TEST(outcome.message == "9 0 1 1");
+}
+
+BOOST_AUTO_TEST_CASE(how_long_a_job_took_is_known) {
+  const Outcome outcome =
+      outcome_of([](const Channel&) { std::this_thread::sleep_for(std::chrono::milliseconds(120)); });
+  BOOST_TEST(outcome.end.seconds >= 0.12);
+  BOOST_TEST(outcome.end.seconds < 10);  // on a machine that is busy
+}
+
+BOOST_AUTO_TEST_CASE(no_more_run_at_once_than_may) {
+  std::vector<Job> jobs(6, {[](const Channel& channel) {
+                              channel.send("begun");
+                              std::this_thread::sleep_for(std::chrono::milliseconds(30));
+                            },
+                            20});
+  int running = 0, most = 0;
+  run_jobs(
+      jobs, 2, [&](std::size_t, const std::string&) { most = std::max(most, ++running); },
+      [&](std::size_t, const JobEnd&) { --running; });
+  BOOST_TEST(running == 0);
+  BOOST_TEST(most <= 2);
 }
 
 BOOST_AUTO_TEST_CASE(all_jobs_end_once_and_a_bad_one_harms_no_other) {

@@ -137,6 +137,26 @@ BOOST_AUTO_TEST_CASE(a_run_too_long_to_keep_is_thinned_and_keeps_its_end) {
   BOOST_TEST(samples.back().time == 0.25 * 3001);
 }
 
+// By the bytes of a sample: the most steps that are all kept, and one more. The run itself ends at its first step.
+BOOST_AUTO_TEST_CASE(every_step_is_kept_as_long_as_all_of_them_fit) {
+  test::Script script;
+  script.play = [](int step, MutableBodyColumns bodies) { bodies.column(0)[0] = step > 0 ? std::nan("") : 0; };
+  Scene scene;
+  scene.bodies.assign(100, test::body("b", 1, {1, 1, 1}));
+  for (const std::size_t joints : {0, 40}) {
+    scene.joints.assign(joints, {.a = kWorld, .b = 0, .type = BallJoint{Vec3::Zero()}});
+    const double bytes = sizeof(Sample) + sizeof(double) * (100 + 7) * 13 + sizeof(ReportedReaction) * joints;
+    const auto most = static_cast<long>(kLargestTrajectory / bytes);
+    const auto every = [&](long steps) {
+      return simulate(test::ScriptedEngine(script), {}, scene, 0.25, 0.25 * static_cast<double>(steps))
+          .steps_per_sample;
+    };
+    BOOST_TEST(every(most) == 1);
+    BOOST_TEST(every(most + 1) == 2);
+    BOOST_TEST(every(2 * most + 2) == 3);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_steps_alone_are_timed) {
   test::Script script;
   volatile double sink = 0;

@@ -181,4 +181,55 @@ BOOST_AUTO_TEST_CASE(a_step_has_to_hold_over_the_whole_horizon) {
   }
 }
 
+// Half of 10 million steps of a body may be a sweep's: at 1.03 from 0.25 s on it takes some 690 of 10 s.
+BOOST_AUTO_TEST_CASE(a_sweep_that_takes_more_than_half_of_what_is_left_is_not_begun) {
+  const FussyEngine alone([](double) { return true; });
+  BOOST_TEST(found_by(alone, one_body(), 10).cut == "");
+  double sweep = 0;  // s of it are not multiples of its steps: to 6 %
+  for (std::size_t n = 2; n < alone.tried.size(); ++n) sweep += static_cast<double>(alone.tried[n].steps);
+  BOOST_TEST((sweep > 650 && sweep < 730), sweep);
+  const auto cut_of = [&](double share) {
+    Scene scene;  // 40 steps of 0.25 s are taken before, and those of 0.5 s do not count
+    scene.bodies.assign(static_cast<std::size_t>(10e6 / (share * 2 * sweep + 40)), test::body("b", 1, {1, 1, 1}));
+    return found_by(FussyEngine([](double) { return true; }), scene, 10).cut;
+  };
+  BOOST_TEST(cut_of(1.06) == "");
+  BOOST_TEST(cut_of(0.94) == "by bisection from 0.5 s up: a sweep would take too many steps");
+}
+
+// Of 0.4 million steps of a body: what is left of them after the first run, which does not count, at 0.25 s.
+BOOST_AUTO_TEST_CASE(a_step_takes_what_its_bodies_springs_joints_limits_and_loops_take) {
+  const auto steps_left = [](int springs, int joints, bool has_limits) {
+    Scene scene;
+    scene.bodies.assign(10, test::body("b", 1, {1, 1, 1}));
+    scene.springs.assign(springs, test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, 1, 0));
+    for (int k = 0; k < joints; ++k) {
+      scene.joints.push_back({.a = kWorld, .b = k % 10, .type = HingeJoint{Vec3::Zero(), Vec3::UnitZ()}});
+      if (has_limits) scene.joints.back().upper = 1;
+    }
+    const FussyEngine engine([](double) { return true; });
+    found_by(engine, scene, 2000);
+    BOOST_TEST(engine.tried.at(0).steps == 4000);
+    return engine.tried.at(1).steps;
+  };
+  BOOST_TEST(steps_left(0, 10, false) == 400000 / (10 + 10 * 30));
+  BOOST_TEST(steps_left(90, 10, false) == 400000 / (10 + 90 + 10 * 30));
+  BOOST_TEST(steps_left(0, 10, true) == 400000 / (10 + 10 * 300));
+  // More joints than bodies close loops, 0.06 a joint cubed.
+  BOOST_TEST(steps_left(0, 11, false) == static_cast<long>(400000 / (10 + 11 * 30 + 0.06 * 11 * 11 * 11)));
+}
+
+// One that divides its steps counts as taking a millisecond each: 250 in each of 0.25 s.
+BOOST_AUTO_TEST_CASE(an_adaptive_methods_inner_steps_count) {
+  const FussyEngine engine([](double) { return true; }, true);
+  const StableStep found = found_by(engine, one_body(), 20000);
+  BOOST_TEST(engine.tried.at(0).steps == 40000);
+  BOOST_TEST(engine.tried.at(1).steps == 10'000'000 / 250);
+  BOOST_TEST(found.dt == 0.5);
+  const FussyEngine among_joints([](double) { return true; }, true);
+  const StableStep once = found_by(among_joints, jointed(0));
+  BOOST_TEST((once.is_cap && !once.is_floor));
+  BOOST_TEST(once.cut == "its method divides each step: 0.5 s alone was tried");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -120,6 +120,11 @@ BOOST_AUTO_TEST_CASE(the_truth_is_asked_for_once_at_the_instants_that_all_runs_h
   asked = 0;
   kept.keep(truth, 2e-6, 2, 1);
   BOOST_TEST(asked == 0);
+  // Of a thousand bodies one is 104,040 bytes: 1230 of them are not above it, and 1231 are.
+  kept.keep(truth, 2.0 / 1231, 2, 1000);
+  BOOST_TEST(asked == 0);
+  kept.keep(truth, 2.0 / 1230, 2, 1000);
+  BOOST_TEST(asked == 1231);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

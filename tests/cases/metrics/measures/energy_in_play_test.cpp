@@ -83,6 +83,9 @@ BOOST_AUTO_TEST_CASE(springs_and_pushes_add_what_they_store_and_give) {
   scene.forces = {{.body = 0, .force = Vec3(0, 4, 0), .until = 1}};
   // The 8 J are 2.83 m/s, to which the push adds 2.
   BOOST_TEST(energy_in_play(scene, 10) == 50 + std::pow(std::sqrt(8) + 2, 2), kClose);
+  scene.bodies[1].mass = 3;
+  scene.forces.push_back({.body = 1, .force = Vec3(5, 0, 0), .until = 1});  // what is fixed gains nothing
+  BOOST_TEST(energy_in_play(scene, 10) == 50 + std::pow(std::sqrt(8) + 2, 2), kClose);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

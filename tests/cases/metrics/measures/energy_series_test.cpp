@@ -159,6 +159,12 @@ BOOST_AUTO_TEST_CASE(the_scale_is_the_truths_or_what_is_in_play_over_the_longer_
   BOOST_TEST(energy_scale(judged) == 8);
   truth.largest_kinetic_energy = 0;
   BOOST_TEST(energy_scale(judged) == 900, boost::test_tools::tolerance(1e-12));
+  truth.largest_kinetic_energy = 0.5;
+  BOOST_TEST(energy_scale(judged) == 0.5);
+  const Trajectory none{1, {}};
+  JudgedRun unborn{scene, none, nullptr, 0};
+  unborn.duration = 0.5;
+  BOOST_TEST(energy_scale(unborn) == 25, boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
