@@ -52,12 +52,14 @@ BodyState swinging_about_its_start(double t) {
 }
 
 // How often the truth is asked for each of the samples that are compared: so many shifts were tried.
-double shifts_tried(const Motion& motion, double lag, double dt, int steps, std::size_t compared) {
+double shifts_tried(const Motion& motion, double lag, double dt, int steps, std::size_t compared,
+                    bool is_jointed = false) {
   std::size_t asked = 0;
   bool counts = false;
   const double found = [&] {
     Scene scene;
     scene.bodies = {test::body("b", 2, {1, 2, 3})};
+    if (is_jointed) scene.joints = {{.a = kWorld, .b = 0, .type = SliderJoint{Vec3::UnitY()}}};
     const test::StatedTruth run([&](double t) { return motion(t - lag); });
     const test::StatedTruth truth([&](double t) {
       asked += counts;
@@ -233,6 +235,29 @@ BOOST_AUTO_TEST_CASE(the_truth_is_asked_at_few_shifts) {
     BOOST_TEST(shifts_tried(spinning, lag, 0.2, 100, 93) <= 11);
     BOOST_TEST(shifts_tried(passing, lag * 5, 0.5, 80, 41) == 4);
   }
+}
+
+// Of 500 samples, or of joints 40, every second one is asked for.
+BOOST_AUTO_TEST_CASE(of_many_samples_some_are_compared) {
+  // Four or five shifts, by roundings.
+  const auto is_few = [](double shifts) { return shifts == 4 || shifts == 5; };
+  BOOST_TEST(is_few(shifts_tried(passing, 0.2, 0.05, 1001, 250)));
+  BOOST_TEST(is_few(shifts_tried(passing, 0.2, 0.05, 997, 498)));
+  BOOST_TEST(is_few(shifts_tried(passing, 0.2, 0.05, 81, 20, true)));
+  BOOST_TEST(is_few(shifts_tried(passing, 0.2, 0.05, 77, 38, true)));
+}
+
+// Samples of which the velocities are the wrong way round lead to a neighbour of the best shift: from there the truth
+// itself leads on, either way.
+BOOST_AUTO_TEST_CASE(where_samples_mislead_the_truth_itself_is_followed) {
+  const auto backwards = [](double t) {
+    BodyState state = passing(t);
+    if (std::abs(std::remainder(t, 5)) < 1e-6) state.velocity = -state.velocity;
+    return state;
+  };
+  // By shifts of 6.25 s: the third is the nearest to 17 s, and the second seems to be.
+  for (const double lag : {17.0, -17.0, 23.0, -23.0, 30.0, -30.0})
+    BOOST_TEST(shifts_tried(backwards, lag, 5, 80, 41) < 30);
 }
 
 // A truth whose velocities are not those of its positions: at 0.5 m/s, but for the instants that one of the shifts

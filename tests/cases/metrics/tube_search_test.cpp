@@ -172,6 +172,13 @@ BOOST_AUTO_TEST_CASE(places_and_turns_count_each_by_its_own_tolerance) {
   BOOST_TEST(tube_of({[&](double t) { return rolling(t, t); }}, {late}, 0.1, 10).measured.value == 1);
 }
 
+// At 0.8 tolerances a second and 1.6 s late it is 1.28 behind, of which half a second makes up 0.4.
+BOOST_AUTO_TEST_CASE(a_slow_body_is_followed_as_far_as_a_step_goes) {
+  const auto slow = [](double t) { return state({0.8e-3 * t, 0, 0}, {0.8e-3, 0, 0}); };
+  const auto late = [&](double t) { return slow(std::max(0.0, t - 1.6)); };
+  BOOST_TEST(tube_of({slow}, {late}, 0.5, 8).measured.value == 1);
+}
+
 // Of bodies as far off the first is named.
 BOOST_AUTO_TEST_CASE(of_two_that_are_as_far_off_the_first_is_named) {
   const Motion rest =

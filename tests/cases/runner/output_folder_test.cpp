@@ -116,6 +116,25 @@ BOOST_AUTO_TEST_CASE(a_run_that_is_no_longer_there_holds_nothing) {
   BOOST_TEST(content(fs::path(folder.journals()) / "0.journal") == "half a case");
 }
 
+// As one whose children live on for an instant.
+BOOST_AUTO_TEST_CASE(a_run_that_is_about_to_be_gone_is_waited_for) {
+  const Folder place;
+  const std::string out = (place.path / "out").string();
+  int held[2];
+  BOOST_TEST_REQUIRE(pipe(held) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const OutputFolder folder(out, {});
+    if (write(held[1], "!", 1) == 1) usleep(300'000);
+    _exit(0);
+  }
+  char byte = 0;
+  BOOST_TEST(read(held[0], &byte, 1) == 1);
+  BOOST_CHECK_NO_THROW(OutputFolder(out, {}));
+  waitpid(child, nullptr, 0);
+  close(held[0]), close(held[1]);
+}
+
 BOOST_AUTO_TEST_CASE(a_report_that_cannot_be_written_is_missing_and_the_others_are_new) {
   const Folder place;
   place.write("out/report.md", "old"), place.write("out/results.json", "old");

@@ -36,6 +36,10 @@ BOOST_AUTO_TEST_CASE(what_can_neither_fall_nor_move_has_what_would_lift_it_by_ha
   Scene afloat = ball_over(0, test::plane());
   afloat.gravity.setZero();
   BOOST_TEST(energy_in_play(afloat, 10) == 1);
+  Scene point;  // what has no shape is not thick
+  point.gravity = {0, 0, -10};
+  point.bodies = {test::body("point", 2, {1, 1, 1})};
+  BOOST_TEST(energy_in_play(point, 0) == 1);
 }
 
 BOOST_AUTO_TEST_CASE(a_slope_gives_what_sliding_down_it_without_friction_gives) {
@@ -43,6 +47,11 @@ BOOST_AUTO_TEST_CASE(a_slope_gives_what_sliding_down_it_without_friction_gives) 
   const Scene scene = test::on_slope(Sphere{0.5}, std::acos(-1) / 6, 0.4, 0);
   const double speed = 9.81 / 2 * 2;
   BOOST_TEST(energy_in_play(scene, 2) == 0.5 * 2 * speed * speed, kClose);
+  // Half a metre above it, along its normal, it falls first.
+  Scene above = scene;
+  above.bodies[0].position *= 2;
+  const double landing = std::sqrt(2 * 9.81 * 0.5 / std::sqrt(0.75)), both = landing + speed;
+  BOOST_TEST(energy_in_play(above, 2) == 0.5 * 2 * both * both, kClose);
 }
 
 BOOST_AUTO_TEST_CASE(of_two_supports_the_higher_one_ends_the_fall_and_a_ceiling_none) {
@@ -56,6 +65,9 @@ BOOST_AUTO_TEST_CASE(over_a_fixed_body_the_fall_ends_at_its_lowest_point_and_ove
   Body shelf = test::on_its_own("shelf", Sphere{1}, 1, {0, 0, -1});
   shelf.fixed = true;
   BOOST_TEST(energy_in_play(ball_over(3, shelf), 10) == 2 * 10 * 5.5, kClose);
+  Scene over_both = ball_over(3, shelf);
+  over_both.bodies.push_back(test::plane());
+  BOOST_TEST(energy_in_play(over_both, 10) == 60, kClose);  // a plane is all that counts
   shelf.collides = false;
   BOOST_TEST(energy_in_play(ball_over(3, shelf), 10) == 0.5 * 2 * 100 * 100, kClose);
 }
@@ -69,6 +81,10 @@ BOOST_AUTO_TEST_CASE(what_hangs_by_springs_falls_no_further_than_they_let_it) {
   scene.springs = {test::spring(0, {0, 0, 0}, 1, {0, 0, 0}, 400, 1),
                    test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, 400, 1)};
   BOOST_TEST(energy_in_play(scene, 100) == 3, kClose);
+  Scene held = scene;  // by a fixed body instead of the world
+  held.bodies.push_back(test::body("ceiling", 1, {1, 1, 1}));
+  held.bodies[2].fixed = true, held.springs[1].a = 2;
+  BOOST_TEST(energy_in_play(held, 100) == 3, kClose);
   // The lower one by a point 0.2 m below the upper one's middle, at one 0.1 m above its own: as far below, if turned.
   scene.springs[0] = test::spring(0, {0, 0, -0.2}, 1, {0, 0, 0.1}, 400, 0.7);
   BOOST_TEST(energy_in_play(scene, 100) == 3, kClose);

@@ -193,6 +193,21 @@ BOOST_AUTO_TEST_CASE(two_balls_in_flight_meet_at_the_difference_of_their_speeds)
   check(found.begin()->second.at(0), 0.5, 2, 1);
 }
 
+// Without gravity nothing is too slow to be an impact.
+BOOST_AUTO_TEST_CASE(slow_balls_in_space_meet_as_well) {
+  Scene scene = balls_over_ground({0, 3});
+  scene.gravity.setZero(), scene.bodies[0].collides = false;
+  const Motion at = [](std::size_t body, double t) {
+    const double since = t - 0.5, speed = since < 0 ? -0.05 : 0.03;
+    BodyState state = lying();
+    state.position.x() = body == 1 ? 0 : 1 + speed * since, state.velocity.x() = body == 1 ? 0 : speed;
+    return state;
+  };
+  const auto found = impacts_of(scene, run_of(scene, at, 100), 0);
+  BOOST_TEST_REQUIRE(found.size() == 1);
+  check(found.begin()->second.at(0), 0.5, 0.05, 0.03);
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_is_empty_or_without_contact_has_no_impact) {
   Scene scene = balls_over_ground({0});
   BOOST_TEST(impacts_of(scene, {kDt, {}}, 0).empty());

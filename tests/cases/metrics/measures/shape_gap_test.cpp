@@ -161,4 +161,24 @@ BOOST_AUTO_TEST_CASE(a_shape_is_within_its_bounding_radius) {
   BOOST_TEST(std::isinf(bounding_radius(Plane{Vec3::UnitZ(), 0})));
 }
 
+// A corner that points at a face, 1 m from it: the face's normal alone is an axis along which they are apart so far.
+BOOST_AUTO_TEST_CASE(a_corner_before_a_face_is_as_far_as_the_faces_normal_says) {
+  const Shape cube = Box{{1, 1, 1}};
+  const BodyPose at_rest{Vec3::Zero(), Quat::Identity()};
+  const BodyPose corner{{0.5 + std::sqrt(0.75) + 1, 0, 0}, Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3(-1, 0, 0))};
+  BOOST_TEST(shape_gap(cube, at_rest, cube, corner) == 1, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(shape_gap(cube, corner, cube, at_rest) == 1, boost::test_tools::tolerance(1e-12));
+}
+
+// Crossed like two hairs, 10 µm long, and like two masts.
+BOOST_AUTO_TEST_CASE(crossed_rods_of_any_size_are_as_far_as_their_middles) {
+  for (const double size : {1e-5, 1e-2, 1.0, 1e3}) {
+    const Shape one = Capsule{0.01 * size, size}, other = Capsule{0.02 * size, 3 * size};
+    const BodyPose along_z{Vec3::Zero(), Quat::Identity()};
+    const BodyPose along_x{{0, 0.5 * size, 0}, Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX())};
+    BOOST_TEST(shape_gap(one, along_z, other, along_x) == 0.47 * size, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(shape_gap(other, along_x, one, along_z) == 0.47 * size, boost::test_tools::tolerance(1e-9));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

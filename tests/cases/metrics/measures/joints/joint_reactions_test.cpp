@@ -129,6 +129,12 @@ BOOST_AUTO_TEST_CASE(a_bead_on_a_turning_rod_and_one_on_a_link_move_as_the_truth
   scene.bodies[0].velocity = {-0.1, 1.5, 0.5};
   scene.joints = {{.a = kWorld, .b = 0, .type = DistanceJoint{Vec3::Zero(), {0, -0.2, 0}}}};
   check_against_truth(scene, "link");
+  // Held by a fixed body, which comes first, instead of the world.
+  scene.bodies.insert(scene.bodies.begin(), test::body("post", 1, {1, 1, 1}));
+  scene.bodies[0].fixed = true;
+  scene.joints = {{.a = 0, .b = 1, .type = BallJoint{Vec3::Zero()}}};
+  scene.bodies[1].velocity = scene.bodies[1].angular_velocity.cross(scene.bodies[1].position);
+  check_against_truth(scene, "post");
 }
 
 // Hinges that all turn about y leave of each other's reactions unknown what acts along y or bends them.
