@@ -1,6 +1,7 @@
 // What a case's process does with its jobs: which it begins, what it calls their ends, and what it leaves for later.
 #include "cases/runner/case_process.h"
 
+#include <fmt/format.h>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -59,6 +60,33 @@ class TimedEngine : public FaultyEngine {
   Deed deed_;
   bool is_adaptive_;
   mutable double time_ = 0, dt_ = 0;  // s
+};
+
+// Recorders are called in the case's processes: what they were called for stands in a file.
+class Noting : public Recorder {
+ public:
+  explicit Noting(std::string file) : file_(std::move(file)) {}
+  std::string name() const override { return "noting"; }
+  Recording of_truth(const Case&, const Truth&, const TruthFacts&) const override { return note("truth"); }
+  Recording of_run(const Case&, const Cell& cell, const JudgedRun&, const std::vector<NamedSeries>& series,
+                   const TruthFacts&) const override {
+    return note(fmt::format("run {} {}", cell.dt.text, !series.empty()));
+  }
+  void discard(const Cell& cell) const override { note("discard " + cell.dt.text); }
+  bool still_has(const Cell&) const override { return true; }
+  std::map<std::string, int> noted() const {
+    std::map<std::string, int> times;
+    std::ifstream lines(file_);
+    for (std::string line; std::getline(lines, line);) ++times[line];
+    return times;
+  }
+
+ private:
+  Recording note(const std::string& what) const {
+    std::ofstream(file_, std::ios::app) << what + "\n";
+    return {what};
+  }
+  std::string file_;
 };
 
 EngineTable one(std::unique_ptr<Engine> engine) {
@@ -204,6 +232,55 @@ BOOST_AUTO_TEST_CASE(a_journal_keeps_the_truth_and_each_answer_but_no_time_out) 
                                options);
   for (const Cell& cell : later.cells) BOOST_TEST((cell.status == Status::pass), cell.reason);
   BOOST_TEST((later.stable_steps[0].status == Status::pass), later.stable_steps[0].reason);
+}
+
+// Lifted by 1 km against 10 m/s² it has 10 kJ: a thousand times what the truth has in half a second, and less than ten
+// times the 45 kJ that it has in thirty; a thousand km are more.
+BOOST_AUTO_TEST_CASE(what_a_stable_step_may_gain_is_measured_by_the_truth_over_thirty_seconds) {
+  Case definition = drifting_body("a");
+  definition.truth = "reference", definition.scene.gravity = {-10, 0, 0};
+  for (const auto& [height, is_cap] : {std::pair{1e3, true}, {1e6, false}}) {
+    const auto lifted = [height](double, double, double& x) { x = height; };
+    BOOST_TEST(run(definition, timed(lifted), quick(true)).stable_steps[0].step.is_cap == is_cap, height);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_case_that_asks_for_ensembles_has_them) {
+  Case definition = drifting_body("a");
+  definition.ensemble = 8;
+  const auto reason_of = [&](const GridOptions& options) {
+    const auto infos = infos_of(engines());
+    Results grid = plan_grid({definition}, {parse_run_name("core:velocity-verlet", infos)}, engines(), {false});
+    run_grid(grid, engines(), options, [](std::size_t, std::size_t) {});
+    return grid.cases[0].cells[0].metrics.at("ensemble_p_value").not_applicable;
+  };
+  GridOptions options = quick(false);
+  BOOST_TEST(reason_of(options) == "");
+  options.only_metrics = {"ensemble_p_value"};
+  BOOST_TEST(reason_of(options) == "");
+  options.only_metrics.clear(), definition.ensemble = 0;
+  BOOST_TEST(reason_of(options) == "the case asks for no ensemble");
+}
+
+BOOST_AUTO_TEST_CASE(recorders_are_called_once_for_the_truth_and_for_each_end) {
+  const Folder folder;
+  const auto noting = std::make_shared<Noting>((folder.path / "noted").string());
+  Case definition = drifting_body("a");
+  definition.truth = "reference";
+  GridOptions options = quick(false);
+  options.recorders = {noting}, options.journals = folder.path.string();
+  const auto fails_finer = [](double, double dt, double&) {
+    if (dt < 0.08) throw EngineFailure(FailureKind::crashed, "it fell over");
+  };
+  const std::map<std::string, int> expected = {{"truth", 1}, {"run 1/10 true", 1}, {"discard 1/20", 1}};
+  for (int time = 0; time < 2; ++time) {  // the second time all of it is known
+    const CaseResult result = run(definition, timed(fails_finer), options);
+    BOOST_TEST((noting->noted() == expected), time);
+    BOOST_TEST((result.truth.value().recordings == Recordings{{"noting", {"truth"}}}));
+    BOOST_TEST((result.cells[0].recordings == Recordings{{"noting", {"run 1/10 true"}}}));
+    BOOST_TEST(result.cells[0].wall_seconds > 0);
+    BOOST_TEST(result.cells[1].reason == "it fell over");
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

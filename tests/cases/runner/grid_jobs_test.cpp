@@ -212,6 +212,32 @@ BOOST_AUTO_TEST_CASE(pairs_of_cells_that_different_processes_did_have_their_spre
   BOOST_TEST(spreads[1].dt.text == "1/20");
 }
 
+// Two of them are enough.
+BOOST_AUTO_TEST_CASE(a_case_that_two_processes_did_has_its_spread) {
+  const Folder folder;
+  Results plan = planned({drifting_body("a")});
+  for (const std::size_t cell : {1u, 3u}) plan.cases[0].cells[cell].status = Status::unsupported;
+  for (StableStepResult& step : plan.cases[0].stable_steps) step.status = Status::unsupported;
+  const EngineTable table = two_engines();
+  const ProcessExecutor any(1);
+  GridOptions options;
+  options.journals = folder.path.string(), options.executor = &any;
+  const Partition::OfCase shares = Partition(plan, kShares).cases()[0];
+  const SayingExecutor executor([&](const JobSpec& job, const auto&, const auto&) {
+    CaseResult own = plan.cases[0];
+    leave_to_others(own, shares, static_cast<int>(job.part));
+    const std::size_t cell = own.cells[0].status == Status::unsupported ? 2 : 0;
+    Journal journal(journal_of(plan.cases[0], plan, static_cast<int>(job.part), options),
+                    plan_of(plan, own, table, options));
+    Path path;
+    path.bodies = 1, path.times = {0}, path.poses = {{0.25 * static_cast<double>(cell), 0, 0, 1, 0, 0, 0}};
+    journal.add(0, {passing(plan, 0, cell), packed(path)});
+  });
+  const Ran ran = run_with(executor, plan, options.journals);
+  BOOST_TEST(executor.told.size() == 2u);
+  BOOST_TEST(ran.grid.cases[0].spreads.size() == 1u);
+}
+
 // One process that did all of a case has said its spreads itself.
 BOOST_AUTO_TEST_CASE(a_case_of_one_share_keeps_the_spreads_that_its_process_said) {
   Results plan = planned({drifting_body("a")});

@@ -1,8 +1,10 @@
 #include "cases/runner/journal/journal.h"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <boost/test/unit_test.hpp>
+#include <csignal>
 #include <filesystem>
 #include <iterator>
 
@@ -65,6 +67,29 @@ BOOST_AUTO_TEST_CASE(a_journal_cut_anywhere_or_spoilt_keeps_its_whole_records) {
   spoilt.back() = '?';
   folder.write("journal", spoilt);
   BOOST_TEST(Journal(file, "plan").found().size() == 1u);
+}
+
+// As on a disk that is full: what does not fit is left, and the run goes on.
+BOOST_AUTO_TEST_CASE(a_journal_that_may_grow_no_further_keeps_what_was_whole) {
+  const Folder folder;
+  const std::string file = (folder.path / "journal").string();
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit whole{};
+  getrlimit(RLIMIT_FSIZE, &whole);
+  {
+    Journal journal(file, "plan");
+    journal.add(1, {"one", ""});
+    rlimit small = whole;
+    small.rlim_cur = std::filesystem::file_size(file) + 50;
+    setrlimit(RLIMIT_FSIZE, &small);
+    journal.add(2, {std::string(100, 'x'), std::string(100, 'y')});
+    setrlimit(RLIMIT_FSIZE, &whole);
+    journal.add(3, {"three", ""});  // it has given up
+  }
+  std::signal(SIGXFSZ, before);
+  const Journal after(file, "plan");
+  BOOST_TEST_REQUIRE(after.found().size() == 1u);
+  BOOST_TEST(after.found().at(1).message == "one");
 }
 
 // As far as this process makes files that others may read.

@@ -55,6 +55,7 @@ BOOST_AUTO_TEST_CASE(the_longest_and_the_shortest_step_of_a_run) {
   };
   BOOST_TEST(!is_refused(0.5));
   BOOST_TEST(!is_refused(0.5 * (1 + 0.9e-9)));
+  BOOST_TEST(!is_refused(0.5 * (1 + 1e-9)));
   BOOST_TEST(is_refused(0.5 * (1 + 1.2e-9)));
   BOOST_TEST(!is_refused(0.5 / 0.99e9));
   BOOST_TEST(is_refused(0.5 / 1.01e9));
@@ -92,6 +93,20 @@ BOOST_AUTO_TEST_CASE(a_run_that_only_gates_name_is_planned_where_one_names_it) {
   BOOST_TEST((grid.cases[0].stable_steps.at(1).status == Status::unsupported));
   BOOST_TEST(grid.cases[0].stable_steps.at(1).reason == "not asked for");
   BOOST_TEST(grid.cases[1].stable_steps.at(1).reason == "it did not run");
+}
+
+// Of a case without gates all, for nothing would be left of it.
+BOOST_AUTO_TEST_CASE(only_what_a_gate_judges_is_planned_where_nothing_else_is_asked_for) {
+  const EngineTable table = engines_named({"a", "b"});
+  std::vector<Case> cases = {drifting_body("without"), drifting_body("with")};
+  cases[1].gates = {gate_on("b")};
+  const auto cells_of = [&](bool only_judged) {
+    const Results grid = plan_grid(cases, {run_named("a", table), run_named("b", table)}, table, {false, only_judged});
+    for (const Cell& cell : grid.cases[1].cells) BOOST_TEST((!only_judged || cell.run == 1));
+    return std::pair(grid.cases[0].cells.size(), grid.cases[1].cells.size());
+  };
+  BOOST_TEST((cells_of(false) == std::pair<std::size_t, std::size_t>(4, 4)));
+  BOOST_TEST((cells_of(true) == std::pair<std::size_t, std::size_t>(4, 2)));
 }
 
 BOOST_AUTO_TEST_CASE(runs_of_gates_are_named_once_and_only_if_they_are_new) {

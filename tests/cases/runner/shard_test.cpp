@@ -8,6 +8,7 @@
 #include "cases/report/json/json_report.h"
 #include "cases/report/reports.h"
 #include "cases/runner/shards/part.h"
+#include "core/base/error.h"
 #include "tests/cases/runner/faulty_engine.h"
 #include "tests/folder.h"
 
@@ -40,6 +41,23 @@ Results planned(int count, bool with_stable_steps) {
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(cases_runner_shard)
+
+BOOST_AUTO_TEST_CASE(a_shard_is_two_whole_numbers_of_which_the_first_is_at_most_the_second) {
+  BOOST_TEST((parse_shard("1/1", "--shard") == Shard{1, 1}));
+  BOOST_TEST((parse_shard("2/8", "--shard") == Shard{2, 8}));
+  BOOST_TEST((parse_shard("100000/100000", "--shard") == Shard{100000, 100000}));
+  for (const char* text : {"", "1", "/", "/2", "1/", "0/1", "-1/2", "5/4", "1/0", "1/100001", "a/2", "1/b", "1/2x",
+                           "1x/2", " 1/2", "1 /2", "1/2/3", "99999999999/99999999999"})
+    BOOST_CHECK_THROW(parse_shard(text, "--shard"), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_case_is_of_the_shards_of_its_truth_its_searches_and_its_cells) {
+  const Partition::OfCase of_case{1, {2, 3, 0}, {4, 5, 0}}, of_nobody{3, {0}, {0, 0}};
+  for (const int shard : {1, 2, 3, 4, 5}) BOOST_TEST(of_case.has(shard));
+  BOOST_TEST(!of_case.has(6));
+  BOOST_TEST((shares_in(of_case) == std::vector<int>{2, 3, 4, 5}));
+  BOOST_TEST((shares_in(of_nobody) == std::vector<int>{3}));
+}
 
 BOOST_AUTO_TEST_CASE(every_job_is_in_exactly_one_share) {
   const Results grid = planned(7, true);
