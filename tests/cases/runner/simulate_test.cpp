@@ -199,6 +199,9 @@ BOOST_AUTO_TEST_CASE(reactions_are_asked_for_where_they_are_read_and_nowhere_els
     if (!reactions.empty()) BOOST_TEST(reactions[0].force.x() == static_cast<double>(n));
   }
   engine.reported.clear();
+  simulate(engine, {}, test::tumbling_body(), 0.1, 0.5, {}, true, 1);
+  BOOST_TEST((engine.reported == std::vector<int>{2, 3, 4, 5}));
+  engine.reported.clear();
   for (const Sample& sample : simulate(engine, {}, test::tumbling_body(), 0.1, 1).trajectory.samples)
     BOOST_TEST(sample.reactions.empty());
   BOOST_TEST(engine.reported.empty());

@@ -181,6 +181,16 @@ BOOST_AUTO_TEST_CASE(a_step_has_to_hold_over_the_whole_horizon) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_sweep_goes_up_by_three_per_cent_and_where_nothing_resonates_by_twenty) {
+  for (const auto& [scene, factor] : {std::pair{one_body(), 1.03}, {sprung(), 1.03}, {touching(), 1.2}}) {
+    const FussyEngine engine([](double) { return true; });
+    found_by(engine, scene);
+    BOOST_TEST_REQUIRE(engine.tried.size() > 4);  // 0.5 s and 0.25 s, and then up
+    for (std::size_t n = 3; n < engine.tried.size(); ++n)
+      BOOST_TEST(engine.tried[n].dt == factor * engine.tried[n - 1].dt, boost::test_tools::tolerance(1e-12));
+  }
+}
+
 // Half of 10 million steps of a body may be a sweep's: at 1.03 from 0.25 s on it takes some 690 of 10 s.
 BOOST_AUTO_TEST_CASE(a_sweep_that_takes_more_than_half_of_what_is_left_is_not_begun) {
   const FussyEngine alone([](double) { return true; });

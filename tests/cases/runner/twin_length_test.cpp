@@ -49,13 +49,13 @@ struct Found {
   long steps = 0;  // of all its worlds
 };
 
-// Its body is 1 m from the origin.
-Found twin_that_drifts(double drift, TwinLength length) {
+// Its body is so far from the origin [m].
+Found twin_that_drifts(double drift, TwinLength length, double place = 1) {
   Found found;
   EngineTable table;
   table.add(std::make_unique<DriftingEngine>(drift, found.steps));
   Scene scene = drifting_body("a").scene;
-  scene.bodies[0].position = Vec3(1, 0, 0);
+  scene.bodies[0].position = Vec3(place, 0, 0);
   Simulation run;
   run.trajectory.dt = 0.01;
   for (long n = 0; n <= kSteps; ++n) run.trajectory.samples.push_back({0.01 * static_cast<double>(n), BodyTable(1)});
@@ -96,6 +96,12 @@ BOOST_AUTO_TEST_CASE(where_roundings_might_matter_all_turned_worlds_are_asked) {
   const Found found = twin_that_drifts(3e-13, {});
   BOOST_TEST(found.twin.position_rounding.size() == kSteps + 1u);
   BOOST_TEST(found.steps == 4 * kSteps);
+}
+
+// A hundred times as far from the origin places may be off by a hundred times as much, though turns may not.
+BOOST_AUTO_TEST_CASE(how_far_a_place_may_be_off_goes_by_how_far_away_it_is) {
+  BOOST_TEST(twin_that_drifts(3e-12, {}, 1).twin.position_rounding.size() < kSteps);
+  BOOST_TEST(twin_that_drifts(3e-12, {}, 100).twin.position_rounding.size() == kSteps + 1u);
 }
 
 BOOST_AUTO_TEST_CASE(a_twin_is_stepped_no_further_than_the_truth_is_good) {
