@@ -15,7 +15,7 @@ namespace rigor::bench {
 namespace {
 
 const std::string kCore = "core:semi-implicit-euler", kOde = "ode:worldstep", kBullet = "bullet:sequential-impulse",
-                  kDart = "dart:dantzig", kMujoco = "mujoco:euler";
+                  kDart = "dart:dantzig", kMujoco = "mujoco:euler", kSimbody = "simbody:semi-explicit-euler";
 constexpr int kNameWidth = 58;  // of what is timed by itself
 
 std::string step(const std::string& scene, int count, const std::string& run) {
@@ -49,7 +49,7 @@ bool is_built(const std::string& run) {
 // The engines that are built where their library is found.
 void add_optional(std::vector<RatioRow>& rows, const std::string& scene, int count, const std::string& run,
                   double times) {
-  for (const std::string& other : {kDart, kMujoco}) {
+  for (const std::string& other : {kDart, kMujoco, kSimbody}) {
     if (!is_built(other)) continue;
     rows.push_back({fmt::format("{} against {}", title(scene, count, run), other), step(scene, count, run),
                     step(scene, count, other), RatioRow::Kind::times_as_fast, times});
@@ -70,9 +70,10 @@ void add_joints(std::vector<RatioRow>& rows) {
                     step(scene, count, other.run), RatioRow::Kind::times_as_fast, goal});
   };
   for (const Against& other : engines) add("chain", 100, other, other.goal);
-  if (is_built(kDart)) add("chain", 100, {kDart, 0}, 2);
+  for (const std::string& other : {kDart, kSimbody})
+    if (is_built(other)) add("chain", 100, {other, 0}, 2);
   if (is_built(kMujoco)) add("chain", 95, {kMujoco, 0}, 2);  // its reader of scenes goes no deeper
-  for (const std::string& other : {kDart, kMujoco})
+  for (const std::string& other : {kDart, kMujoco, kSimbody})
     if (is_built(other)) add("ragdolls", 1000, {other, 0}, 2);
   for (const auto& [scene, count] : {std::pair("chain", 1),
                                      {"chain", 10},
