@@ -7,6 +7,8 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -104,6 +106,31 @@ std::string arrows_back(const std::vector<Include>& includes, const Chain& chain
   });
 }
 
+// Types in namespaces that have names, and the lines where they are defined. Files are laid out by clang-format: what
+// begins a line is in a namespace alone, and a namespace of more than one line is closed by name.
+std::map<std::string, Names> types_in(const std::string& file, std::istream& in) {
+  static const std::regex space("(?:inline )?namespace ?([\\w:]*) \\{"),
+      type("(?:struct|class|enum class) (\\w+)(?: final)?(?: :[^;{]*)? \\{.*");
+  std::map<std::string, Names> found;
+  Names spaces;
+  std::string text;
+  std::smatch match;
+  for (int line = 1, opened = 0; std::getline(in, text); ++line) {
+    if (std::regex_match(text, match, space)) {
+      spaces.push_back(match[1]), opened = line;
+    } else if (text.starts_with("}  // namespace") || (text == "}" && line == opened + 2)) {
+      BOOST_TEST_REQUIRE(!spaces.empty(), file << ":" << line);
+      spaces.pop_back();
+    } else if (std::regex_match(text, match, type)) {
+      const bool is_its_own = std::find(spaces.begin(), spaces.end(), "") != spaces.end();
+      std::string name;
+      for (const std::string& outer : spaces) name += outer + "::";
+      if (!is_its_own) found[name + match[1].str()].push_back(file + ":" + std::to_string(line));
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(rooms)
@@ -168,6 +195,23 @@ BOOST_AUTO_TEST_CASE(no_folder_holds_more_than_a_reader_can_take_in) {
     }
   }
   for (const auto& [folder, files] : count) BOOST_TEST_CONTEXT(folder) BOOST_TEST(files <= kMost);
+}
+
+// Two of them in one program are no error to a compiler, nor to a linker, which takes one's functions for both.
+BOOST_AUTO_TEST_CASE(no_two_types_have_one_name) {
+  std::istringstream sample("namespace a::b {\nnamespace {\nstruct Own {\n}  // namespace\nclass C final : D {\n");
+  BOOST_TEST((types_in("f.h", sample) == std::map<std::string, Names>{{"a::b::C", {"f.h:5"}}}));
+  std::map<std::string, Names> all;
+  for (const std::string& room : kChains[0].rooms) {
+    for (const std::string& file : sources_in(room)) {
+      std::ifstream in(kTop / file);
+      for (const auto& [name, places] : types_in(file, in))
+        all[name].insert(all[name].end(), places.begin(), places.end());
+    }
+  }
+  BOOST_TEST(all.size() > 300u);  // they are found at all
+  for (const auto& [name, places] : all)
+    BOOST_TEST(places.size() == 1u, name << " stands in " << places.front() << " and in " << places.back());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

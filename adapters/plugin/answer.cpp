@@ -24,7 +24,7 @@ std::string said_at(const Json& answer) {
   return time != answer.end() && time->is_number() ? fmt::format(" at {:.6g} s", time->get<double>()) : "";
 }
 
-[[noreturn]] void report_refusal(const Json& answer, const Asked& asked) {
+[[noreturn]] void report_refusal(const Json& answer, const Question& asked) {
   const std::string status = text_of(answer, "status", ""),
                     why = in_quotes(text_of(answer, "why", "no reason given"), 400);
   if (status == "unsupported")
@@ -41,7 +41,7 @@ std::string said_at(const Json& answer) {
 }
 
 // A key that an answer need not carry, but not with another value than the request's.
-void check_echo(const Json& answer, const char* key, const Json& due, const Asked& asked) {
+void check_echo(const Json& answer, const char* key, const Json& due, const Question& asked) {
   const auto found = answer.find(key);
   if (found != answer.end() && *found != due)
     refuse_answer(asked, fmt::format("its {} is {}, and {} was asked", key, in_quotes(dumped(*found)), dumped(due)));
@@ -49,12 +49,12 @@ void check_echo(const Json& answer, const char* key, const Json& due, const Aske
 
 }  // namespace
 
-void refuse_answer(const Asked& asked, const std::string& fault) {
+void refuse_answer(const Question& asked, const std::string& fault) {
   throw EngineFailure(FailureKind::invalid,
                       fmt::format("{} gave no answer to '{}': {}", asked.engine, asked.call, fault));
 }
 
-Json parsed_answer(const std::string& line, const Asked& asked) {
+Json parsed_answer(const std::string& line, const Question& asked) {
   Json answer;
   try {
     answer = parse_json(line);
@@ -71,7 +71,7 @@ Json parsed_answer(const std::string& line, const Asked& asked) {
   return answer;
 }
 
-void read_bodies(const Json& answer, const Asked& asked, MutableBodyColumns into) {
+void read_bodies(const Json& answer, const Question& asked, MutableBodyColumns into) {
   const auto bodies = answer.find("bodies");
   if (bodies == answer.end() || !bodies->is_array() || bodies->size() != into.size()) {
     refuse_answer(asked, fmt::format("its bodies are {}; a list of {} is due, in the scene's order",
@@ -94,7 +94,7 @@ void read_bodies(const Json& answer, const Asked& asked, MutableBodyColumns into
   }
 }
 
-void check_time(const Json& answer, const Asked& asked, double due, double dt) {
+void check_time(const Json& answer, const Question& asked, double due, double dt) {
   const auto time = answer.find("time");
   if (time == answer.end() || !time->is_number())
     refuse_answer(asked, fmt::format("its time is {}; a finite number is due",
@@ -109,7 +109,7 @@ bool is_time(double time, double due, double dt) {
   return std::abs(time - due) <= kOfAStep * dt + kOfSinglePrecision * due;
 }
 
-void check_time(double time, const Asked& asked, double due, double dt) {
+void check_time(double time, const Question& asked, double due, double dt) {
   if (is_time(time, due, dt)) return;
   refuse_answer(asked,
                 fmt::format("its time is {:.17g} s; after the steps that it was asked for it is {:.17g} s", time, due));

@@ -21,7 +21,7 @@ class EngineDiverged : public EngineFailure {
 };
 
 // What an answer was asked for, for messages and checks.
-struct Asked {
+struct Question {
   std::string engine;  // as messages call it
   std::string call;
   std::optional<int> world = {};
@@ -29,17 +29,17 @@ struct Asked {
 
 // The object in the line, if it says "ok": true. Throws EngineFailure: unsupported, diverged (EngineDiverged) or
 // crashed, as the engine says; invalid for a line that is not an answer to what was asked.
-Json parsed_answer(const std::string& line, const Asked& asked);
+Json parsed_answer(const std::string& line, const Question& asked);
 
 // Of "bodies": a row of thirteen finite numbers for each. Throws EngineFailure (invalid) for anything else.
-void read_bodies(const Json& answer, const Asked& asked, MutableBodyColumns into);
+void read_bodies(const Json& answer, const Question& asked, MutableBodyColumns into);
 
 // Of "time" [s]: what it should be after so many steps, but for roundings of a clock in single precision.
-void check_time(const Json& answer, const Asked& asked, double due, double dt);
+void check_time(const Json& answer, const Question& asked, double due, double dt);
 
 bool is_time(double time, double due, double dt);
-void check_time(double time, const Asked& asked, double due, double dt);
+void check_time(double time, const Question& asked, double due, double dt);
 
-[[noreturn]] void refuse_answer(const Asked& asked, const std::string& fault);
+[[noreturn]] void refuse_answer(const Question& asked, const std::string& fault);
 
 }  // namespace rigor

@@ -23,8 +23,8 @@ std::string row_of(const double* first) {
   return fmt::format("[{},{},{},{},{},{}]", first[0], first[1], first[2], first[3], first[4], first[5]);
 }
 
-Asked asked_of(const std::string& engine, const std::string& call, int world) {
-  Asked asked{engine, call};
+Question asked_of(const std::string& engine, const std::string& call, int world) {
+  Question asked{engine, call};
   if (world > 0) asked.world = world;
   return asked;
 }
@@ -79,7 +79,7 @@ void ProcessSession::step(int world, double dt, const std::vector<double>& wrenc
 }
 
 void ProcessSession::read(int world, double due, double dt, MutableBodyColumns into) {
-  const Asked asked = asked_of(child_->name(), "read", world);
+  const Question asked = asked_of(child_->name(), "read", world);
   const Json answer = ask(fmt::format(R"({{"call":"read","world":{}}})", world), "read",
                           kShortAnswer + kLongestRow * into.size(), world);
   checked([&] {
@@ -91,7 +91,7 @@ void ProcessSession::read(int world, double due, double dt, MutableBodyColumns i
 }
 
 void ProcessSession::run(int world, double begin, double dt, long count, long every, std::vector<KeptBodies>& samples) {
-  const Asked asked = asked_of(child_->name(), "run", world);
+  const Question asked = asked_of(child_->name(), "run", world);
   const std::size_t due = samples.size(), bodies = samples.front().size();
   const std::string line =
       fmt::format(R"({{"call":"run","world":{},"dt":{},"count":{},"every":{}}})", world, dt, count, every);
@@ -113,7 +113,7 @@ void ProcessSession::run(int world, double begin, double dt, long count, long ev
   });
 }
 
-void ProcessSession::receive_raw(const Asked& asked, std::size_t bodies) {
+void ProcessSession::receive_raw(const Question& asked, std::size_t bodies) {
   raw_.resize(kColumnNames.size() * bodies);
   child_->receive(reinterpret_cast<char*>(raw_.data()), raw_.size() * sizeof(double), asked.call);
 }
@@ -124,7 +124,7 @@ void ProcessSession::keep_warning(const Json& answer) {
 }
 
 // Of the n-th table of as many bodies: thirteen columns, one behind the other.
-void ProcessSession::copy_raw(const Asked& asked, std::size_t n, MutableBodyColumns into) const {
+void ProcessSession::copy_raw(const Question& asked, std::size_t n, MutableBodyColumns into) const {
   const double* next = raw_.data() + n * kColumnNames.size() * into.size();
   for (std::size_t c = 0; c < kColumnNames.size(); ++c) {
     for (std::size_t i = 0; i < into.size(); ++i, ++next) {

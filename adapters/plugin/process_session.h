@@ -44,8 +44,8 @@ class ProcessSession {
   template <typename Read>
   void checked(const Read& read);
   void keep_warning(const Json& answer);
-  void receive_raw(const Asked& asked, std::size_t bodies);
-  void copy_raw(const Asked& asked, std::size_t n, MutableBodyColumns into) const;
+  void receive_raw(const Question& asked, std::size_t bodies);
+  void copy_raw(const Question& asked, std::size_t n, MutableBodyColumns into) const;
 
   PluginInfo info_;
   std::unique_ptr<ChildProcess> child_;

@@ -13,7 +13,7 @@ namespace {
 // What a report on one of the bodies says of b, at the joint's point. The bodies are those of the step's start.
 JointReaction at_joint(const Joint& joint, const JointGeometry& geometry, const ReportedReaction& reported,
                        BodyColumns bodies) {
-  const EndMotion a = end_motion(geometry.a(), bodies), b = end_motion(geometry.b(), bodies);
+  const MovingEnd a = end_motion(geometry.a(), bodies), b = end_motion(geometry.b(), bodies);
   const bool is_on_b = reported.body == joint.b, is_slider = std::holds_alternative<SliderJoint>(joint.type);
   const Vec3 arm = is_on_b ? b.arm : is_slider ? Vec3(b.point() - a.centre) : a.arm;
   const double sign = is_on_b ? 1 : -1;

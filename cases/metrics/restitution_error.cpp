@@ -14,7 +14,7 @@ MetricResult measure_restitution_error(const JudgedRun& run) {
   for (const auto& [pair, impacts] : impacts_of(run.scene, run.trajectory, run.leapfrog_stagger)) {
     const double expected = run.scene.contact_law(pair.first, pair.second).restitution;
     const int mover = run.scene.bodies[pair.first].fixed ? pair.second : pair.first;
-    for (const Impact& impact : impacts) {
+    for (const ImpactSpeeds& impact : impacts) {
       const double found = impact.after / impact.before, error = std::abs(found - expected);
       if (has_any && error <= out.value) continue;
       has_any = true, out.value = error;

@@ -121,7 +121,7 @@ void read_case_file(const std::string& bytes) {
 void read_plugin(const std::string& bytes) {
   read_or_refuse([&] { read_plugin_info(bytes, "fuzzed"); });
   try {
-    const Asked asked{"fuzzed", "read", 1};
+    const Question asked{"fuzzed", "read", 1};
     const Json answer = parsed_answer(bytes, asked);
     BodyTable bodies(2);
     check_time(answer, asked, 1, 0.5);

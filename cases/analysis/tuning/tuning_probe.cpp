@@ -10,14 +10,14 @@
 
 namespace rigor {
 
-std::vector<ProbeAnswer> Prober::run(const std::vector<Probe>& probes, const Trial& trial) {
+std::vector<ProbeAnswer> Prober::run(const std::vector<Probe>& probes, const ProbeEffort& effort) {
   if (probes.empty()) return {};
-  Results grid = planned(probes, trial.share);
+  Results grid = planned(probes, effort.share);
   GridOptions options;
-  options.jobs = trial.jobs, options.limit = std::min(trial.limit, options_.limit);
+  options.jobs = effort.jobs, options.limit = std::min(effort.limit, options_.limit);
   options.stable_steps = options.is_thorough = options.spreads = false;
   for (const Bound& bound : bounds_) options.only_metrics.push_back(bound.metric);
-  if (trial.is_timed) options.only_metrics.push_back("cost");
+  if (effort.is_timed) options.only_metrics.push_back("cost");
   run_grid(grid, engines_, options, [](std::size_t, std::size_t) {});
   runs_ += probes.size() * cases_.size();
   std::vector<ProbeAnswer> answers(probes.size());
@@ -25,7 +25,7 @@ std::vector<ProbeAnswer> Prober::run(const std::vector<Probe>& probes, const Tri
     answers[i].error = 0;
     for (const CaseResult& result : grid.cases) add(answers[i], result, result.cells[i]);
   }
-  if (trial.share < 1) remarks_.clear();  // those of whole runs count
+  if (effort.share < 1) remarks_.clear();  // those of whole runs count
   return answers;
 }
 

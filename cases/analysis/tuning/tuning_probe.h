@@ -25,7 +25,7 @@ struct ProbeAnswer {
   bool is_late = false;            // a cell had no result within the limit
 };
 
-struct Trial {
+struct ProbeEffort {
   double share = 1;  // of each case's duration
   bool is_timed = false;
   int jobs = 1;                       // cells at once
@@ -39,7 +39,7 @@ class Prober {
       : cases_(cases), bounds_(bounds), engines_(engines), options_(options) {}
 
   // One each of the probes, in their order.
-  std::vector<ProbeAnswer> run(const std::vector<Probe>& probes, const Trial& trial);
+  std::vector<ProbeAnswer> run(const std::vector<Probe>& probes, const ProbeEffort& effort);
   std::size_t runs() const { return runs_; }  // so far
   // Where the truth does not vouch for the whole run, a sentence each.
   const std::set<std::string>& remarks() const { return remarks_; }

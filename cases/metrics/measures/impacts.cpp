@@ -69,7 +69,7 @@ class Watcher {
     slowest_ = 2 * scene.gravity.norm() * spacing_;
   }
 
-  std::map<Pair, std::vector<Impact>> impacts() {
+  std::map<Pair, std::vector<ImpactSpeeds>> impacts() {
     for (const Sample& sample : trajectory_.samples) look_at(sample);
     for (auto& [pair, watch] : watched_) {
       if (watch.hit) conclude(pair, watch, {}, trajectory_.samples.back().time);
@@ -132,7 +132,7 @@ class Watcher {
   void conclude(const Pair& pair, Watch& watch, const std::optional<Flight>& leaving, double time) {
     const double range = 3 * spacing_;  // an impact is seen a step late, and left a step after that
     const double in = watch.approaching->touch(range).value_or(0);
-    Impact impact{watch.since + in, -watch.approaching->rate(in), 0};
+    ImpactSpeeds impact{watch.since + in, -watch.approaching->rate(in), 0};
     if (leaving) {
       const double out = leaving->touch(-range).value_or(0);
       impact.time = time + out, impact.after = leaving->rate(out);
@@ -147,11 +147,11 @@ class Watcher {
   }
   bool are_spheres(const Pair& pair) const { return is_round(pair.first) && is_round(pair.second); }
 
-  static void drop_slow(std::vector<Impact>& list) {
+  static void drop_slow(std::vector<ImpactSpeeds>& list) {
     double fastest = 0;
-    for (const Impact& impact : list) fastest = std::max(fastest, impact.before);
+    for (const ImpactSpeeds& impact : list) fastest = std::max(fastest, impact.before);
     constexpr double kTenth = 0.1;
-    std::erase_if(list, [&](const Impact& impact) { return impact.before < kTenth * fastest; });
+    std::erase_if(list, [&](const ImpactSpeeds& impact) { return impact.before < kTenth * fastest; });
   }
 
   const Scene& scene_;
@@ -161,13 +161,13 @@ class Watcher {
   double fastest_ = 0;        // m/s, that a surface has moved so far
   BodyTable bodies_;
   std::map<Pair, Watch> watched_;
-  std::map<Pair, std::vector<Impact>> found_;
+  std::map<Pair, std::vector<ImpactSpeeds>> found_;
 };
 
 }  // namespace
 
-std::map<Pair, std::vector<Impact>> impacts_of(const Scene& scene, const Trajectory& trajectory,
-                                               double leapfrog_stagger) {
+std::map<Pair, std::vector<ImpactSpeeds>> impacts_of(const Scene& scene, const Trajectory& trajectory,
+                                                     double leapfrog_stagger) {
   if (trajectory.samples.empty() || !anything_can_touch(scene)) return {};
   return Watcher(scene, trajectory, leapfrog_stagger).impacts();
 }

@@ -13,7 +13,7 @@ namespace rigor {
 namespace {
 
 // Text of other people: bytes that are no UTF-8 and characters that XML 1.0 does not allow at all become U+FFFD or '?'.
-std::string escaped(const std::string& text) {
+std::string xml_escaped(const std::string& text) {
   const auto clean = parse_json(text_of(text, -1)).get<std::string>();
   std::string out;
   for (std::size_t i = 0; i < clean.size(); ++i) {
@@ -120,16 +120,16 @@ Suite suite_of(const Results& results, const CaseResult& result) {
 }
 
 std::string xml_of(const TestCase& test) {
-  std::string xml = fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.6f}\"", escaped(test.name),
-                                escaped(test.classname), test.seconds);
+  std::string xml = fmt::format("    <testcase name=\"{}\" classname=\"{}\" time=\"{:.6f}\"", xml_escaped(test.name),
+                                xml_escaped(test.classname), test.seconds);
   if (test.kind.empty() && test.warning.empty()) return xml + "/>\n";
   xml += ">\n";
   if (!test.kind.empty()) {
-    xml += fmt::format("      <{} message=\"{}\"", test.kind, escaped(test.message));
-    if (test.kind != "skipped") xml += fmt::format(" type=\"{}\"", escaped(test.type));
-    xml += (test.kind == "skipped" ? "/>" : fmt::format(">{}</{}>", escaped(test.text), test.kind)) + "\n";
+    xml += fmt::format("      <{} message=\"{}\"", test.kind, xml_escaped(test.message));
+    if (test.kind != "skipped") xml += fmt::format(" type=\"{}\"", xml_escaped(test.type));
+    xml += (test.kind == "skipped" ? "/>" : fmt::format(">{}</{}>", xml_escaped(test.text), test.kind)) + "\n";
   }
-  if (!test.warning.empty()) xml += fmt::format("      <system-out>{}</system-out>\n", escaped(test.warning));
+  if (!test.warning.empty()) xml += fmt::format("      <system-out>{}</system-out>\n", xml_escaped(test.warning));
   return xml + "    </testcase>\n";
 }
 
@@ -149,7 +149,7 @@ std::string junit_report(const Results& results) {
     tests += all, failures += suite.count("failure"), errors += suite.count("error");
     skipped += suite.count("skipped");
     suites += fmt::format(
-        "  <testsuite name=\"{}\" {}>\n", escaped(suite.name),
+        "  <testsuite name=\"{}\" {}>\n", xml_escaped(suite.name),
         counts_of(all, suite.count("failure"), suite.count("error"), suite.count("skipped"), suite.seconds()));
     for (const TestCase& test : suite.cases) suites += xml_of(test);
     suites += "  </testsuite>\n";

@@ -18,7 +18,7 @@ struct AxisMotion {
 
 // `row` is of the coordinate's rate, and its gap the coordinate.
 template <typename Real, int N>
-ConstraintRow<Real, N> kept(ConstraintRow<Real, N> row, const AxisMode& mode, const Joint& joint) {
+ReferenceRow<Real, N> kept(ReferenceRow<Real, N> row, const AxisMode& mode, const Joint& joint) {
   if (mode.limit != 0) {
     row.gap -= static_cast<Real>(mode.limit > 0 ? joint.upper : joint.lower);
     row.speed = static_cast<Real>(mode.bounce);

@@ -34,7 +34,7 @@ bool project_by(const Correct& correct) {
 }
 
 template <typename Real, int N>
-struct ConstraintRow {
+struct ReferenceRow {
   using Block = Eigen::Matrix<Real, N, 1>;
   int body[2] = {-1, -1};                           // moving bodies, or -1
   Block block[2] = {Block::Zero(), Block::Zero()};  // d(rate)/d(velocities of that body)
@@ -79,7 +79,7 @@ class ConstraintRows {
     choice_ = choice;
   }
 
-  using Row = ConstraintRow<Real, N>;
+  using Row = ReferenceRow<Real, N>;
   using Block = typename Row::Block;
   using InverseMass = Eigen::Matrix<Real, N, N>;
   using Multipliers = Eigen::Matrix<Real, Eigen::Dynamic, 1>;

@@ -20,7 +20,7 @@ template <typename Real>
 class NaturalJoints {
  public:
   using Frame = NaturalFrame<Real>;
-  using Row = ConstraintRow<Real, 12>;
+  using Row = ReferenceRow<Real, 12>;
   using Vector = typename Frame::Vector;
 
   // `order`: of each body, its place among those that move; -1 if it is fixed.

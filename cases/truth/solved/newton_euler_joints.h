@@ -25,7 +25,7 @@ class NewtonEulerJoints {
  public:
   using Pose = typename EquationsOfMotion<Real>::Pose;
   using Vector = typename EquationsOfMotion<Real>::Vector;
-  using Row = ConstraintRow<Real, 6>;
+  using Row = ReferenceRow<Real, 6>;
 
   // `order`: of each body, its place among those that move; -1 if it is fixed.
   explicit NewtonEulerJoints(std::vector<int> order) : order_(std::move(order)) {}

@@ -10,8 +10,8 @@ double angle_of(const Vec3& u, const Vec3& v) { return std::atan2(u.cross(v).nor
 
 }  // namespace
 
-EndMotion end_motion(const JointEnd& end, BodyColumns bodies) {
-  EndMotion motion;
+MovingEnd end_motion(const JointEnd& end, BodyColumns bodies) {
+  MovingEnd motion;
   if (end.body != kWorld) {
     const auto i = static_cast<std::size_t>(end.body);
     motion.R = bodies.rotation(i), motion.orientation = bodies.orientation(i);
@@ -57,14 +57,14 @@ void JointGeometry::set_ends(const BodyPose& pose_a, const BodyPose& pose_b, con
 }
 
 double JointGeometry::gap(BodyColumns bodies) const {
-  const EndMotion a = end_motion(a_, bodies), b = end_motion(b_, bodies);
+  const MovingEnd a = end_motion(a_, bodies), b = end_motion(b_, bodies);
   const Vec3 apart = b.point() - a.point();
   if (place_ == Place::distance) return std::abs(apart.norm() - start_length_);
   return place_ == Place::line ? a.axis.cross(apart).norm() : apart.norm();
 }
 
 double JointGeometry::gap_rate(BodyColumns bodies) const {
-  const EndMotion a = end_motion(a_, bodies), b = end_motion(b_, bodies);
+  const MovingEnd a = end_motion(a_, bodies), b = end_motion(b_, bodies);
   if (place_ == Place::distance) {
     const Vec3 apart = b.point() - a.point(), rate = b.point_velocity() - a.point_velocity();
     return apart.isZero(0) ? rate.norm() : std::abs(apart.normalized().dot(rate));
@@ -76,14 +76,14 @@ double JointGeometry::gap_rate(BodyColumns bodies) const {
 
 double JointGeometry::twist(BodyColumns bodies) const {
   if (holds_ == Angle::none) return 0;
-  const EndMotion a = end_motion(a_, bodies), b = end_motion(b_, bodies);
+  const MovingEnd a = end_motion(a_, bodies), b = end_motion(b_, bodies);
   if (holds_ == Angle::all) return angle_between(start_turn_, a.orientation.conjugate() * b.orientation);
   return std::abs(angle_of(a.axis, b.axis) - (holds_ == Angle::right_angle ? start_angle_ : 0));
 }
 
 double JointGeometry::twist_rate(BodyColumns bodies) const {
   if (holds_ == Angle::none) return 0;
-  const EndMotion a = end_motion(a_, bodies), b = end_motion(b_, bodies);
+  const MovingEnd a = end_motion(a_, bodies), b = end_motion(b_, bodies);
   const Vec3 rate = b.w - a.w;
   if (holds_ == Angle::all) return rate.norm();
   if (holds_ == Angle::axis) return a.axis.cross(rate).norm();

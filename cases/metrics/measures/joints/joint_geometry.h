@@ -15,7 +15,7 @@ struct JointEnd {
 };
 
 // How an end moves; all in W.
-struct EndMotion {
+struct MovingEnd {
   Mat3 R = Mat3::Identity();
   Quat orientation = Quat::Identity();
   Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();  // m, m/s
@@ -28,7 +28,7 @@ struct EndMotion {
   // m/s: of the place in W as a point of this body
   Vec3 velocity_at(const Vec3& place) const { return velocity + w.cross(place - centre); }
 };
-EndMotion end_motion(const JointEnd& end, BodyColumns bodies);
+MovingEnd end_motion(const JointEnd& end, BodyColumns bodies);
 
 class JointGeometry {
  public:

@@ -10,7 +10,7 @@
 namespace rigor {
 namespace {
 
-Vec3 centripetal(const EndMotion& body, const Vec3& arm) { return body.w.cross(body.w.cross(arm)); }
+Vec3 centripetal(const MovingEnd& body, const Vec3& arm) { return body.w.cross(body.w.cross(arm)); }
 
 // Two directions across an axis.
 std::array<Vec3, 2> across(const Vec3& axis) {
@@ -56,7 +56,7 @@ JointReactions::JointReactions(const Scene& scene) : scene_(scene), system_(scen
   find_rows(start.columns());
 }
 
-void JointReactions::add_row(std::size_t joint, const EndMotion& a, const EndMotion& b, const Vec3& force,
+void JointReactions::add_row(std::size_t joint, const MovingEnd& a, const MovingEnd& b, const Vec3& force,
                              const Vec3& couple, double bias) {
   Row row;
   const auto set = [&](int end, int body, double sign, const Vec3& arm) {
@@ -72,12 +72,12 @@ void JointReactions::add_row(std::size_t joint, const EndMotion& a, const EndMot
   held_.push_back({joint, force, couple});
 }
 
-void JointReactions::add_point_row(std::size_t joint, const EndMotion& a, const EndMotion& b, const Vec3& direction) {
+void JointReactions::add_point_row(std::size_t joint, const MovingEnd& a, const MovingEnd& b, const Vec3& direction) {
   add_row(joint, a, b, direction, Vec3::Zero(), direction.dot(centripetal(b, b.arm) - centripetal(a, a.arm)));
 }
 
 // u . v stays as it is, u fixed in a and v in b: (u . v)' = (w_a - w_b) . (u x v).
-void JointReactions::add_angle_row(std::size_t joint, const EndMotion& a, const EndMotion& b, const Vec3& u,
+void JointReactions::add_angle_row(std::size_t joint, const MovingEnd& a, const MovingEnd& b, const Vec3& u,
                                    const Vec3& v) {
   const double bias = centripetal(a, u).dot(v) + 2 * a.w.cross(u).dot(b.w.cross(v)) + u.dot(centripetal(b, v));
   add_row(joint, a, b, Vec3::Zero(), u.cross(v), -bias);
@@ -85,7 +85,7 @@ void JointReactions::add_angle_row(std::size_t joint, const EndMotion& a, const 
 
 void JointReactions::add_rows_of(std::size_t joint, BodyColumns bodies) {
   const JointGeometry& geometry = joints_[joint];
-  const EndMotion a = end_motion(geometry.a(), bodies), b = end_motion(geometry.b(), bodies);
+  const MovingEnd a = end_motion(geometry.a(), bodies), b = end_motion(geometry.b(), bodies);
   const auto& type = scene_.joints[joint].type;
   const Vec3 apart = b.point() - a.point();
   if (std::holds_alternative<DistanceJoint>(type)) {

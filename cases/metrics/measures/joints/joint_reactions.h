@@ -59,10 +59,10 @@ class JointReactions {
 
   void find_rows(BodyColumns bodies);
   void add_rows_of(std::size_t joint, BodyColumns bodies);
-  void add_row(std::size_t joint, const EndMotion& a, const EndMotion& b, const Vec3& force, const Vec3& couple,
+  void add_row(std::size_t joint, const MovingEnd& a, const MovingEnd& b, const Vec3& force, const Vec3& couple,
                double bias);
-  void add_point_row(std::size_t joint, const EndMotion& a, const EndMotion& b, const Vec3& direction);
-  void add_angle_row(std::size_t joint, const EndMotion& a, const EndMotion& b, const Vec3& of_a, const Vec3& of_b);
+  void add_point_row(std::size_t joint, const MovingEnd& a, const MovingEnd& b, const Vec3& direction);
+  void add_angle_row(std::size_t joint, const MovingEnd& a, const MovingEnd& b, const Vec3& of_a, const Vec3& of_b);
   std::vector<JointReaction> carried(const std::vector<double>& residuals);
 
   const Scene& scene_;

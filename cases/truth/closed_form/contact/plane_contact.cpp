@@ -34,7 +34,7 @@ Extended between(const Segment& a, const Segment& b, const ExtendedVec3& normal)
   return std::min({to_segment(a.from, b), to_segment(a.to, b), to_segment(b.from, a), to_segment(b.to, a)});
 }
 
-Extended between(const Sweep& a, const Sweep& b, const ExtendedVec3& normal) {
+Extended between(const SweptDisk& a, const SweptDisk& b, const ExtendedVec3& normal) {
   const auto flat = [&](const ExtendedVec3& p) { return ExtendedVec3(p - normal.dot(p) * normal); };
   Extended least = std::numeric_limits<Extended>::infinity();
   for (std::size_t i = 1; i < a.way.size(); ++i) {
@@ -90,7 +90,7 @@ bool are_along(const ExtendedVec3& a, const ExtendedVec3& b) {
   return a.cross(b).norm() <= kDigits * a.norm() * b.norm();
 }
 
-void check_apart(const std::vector<Sweep>& sweeps, const Ground& ground) {
+void check_apart(const std::vector<SweptDisk>& sweeps, const Ground& ground) {
   for (std::size_t i = 0; i < sweeps.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (between(sweeps[i], sweeps[j], ground.normal()) > sweeps[i].radius + sweeps[j].radius) continue;

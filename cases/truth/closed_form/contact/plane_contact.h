@@ -39,12 +39,12 @@ class Ground {
 bool are_along(const ExtendedVec3& a, const ExtendedVec3& b);
 
 // A body's way over the plane: straight from one point to the next, inside a disk of `radius` [m].
-struct Sweep {
+struct SweptDisk {
   const Body* body;
   std::vector<ExtendedVec3> way;  // m
   Extended radius;                // m
 };
 // Throws InputError if two bodies' sweeps meet, whenever they pass.
-void check_apart(const std::vector<Sweep>& sweeps, const Ground& ground);
+void check_apart(const std::vector<SweptDisk>& sweeps, const Ground& ground);
 
 }  // namespace rigor

@@ -122,7 +122,7 @@ std::unique_ptr<Truth> make_rolling(const Scene& scene, double duration) {
               {"contact:plane-sphere", "contact:sphere-sphere", "friction:none", "friction:coulomb",
                "friction:infinite", "restitution"});
   const Ground ground(scene, kRolling, kRollingIsFor);
-  std::vector<Sweep> sweeps;
+  std::vector<SweptDisk> sweeps;
   const auto motion_of = [&](const Body& body) {
     const int index = static_cast<int>(&body - scene.bodies.data());
     Roller roller(body, ground, scene.contact_law(index, ground.body()).friction);

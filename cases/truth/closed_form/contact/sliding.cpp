@@ -103,7 +103,7 @@ std::unique_ptr<Truth> make_sliding(const Scene& scene, double duration) {
               {"contact:box-plane", "contact:box-box", "friction:none", "friction:coulomb", "friction:infinite",
                "restitution"});
   const Ground ground(scene, kSliding, kSlidingIsFor);
-  std::vector<Sweep> sweeps;
+  std::vector<SweptDisk> sweeps;
   const auto motion_of = [&](const Body& body) {
     const int index = static_cast<int>(&body - scene.bodies.data());
     const Slider slider(body, ground, scene.contact_law(index, ground.body()).friction);

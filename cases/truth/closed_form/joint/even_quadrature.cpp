@@ -7,7 +7,7 @@
 namespace rigor {
 namespace {
 
-constexpr long double kPi = std::numbers::pi_v<long double>;
+constexpr long double kLongPi = std::numbers::pi_v<long double>;
 
 struct Series {
   std::vector<long double> coefficients;  // of cos(n pi u / K), n = 0, 1, ..
@@ -18,7 +18,7 @@ struct Series {
 Series series_of(const std::function<long double(long double)>& function, long double K, int modes) {
   std::vector<long double> cosines(2 * modes), samples(modes + 1);
   Series found;
-  for (int j = 0; j < 2 * modes; ++j) cosines[j] = std::cos(j * kPi / modes);
+  for (int j = 0; j < 2 * modes; ++j) cosines[j] = std::cos(j * kLongPi / modes);
   for (int j = 0; j <= modes; ++j) {
     const long double value = function(j * K / modes);
     found.largest = std::max(found.largest, std::abs(value));
@@ -45,13 +45,13 @@ EvenQuadrature::EvenQuadrature(const std::function<long double(long double u)>& 
     converges_ = last <= 1e-17L * found.largest;
     mean_ = found.coefficients[0];
     waves_.clear();
-    for (int n = 1; n < modes; ++n) waves_.push_back(found.coefficients[n] * quarter_period / (n * kPi));
+    for (int n = 1; n < modes; ++n) waves_.push_back(found.coefficients[n] * quarter_period / (n * kLongPi));
   }
 }
 
 long double EvenQuadrature::at(long double u) const {
   // Clenshaw's recurrence.
-  const long double x = std::remainder(u, 2 * quarter_period_) * kPi / quarter_period_, twice_cos = 2 * std::cos(x);
+  const long double x = std::remainder(u, 2 * quarter_period_) * kLongPi / quarter_period_, twice_cos = 2 * std::cos(x);
   long double later = 0, now = 0;
   for (auto wave = waves_.rbegin(); wave != waves_.rend(); ++wave) {
     const long double sooner = *wave + twice_cos * now - later;

@@ -10,18 +10,18 @@ constexpr int kMostSweeps = 200;
 constexpr double kSettled = 1e-13;   // of the fastest velocity that a sweep changes
 constexpr double kNoEnergy = 1e-14;  // of that exchanged: rounding
 
-Vec3 velocity(const Impact& impact, const std::vector<Motion>& motions) {
+Vec3 velocity(const Impact& impact, const std::vector<BodyTwist>& motions) {
   const Vec3 u = relative_velocity(impact.a, impact.b, motions) + impact.shift;
   return {impact.directions[0].dot(u), impact.directions[1].dot(u), impact.directions[2].dot(u)};
 }
 
-void set_impulse(Impact& impact, const Vec3& impulse, std::vector<Motion>& motions) {
+void set_impulse(Impact& impact, const Vec3& impulse, std::vector<BodyTwist>& motions) {
   const Vec3 change = impulse - impact.impulse;
   if (change.isZero(0)) return;
   for (const double sign : {1.0, -1.0}) {
     const ImpactEnd& end = sign > 0 ? impact.a : impact.b;
     if (end.inverse_mass == 0) continue;
-    Motion& motion = motions[static_cast<std::size_t>(end.body)];
+    BodyTwist& motion = motions[static_cast<std::size_t>(end.body)];
     for (int d = 0; d < 3; ++d) {
       motion.v += sign * change[d] * end.inverse_mass * impact.directions[d];
       motion.w += sign * change[d] * end.angular[d];
@@ -31,7 +31,7 @@ void set_impulse(Impact& impact, const Vec3& impulse, std::vector<Motion>& motio
 }
 
 // Returns by how much it changes the normal velocity.
-double solve(Impact& impact, double wanted, std::vector<Motion>& motions) {
+double solve(Impact& impact, double wanted, std::vector<BodyTwist>& motions) {
   const double old = impact.impulse.x();
   const double p = std::max(0.0, old + (wanted - velocity(impact, motions).x()) * impact.mass);
   set_impulse(impact, {p, impact.impulse.y(), impact.impulse.z()}, motions);
@@ -44,7 +44,7 @@ double solve(Impact& impact, double wanted, std::vector<Motion>& motions) {
   return std::abs(p - old) / impact.mass;
 }
 
-void sweep(std::vector<Impact>& impacts, double Impact::*wanted, std::vector<Motion>& motions) {
+void sweep(std::vector<Impact>& impacts, double Impact::*wanted, std::vector<BodyTwist>& motions) {
   double fastest = 0;
   for (int count = 0; count < kMostSweeps; ++count) {
     double change = 0;
@@ -70,7 +70,7 @@ struct Work {
   }
 };
 
-std::vector<Vec3> velocities_of(const std::vector<Impact>& impacts, const std::vector<Motion>& motions) {
+std::vector<Vec3> velocities_of(const std::vector<Impact>& impacts, const std::vector<BodyTwist>& motions) {
   std::vector<Vec3> all;
   for (const Impact& impact : impacts) all.push_back(velocity(impact, motions));
   return all;
@@ -90,7 +90,7 @@ double root_of(double at_0, double at_half, double at_1) {
 }
 
 // Back from the impulses that are there, which add energy, towards those without restitution.
-void take_back(std::vector<Impact>& impacts, std::vector<Motion>& motions) {
+void take_back(std::vector<Impact>& impacts, std::vector<BodyTwist>& motions) {
   const std::vector<Vec3> with = impulses_of(impacts), velocities_with = velocities_of(impacts, motions);
   for (Impact& impact : impacts) set_impulse(impact, Vec3::Zero(), motions);
   sweep(impacts, &Impact::wanted_without, motions);
@@ -103,9 +103,9 @@ void take_back(std::vector<Impact>& impacts, std::vector<Motion>& motions) {
 
 }  // namespace
 
-Vec3 relative_velocity(const ImpactEnd& a, const ImpactEnd& b, const std::vector<Motion>& motions) {
+Vec3 relative_velocity(const ImpactEnd& a, const ImpactEnd& b, const std::vector<BodyTwist>& motions) {
   const auto velocity_of = [&](const ImpactEnd& end) -> Vec3 {
-    const Motion& motion = motions[static_cast<std::size_t>(end.body)];
+    const BodyTwist& motion = motions[static_cast<std::size_t>(end.body)];
     return motion.v + motion.w.cross(end.arm);
   };
   return velocity_of(a) - velocity_of(b);
@@ -122,7 +122,7 @@ void prepare(Impact& impact) {
   impact.tangent_mass = tangent_mass_of(K(1, 1), K(2, 2), K(1, 2));
 }
 
-void solve_round(std::vector<Impact>& impacts, std::vector<Motion>& motions) {
+void solve_round(std::vector<Impact>& impacts, std::vector<BodyTwist>& motions) {
   double exchanged = 0;
   for (Impact& impact : impacts) impact.before = velocity(impact, motions);
   sweep(impacts, &Impact::wanted, motions);

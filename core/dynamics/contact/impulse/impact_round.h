@@ -11,7 +11,7 @@
 
 namespace rigor {
 
-struct Motion {
+struct BodyTwist {
   Vec3 v = Vec3::Zero(), w = Vec3::Zero();  // in W
 };
 
@@ -37,11 +37,11 @@ struct Impact {
 };
 
 // Of the points of `a` against those of `b`.
-Vec3 relative_velocity(const ImpactEnd& a, const ImpactEnd& b, const std::vector<Motion>& motions);
+Vec3 relative_velocity(const ImpactEnd& a, const ImpactEnd& b, const std::vector<BodyTwist>& motions);
 
 // Sets the effective masses.
 void prepare(Impact& impact);
 // Changes the motions, by body, and sets the impulses.
-void solve_round(std::vector<Impact>& impacts, std::vector<Motion>& motions);
+void solve_round(std::vector<Impact>& impacts, std::vector<BodyTwist>& motions);
 
 }  // namespace rigor

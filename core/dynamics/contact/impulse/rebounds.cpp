@@ -19,7 +19,7 @@ constexpr double kLeastImpact = 1e-7;
 Rebounds::Rebounds(const System& system, bool simultaneous)
     : system_(system), simultaneous_(simultaneous), start_(system.size()) {}
 
-void Rebounds::load(BodyColumns state, std::vector<Motion>& out) const {
+void Rebounds::load(BodyColumns state, std::vector<BodyTwist>& out) const {
   out.resize(state.size());
   for (std::size_t i = 0; i < state.size(); ++i) out[i] = {state.velocity(i), state.angular_velocity(i)};
 }
@@ -226,7 +226,7 @@ void Rebounds::resolve(const std::vector<RowGroup>& groups, const SolverParamete
   state_ = state;
   load(state, free_);
   now_ = free_;
-  delay_.assign(state.size(), Motion());
+  delay_.assign(state.size(), BodyTwist());
   angular_impulse_.assign(state.size(), Vec3::Zero());
   last_.assign(state.size(), 0.0), next_.assign(state.size(), kNever);
   is_changed_.assign(state.size(), 0), is_new_.assign(state.size(), 0);

@@ -43,14 +43,14 @@ class Rebounds {
   };
 
   bool moves(int body) const { return !system_.bodies[static_cast<std::size_t>(body)].fixed; }
-  double along(const Row& row, const std::vector<Motion>& motions) const {
+  double along(const Row& row, const std::vector<BodyTwist>& motions) const {
     return row.normal.dot(relative_velocity(row.a, row.b, motions));
   }
   double closing_acceleration(const Row& row) const;
   double approach_at(const Row& row, double t) const;
   double gap_at(const Row& row, double t) const;
   double hit_of(const Row& row) const;
-  void load(BodyColumns state, std::vector<Motion>& out) const;
+  void load(BodyColumns state, std::vector<BodyTwist>& out) const;
   void find_rows(const std::vector<RowGroup>& groups);
   Row row_of(const RowGroup& group, std::size_t point, std::size_t k) const;
   void find_hits(bool all);
@@ -67,11 +67,11 @@ class Rebounds {
   bool simultaneous_;
   double h_ = 0, motion_time_ = 0, threshold_ = 0;  // s; s: the instant that velocities belong to; m/s
   // By body.
-  std::vector<Motion> start_, free_, now_;  // before the sub-step; after it without impacts, and with those so far
-  std::vector<Motion> delay_;               // m, rad: the sum of each impact's change of motion times its instant
-  std::vector<Vec3> angular_impulse_;       // kg m²/s
-  std::vector<double> last_, next_;         // s, instants of a body's last impact and of its next one
-  std::vector<char> is_changed_, is_new_;   // by an impact; by one of this round
+  std::vector<BodyTwist> start_, free_, now_;  // before the sub-step; after it without impacts, and with those so far
+  std::vector<BodyTwist> delay_;               // m, rad: the sum of each impact's change of motion times its instant
+  std::vector<Vec3> angular_impulse_;          // kg m²/s
+  std::vector<double> last_, next_;            // s, instants of a body's last impact and of its next one
+  std::vector<char> is_changed_, is_new_;      // by an impact; by one of this round
   std::vector<Row> rows_;
   std::vector<Impact> impacts_;
   BodyColumns state_;  // that of resolve(), while it runs

@@ -47,7 +47,7 @@ Trajectory run_of(const Scene& scene, const Motion& motion, int steps) {
   return run;
 }
 
-std::vector<Impact> only_impacts_of(const Scene& scene, const Trajectory& run) {
+std::vector<ImpactSpeeds> only_impacts_of(const Scene& scene, const Trajectory& run) {
   const auto found = impacts_of(scene, run, 0);
   if (found.empty()) return {};
   BOOST_TEST(found.size() == 1);
@@ -56,7 +56,7 @@ std::vector<Impact> only_impacts_of(const Scene& scene, const Trajectory& run) {
 }
 
 // A speed is a difference over 2e-6 s of a gap of metres: 1e-10 of it is left, and the touch is sought by halving.
-void check(const Impact& found, double time, double before, double after) {
+void check(const ImpactSpeeds& found, double time, double before, double after) {
   BOOST_TEST(std::abs(found.time - time) < 1e-9);
   BOOST_TEST(std::abs(found.before - before) < 1e-7);
   BOOST_TEST(std::abs(found.after - after) < 1e-7);
@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(a_bouncing_ball_is_followed_down_to_a_tenth_of_its_fastest_
   const auto found = only_impacts_of(scene, test::played(*truth, scene, kDt, 400));
   double time = 1, speed = 10;
   BOOST_TEST_REQUIRE(found.size() == 5);  // of 10, 6, 3.6, 2.16, 1.296 m/s; 0.78 is less than a tenth of 10
-  for (const Impact& impact : found) {
+  for (const ImpactSpeeds& impact : found) {
     check(impact, time, speed, 0.6 * speed);
     speed *= 0.6, time += 2 * speed / 10;
   }
