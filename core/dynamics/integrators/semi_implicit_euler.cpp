@@ -15,7 +15,7 @@
 namespace rigor {
 namespace {
 
-// Of the longest arm: gaps that are closed anew in each step need no more, for nothing adds up.
+// Of the longest moving arm: gaps that are closed anew in each step need no more, for nothing adds up.
 constexpr double kClosed = 1e-11;
 
 class SemiImplicitEuler : public Stepper {
@@ -23,7 +23,7 @@ class SemiImplicitEuler : public Stepper {
   explicit SemiImplicitEuler(const StepperParts& parts) : parts_(parts), passes_(parts), wrenches_(parts.system) {
     if (!parts.joints || !parts.scene || parts.orientation->keeps_matrix) return;
     if (BallJoints::are_all_of(*parts.scene) && parts.joints->rank() == parts.joints->rows())
-      balls_.emplace(*parts.scene, parts.system, kClosed * parts.joints->extent());
+      balls_.emplace(*parts.scene, parts.system, kClosed * parts.joints->size());
   }
 
   void step(MutableBodyColumns state, double t, double dt) override {

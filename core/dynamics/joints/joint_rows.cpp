@@ -132,11 +132,12 @@ void JointRows::evaluate_coordinate(JointRow& joint, BodyColumns state) {
   set_row(joint, k, on_a, on_b);
 }
 
-double JointRows::longest_arm() const {
+double JointRows::longest_arm(bool of_moving_ends) const {
   double longest = 0;
   for (const JointRow& joint : joints_) {
-    for (const auto& values : joint.J) {
-      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> J(values, joint.most_rows, 6);
+    for (int end = 0; end < 2; ++end) {
+      if (of_moving_ends && joint.body[end] == kWorld) continue;
+      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> J(joint.J[end], joint.most_rows, 6);
       for (int k = 0; k < joint.rows; ++k) {
         const double force = J.row(k).head<3>().norm();
         if (force > 0) longest = std::max(longest, J.row(k).tail<3>().norm() / force);

@@ -54,8 +54,11 @@ class JointRows {
   // Takes J, gaps and biases from a state; a coordinate that is driven has no gap.
   void evaluate(BodyColumns state);
   // The longest arm of a joint [m], what gaps are small against: what turns a rotation into a gap, the torque of a row
-  // over its force. Of the rows evaluated last; 1 if no row has an arm.
-  double longest_arm() const;
+  // over its force. Of the rows evaluated last; 1 if no row has an arm. That of an end that cannot move, which is as
+  // far as the joint lies from the origin, tells of what rounding leaves; of how large a mechanism is the moving ends'
+  // do.
+  double longest_arm() const { return longest_arm(false); }
+  double longest_moving_arm() const { return longest_arm(true); }
   // Fills in S of the rows evaluated last.
   void assemble(BlockCholesky& factor);
   // The gaps alone, at other poses; a coordinate that is driven is to be at its target. The largest |gap|, not a number
@@ -89,6 +92,7 @@ class JointRows {
     EndMotion motion;
     Mat3 inverse_inertia_W;  // 1/(kg m²)
   };
+  double longest_arm(bool of_moving_ends) const;
   void add_joint(const Scene& scene, std::size_t k);
   void list_couplings();
   void evaluate_frame(int body, BodyColumns state);

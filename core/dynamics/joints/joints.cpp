@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kMostIterations = 50;
-constexpr double kClosed = 16 * kEpsilon;  // of the extent: what rounding of poses leaves of a gap,
+constexpr double kClosed = 16 * kEpsilon;  // of the longest arm: what rounding of poses leaves of a gap,
 constexpr double kRounding = 1e-12;        // and where bodies are far from the origin
-constexpr double kOpen = 1e-9;             // of the extent: a gap that no rounding explains
+constexpr double kOpen = 1e-9;             // of the longest moving arm: a gap that no rounding explains
 constexpr double kWellPosed = 1e-5;        // pivots above it leave eleven digits or more
 
 }  // namespace
@@ -202,12 +202,12 @@ void Joints::close_pose(MutableBodyColumns state) {
 
 // Also if it falls no further, or is not a number.
 bool Joints::is_closed(double gap, double last, double within) const {
-  return gap <= std::max(kClosed, within) * extent_ || (gap <= kRounding * extent_ && gap > 0.5 * last) ||
+  return gap <= std::max(kClosed * extent_, within * size_) || (gap <= kRounding * extent_ && gap > 0.5 * last) ||
          !std::isfinite(gap);
 }
 
 void Joints::warn_of_gap(double gap) {
-  if (!(gap > kOpen * extent_) || !warning_.empty()) return;
+  if (!(gap > kOpen * size_) || !warning_.empty()) return;
   warning_ = fmt::format("the joints could not be closed: a gap of {:.3g} (m, or sine of an angle) is left{}", gap,
                          factor_.has_redundant_rows()
                              ? "; rows that repeat others at t = 0 no longer do, as where it is a singular position"
@@ -242,7 +242,7 @@ bool Joints::close(BodyColumns start, double h, const std::function<BodyColumns(
     for (std::size_t k = 0; k < rows_.size(); ++k) total_multipliers_[k] += multipliers_[k];
     last = gap;
   }
-  return last <= kOpen * extent_;
+  return last <= kOpen * size_;
 }
 
 }  // namespace rigor

@@ -30,7 +30,7 @@ class Joints : public ConstraintForces {
   void project(MutableBodyColumns state);
 
   // Finds the impulse at the pose `start` that closes all joints at the end of a drift of length h [s] with the
-  // velocities of `start`, to `within` of the longest arm or to rounding. `attempt` takes wrench columns of an impulse
+  // velocities of `start`, to `within` of size() or to rounding. `attempt` takes wrench columns of an impulse
   // and returns where a drift with it ends; its last call is with the impulse found. Returns false if there seems to be
   // none: bodies turn by so much in h that nothing at its start can close the joints at its end.
   bool close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt,
@@ -66,7 +66,7 @@ class Joints : public ConstraintForces {
   // Of the last factorisation; see block_cholesky.h.
   double smallest_pivot() const { return factor_.smallest_pivot(); }
 
-  double extent() const { return extent_; }  // m: the longest arm, what gaps are small against
+  double size() const { return size_; }  // m: the longest arm of an end that moves, what gaps are small against
   // Rows of all joints, and how many of them do not repeat others.
   int rows() const;
   int rank() const { return factor_.rank(); }
@@ -111,7 +111,7 @@ class Joints : public ConstraintForces {
   std::vector<int> component_of_body_;
   std::vector<std::vector<int>> bodies_of_component_, joints_of_component_;  // bodies that can move
   Columns total_;
-  double extent_ = 1;  // m
+  double extent_ = 1, size_ = 1;  // m: the longest arm, and that of an end that moves
   struct SprungHinge {
     JointCoordinate coordinate;
     std::size_t joint;
