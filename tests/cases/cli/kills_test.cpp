@@ -1,6 +1,10 @@
 // The program killed at random moments, at first and while it goes on with --resume: the process alone or all of its
 // group. What is there is always old or new, whole, and what goes on to its end has the bits of a run that nothing
 // disturbed. RIGOR_KILLS=1000: so many kills, not a few.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <random>
 #include <thread>
@@ -29,10 +33,16 @@ struct KilledProgram : DisturbedProgram {
     BOOST_TEST_REQUIRE(run(words).code == 0);
     return std::chrono::duration_cast<Microseconds>(Clock::now() - begin);
   }
-  // Whoever publishes lives on if the program alone is killed.
   static void wait_for_group(pid_t group) {
     for (int i = 0; i < 2000 && kill(-group, 0) == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     BOOST_TEST_REQUIRE(kill(-group, 0) != 0, "something that the program started is still there");
+  }
+  // It lives on, in a group of its own, and has the lock until it ends: looked at before, files are old and new.
+  void wait_for_whoever_publishes() const {
+    const int lock = open((fs::path(out) / ".rigor-partial/lock").c_str(), O_RDWR | O_CLOEXEC);
+    if (lock < 0) return;
+    BOOST_TEST_REQUIRE(flock(lock, LOCK_EX) == 0);
+    close(lock);
   }
   Answer killed_after(Microseconds time, bool resumes, bool with_group) const {
     const pid_t pid = start(resumes ? words_to_resume() : words);
@@ -40,6 +50,7 @@ struct KilledProgram : DisturbedProgram {
     kill(with_group ? -pid : pid, SIGKILL);
     const Answer answer = wait_for(pid);
     wait_for_group(pid);
+    wait_for_whoever_publishes();
     return answer;
   }
   // One run over the old outputs, killed, gone on with and killed again, and gone on with to its end.
