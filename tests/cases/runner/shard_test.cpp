@@ -112,6 +112,20 @@ BOOST_AUTO_TEST_CASE(shares_are_of_about_the_same_work) {
   }
 }
 
+// A million steps are a share by themselves, and two short cells and the truth the other.
+BOOST_AUTO_TEST_CASE(a_cell_of_many_steps_outweighs_those_of_few) {
+  const EngineTable table = one_engine();
+  Case definition = drifting_body("case");
+  definition.dt.push_back({1e-6, "1/1000000"});
+  const Results grid = plan_grid({definition}, {parse_run_name("good", table.infos())}, table, {false});
+  BOOST_TEST_REQUIRE(grid.cases[0].cells.size() == 3u);
+  for (const int k : {1, 2}) {
+    const Results share = share_of(grid, {k, 2});
+    for (const Cell& cell : share.cases.at(0).cells)
+      BOOST_TEST((cell.status == Status::crashed) == (k == (cell.dt.seconds < 1e-5 ? 2 : 1)), cell.dt.text);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_thousand_parts_are_merged_in_seconds_to_the_very_same_report) {
   constexpr int kShards = 1000;
   const EngineTable table = one_engine();

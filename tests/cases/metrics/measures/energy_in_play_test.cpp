@@ -92,6 +92,15 @@ BOOST_AUTO_TEST_CASE(what_hangs_by_springs_falls_no_further_than_they_let_it) {
   BOOST_TEST(energy_in_play(scene, 100) == 1000 * 1000, kClose);
 }
 
+BOOST_AUTO_TEST_CASE(less_than_a_joule_is_as_much_as_it_is_and_none_at_all_counts_as_one) {
+  Scene scene;
+  scene.gravity.setZero();
+  scene.bodies = {test::body("slow", 2, {1, 1, 1})};
+  BOOST_TEST(energy_in_play(scene, 10) == 1);
+  scene.bodies[0].velocity = {0.3, 0, 0};
+  BOOST_TEST(energy_in_play(scene, 10) == 0.09, kClose);
+}
+
 BOOST_AUTO_TEST_CASE(springs_and_pushes_add_what_they_store_and_give) {
   Scene scene = ball_over(3, test::plane());
   scene.springs = {test::spring(kWorld, {0, 0, 4.5}, 0, {0, 0, 0}, 100, 0)};  // 1 m long

@@ -211,4 +211,20 @@ BOOST_AUTO_TEST_CASE(velocities_are_brought_to_the_nearest_that_joints_allow) {
   BOOST_TEST((bodies.columns().velocity(0) - Vec3(0, 0.5 * w, 0)).norm() < 1e-14);
 }
 
+// At an instant, not over what comes after it.
+BOOST_AUTO_TEST_CASE(a_force_that_will_end_is_carried_whole_until_it_does) {
+  Scene scene;
+  scene.gravity.setZero();
+  scene.bodies = {test::body("welded", 2, {1, 1, 1})};
+  scene.joints = {{.b = 0, .type = FixedJoint{}}};
+  scene.forces = {{.body = 0, .force = Vec3(3, 0, 0), .until = 0.5}};
+  const BodyTable start = start_of(scene);
+  JointReactions reactions(scene);
+  for (const auto& [time, carried] : {std::pair(0.2, 3.0), {0.7, 0.0}}) {
+    const auto found = reactions.at(start.columns(), time);
+    BOOST_TEST_REQUIRE(found.has_value());
+    BOOST_TEST(found->front().force.norm() == carried, boost::test_tools::tolerance(1e-12));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
