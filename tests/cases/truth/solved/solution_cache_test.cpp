@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 #include <iterator>
+#include <set>
 
 #include "tests/cases/judged.h"
 #include "tests/folder.h"
@@ -157,6 +158,39 @@ BOOST_AUTO_TEST_CASE(every_number_of_limits_and_motors_counts) {
   BOOST_TEST(changed([](Scene& s) { s.motors[0].speed = 1; }));
   BOOST_TEST(changed([](Scene& s) { s.motors[0].speed.reset(); }));
   BOOST_TEST(changed([](Scene& s) { s.motors[0].most = 1; }));
+}
+
+// Two joints of one kind between the same bodies, which differ in where or how they lie, make other motions.
+BOOST_AUTO_TEST_CASE(where_each_kind_of_joint_lies_counts) {
+  const auto with = [](const auto& type) {
+    Scene scene = stopped();
+    scene.joints[0].type = type;
+    return reference_content(scene, 1);
+  };
+  const Vec3 o = Vec3::Zero(), x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  const std::vector<std::string> contents = {with(BallJoint{o}),
+                                             with(BallJoint{x}),
+                                             with(HingeJoint{o, z}),
+                                             with(HingeJoint{x, z}),
+                                             with(HingeJoint{o, x}),
+                                             with(SliderJoint{z}),
+                                             with(SliderJoint{x}),
+                                             with(FixedJoint{}),
+                                             with(DistanceJoint{o, x}),
+                                             with(DistanceJoint{y, x}),
+                                             with(DistanceJoint{o, y}),
+                                             with(UniversalJoint{o, x, y}),
+                                             with(UniversalJoint{z, x, y}),
+                                             with(UniversalJoint{o, z, y}),
+                                             with(UniversalJoint{o, x, z})};
+  BOOST_TEST(std::set<std::string>(contents.begin(), contents.end()).size() == contents.size());
+  Scene other = stopped();
+  other.joints[0].stiffness = 1;
+  BOOST_TEST(reference_content(other, 1) != reference_content(stopped(), 1));
+  other.joints[0].stiffness = 0, other.joints[0].damping = 1;
+  BOOST_TEST(reference_content(other, 1) != reference_content(stopped(), 1));
+  other.joints[0].damping = 0, other.joints[0].rest = 1;
+  BOOST_TEST(reference_content(other, 1) != reference_content(stopped(), 1));
 }
 
 BOOST_AUTO_TEST_CASE(a_solution_in_phases_comes_back_with_them) {
