@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "cases/truth/closed_form/joint/plane_freedoms.h"
 #include "cases/truth/closed_form/joint/swinging_body.h"
 #include "core/base/error.h"
 
@@ -26,6 +28,7 @@ class Linkage {
     find_axis();
     if (!place_cranks()) place_trammel();
     for (const Joint& joint : scene.joints) check(joint);
+    check_freedom();
   }
 
   const ExtendedVec3& axis() const { return axis_; }
@@ -141,6 +144,23 @@ class Linkage {
     if (along.norm() + across.norm() > kLinkageRoundings * size)
       refuse_linkage(fmt::format("the joint of '{}' and '{}' would part as it turns", scene_.body_name(joint.a),
                                  scene_.body_name(joint.b)));
+  }
+
+  // That the angle is all that may change, but where links lie in one line: two poses are not both such.
+  void check_freedom() const {
+    constexpr Extended kAway = 0.7L;  // rad
+    const int least = std::min(freedoms_at(0), freedoms_at(kAway));
+    if (least != 1) refuse_linkage(fmt::format("it has {} freedoms, not one", least));
+  }
+  int freedoms_at(Extended angle) const {
+    std::vector<PlanePose> poses(scene_.bodies.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Swing swing = swings_[i].value_or(Swing{});
+      const int body = static_cast<int>(i);
+      poses[i] = {centre(body) + (std::cos(angle) - 1) * swing.along + std::sin(angle) * swing.across,
+                  swing.turns ? angle : 0};
+    }
+    return plane_freedoms(scene_, axis_, poses);
   }
 
   const Scene& scene_;

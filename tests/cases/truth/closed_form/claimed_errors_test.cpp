@@ -1,0 +1,96 @@
+// What each closed form of the suite claims for its own error. Verdicts end where it passes a tolerance, so that it may
+// only change when somebody means it: a regression of the truths, beside the tests that hold them to other solutions.
+#include <fmt/format.h>
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "cases/case/suite.h"
+#include "cases/truth/provenance.h"
+#include "cases/truth/truth.h"
+#include "core/base/error.h"
+#include "tests/cases/truth/closed_form/smooth/smooth_scenes.h"
+#include "tests/cases/vocabulary.h"
+
+using namespace rigor;
+
+namespace {
+
+const std::filesystem::path kRecorded = RIGOR_SOURCE_DIR "/tests/cases/truth/closed_form/claimed_errors.txt";
+const std::filesystem::path kFound = RIGOR_BUILD_DIR "/tests/claimed_errors.txt";
+
+using Claims = std::vector<std::pair<std::string, std::vector<double>>>;  // by scene, in order
+
+// Over its duration, and over four times that: most scenes leave there what their closed form holds for. A scene that
+// is refused claims nothing.
+std::vector<double> claims_of(const std::string& truth, const Scene& scene, double duration) {
+  std::vector<double> claims;
+  for (const double made_for : {duration, 4 * duration}) {
+    try {
+      const auto made = make_truth(truth, scene, made_for);
+      for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) claims.push_back(made->error(share * made_for));
+    } catch (const InputError&) {
+    }
+  }
+  return claims;
+}
+
+Claims found_claims() {
+  Claims found;
+  for (const Case& c : select_cases({}, default_suite_dir(), test::words())) {
+    if (!provenance_of(c.truth).starts_with("a closed form")) continue;
+    found.emplace_back(fmt::format("{} {}", c.truth, c.id), claims_of(c.truth, c.scene, c.duration));
+  }
+  for (const test::SmoothScene& row : test::smooth_scenes())
+    found.emplace_back(fmt::format("{} {}", row.truth, row.label), claims_of(row.truth, row.scene, row.duration));
+  return found;
+}
+
+void write(const Claims& claims, const std::filesystem::path& file) {
+  std::ofstream out(file);
+  for (const auto& [name, errors] : claims) {
+    out << name << ':';
+    for (const double error : errors) out << fmt::format(" {:.4g}", error);
+    out << '\n';
+  }
+}
+
+Claims read(const std::filesystem::path& file) {
+  Claims claims;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line.substr(line.rfind(':') + 1));
+    claims.emplace_back(line.substr(0, line.rfind(':')), std::vector<double>());
+    for (std::string word; words >> word;) claims.back().second.push_back(std::stod(word));
+  }
+  return claims;
+}
+
+// Four digits are written; what is below a rounding of a nanometre is the rounding of a rounding.
+bool are_same(double a, double b) { return a == b || std::abs(a - b) <= 1e-3 * std::max(a, b) + 1e-25; }
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_claimed_errors)
+
+BOOST_AUTO_TEST_CASE(no_closed_form_claims_another_error_than_was_recorded) {
+  const Claims recorded = read(kRecorded), found = found_claims();
+  write(found, kFound);
+  BOOST_TEST_MESSAGE("the errors as they are now: " << kFound.string());
+  BOOST_REQUIRE(recorded.size() == found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    BOOST_TEST(found[i].first == recorded[i].first);
+    BOOST_TEST_CONTEXT(found[i].first << ", if it is meant: cp " << kFound.string() << ' ' << kRecorded.string()) {
+      BOOST_REQUIRE(found[i].second.size() == recorded[i].second.size());
+      for (std::size_t n = 0; n < found[i].second.size(); ++n)
+        BOOST_TEST(are_same(found[i].second[n], recorded[i].second[n]), "sample " << n << ": " << found[i].second[n]
+                                                                                  << " where " << recorded[i].second[n]
+                                                                                  << " is recorded");
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
