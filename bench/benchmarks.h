@@ -7,7 +7,9 @@
 
 namespace rigor::bench {
 
-void register_steps();   // step_bench.cpp: every engine and method on every scene
+// step_bench.cpp: every engine and method on every scene; those that take part on request only where `filter` is all
+// (".") or names them.
+void register_steps(const std::string& filter);
 void register_limits();  // limits_bench.cpp: what no method can undercut
 // plugin_bench.cpp: engines from outside, as --plugin and RIGOR_PLUGINS name them. Throws InputError.
 void register_plugins(const std::vector<std::string>& plugins);

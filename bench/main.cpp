@@ -70,7 +70,10 @@ int main(int argc, char** argv) {
   int count = static_cast<int>(arguments.left.size());
   benchmark::Initialize(&count, arguments.left.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.left.data())) return 2;
-  bench::register_steps();
+  const std::string filter = arguments.all        ? "."
+                             : arguments.filtered ? benchmark::GetBenchmarkFilter()
+                                                  : bench::filter_of_table();
+  bench::register_steps(filter);
   bench::register_limits();
   bench::register_harness();
   try {
@@ -79,9 +82,6 @@ int main(int argc, char** argv) {
     return std::fprintf(stderr, "%s\n", error.what()), 2;
   }
   bench::RatioTable table;
-  const std::string filter = arguments.all        ? "."
-                             : arguments.filtered ? benchmark::GetBenchmarkFilter()
-                                                  : bench::filter_of_table();
   const std::size_t matched = benchmark::RunSpecifiedBenchmarks(&table, filter);
   benchmark::Shutdown();
   return matched > 0 ? 0 : 2;

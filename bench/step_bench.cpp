@@ -129,10 +129,11 @@ void time_or_skip(benchmark::State& state, const Subject& subject, const std::st
 
 // Every method of every engine; Bullet and ODE on the matched track. And the core's own on one thread and on two by the
 // wall's time.
-std::vector<RunName> runs() {
+std::vector<RunName> runs(const std::string& filter) {
   const std::vector<EngineInfo> infos = infos_of(engines());
   std::vector<RunName> all;
   for (const EngineInfo& info : infos) {
+    if (is_on_request(info.name) && filter != "." && filter.find(info.name) == std::string::npos) continue;
     for (const MethodInfo& method : info.methods) {
       if (!method.twin_of.empty()) continue;  // an instrument, whose speed is of no interest
       all.push_back(parse_run_name(info.name + ":" + method.name, infos));
@@ -179,10 +180,10 @@ bool is_timed_once(const SceneRow& row, const RunName& run) {
 double thread_seconds() { return seconds_by(CLOCK_THREAD_CPUTIME_ID); }
 double wall_seconds() { return seconds_by(CLOCK_MONOTONIC); }
 
-void register_steps() {
+void register_steps(const std::string& filter) {
   for (const SceneRow& row : scenes()) {
     for (const int count : row.sizes) {
-      for (const RunName& run : runs()) {
+      for (const RunName& run : runs(filter)) {
         if (!fits(row, run, count)) continue;
         const std::string text = run.engine + ":" + run.settings.method;
         std::string options;
