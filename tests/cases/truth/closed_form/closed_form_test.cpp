@@ -40,7 +40,8 @@ void check_against_reference(const SmoothScene& row) {
                     b = truth_at(*solved, t, row.scene.bodies.size());
     const double apart = relative_distance(a.columns(), b.columns());
     if (apart > worst) worst = apart, when = t;
-    worst_excess = std::max(worst_excess, distance_between(a.columns(), b.columns()) / (closed->error(t) + solved->error(t)));
+    worst_excess =
+        std::max(worst_excess, distance_between(a.columns(), b.columns()) / (closed->error(t) + solved->error(t)));
   }
   BOOST_TEST_MESSAGE(row.truth << ", " << row.label << ": " << worst << " at " << when << " s; " << worst_excess
                                << " of the errors' sum, " << closed->error(row.duration) << " + "

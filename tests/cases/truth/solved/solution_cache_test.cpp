@@ -193,6 +193,28 @@ BOOST_AUTO_TEST_CASE(where_each_kind_of_joint_lies_counts) {
   BOOST_TEST(reference_content(other, 1) != reference_content(stopped(), 1));
 }
 
+// Bodies that differ in shape or size alone touch elsewhere.
+BOOST_AUTO_TEST_CASE(the_shape_of_what_touches_counts) {
+  const auto with = [](const Shape& shape) {
+    Scene scene = test::dropped_sphere(0.5);
+    scene.bodies[std::holds_alternative<Plane>(shape) ? 1 : 0].shape = shape;
+    return events_content(scene, 1);
+  };
+  const std::vector<std::string> contents = {with(Sphere{0.1}),
+                                             with(Sphere{0.2}),
+                                             with(Box{{1, 1, 1}}),
+                                             with(Box{{2, 1, 1}}),
+                                             with(Box{{1, 2, 1}}),
+                                             with(Box{{1, 1, 2}}),
+                                             with(Capsule{0.1, 1}),
+                                             with(Capsule{0.2, 1}),
+                                             with(Capsule{0.1, 2}),
+                                             with(Plane{Vec3::UnitY(), 0.5}),
+                                             with(Plane{Vec3::UnitY(), 0.25}),
+                                             with(Plane{Vec3::UnitX(), 0.5})};
+  BOOST_TEST(std::set<std::string>(contents.begin(), contents.end()).size() == contents.size());
+}
+
 BOOST_AUTO_TEST_CASE(a_solution_in_phases_comes_back_with_them) {
   const std::string content = reference_content(stopped(), 2);
   const ReferenceSolution solution = solve_reference(stopped(), 2);
