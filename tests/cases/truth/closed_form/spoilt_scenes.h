@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -164,10 +165,48 @@ inline void change_contacts(std::vector<Change>& changes, const Scene& scene) {
                      }});
 }
 
+// The same scene elsewhere, and turned.
+inline void place_elsewhere(Scene& scene, const Quat& turn, const Vec3& by) {
+  const auto put = [&](Vec3& point) { point = turn * point + by; };
+  const auto turned = [&](Vec3& v) { v = turn * v; };
+  turned(scene.gravity);
+  for (Body& body : scene.bodies) {
+    put(body.position), turned(body.velocity), turned(body.angular_velocity);
+    body.orientation = (turn * body.orientation).normalized();
+    auto* plane = body.shape ? std::get_if<Plane>(&*body.shape) : nullptr;
+    if (plane) turned(plane->normal), plane->normal.normalize(), plane->offset += plane->normal.dot(by);
+  }
+  for (Spring& spring : scene.springs) {
+    if (spring.a == kWorld) put(spring.point_a);
+    if (spring.b == kWorld) put(spring.point_b);
+  }
+  for (Joint& joint : scene.joints) {
+    if (auto* ball = std::get_if<BallJoint>(&joint.type)) put(ball->anchor);
+    if (auto* hinge = std::get_if<HingeJoint>(&joint.type)) put(hinge->anchor), turned(hinge->axis);
+    if (auto* slider = std::get_if<SliderJoint>(&joint.type)) turned(slider->axis);
+    if (auto* cross = std::get_if<UniversalJoint>(&joint.type))
+      put(cross->anchor), turned(cross->axis), turned(cross->axis2);
+    if (auto* rod = std::get_if<DistanceJoint>(&joint.type)) {
+      if (joint.a == kWorld) put(rod->point_a);
+      if (joint.b == kWorld) put(rod->point_b);
+    }
+  }
+  for (TimedForce& force : scene.forces) turned(force.force), turned(force.torque);
+}
+
+inline void change_place(std::vector<Change>& changes) {
+  const Vec3 away(0.75, -1.25, 0.5);
+  changes.push_back({"being elsewhere", [=](Scene& s) { place_elsewhere(s, Quat::Identity(), away); }});
+  const Quat quarter(std::sqrt(0.5), 0, std::sqrt(0.5), 0);
+  changes.push_back({"being turned", [=](Scene& s) { place_elsewhere(s, quarter, Vec3::Zero()); }});
+  changes.push_back(
+      {"being elsewhere and aslant", [=](Scene& s) { place_elsewhere(s, rotation_by(Vec3(0.3, 0.5, 0.7)), away); }});
+}
+
 inline std::vector<Change> changes_of(const Scene& scene) {
   std::vector<Change> changes = {{"nothing", [](Scene&) {}}};
   change_bodies(changes, scene), change_springs_and_forces(changes, scene);
-  change_joints(changes, scene), change_contacts(changes, scene);
+  change_joints(changes, scene), change_contacts(changes, scene), change_place(changes);
   return changes;
 }
 
