@@ -21,15 +21,21 @@ bool is_word(const std::string& text) {
          text.find_first_of("*!") != std::string::npos || text.starts_with("order");
 }
 
-// `*` stands for any letters, also for none.
+// `*` stands for any letters, also for none. What stands between two is taken where it first comes, which leaves the
+// rest most room: many stars take no longer than one.
 bool matches(std::string_view pattern, std::string_view text) {
-  const std::size_t star = pattern.find('*');
+  std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) return pattern == text;
-  if (text.substr(0, star) != pattern.substr(0, star)) return false;
-  for (std::size_t at = star; at <= text.size(); ++at) {
-    if (matches(pattern.substr(star + 1), text.substr(at))) return true;
+  if (!text.starts_with(pattern.substr(0, star))) return false;
+  text.remove_prefix(star);
+  while (true) {
+    pattern.remove_prefix(star + 1);
+    star = pattern.find('*');
+    if (star == std::string_view::npos) return text.ends_with(pattern);
+    const std::size_t at = text.find(pattern.substr(0, star));
+    if (at == std::string_view::npos) return false;
+    text.remove_prefix(at + star);
   }
-  return false;
 }
 
 // A name with *, split as a run's is.

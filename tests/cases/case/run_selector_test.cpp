@@ -66,6 +66,24 @@ BOOST_AUTO_TEST_CASE(runs_are_selected_by_name_and_by_what_they_are) {
     BOOST_TEST(selected(selector) == names, selector << ": " << selected(selector));
 }
 
+BOOST_AUTO_TEST_CASE(stars_stand_for_any_letters) {
+  BOOST_TEST(selected("core:*") == "core:euler core:rk4 core:adaptive8");
+  BOOST_TEST(selected("core:*r*") == "core:euler core:rk4");
+  BOOST_TEST(selected("core:**rk**4**") == "core:rk4");
+  BOOST_TEST(selected("*:*a*e*8*") == "core:adaptive8");
+  // Letters count once: none is both before a star and behind it.
+  for (const char* none : {"core:rk4*4", "core:*k4*k4", "core:*4*rk*", "core:*rk4x*"})
+    BOOST_CHECK_THROW(selected(none), InputError);
+}
+
+// Each star doubled the time once.
+BOOST_AUTO_TEST_CASE(many_stars_take_no_time) {
+  std::string stars;
+  for (int n = 0; n < 10000; ++n) stars += n % 3 == 0 ? "*" : "*e*";
+  BOOST_CHECK_THROW(selected("core:" + stars + "x"), InputError);
+  BOOST_CHECK_THROW(selected("core:adaptive8" + std::string(10000, '*') + "x"), InputError);
+}
+
 BOOST_AUTO_TEST_CASE(a_name_of_one_run_is_no_selector) {
   for (const char* name : {"core:rk4", "toy", "toy@stock", "core:rk4,contact=event", "toy,contact=event@stock"})
     BOOST_TEST(!is_run_selector(name), name);
