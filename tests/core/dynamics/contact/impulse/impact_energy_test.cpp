@@ -35,8 +35,7 @@ Scene falling_pair(unsigned seed) {
   const double tilt = 0.6 * some(random);
   const Vec3 along(std::cos(tilt), std::sin(tilt), 0);
   for (int i = 0; i < 2; ++i) {
-    Body bar =
-        test::solid(i == 0 ? "first" : "second", Box{{0.4, 0.06, 0.06}}, {0.4 * i * along + Vec3(0, 0.35, 0)}, 1);
+    Body bar = test::solid(i == 0 ? "first" : "second", Box{{0.4, 0.06, 0.06}}, 0.4 * i * along + Vec3(0, 0.35, 0), 1);
     bar.orientation = rotation_by(Vec3(0, 0, tilt));
     scene.bodies.push_back(bar);
   }
