@@ -21,6 +21,7 @@
 #include "adapters/plugin/in_quotes.h"
 #include "adapters/plugin/memory_limit.h"
 #include "core/base/error.h"
+#include "core/base/sanitizers.h"
 
 namespace rigor {
 namespace {
@@ -32,18 +33,7 @@ std::string called(const std::string& path) { return fmt::format("plug-in '{}'",
 
 // An engine's own copy of a library that Rigor links, Bullet in single precision say, must find its own symbols first.
 // The address sanitizer cannot be bypassed like that.
-#if defined(__has_feature)
-#define RIGOR_HAS_ASAN __has_feature(address_sanitizer)
-#elif defined(__SANITIZE_ADDRESS__)
-#define RIGOR_HAS_ASAN 1
-#else
-#define RIGOR_HAS_ASAN 0
-#endif
-#if RIGOR_HAS_ASAN
-constexpr int kHow = RTLD_NOW | RTLD_LOCAL;
-#else
-constexpr int kHow = RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND;
-#endif
+constexpr int kHow = RTLD_NOW | RTLD_LOCAL | (kHasAddressSanitizer ? 0 : RTLD_DEEPBIND);
 
 std::string asked_info(const rigor_engine_v1& engine, const std::string& path) {
   std::vector<char> room(kRoomForText, '\0');

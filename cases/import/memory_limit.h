@@ -9,14 +9,12 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/sanitizers.h"
 
 namespace rigor {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kMemoryIsCounted = false;  // a sanitizer's own maps are terabytes
-#else
-inline constexpr bool kMemoryIsCounted = true;
-#endif
+// A sanitizer's own maps are terabytes.
+inline constexpr bool kMemoryIsCounted = !kHasAddressSanitizer && !kHasThreadSanitizer;
 
 // While it lives no more than `most` bytes can be had beside those that the process has.
 class MemoryLimit {
