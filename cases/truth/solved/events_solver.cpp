@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cases/truth/distance.h"
+#include "cases/truth/solved/pose_interpolation.h"
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/joints/joint_stops.h"
 
@@ -108,36 +109,6 @@ ReferenceSolution solve(const Scene& scene, double duration, const Way& way, dou
   }
   solution.complete = true;
   return solution;
-}
-
-// The rotation vector's rate of change where the body turns at w: the inverse of the left Jacobian, by its series.
-Vec3 rate_of(const Vec3& turn, const Vec3& w) {
-  const Vec3 once = turn.cross(w), twice = turn.cross(once);
-  return w - 0.5 * once + twice / 12 + turn.cross(turn.cross(twice)) / 720;
-}
-// And back again, by its series.
-Vec3 angular_velocity_of(const Vec3& turn, const Vec3& rate) {
-  const Vec3 once = turn.cross(rate), twice = turn.cross(once);
-  return rate + 0.5 * once + twice / 6 + turn.cross(twice) / 24 + turn.cross(turn.cross(twice)) / 120;
-}
-
-struct Cubic {
-  Vec3 value, rate;
-};
-Cubic hermite(const Vec3& p0, const Vec3& v0, const Vec3& p1, const Vec3& v1, double h, double s) {
-  const Vec3 a = h * v0, b = 3 * (p1 - p0) - h * (2 * v0 + v1), c = 2 * (p0 - p1) + h * (v0 + v1);
-  return {p0 + s * (a + s * (b + s * c)), (a + s * (2 * b + 3 * s * c)) / h};
-}
-
-BodyState between(const BodyState& from, const BodyState& to, double h, double s) {
-  const Cubic path = hermite(from.position, from.velocity, to.position, to.velocity, h, s);
-  Quat turned = to.orientation * from.orientation.conjugate();
-  if (turned.w() < 0) turned.coeffs() *= -1;
-  const double sine = turned.vec().norm();
-  const Vec3 turn = sine > 0 ? Vec3(2 * std::atan2(sine, turned.w()) / sine * turned.vec()) : Vec3(Vec3::Zero());
-  const Cubic turning = hermite(Vec3::Zero(), from.angular_velocity, turn, rate_of(turn, to.angular_velocity), h, s);
-  return {path.value, (rotation_by(turning.value) * from.orientation).normalized(), path.rate,
-          angular_velocity_of(turning.value, turning.rate)};
 }
 
 // Into `fine`: its error at each of its nodes as long as `coarse` goes.

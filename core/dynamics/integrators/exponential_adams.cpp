@@ -13,6 +13,7 @@
 // timed force begins or ends is left to the adaptive method of Dormand and Prince.
 #include <algorithm>
 
+#include "core/base/rotation_vector.h"
 #include "core/dynamics/integrators/continuation.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/integrators/phi_functions.h"
@@ -43,21 +44,6 @@ Weights weights_of(const PhiFunctions& phi, const Nodes& nodes, double h) {
     weights[j] = h * (c[0] * phi[1] + c[1] * phi[2] + 2 * c[2] * phi[3] + 6 * c[3] * phi[4]);
   }
   return weights;
-}
-
-// d phi = inverse_left_jacobian · w dt: see implicit_midpoint.cpp for its inverse.
-Vec3 rate_of_rotation_vector(const Vec3& phi, const Vec3& w) {
-  const double theta = phi.norm();
-  const Vec3 turn = phi.cross(w);
-  const double c = theta < 1e-3 ? 1.0 / 12 + theta * theta / 720
-                                : (1 - 0.5 * theta * std::cos(0.5 * theta) / std::sin(0.5 * theta)) / (theta * theta);
-  return w - 0.5 * turn + c * phi.cross(turn);
-}
-
-Vec3 rotation_vector_of(const Quat& q) {
-  const double s = q.vec().norm(), angle = 2 * std::atan2(s, std::abs(q.w()));
-  const double scale = s < 1e-8 ? 2 : angle / s;
-  return (q.w() < 0 ? -scale : scale) * q.vec();
 }
 
 // One body's motion about its pose of reference.

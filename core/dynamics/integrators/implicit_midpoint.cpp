@@ -8,6 +8,7 @@
 
 #include <utility>
 
+#include "core/base/rotation_vector.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/model/block_system.h"
 
@@ -16,15 +17,6 @@ namespace {
 
 constexpr int kMostIterations = 50;
 constexpr double kLastCorrection = 1e-9;  // relative; Newton's next correction is about its square
-
-// d exp(phi) = exp([J d phi]x) exp(phi): the left Jacobian of the rotations.
-Mat3 left_jacobian(const Vec3& phi) {
-  const double theta = phi.norm();
-  const Mat3 cross = cross_matrix(phi);
-  if (theta < 1e-5) return Mat3::Identity() + 0.5 * cross;  // the next term is below 2e-11, far below what Newton needs
-  return Mat3::Identity() + (1 - std::cos(theta)) / (theta * theta) * cross +
-         (theta - std::sin(theta)) / (theta * theta * theta) * cross * cross;
-}
 
 class ImplicitMidpoint : public Stepper {
  public:
