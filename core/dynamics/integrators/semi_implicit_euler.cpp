@@ -23,7 +23,7 @@ class SemiImplicitEuler : public Stepper {
   explicit SemiImplicitEuler(const StepperParts& parts) : parts_(parts), passes_(parts), wrenches_(parts.system) {
     if (!parts.joints || !parts.scene || parts.orientation->keeps_matrix) return;
     if (BallJoints::are_all_of(*parts.scene) && parts.joints->rank() == parts.joints->rows())
-      balls_.emplace(*parts.scene, parts.system, kClosed * parts.joints->size());
+      balls_.emplace(*parts.scene, parts.system, parts.joints->size(), kClosed);
   }
 
   void step(MutableBodyColumns state, double t, double dt) override {
@@ -63,7 +63,7 @@ class SemiImplicitEuler : public Stepper {
   StepperParts parts_;
   EulerPasses passes_;
   WrenchColumns wrenches_;
-  std::optional<BallJoints> balls_;  // where all joints are such
+  std::optional<BallJoints> balls_;  // where all joints are such, or hinges
   BodyTable end_;
 };
 

@@ -1,5 +1,5 @@
-// The kernels of ball joints (ball_rows.h); kernels.h says what each does. Included once by each kernels_*.cpp, on
-// purpose without a guard.
+// The kernels of ball joints and hinges (ball_rows.h); ball_kernels.h says what each does. Included once by each
+// kernels_*.cpp, on purpose without a guard.
 
 template <class T>
 RIGOR_INLINE V3<T> column3(T, const double* row, int column) {
@@ -35,10 +35,23 @@ void gather_poses(const Bodies& b, const double* state, double* poses) {
   });
 }
 
+// Without what lies along n, of length 1 or 0.
+template <class T>
+RIGOR_INLINE V3<T> across(V3<T> a, V3<T> n) {
+  return a - dot(n, a) * n;
+}
+// Of a matrix by its columns: what lies along r from the left, and along c from the right.
+template <class T>
+RIGOR_INLINE M3<T> across(const M3<T>& by, V3<T> r, V3<T> c) {
+  const M3<T> left = {across(by.x, r), across(by.y, r), across(by.z, r)};
+  const V3<T> along = c.x * left.x + c.y * left.y + c.z * left.z;
+  return {left.x - c.x * along, left.y - c.y * along, left.z - c.z * along};
+}
+
 void prepare_balls(const BallRows& balls, const double* poses, const double* velocities, double h) {
-  for_rows(0, balls.joints, [&](auto lane, std::size_t p) RIGOR_LAMBDA {
+  for_rows(0, balls.pins, [&](auto lane, std::size_t p) RIGOR_LAMBDA {
     using T = decltype(lane);
-    double* const row = balls.by_joint + start_of_row(p, kBallColumns);
+    double* const row = balls.by_pin + start_of_row(p, kBallColumns);
     const Pose<T> a = pose_of(get_record(T(), poses, balls.a + p)), b = pose_of(get_record(T(), poses, balls.b + p));
     const Twist<T> u = twist_of(get_record(T(), velocities, balls.a + p)),
                    v = twist_of(get_record(T(), velocities, balls.b + p));
@@ -47,8 +60,13 @@ void prepare_balls(const BallRows& balls, const double* poses, const double* vel
     const V3<T> gap = (b.x - a.x) + (arm_b - arm_a), rate = (v.v - u.v) + (turn_b - turn_a);
     const V3<T> bias = cross(v.w, turn_b) - cross(u.w, turn_a);
     put_column3(row, kArmOfA, arm_a), put_column3(row, kArmOfB, arm_b);
-    put_column3(row, kRightSide,
-                broadcast(T(), -1) * (rate + broadcast(T(), 0.5 * h) * bias + broadcast(T(), 1 / h) * gap));
+    V3<T> right_side = broadcast(T(), -1) * (rate + broadcast(T(), 0.5 * h) * bias + broadcast(T(), 1 / h) * gap);
+    if (balls.has_axes) {
+      const V3<T> axis = matrix_of(a.q) * column3(T(), row, kAxisInA);
+      put_column3(row, kAxis, axis);
+      right_side = across(right_side, axis);
+    }
+    put_column3(row, kRightSide, right_side);
   });
 }
 
@@ -63,28 +81,51 @@ RIGOR_INLINE M3<T> response_of(const Record<T>& body, V3<T> r, V3<T> s) {
   return by;
 }
 
-void assemble_balls(const BallRows& balls) {
-  for_rows(0, balls.joints, [&](auto lane, std::size_t p) RIGOR_LAMBDA {
+// Of a symmetric matrix what is across n from both sides and, so that it has an inverse, what it has along n:
+// D - (n kᵀ + k nᵀ) with k = (1 - n nᵀ) D n.
+template <class T>
+RIGOR_INLINE Symmetric<T> parted(const Symmetric<T>& D, V3<T> n) {
+  const V3<T> k = across(D * n, n);
+  const T two = broadcast(T(), 2);
+  return {D.xx - two * n.x * k.x,         D.yy - two * n.y * k.y,         D.zz - two * n.z * k.z,
+          D.xy - (n.x * k.y + k.x * n.y), D.xz - (n.x * k.z + k.x * n.z), D.yz - (n.y * k.z + k.y * n.z)};
+}
+
+void assemble_diagonal(const BallRows& balls) {
+  for_rows(0, balls.pins, [&](auto lane, std::size_t p) RIGOR_LAMBDA {
     using T = decltype(lane);
-    double* const row = balls.by_joint + start_of_row(p, kBallColumns);
+    double* const row = balls.by_pin + start_of_row(p, kBallColumns);
     const V3<T> arm_a = column3(T(), row, kArmOfA), arm_b = column3(T(), row, kArmOfB);
     const M3<T> of_a = response_of(get_record(T(), balls.inverse_inertias, balls.a + p), arm_a, arm_a);
     const M3<T> of_b = response_of(get_record(T(), balls.inverse_inertias, balls.b + p), arm_b, arm_b);
-    const V3<T> diagonal = {of_a.x.x + of_b.x.x, of_a.y.y + of_b.y.y, of_a.z.z + of_b.z.z};
-    put_column3(row, kDiagonal, diagonal);
-    put_column3(row, kDiagonal + 3, V3<T>{of_a.y.x + of_b.y.x, of_a.z.x + of_b.z.x, of_a.z.y + of_b.z.y});
-    store(row + 8 * kScale, diagonal.x * diagonal.y * diagonal.z);
+    Symmetric<T> D = {of_a.x.x + of_b.x.x, of_a.y.y + of_b.y.y, of_a.z.z + of_b.z.z,
+                      of_a.y.x + of_b.y.x, of_a.z.x + of_b.z.x, of_a.z.y + of_b.z.y};
+    if (balls.has_axes) D = parted(D, column3(T(), row, kAxis));
+    put_column3(row, kDiagonal, V3<T>{D.xx, D.yy, D.zz}), put_column3(row, kDiagonal + 3, V3<T>{D.xy, D.xz, D.yz});
+    store(row + 8 * kScale, D.xx * D.yy * D.zz);
   });
-  for_rows(0, balls.couplings, [&](auto lane, std::size_t u) RIGOR_LAMBDA {
+}
+
+void assemble_couplings(const BallRows& balls, const BallCouplings& couplings) {
+  for_rows(0, couplings.size, [&](auto lane, std::size_t u) RIGOR_LAMBDA {
     using T = decltype(lane);
-    double* const row = balls.by_coupling + start_of_row(u, kCouplingColumns);
+    double* const row = couplings.blocks + start_of_row(u, kCouplingColumns);
     const T sign = load(T(), row + 8 * kSign);
-    const M3<T> by = response_of(get_record(T(), balls.inverse_inertias, balls.body + u),
-                                 gather3(T(), balls.by_joint, balls.row_arm + u),
-                                 gather3(T(), balls.by_joint, balls.column_arm + u));
+    M3<T> by = response_of(get_record(T(), balls.inverse_inertias, couplings.body + u),
+                           gather3(T(), balls.by_pin, couplings.row_arm + u),
+                           gather3(T(), balls.by_pin, couplings.column_arm + u));
+    if (balls.has_axes)
+      by = across(by, gather3(T(), balls.by_pin, couplings.row_axis + u),
+                  gather3(T(), balls.by_pin, couplings.column_axis + u));
     put_column3(row, kBlock, sign * by.x), put_column3(row, kBlock + 3, sign * by.y);
     put_column3(row, kBlock + 6, sign * by.z);
   });
+}
+
+void assemble_balls(const BallRows& balls) {
+  assemble_diagonal(balls);
+  assemble_couplings(balls, balls.first);
+  assemble_couplings(balls, balls.other);
 }
 
 void push_and_drift(const Bodies& b, const double* start, const double* impulses, const double* inverse_inertias,
@@ -115,13 +156,15 @@ RIGOR_INLINE T larger(T x, T y) {
 
 double measure_balls(const BallRows& balls, const double* poses, double h) {
   double widest = 0;
-  for_rows(0, balls.joints, [&](auto lane, std::size_t p) RIGOR_LAMBDA {
+  for_rows(0, balls.pins, [&](auto lane, std::size_t p) RIGOR_LAMBDA {
     using T = decltype(lane);
-    double* const row = balls.by_joint + start_of_row(p, kBallColumns);
+    double* const row = balls.by_pin + start_of_row(p, kBallColumns);
     const Pose<T> a = pose_of(get_record(T(), poses, balls.a + p)), b = pose_of(get_record(T(), poses, balls.b + p));
     const V3<T> reach = matrix_of(a.q) * column3(T(), row, kPinA) - matrix_of(b.q) * column3(T(), row, kPinB);
     const V3<T> gap = (b.x - a.x) - reach;
-    put_column3(row, kReach, reach), put_column3(row, kRightSide, broadcast(T(), -1 / h) * gap);
+    V3<T> right_side = broadcast(T(), -1 / h) * gap;
+    if (balls.has_axes) right_side = across(right_side, column3(T(), row, kAxis));
+    put_column3(row, kReach, reach), put_column3(row, kRightSide, right_side);
     double sizes[width_of(T())];
     store(sizes, larger(larger(size_of(gap.x), size_of(gap.y)), size_of(gap.z)));
     for (const double size : sizes) widest = size <= widest ? widest : size;

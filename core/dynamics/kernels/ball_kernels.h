@@ -1,5 +1,5 @@
-// The inner loops of ball joints (ball_rows.h), several joints or bodies at once, in the instruction set of the table
-// that is in use (kernels.h), with the same bits in each.
+// The inner loops of ball joints and hinges (ball_rows.h), several pins or bodies at once, in the instruction set of
+// the table that is in use (kernels.h), with the same bits in each.
 #pragma once
 
 #include "core/dynamics/kernels/ball_rows.h"
@@ -10,9 +10,9 @@ namespace rigor {
 struct BallKernels {
   // Positions and orientations to records.
   void (*gather_poses)(const Bodies&, const double* state, double* poses);
-  // Arms in W, and the right side of the equations for the impulse that closes the joints h [s] later.
+  // Arms in W, and the right side of the equations for the impulse that closes the pins h [s] later.
   void (*prepare)(const BallRows&, const double* poses, const double* velocities, double h);
-  // The Delassus matrix of those arms.
+  // The Delassus matrix of those arms: its diagonal, and the blocks of both kinds of couplings.
   void (*assemble)(const BallRows&);
   // An impulse at the poses of `start` and a drift over dt, to `end` and to its records.
   void (*push_and_drift)(const Bodies&, const double* start, const double* impulses, const double* inverse_inertias,

@@ -1,6 +1,7 @@
-// What the kernels of ball joints work on (joints/ball_joints.h is the method): joints and couplings, which are two
-// joints on one body, in blocks of eight rows, and records of eight doubles a body (contact_rows.h). Vectors in W. Rows
-// that fill a block are of the world alone, whose record comes after the bodies'.
+// What the kernels of ball joints and hinges work on (joints/ball_joints.h is the method): pins and couplings, which
+// are two pins on one body, in blocks of eight rows, and records of eight doubles a body (contact_rows.h). A pin holds
+// two points together, or, of a hinge's second, all of them but what lies along its axis. Vectors in W. Rows that fill
+// a block are of the world alone, whose record comes after the bodies'.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +12,20 @@ namespace rigor {
 enum PoseRecord { kPosePosition = 0, kPoseOrientation = 3 };
 
 enum BallColumn {
-  kPinA = 0,  // m, of the joint in each end's frame
+  kPinA = 0,  // m, of the pin in each end's frame
   kPinB = 3,
   kArmOfA = 6,  // m, the same in W, at the start of a step
   kArmOfB = 9,
   kRightSide = 12,  // m/s: of the equations for the impulse
-  kReach = 15,      // m, from a's centre to b's where the joint is closed
+  kReach = 15,      // m, from a's centre to b's where the pin is closed
   kDiagonal = 18,   // 1/kg: the block of the Delassus matrix, xx, yy, zz, xy, xz, yz,
   kScale = 24,      // and the product of the first three
-  kBallColumns = 25
+  kAxisInA = 25,    // along which the pin is free, in a's frame; zero if along none
+  kAxis = 28,       // the same in W, at the start of a step
+  kBallColumns = 31
 };
 enum CouplingColumn {
-  kBlock = 0,  // 1/kg: of the row's joint and the column's, column by column
+  kBlock = 0,  // 1/kg: of the row's pin and the column's, column by column
   kSign = 9,   // 1 if the body is at the same end of both, -1 if not, 0 if there is none
   kCouplingColumns = 10
 };
@@ -30,13 +33,20 @@ enum CouplingColumn {
 // Column 0 of a row; column c is 8 c further on.
 inline std::size_t start_of_row(std::size_t row, int columns) { return (row & ~std::size_t{7}) * columns + (row & 7); }
 
+// Couplings by the body that both pins are on.
+struct BallCouplings {
+  std::size_t size;
+  double* blocks;  // CouplingColumn
+  // The body's record, and where among the pins' columns the arms of both, and their axes, stand.
+  const std::int32_t *body, *row_arm, *column_arm, *row_axis, *column_axis;
+};
+
 struct BallRows {
-  std::size_t joints, couplings;
-  double* by_joint;           // BallColumn
-  double* by_coupling;        // CouplingColumn
-  const std::int32_t *a, *b;  // records of the joints' bodies
-  // Of a coupling: its body's record, and where in by_joint the arms of both joints stand.
-  const std::int32_t *body, *row_arm, *column_arm;
+  std::size_t pins;
+  bool has_axes;
+  double* by_pin;              // BallColumn
+  const std::int32_t *a, *b;   // records of the pins' bodies
+  BallCouplings first, other;  // other: by the second body of two pins that hold the same two, to be added to the first
   const double* inverse_inertias;  // records as SolverBodies has them
 };
 

@@ -1,5 +1,5 @@
-// What holds ball joints alone against what holds every kind of joint: the same motion, in every instruction set the
-// same bits, and of trees no gap but the rounding of positions.
+// What holds ball joints and hinges alone against what holds every kind of joint: the same motion, in every instruction
+// set the same bits, and of trees no gap but the rounding of positions and what is left of directions.
 #include "core/dynamics/joints/ball_joints.h"
 
 #include <boost/test/unit_test.hpp>
@@ -57,13 +57,40 @@ Scene garland() {
   return scene;
 }
 
+// Every second joint, and the first, a hinge about an axis of its own.
+Scene hinged(Scene scene) {
+  for (std::size_t k = 0; k < scene.joints.size(); k += 2) {
+    const auto s = static_cast<double>(k);
+    const Vec3 axis = Vec3(std::cos(s), std::sin(3 * s), 0.3).normalized();
+    scene.joints[k].type = HingeJoint{std::get<BallJoint>(scene.joints[k].type).anchor, axis};
+  }
+  return scene;
+}
+
+// A hinge with a spring, and one with a motor of given torque, on bodies that turn as it allows.
+Scene driven_hinges() {
+  Scene scene = linked({kWorld, 0});
+  for (Joint& joint : scene.joints) joint.type = HingeJoint{std::get<BallJoint>(joint.type).anchor, Vec3(0.6, 0, 0.8)};
+  scene.joints[0].stiffness = 2, scene.joints[0].damping = 0.1;
+  scene.motors.push_back({.joint = 1, .effort = 0.3, .until = 1});
+  const Vec3 w = Vec3(1.2, 0, 1.6), at = std::get<HingeJoint>(scene.joints[0].type).anchor;
+  for (Body& body : scene.bodies) body.angular_velocity = w, body.velocity = w.cross(body.position - at);
+  return scene;
+}
+
 const std::vector<std::pair<std::string, Scene>>& scenes() {
   static const std::vector<std::pair<std::string, Scene>> all = {
       {"one link", chain(1)},
       {"chain", chain(21)},
       {"tree", linked({kWorld, 0, 0, 0, 1, 1, 2, 6, 6, 6, 6})},
       {"floating star", floating_star()},
-      {"garland", garland()}};
+      {"garland", garland()},
+      {"one hinge", hinged(chain(1))},
+      {"chain of hinges and balls", hinged(chain(21))},
+      {"tree of hinges and balls", hinged(linked({kWorld, 0, 0, 0, 1, 1, 2, 6, 6, 6, 6}))},
+      {"floating star of hinges and balls", hinged(floating_star())},
+      {"garland of hinges and balls", hinged(garland())},
+      {"driven hinges", driven_hinges()}};
   return all;
 }
 
@@ -128,10 +155,14 @@ BOOST_AUTO_TEST_CASE(every_instruction_set_gives_the_same_bits) {
 // Bodies that are put on their joints leave what a sum of three numbers of up to 8 m rounds: three times 8.9e-16 m.
 BOOST_AUTO_TEST_CASE(trees_keep_no_gap_but_rounding) {
   for (const auto& [name, scene] : scenes()) {
-    if (name == "garland") continue;
+    if (name.starts_with("garland")) continue;
+    const bool has_hinges = name.find("hinge") != std::string::npos;
     const System system(scene);
     Joints joints(scene, system);
-    BOOST_TEST_CONTEXT(name) { BOOST_TEST(joints.gap(stepped(scene, true, 240).columns()) < 3e-15); }
+    // Directions are closed to 1e-11 and not put where they belong.
+    BOOST_TEST_CONTEXT(name) {
+      BOOST_TEST(joints.gap(stepped(scene, true, 240).columns()) < (has_hinges ? 1e-11 : 3e-15));
+    }
   }
 }
 
@@ -145,12 +176,14 @@ BOOST_AUTO_TEST_CASE(steps_without_such_an_impulse_are_handed_on) {
 }
 
 BOOST_AUTO_TEST_CASE(other_joints_and_pairs_held_twice_are_not_taken) {
-  Scene hinged = chain(3);
-  hinged.joints[1].type = HingeJoint{std::get<BallJoint>(hinged.joints[1].type).anchor, Vec3::UnitX()};
-  BOOST_TEST(!BallJoints::are_all_of(hinged));
-  Scene twice = chain(3);
+  const Scene taken = hinged(chain(3));
+  BOOST_TEST(BallJoints::are_all_of(taken));
+  Scene sliding = taken, limited = taken, driven = taken, twice = taken;
+  sliding.joints[1].type = SliderJoint{Vec3::UnitX()};
+  limited.joints[2].upper = 1;
+  driven.motors.push_back({.joint = 0, .speed = 1.0, .most = 2});
   twice.joints.push_back({.a = 1, .b = 0, .type = BallJoint{Vec3(1, 2, 3)}});
-  BOOST_TEST(!BallJoints::are_all_of(twice));
+  for (const Scene* scene : {&sliding, &limited, &driven, &twice}) BOOST_TEST(!BallJoints::are_all_of(*scene));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
