@@ -61,7 +61,7 @@ Scene garland() {
 Scene hinged(Scene scene) {
   for (std::size_t k = 0; k < scene.joints.size(); k += 2) {
     const auto s = static_cast<double>(k);
-    const Vec3 axis = Vec3(std::cos(s), std::sin(3 * s), 0.3).normalized();
+    const Vec3 axis = Vec3(std::cos(s), 0.5 + std::sin(3 * s), 0.3).normalized();
     scene.joints[k].type = HingeJoint{std::get<BallJoint>(scene.joints[k].type).anchor, axis};
   }
   return scene;
@@ -72,7 +72,7 @@ Scene driven_hinges() {
   Scene scene = linked({kWorld, 0});
   for (Joint& joint : scene.joints) joint.type = HingeJoint{std::get<BallJoint>(joint.type).anchor, Vec3(0.6, 0, 0.8)};
   scene.joints[0].stiffness = 2, scene.joints[0].damping = 0.1;
-  scene.motors.push_back({.joint = 1, .effort = 0.3, .until = 1});
+  scene.motors.push_back({.joint = 1, .effort = 0.3, .speed = {}, .until = 1});
   const Vec3 w = Vec3(1.2, 0, 1.6), at = std::get<HingeJoint>(scene.joints[0].type).anchor;
   for (Body& body : scene.bodies) body.angular_velocity = w, body.velocity = w.cross(body.position - at);
   return scene;
