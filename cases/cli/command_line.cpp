@@ -23,7 +23,7 @@ namespace {
 // As typed; numbers are read afterwards, so that each is refused in the same words as one in a case file.
 struct Typed {
   std::vector<std::string> dt;
-  std::string duration, jobs, shard, samples, seed, every = "1", limit = "60", times,
+  std::string duration, jobs, shard, samples, seed, every = "1", limit = "120", times,
                                                     factor = fmt::format("{:g}", kDefaultFactor);
 };
 

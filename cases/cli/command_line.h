@@ -20,7 +20,7 @@ struct CommandLine {
   std::vector<double> times;       // s; for `truth`
   int jobs = 1;
   int every = 1;
-  double limit = 60;  // s
+  double limit = 120;  // s
   double factor = 0;  // by which an error has to grow to be worse
   std::string out = "out";
   std::string suite_dir;

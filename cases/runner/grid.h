@@ -24,7 +24,7 @@ void override_run(Case& definition, const Overrides& overrides);
 
 struct GridOptions {
   int jobs = 1;                        // children at once
-  double limit = 60;                   // s of CPU time, for each cell, each stable step and each truth
+  double limit = 120;                  // s of CPU time, for each cell, each stable step and each truth
   Recorders recorders;                 // of every run
   bool stable_steps = true;            // find the largest stable dt as well
   bool is_thorough = true;             // times each run and repeats it by its twin, also where no gate asks for it

@@ -52,6 +52,16 @@ inline Scene oscillator(double damping) {
   return scene;
 }
 
+// Along a line that the rounding of its numbers misses, of velocity and of gravity otherwise; pressed at times, so that
+// what is beside the line grows.
+inline Scene slanted_oscillator() {
+  Scene scene = oscillator(0.5);
+  const Vec3 line(0.1, 0.7, 0.3);
+  scene.gravity = 3 * line;
+  scene.bodies[0].position = 1.9 * line, scene.bodies[0].velocity = -2.3 * line;
+  return scene;
+}
+
 inline Scene hanging_oscillator(double damping) {
   Scene scene;
   scene.gravity = {0, 0, -9.81};
@@ -146,6 +156,7 @@ inline std::vector<SmoothScene> smooth_scenes() {
       {"oscillator", "overdamped", oscillator(60), 20, false},
       {"oscillator", "hanging from a body, spinning", hanging_oscillator(0), 20},
       {"oscillator", "hanging, damped", hanging_oscillator(4), 20, false},
+      {"oscillator", "off its line by roundings", slanted_oscillator(), 2, false},
       {"oscillator", "through the anchor", spring_of_no_length(), 20, false},
       {"principal-torque", "two torques", torqued(), 5, false},
       {"principal-torque", "from rest", torqued_from_rest(), 5, false},
