@@ -10,14 +10,14 @@ namespace rigor {
 
 inline constexpr std::uint64_t kHashOfNothing = 14695981039346656037u;
 
-// `so_far`: the hash of what stands before these bytes.
+// `so_far` is the hash of all bytes before these.
 inline std::uint64_t content_hash(std::string_view bytes, std::uint64_t so_far = kHashOfNothing) {
   for (const char c : bytes) so_far = (so_far ^ static_cast<unsigned char>(c)) * 1099511628211u;
   return so_far;
 }
 
-// Of a file's bytes, eight at a time: a program and its libraries are a hundred megabytes. What cannot be read counts
-// as empty.
+// Hash of a file's bytes, eight at a time, because a program and its libraries have a hundred megabytes. An unreadable
+// file counts as empty.
 std::uint64_t hash_of_file(const std::string& path, std::uint64_t so_far = kHashOfNothing);
 
 }  // namespace rigor

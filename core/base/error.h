@@ -1,5 +1,5 @@
-// Bad input throws one type. Its text is a whole sentence for the person who gave the input: where it stands, what was
-// found, what is allowed. What an engine cannot do, and a simulation that blows up, are results and not errors.
+// Bad input throws this one type. The text is a whole sentence for the user: the place, what was found, what is
+// allowed. Limits of an engine and a simulation that blows up are results, not errors.
 #pragma once
 
 #include <stdexcept>

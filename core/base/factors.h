@@ -1,5 +1,5 @@
-// Systems of linear equations by Eigen's factorisations, of which each takes a compiler seconds: they are compiled
-// here, for whoever solves. Unknowns and right sides are in whatever units the matrix is.
+// Linear systems solved with Eigen's factorisations. Each factorisation takes a compiler seconds, so all are compiled
+// here once. Unknowns and right sides have the units of the matrix.
 #pragma once
 
 #include <Eigen/Cholesky>

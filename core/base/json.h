@@ -1,5 +1,5 @@
-// JSON by nlohmann's library, of which each reader and writer takes a compiler seconds: what all use of it is compiled
-// in json.cpp, once.
+// JSON with nlohmann's library. Each reader and writer takes a compiler seconds, so json.cpp compiles the shared ones
+// once.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -26,9 +26,9 @@ inline Quat rotation_by(const Vec3& angle) {
   return {std::cos(0.5 * theta), s * angle.x(), s * angle.y(), s * angle.z()};
 }
 
-// The matrix that takes B to W of a quaternion of any length: (w² - u·u) I + 2 u uᵀ + 2 w [u]x. For a unit quaternion
-// it is a rotation; for another it is |q|² times one, so that a lost norm is seen and not hidden. Number by number:
-// every file reads this, and Eigen's expressions of matrices are what a compiler is slowest at.
+// The matrix of a quaternion of any length, from B to W: (w² - u·u) I + 2 u uᵀ + 2 w [u]x. For a unit quaternion it is
+// a rotation. Otherwise it is |q|² times a rotation, so that a lost norm stays visible. Elements are written one by
+// one: every file reads this header, and Eigen's matrix expressions compile slowly.
 inline Mat3 matrix_of(const Quat& q) {
   const double w = q.w(), x = q.x(), y = q.y(), z = q.z();
   const double diagonal = w * w - (x * x + y * y + z * z), xx = 2 * x, yy = 2 * y, zz = 2 * z, ww = 2 * w;

@@ -1,4 +1,4 @@
-// Where the program keeps its files: the suite, what is known of engines.
+// The folder of the program's files: the suite and the data about engines.
 #pragma once
 
 #include <string>

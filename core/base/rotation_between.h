@@ -6,7 +6,7 @@
 
 namespace rigor {
 
-// Of directions of any length. Between opposite ones the axis is any that is normal to them.
+// Accepts directions of any length. For opposite directions the axis is any normal to them.
 Quat rotation_between(const Vec3& from, const Vec3& to);
 
 }  // namespace rigor

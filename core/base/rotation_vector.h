@@ -12,8 +12,9 @@ inline Vec3 rotation_vector_of(const Quat& q) {
   return (q.w() < 0 ? -scale : scale) * q.vec();
 }
 
-// J, by which phi's rate becomes the angular velocity in W: rotation_by(phi + d) is rotation_by(J d) rotation_by(phi)
-// but for squares of d (Solà, Deray and Atchuthan, A micro Lie theory, 2018, eq. 145). To a few roundings.
+// Returns J, which converts the rate of phi to the angular velocity in W. rotation_by(phi + d) = rotation_by(J d)
+// rotation_by(phi) up to squares of d (Solà, Deray and Atchuthan, A micro Lie theory, 2018, eq. 145). Exact to a few
+// roundings.
 inline Mat3 left_jacobian(const Vec3& phi) {
   const double theta = phi.norm(), squared = theta * theta;
   const Mat3 cross = cross_matrix(phi);

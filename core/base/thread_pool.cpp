@@ -9,7 +9,7 @@ void pause() {
 #endif
 }
 
-// Looks for some hundred microseconds before it sleeps; soon lets others on, for what it waits for may need this core.
+// Polls for some hundred microseconds before it sleeps. It soon yields, because the awaited thread may need this core.
 void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
   constexpr int kLooks = 10000, kLooksAlone = 1000;
   for (int k = 0; k < kLooks; ++k) {

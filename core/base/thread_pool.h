@@ -1,6 +1,6 @@
-// Threads that do the same work on different bodies. Which member does which changes no bit of the result: no member
-// reads what another writes. Between two tasks they stay awake for about as long as a step lasts: to wake a thread
-// takes longer than many a task, and puts it on the core that woke it where others are busy.
+// Threads that do the same work on different bodies. No member reads what another writes, so the distribution of work
+// changes no bit of the result. Between two tasks the threads stay awake for about one step. Waking a thread takes
+// longer than many tasks, and puts it on the core of the waking thread while others are busy.
 #pragma once
 
 #include <atomic>
@@ -36,7 +36,7 @@ class ThreadPool {
   std::uint32_t begin();  // returns how many tasks there have been
   void help(std::size_t member);
 
-  std::atomic<std::uint32_t> begun_ = 0, ended_ = 0;        // tasks; helpers' shares of them
+  std::atomic<std::uint32_t> begun_ = 0, ended_ = 0;        // tasks; completed shares of the helpers
   std::atomic<std::uint32_t> arrived_ = 0, meetings_ = 0;   // members at the meeting that is on; meetings so far
   const std::function<void(std::size_t)>* task_ = nullptr;  // null: the members are to end
   std::vector<std::thread> helpers_;

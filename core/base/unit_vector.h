@@ -1,4 +1,4 @@
-// Unit vectors of what people write, whatever its length.
+// Makes unit vectors from written vectors of any length.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,8 @@
 
 namespace rigor {
 
-// Whether a vector of this squared length is a unit vector, to the rounding of having been made one. Such a one is left
-// as it is: normalising it again may move its last bit, and what is written would not be read back the same.
+// Whether a vector of this squared length is a unit vector up to rounding. Such a vector stays unchanged: normalising
+// it again could move its last bit, and a written file would then read back differently.
 inline bool is_unit(double squared_length) { return std::abs(squared_length - 1) <= 2e-15; }
 
 // The unit vector along a finite one of any length, itself if it is one already; none along zero. Scaled by the largest

@@ -1,5 +1,5 @@
-// Where the columns of bodies' motion begin: position [m], orientation (w, x, y, z), velocity [m/s], angular velocity
-// [rad/s], and for engines whose own orientation is a matrix its nine elements, row by row.
+// Offsets of the columns of motion: position [m], orientation (w, x, y, z), velocity [m/s], angular velocity [rad/s].
+// An engine with matrix orientations adds nine elements, row by row.
 #pragma once
 
 namespace rigor {

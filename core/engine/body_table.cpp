@@ -6,7 +6,7 @@
 namespace rigor {
 namespace {
 
-// Never destroyed: what it holds may live as long as the program.
+// Never destroyed, because its contents may live as long as the program.
 std::pmr::memory_resource& pool() {
   constexpr std::size_t kLargest = 1 << 16;  // bytes: six hundred bodies
   static auto* all = new std::pmr::synchronized_pool_resource({.max_blocks_per_chunk = 0,

@@ -1,6 +1,6 @@
-// The motion of all bodies at one instant, as thirteen columns of doubles (a structure of arrays), optionally with nine
-// more for an engine whose own orientation is a matrix. The core's state, an engine's snapshot and a trajectory's
-// samples all have this layout: the core hands its columns out without a copy.
+// The motion of all bodies at one instant, as thirteen columns of doubles (a structure of arrays). An engine with
+// matrix orientations has nine more columns. The core's state, an engine's snapshot and a trajectory's samples share
+// this layout, so the core hands out its columns without a copy.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ struct BodyState {
 inline constexpr std::array<const char*, 13> kColumnNames = {"px", "py", "pz", "qw", "qx", "qy", "qz",
                                                              "vx", "vy", "vz", "wx", "wy", "wz"};
 
-// A view that owns nothing: column c of body i is column(c)[i]. Columns kRotation.. (row-major) are there only if
-// has_rotation(). Valid as long as what it was taken from.
+// A view without ownership: column c of body i is column(c)[i]. Columns from kRotation on (row-major) exist only if
+// has_rotation(). It is valid as long as its source.
 template <typename Scalar>
 class BodyColumnsOf {
  public:
@@ -84,9 +84,9 @@ using MutableBodyColumns = BodyColumnsOf<double>;
 // Both of the same size, and both with or without rotation matrices.
 void copy_columns(BodyColumns from, MutableBodyColumns to);
 
-// From a pool that gives nothing back and is shared by all threads. What is kept of a run step by step would otherwise
-// lie in between what its engine takes and frees in each step, and leave room of its size nowhere: an engine that is
-// made anew in each step took gigabytes.
+// Memory from a pool shared by all threads, which never returns memory. Otherwise the samples kept in each step would
+// lie between blocks that an engine allocates and frees in that step. This fragmentation made an engine that is created
+// anew in each step take gigabytes.
 void* take_from_pool(std::size_t bytes);
 void give_to_pool(void* place, std::size_t bytes);
 
@@ -110,7 +110,7 @@ class BodyTableOf {
   explicit BodyTableOf(std::size_t size, bool has_rotation = false) { resize(size, has_rotation); }
   explicit BodyTableOf(BodyColumns source) { *this = source; }
   BodyTableOf(const BodyTableOf<!kIsPadded>& source) { *this = source.columns(); }
-  BodyTableOf& operator=(BodyColumns source);  // copies what the view shows
+  BodyTableOf& operator=(BodyColumns source);  // copies the viewed columns
 
   void resize(std::size_t size, bool has_rotation = false);
   std::size_t size() const { return size_; }

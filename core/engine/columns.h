@@ -1,6 +1,6 @@
-// Columns of doubles, each beginning on a cache line and padded to whole ones, all with the same distance between two
-// of them: what kernels work on, row by row, several rows at once. The rows of the padding may be read and written, and
-// mean nothing.
+// Columns of doubles for kernels, which process several rows at once. Each column begins on a cache line, is padded to
+// whole cache lines, and has the same distance to the next. Padding rows may be read and written; their values are
+// meaningless.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace rigor {
 inline constexpr std::size_t kCacheLine = 64;  // bytes
 inline constexpr std::size_t kRowsPerLine = kCacheLine / sizeof(double);
 
-// From the start of a column of `rows` doubles to the next [doubles]. An odd number of cache lines: with a power of two
-// all columns would compete for the same few places of a cache.
+// Distance from the start of one column of `rows` doubles to the next [doubles]. It is an odd number of cache lines.
+// With a power of two all columns would compete for the same few cache sets.
 inline constexpr std::size_t column_stride(std::size_t rows) {
   return kRowsPerLine * ((rows + kRowsPerLine - 1) / kRowsPerLine | 1);
 }

@@ -11,7 +11,7 @@
 namespace rigor {
 namespace {
 
-// The first need that the choice does not meet, of those that some choice of the option is there to meet.
+// The first need that the choice does not meet, among the needs that some choice of the option meets.
 const Need* unmet(const OptionInfo& option, const std::string& choice, const std::vector<Need>& needs) {
   const Features& features = option.features_of_choice.at(choice);
   const auto is_of_option = [&](const Need& need) {
@@ -23,7 +23,7 @@ const Need* unmet(const OptionInfo& option, const std::string& choice, const std
   return need == needs.end() ? nullptr : &*need;
 }
 
-// "" if the choice in force, or any where none is, expresses what the scene needs.
+// Returns "" if the choice in force meets the scene's needs. Without a choice in force, any choice may meet them.
 std::string why_choice_fails(const std::string& engine, const OptionInfo& option, const Settings& settings,
                              const std::vector<Need>& needs) {
   std::vector<std::string> would_do;

@@ -24,8 +24,8 @@ struct OptionInfo {
   std::vector<std::string> choices = {};  // the words allowed; empty: a number
   double min = 0, max = 0;                // the numbers allowed, where there are no choices
   bool whole = false;                     // only whole numbers
-  // Of a choice that decides what can be expressed: its share of EngineInfo::features, for each of the choices. A run
-  // that does not name the option takes the first choice that expresses the scene.
+  // For an option that decides what can be expressed: the part of EngineInfo::features that each choice has. A run that
+  // does not name the option uses the first choice that expresses the scene.
   std::map<std::string, Features> features_of_choice = {};
 };
 
@@ -35,16 +35,16 @@ struct MethodInfo {
   int order = 1;            // the global error falls as dt^order on smooth scenes
   bool symplectic = false;  // on undamped smooth scenes
   bool symmetric = false;   // a step back undoes a step forward, to rounding, on undamped smooth scenes
-  // Steps by which the velocities read lag behind the positions (1/2 for a semi-implicit step): the judge brings them
-  // to the positions' time before it speaks of lost energy.
+  // Number of steps by which read velocities lag behind positions (1/2 for a semi-implicit step). Energy is judged only
+  // after velocities are brought to the instant of the positions.
   double leapfrog_stagger = 0;
-  // Divides each step by itself until it meets a tolerance: its error does not follow from dt, and `order` is that of
-  // its inner steps.
+  // Divides each step until it meets a tolerance. The error does not follow from dt, and `order` is that of the inner
+  // steps.
   bool adaptive = false;
   Features lacks = {};  // of the engine's features, those that this method cannot express
   std::vector<OptionInfo> options = {};
-  // The engine whose scheme this method repeats, to explain that engine's error; "" for a method of its own right. A
-  // twin is an instrument and no contestant: it runs where it is named, and not by default.
+  // The engine whose scheme this method repeats to explain that engine's error; "" for an independent method. A twin is
+  // an instrument, not a competitor: it runs only where it is named.
   std::string twin_of = "";
 };
 
@@ -52,10 +52,11 @@ struct EngineInfo {
   std::string name;
   std::string version;
   std::string precision;                                                   // "double", "single"
-  Features features = {};                                                  // what it expresses; see features.h
+  Features features = {};                                                  // features that it expresses; see features.h
   std::vector<MethodInfo> methods = {};                                    // the first is the default
   double max_rotation_per_step = std::numeric_limits<double>::infinity();  // rad; beyond it the engine clamps
-  bool is_in_house = false;  // Rigor's own: all its methods take part by default, and others are held against the best
+  // Rigor's own engine: all its methods run by default, and other engines are compared with the best
+  bool is_in_house = false;
 };
 
 struct Settings {
@@ -115,8 +116,8 @@ class Engine {
 // Why this engine cannot run this scene at this dt; empty if it can. The sentence names the feature and what in the
 // scene asks for it.
 std::string why_unsupported(const EngineInfo& engine, const Scene& scene, double dt);
-// The same for the settings of a run: where an option's choices differ in what they express, the one in force counts,
-// and the sentence says which would do.
+// The same for the settings of a run. If an option's choices differ in features, the choice in force decides, and the
+// sentence names a choice that would work.
 std::string why_unsupported(const EngineInfo& engine, const Settings& settings, const Scene& scene, double dt);
 
 }  // namespace rigor

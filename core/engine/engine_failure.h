@@ -1,6 +1,6 @@
-// What an engine that lives outside throws when it cannot go on, in the words of a cell's status: it says that it does
-// not support the scene, or that its state is no longer finite; it died or says that it failed; it did not answer in
-// time; what it said is no answer. The text is a whole sentence.
+// Exceptions of an engine outside this process that cannot continue, named after the status of a cell. It may reject
+// the scene, report a non-finite state, die or fail, miss its time limit, or give an invalid answer. The text is a
+// whole sentence.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// A world that, where its method would take too long, goes on by another of lower order: what it does is allowed, but
-// not what the run's name promises, and who judges it has to know from when on. Nobody has to offer this.
+// An optional interface of a world that continues with a lower-order method if its own would take too long. This is
+// allowed, but differs from what the run's name promises. The judge needs the time from which it holds.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct ReducedOrder {
 class MayReduceOrder {
  public:
   virtual ~MayReduceOrder() = default;
-  // Of the run so far; none if all of it was stepped by its method.
+  // The time from which the run used a lower order; empty if it never did.
   virtual std::optional<ReducedOrder> reduced_order() const = 0;
 };
 

@@ -1,5 +1,4 @@
-// What an engine or a world that lives in another process can do beside the seam. Nobody has to know of it: who does
-// saves time.
+// Optional calls of an engine or world in another process. Callers that use them save round trips.
 #pragma once
 
 #include "core/engine/engine.h"
@@ -8,8 +7,8 @@ namespace rigor {
 
 class RemoteWorld : public World {
  public:
-  // The next `steps` steps are all of dt, and of them only each `every`-th is read, and the last: so that many of them
-  // can be one request. Anything else asked for before they are done is our own mistake.
+  // The next `steps` steps all have length dt. Only every `every`-th of them, and the last, are read, so one request
+  // can cover many steps. Any other call before they are done is a bug.
   virtual void expect(double dt, long steps, long every) = 0;
   // CPU seconds that its own process has spent so far, less those that this one has spent in waiting for it.
   virtual double remote_cpu_seconds() const = 0;
@@ -17,7 +16,7 @@ class RemoteWorld : public World {
 
 class RemoteEngine : public Engine {
  public:
-  // Ends what it has started, if nothing of it is in use; the next load starts it again.
+  // Ends what it has started, if nothing uses it; the next load starts it again.
   virtual void rest() const = 0;
 };
 

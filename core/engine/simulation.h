@@ -1,4 +1,4 @@
-// What one run of an engine on a scene left behind: its trajectory, and how it ended.
+// The result of one run of an engine on a scene: its trajectory, and how it ended.
 #pragma once
 
 #include <algorithm>

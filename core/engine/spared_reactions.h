@@ -1,5 +1,5 @@
-// A world whose report of what joints carry takes it a good part of a step, and that can be spared it where nobody
-// reads the report. Nobody has to offer this.
+// Optional interface of a world whose report of joint loads takes a large part of a step. Callers can turn the report
+// off where nobody reads it.
 #pragma once
 
 #include "core/engine/engine.h"
@@ -9,7 +9,7 @@ namespace rigor {
 class SparesReactions {
  public:
   virtual ~SparesReactions() = default;
-  // Whether the steps from now on are reported (reported_reactions.h). They are until somebody says that they are not.
+  // Whether to report the following steps (reported_reactions.h). The default is true.
   virtual void report_reactions(bool are_read) = 0;
 };
 

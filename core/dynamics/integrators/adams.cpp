@@ -1,12 +1,12 @@
-// The Adams–Bashforth–Moulton method of order 7 on (x, q, v, L): predicted by the explicit formula, the loads evaluated
-// there, corrected by the implicit one (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, III.1). A
-// step of the method is four of the formula. Positions are taken by the implicit formula with the velocities of the
-// same instant, in the prediction too, which doubles the step that an oscillation bears: w dt up to 1.4. One evaluation
-// of the loads for each of the four; where there are dampers a second one, after the correction, without which a damped
-// motion would soon be unstable: c dt/m up to some 2 with it.
+// The Adams–Bashforth–Moulton method of order 7 on (x, q, v, L) (Hairer, Nørsett, Wanner, Solving Ordinary Differential
+// Equations I, III.1). The explicit formula predicts, the loads are evaluated there, and the implicit formula corrects.
+// A step of the method is four steps of the formula. Positions use the implicit formula with the velocities of the same
+// instant, also in the prediction. This doubles the stable step of an oscillation, to w dt = 1.4. Each formula step
+// evaluates the loads once, and with dampers a second time after the correction. Without the second evaluation a damped
+// motion would soon be unstable; with it the limit is about c dt/m = 2.
 //
-// It remembers the rates of the last seven instants. Where they do not count (at the start, where a timed force begins
-// or ends, after another dt) steps of order 8 by Dormand and Prince make them.
+// It remembers the rates of the last seven instants. At the start, where a timed force begins or ends, and after a
+// change of dt, they are invalid. Steps of order 8 by Dormand and Prince then compute new ones.
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,8 @@ namespace {
 
 constexpr int kParts = 4;  // steps of the formula in a step of the method
 
-// From the newest rates back in time; the corrector's come after kAtEnd, the weight of those at the end of the step.
+// Weights from the newest rates back in time. Those of the corrector follow kAtEnd, the weight of the rates at the
+// step's end.
 using AdamsCoefficients = std::array<double, kAdamsRates>;
 constexpr double kOf = 60480;
 constexpr AdamsCoefficients kPredictor = {198721 / kOf, -447288 / kOf, 705549 / kOf, -688256 / kOf,
@@ -161,7 +162,7 @@ class Adams : public Stepper {
   AlignedDoubles y_, older_predictor_, older_corrector_, known_values_;  // see AdamsTables
   std::array<AlignedDoubles, kAdamsRates> rates_;
   std::array<double*, kAdamsRates> newest_first_;  // of rates_
-  std::size_t known_ = 0;                          // how many of them count
+  std::size_t known_ = 0;                          // how many of them are valid
   WrenchColumns loads_;
   BodyTable stage_;
   Continuation last_;

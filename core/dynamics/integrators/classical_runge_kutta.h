@@ -1,7 +1,7 @@
-// The classical fourth-order Runge–Kutta tableau (weights 1/6, 1/3, 1/3, 1/6 at 0, 1/2, 1/2, 1) over the equations of
-// motion: position, velocity, angular momentum L in W, and the orientation as either a quaternion, of which only the
-// direction counts, or the rotation vector phi from the step's start, R = exp([phi]x) R0, with (Iserles, Munthe-Kaas,
-// Nørsett, Zanna, Lie-group methods, 2000)
+// The classical fourth-order Runge–Kutta tableau (weights 1/6, 1/3, 1/3, 1/6 at 0, 1/2, 1/2, 1) for the equations of
+// motion. Variables are position, velocity, angular momentum L in W, and the orientation. The orientation is a
+// quaternion, of which only the direction matters, or the rotation vector phi from the step's start, R = exp([phi]x)
+// R0, with (Iserles, Munthe-Kaas, Nørsett, Zanna, Lie-group methods, 2000)
 //   phi' = w - phi x w / 2 + phi x (phi x w) / 12 + O(phi⁴),
 // cut there, which leaves methods up to order 4 their order. A timed force that begins or ends inside a step divides it
 // there.

@@ -1,7 +1,7 @@
 // The drift of a kick-drift-kick method with joints (RATTLE: H. C. Andersen, 1983; for rigid bodies whose free rotation
-// is split: A. Kol, B. B. Laird, B. J. Leimkuhler, 1997): an impulse at the start of each drift, along the joints' rows
-// there, closes all joints at its end, and one at the end of the step takes away the velocities that the joints do not
-// allow. Symplectic and symmetric as the drift is.
+// is split: A. Kol, B. B. Laird, B. J. Leimkuhler, 1997). An impulse at the start of each drift, along the joint rows
+// there, closes all joints at its end. An impulse at the end of the step removes the velocities that the joints do not
+// allow. The result is as symplectic and symmetric as the drift.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ class ConstrainedDrift {
 
   bool is_free() const { return parts_.joints == nullptr; }
 
-  // Calls move(state, carried) once, or with joints until it ends where they are closed. v and the momenta L in
-  // `carried` are those before the drift over h; w is not read.
+  // Calls move(state, carried) once, or, with joints, repeats it until the joints are closed at the end. v and the
+  // momenta L in `carried` are those before the drift over h; w is not read.
   template <typename Move>
   void drift(MutableBodyColumns state, Columns& carried, double h, const Move& move) {
     if (is_free()) return move(state, carried.data());

@@ -1,4 +1,4 @@
-// Whether a step goes on where the last one ended: what a multistep method asks before it uses what it remembers.
+// Whether a step continues the last one. A multistep method checks this before it uses its history.
 #pragma once
 
 #include "core/dynamics/model/loads.h"
@@ -10,8 +10,8 @@ class Continuation {
  public:
   explicit Continuation(std::size_t bodies) : end_(bodies) {}
 
-  // `state` and t are where the last step, of the same dt, ended, and no timed force has begun or ended since `oldest`,
-  // nor will in the step to t + dt.
+  // Returns true if the last step, with the same dt, ended at `state` and t, and no timed force begins or ends between
+  // `oldest` and t + dt.
   bool goes_on(BodyColumns state, double t, double dt, const Loads& loads, double oldest) const;
   // Nothing is remembered before the first call.
   void ended(BodyColumns state, double t, double dt) { end_ = state, t_ = t, dt_ = dt; }

@@ -1,5 +1,6 @@
-// The Runge–Kutta pair of order 8 by Dormand and Prince on (x, q, v, L), adaptive: each step of dt is divided until the
-// error of each inner step, estimated from the formulas of order 5 and 3 embedded in it as
+// The adaptive Runge–Kutta pair of order 8 by Dormand and Prince on (x, q, v, L). Each step of dt is divided into inner
+// steps. The embedded formulas of order 5 and 3 estimate the error of each inner step, until it is below the tolerance,
+// as
 //   e5² / sqrt(e5² + e3²/100),
 // is below the tolerance (relative_size() of motion_equations.h). A timed force that begins or ends inside the step
 // divides it there. Every step begins with the whole of dt: nothing is remembered from the one before.
@@ -19,10 +20,10 @@ namespace {
 using dormand_prince::kStages;
 
 constexpr int kMostTries = 20000;  // inner steps, refused ones included, in one step
-// Of a step of jointed bodies: where so short an inner step is refused they are in a singular position, in which what
-// errs is rounding and no step is short enough.
+// As a share of a step of jointed bodies. If such a short inner step is refused, the bodies are in a singular position.
+// The error is then rounding, and no step is short enough.
 constexpr double kShortest = 1e-6;
-constexpr int kMostTriesBeyond = 16;  // in each step after such a one: whatever it took, the motion is no more known
+constexpr int kMostTriesBeyond = 16;  // in each step after such a refusal, because the motion is uncertain in any case
 
 class DormandPrince : public Stepper {
  public:
@@ -51,7 +52,7 @@ class DormandPrince : public Stepper {
   std::string solver_warning() const override { return solver_warning_; }
 
  private:
-  // Takes y_ over [t, t + length] in equal steps, whose number is found anew after each of them.
+  // Advances y_ over [t, t + length] in equal steps, and chooses their number again after each of them.
   void smooth_part(double t, double length) {
     double left = length, longest = std::abs(length);
     int tries = 0;
@@ -89,7 +90,7 @@ class DormandPrince : public Stepper {
     return error == 0 ? kMost : std::clamp(kSafety * std::pow(error, -1.0 / 8), kLeast, kMost);
   }
 
-  // From y_ and its rates in stage 0: those of the other stages, and next_.
+  // Computes the other stages and next_ from y_ and its rates in stage 0.
   void take_stages(double t, double dt, double h) {
     for (std::size_t s = 1; s < kStages; ++s) {
       equations_.combine(&y_, h, std::span(dormand_prince::kStage[s]).first(s), next_);

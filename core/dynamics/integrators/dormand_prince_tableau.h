@@ -1,6 +1,6 @@
-// The coefficients of the Runge–Kutta formula of order 8 by Dormand and Prince, with twelve stages and two error
-// estimates, of order 5 and 3 (DOP853: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5 and
-// II.10).
+// Coefficients of the Runge–Kutta formula of order 8 by Dormand and Prince, with twelve stages and two error estimates
+// of order 5 and 3. Source: DOP853 in Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.5 and
+// II.10.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Explicit Euler: everything moves with what was known at the start of the step.
+// Explicit Euler: every update uses the values at the start of the step.
 //   x1 = x0 + dt v0,  R1 = R0 turned by dt w0,  v1 = v0 + dt F0/m,  w1 = w0 + dt I⁻¹(tau0 - w0 x I w0)
 // On an undamped oscillation of frequency f [rad/s] each step multiplies the energy by 1 + (f dt)²: it always blows up.
 #include "core/dynamics/integrators/euler_passes.h"

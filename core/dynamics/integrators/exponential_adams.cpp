@@ -2,11 +2,11 @@
 // 2010, section 2.5). Near a pose (X, Q) that a body was at, its motion is
 //   u = (x - X, phi, v, e),  R = exp([phi]x) Q,  e = J⁻¹ L,  J the inertia in W at Q,
 //   u' = A u + g(u),  A = [0 1; M⁻¹ P, M⁻¹ D],  M = (m, J),
-// with P and D the derivatives of the body's own wrench by its own pose and velocity there. A's part is solved exactly,
-// whatever its size; g, which is what is left, is taken as the cubic through its values at the last four instants:
+// P and D are the derivatives of the body's own wrench by its own pose and velocity there. The part of A is solved
+// exactly for any size. The rest g is the cubic through its values at the last four instants:
 //   u(t + h) = exp(hA) u(t) + h (B0 g(t) + B1 g(t - h) + B2 g(t - 2h) + B3 g(t - 3h)).
-// So a body on linear springs and dampers along fixed lines moves exactly, at any step. What bodies do to each other is
-// left to g: a stiff spring between two moving bodies still bounds the step.
+// A body on linear springs and dampers along fixed lines therefore moves exactly at any step. Interaction between
+// bodies stays in g, so a stiff spring between two moving bodies still bounds the step.
 //
 // One evaluation of the loads a step. A new pose is chosen when a body has turned by 1 rad from the last. The first
 // four instants (at the start, after another dt) are found together, by iteration; a step in which a
@@ -227,7 +227,8 @@ class ExponentialAdams : public Stepper {
     }
   }
 
-  // For bodies that have turned far from their own in the step [t, t + dt]; what is remembered is told anew in them.
+  // Chooses new frames for bodies that turned far from theirs in the step [t, t + dt], and converts the history to
+  // them.
   void choose_new_frames(double t, double dt) {
     constexpr double kFarthest = 1;  // rad
     const auto is_far = [&](std::size_t i) { return instants_[newest_][i].u.segment<3>(3).norm() > kFarthest; };

@@ -2,8 +2,8 @@
 //   x_m = x0 + dt/2 v_m,  R_m = exp(dt/2 [w_m]x) R0,  L_m = I(R_m) w_m,
 //   m (v_m - v0) = dt/2 F_m,   L_m - L0 = dt/2 tau_m,
 //   x1 = x0 + dt v_m,  R1 = exp(dt [w_m]x) R0,  v1 = 2 v_m - v0,  L1 = 2 L_m - L0.
-// Symmetric, keeps L where there is no torque. All bodies are solved together by Newton's method with the exact
-// derivative, until the last correction is so small that the next, its square, is below rounding.
+// Symmetric; conserves L without torque. Newton's method solves for all bodies together with the exact derivative. It
+// stops when the next correction, the square of the last one, is below rounding.
 #include <fmt/format.h>
 
 #include <utility>

@@ -1,5 +1,5 @@
-// What every integration method of the core offers: its facts, and a stepper. One method, one file; integrators.cpp is
-// the table.
+// The interface of the core's integrators: facts of a method, and a stepper. Each method has its own file;
+// integrators.cpp is the table.
 #pragma once
 
 #include <memory>
@@ -16,14 +16,13 @@ namespace rigor {
 
 class Joints;
 
-// Steps one system. The state is all there is: what a stepper remembers of earlier steps may serve it only as long as
-// the state and the instant are those that it left.
+// Steps one system. A stepper may use its history only if the state and the instant are those of its last step's end.
 class Stepper {
  public:
   virtual ~Stepper() = default;
   // Takes `state` from t to t + dt.
   virtual void step(MutableBodyColumns state, double t, double dt) = 0;
-  // Why the last step is not what the method promises; empty if it is.
+  // Why the last step is less accurate than the method promises; empty if it is not.
   virtual std::string solver_warning() const { return ""; }
 };
 
@@ -42,8 +41,8 @@ struct StepperParts {
   const Scene* scene = nullptr;
   ConstraintForces* contact_forces = nullptr;  // null where no contact is held at each stage
 
-  // What a method that holds_at_stages asks at each of its stages: the joints or the contact forces, which no scene has
-  // both of; null where there are none.
+  // The constraints that a method with holds_at_stages asks at each stage: the joints or the contact forces. No scene
+  // has both; null if it has neither.
   ConstraintForces* constraints() const;
 };
 
@@ -56,10 +55,10 @@ struct Integrator {
   double leapfrog_stagger;          // in steps, see MethodInfo
   std::string default_orientation;  // "" where the method has one way only
   bool adaptive = false;            // see MethodInfo; it then has an option "tolerance"
-  bool takes_contact = true;        // false: an impact would make what it remembers worthless
+  bool takes_contact = true;        // false: an impact would invalidate its history
   bool takes_joints = false;
   bool holds_at_stages = false;  // each of its stages asks StepperParts::constraints(), so that they keep its order
-  bool takes_dampers_with_joints = true;  // of those that take joints
+  bool takes_dampers_with_joints = true;  // only for methods that take joints
   Features lacks = {};                    // what else of features.h it cannot express
   std::vector<OptionInfo> options = {};   // of this method alone
   std::string twin_of = "";               // see MethodInfo

@@ -12,8 +12,8 @@ namespace {
 constexpr int kMostEvents = 1000;         // in a step
 constexpr std::size_t kMostAtOnce = 4;    // at one instant, for each limit and motor
 constexpr double kTimeTolerance = 1e-15;  // of a step, to which events are located
-// Of a step: bounces that end sooner are none. From rest on, ten of e = 0.5 go before it, and what the last would have
-// risen is 1e-7 of what gravity does to a body in a step.
+// As a share of a step: shorter bounces are suppressed. From a drop over one step, ten bounces with e = 0.5 precede
+// such a bounce. It would rise 1e-7 of what gravity moves a body in a step.
 constexpr double kShortestFlight = 1e-3;
 
 }  // namespace
@@ -101,7 +101,7 @@ template <typename Function>
 double JointEvents::root(const Function& f, double h, double at_end) const {
   const double at_start = f(0);
   if (at_start >= 0) return 0;
-  if (!(at_start < 0 && at_end >= 0)) return h;  // not a number: what has diverged goes on as it is
+  if (!(at_start < 0 && at_end >= 0)) return h;  // not a number: a diverged motion continues unchanged
   std::uintmax_t most = 100;
   const auto near = [h](double a, double b) { return std::abs(b - a) <= kTimeTolerance * h; };
   return boost::math::tools::toms748_solve(f, 0.0, h, at_start, at_end, near, most).second;

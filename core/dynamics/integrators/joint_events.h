@@ -1,7 +1,7 @@
-// Limits of joints and motors of given speed with any method that takes joints: a step is divided at the instants at
-// which a limit is reached or let go, and a motor comes to its speed or can no longer keep it. Each is found as a root,
-// by taking the step anew with other lengths; between them nothing but smooth equations is integrated, so that the
-// method keeps its order. What goes on at such an instant is in joint_stops.h.
+// Limits of joints and motors of given speed, for any method that takes joints. A step is divided where a limit is
+// reached or released, and where a motor reaches its speed or can no longer keep it. Each such instant is located as a
+// root by repeating the step with other lengths. Between these instants the equations are smooth, so the method keeps
+// its order. joint_stops.h handles the change at such an instant.
 #pragma once
 
 #include <memory>

@@ -1,8 +1,8 @@
 // A symmetric composition of the symmetric map of second order
 //   S(h) = kick over h/2, free drift over h, kick over h/2      (symmetric_kick.h, free_rotation.h):
-// S(g_1 dt) S(g_2 dt) ... S(g_s dt) with g_i = g_(s+1-i). The order is that of its weights g, with dampers as without:
-// it asks nothing of S but that it is symmetric (Hairer, Lubich, Wanner, Geometric Numerical Integration, V.3). Without
-// dampers S is symplectic, and so is the whole. A timed force that begins or ends inside a step divides it there.
+// S(g_1 dt) S(g_2 dt) ... S(g_s dt) with g_i = g_(s+1-i). The weights g determine the order, also with dampers, because
+// they only need S to be symmetric (Hairer, Lubich, Wanner, Geometric Numerical Integration, V.3). Without dampers S
+// and the whole step are symplectic. A timed force that begins or ends inside a step divides the step.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
-// Linearly implicit Euler: one Newton step of implicit Euler, that is one linear solve a step, for the velocities
-// V = (v, w) of all bodies. With the wrenches W (and their derivatives P by pose, D by velocity) and the inertia M in W
-// at the start of the step, G = [w]x I - [I w]x the derivative of the gyroscopic term w x I w:
+// Linearly implicit Euler: one Newton step of implicit Euler, so one linear solve per step for the velocities V = (v,
+// w) of all bodies. The wrenches W, their derivatives P by pose and D by velocity, and the inertia M in W are those at
+// the start of the step. G = [w]x I - [I w]x is the derivative of the gyroscopic term w x I w:
 //   (M - dt D - dt² P + dt G) (V1 - V0) = dt (W0 - w0 x I w0 + dt P V0),
 //   x1 = x0 + dt v1,  R1 = exp([dt w1]x) R0.
 // Stable on linear springs and dampers of any stiffness; takes energy from every oscillation, the more the coarser the

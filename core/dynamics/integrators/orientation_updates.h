@@ -17,7 +17,7 @@ struct OrientationUpdate {
   std::string name;
   bool keeps_matrix;  // the state's orientation is R, and the quaternion follows from it
   void (*advance)(MutableBodyColumns state, std::size_t body, const Vec3& w, double dt);
-  Turn turn = Turn::exponential;  // what the kernels call it, where it keeps no matrix
+  Turn turn = Turn::exponential;  // its name in the kernels, if it keeps no matrix
 };
 
 const std::vector<OrientationUpdate>& orientation_updates();           // alphabetical

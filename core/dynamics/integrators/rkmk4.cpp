@@ -1,7 +1,6 @@
 // The Runge–Kutta–Munthe-Kaas method of order 4 with the classical tableau (Munthe-Kaas, High order Runge–Kutta methods
-// on manifolds, 1999): the orientation is R = exp([phi]x) R0, and phi, which starts each step at zero, is what the
-// stages combine. No stage leaves the rotations. Spins about an axis fixed in space are exact; without torque L is,
-// too.
+// on manifolds, 1999). The orientation is R = exp([phi]x) R0. phi starts each step at zero, and the stages combine phi.
+// Every stage is a rotation. Spins about an axis fixed in space are exact. Without torque L is exact, too.
 #include "core/dynamics/integrators/classical_runge_kutta.h"
 
 namespace rigor {

@@ -1,10 +1,10 @@
 // Semi-implicit (symplectic) Euler: velocities first, then positions with the new velocities.
 //   v1 = v0 + dt F0/m,  w1 = w0 + dt I⁻¹(tau0 - w0 x I w0),  x1 = x0 + dt v1,  R1 = R0 turned by dt w1
-// The course's rule for contact acts between the two. Its velocities belong half a step before its positions. On an
-// oscillation of frequency f it is stable while f dt < 2. The gyroscopic term is explicit, so that a free body's spin
-// is not symplectic. With joints the velocities also get the impulses that close all joints at the step's end (SHAKE);
-// where bodies turn by so much in a step that there are none, those that the velocities need at its start, and the
-// mass-weighted least-norm projection at its end.
+// The course's contact rule acts between the two updates. Velocities lag half a step behind positions. An oscillation
+// of frequency w is stable while w dt < 2. The gyroscopic term is explicit, so a free body's spin is not symplectic.
+// With joints the velocities also get impulses that close all joints at the step's end (SHAKE). If bodies turn so far
+// that no such impulses exist, the velocities are made to satisfy the joints at the step's start, and the mass-weighted
+// least-norm projection closes the joints at its end.
 #include <optional>
 
 #include "core/dynamics/integrators/euler_passes.h"
@@ -15,7 +15,7 @@
 namespace rigor {
 namespace {
 
-// Of the longest moving arm: gaps that are closed anew in each step need no more, for nothing adds up.
+// As a share of the longest moving arm. Each step closes the gaps again, so no error accumulates and this is enough.
 constexpr double kClosed = 1e-11;
 
 class SemiImplicitEuler : public Stepper {

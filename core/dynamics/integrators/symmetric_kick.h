@@ -1,5 +1,5 @@
-// The change of velocities by the loads at fixed positions, as a map that its own step backwards undoes: with dampers
-// the loads are W(V) = W(V0) + D (V - V0), linear in the velocities V, and the kick over h is the midpoint rule
+// The change of velocities by the loads at fixed positions, symmetric in time. With dampers the loads are W(V) = W(V0)
+// + D (V - V0), linear in the velocities V, and the kick over h is the midpoint rule
 //   (M - h/2 D) (V1 - V0) = h W(V0).
 // Without dampers it is exact. Compositions of symmetric maps need it: they go backwards in some of their stages.
 #pragma once
@@ -18,8 +18,8 @@ class SymmetricKick {
 
   bool damped() const { return system_.loads.damped(); }
 
-  // Between begin() and end() the rotation is held as the angular momentum in W of each body, for converting it to w
-  // and back at every kick would add a rounding of L at every kick. w is written by end().
+  // Between begin() and end() the rotation is stored as each body's angular momentum in W. Converting to w and back at
+  // every kick would add a rounding of L each time. end() writes w.
   void begin(BodyColumns state);
   void end(MutableBodyColumns state) const;
   double* carried() { return carried_.data(); }  // columns of CarriedColumn

@@ -1,5 +1,5 @@
-// A composition of order 8: seventeen leapfrogs with weights of Kahan and Li (Composition constants for raising the
-// orders of unconventional schemes for ordinary differential equations, 1997).
+// A composition of order 8: seventeen leapfrogs with the weights of Kahan and Li. Source: Composition constants for
+// raising the orders of unconventional schemes for ordinary differential equations, 1997.
 #include <array>
 
 #include "core/dynamics/integrators/leapfrog_composition.h"

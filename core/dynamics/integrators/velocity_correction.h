@@ -15,8 +15,8 @@ class Contact {
   virtual void resolve(MutableBodyColumns state) = 0;
 };
 
-// For methods whose step cannot be opened: resolves the velocities as the loads at its start would leave them at its
-// end, so that a body at rest stays at rest, and hands them back without those loads.
+// For methods whose step cannot be split. Adds the effect of the loads at the step's start over dt, resolves these
+// velocities, and subtracts the effect again. A body at rest thus stays at rest.
 void resolve_ahead(Contact& contact, const System& system, const Wrenches& wrenches, double dt,
                    MutableBodyColumns state);
 

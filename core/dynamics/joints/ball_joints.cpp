@@ -7,8 +7,8 @@
 namespace rigor {
 namespace {
 
-// Of the product of a block's diagonal before elimination: a smaller determinant has lost six digits of its inverse,
-// which then no longer serves for corrections.
+// Relative to the product of a block's diagonal before elimination. With a smaller determinant the inverse has lost six
+// digits and cannot serve for corrections.
 constexpr double kLeastDeterminant = 1e-10;
 constexpr int kMostCorrections = 20;
 
@@ -159,7 +159,7 @@ void BallJoints::list_couplings(const Scene& scene) {
   for (std::size_t k = 0; k < others.size(); ++k) other_.set(k, others[k].body, others[k].row, others[k].column);
 }
 
-// From what does not move, else from each component's heaviest body, outwards.
+// Starts from immovable bodies, or from the heaviest body of each component, and goes outwards.
 void BallJoints::list_closings(const Scene& scene, const std::vector<Pin>& pins) {
   const auto bodies = static_cast<int>(scene.bodies.size());
   const auto node = [&](int body) { return body == kWorld || scene.bodies[body].fixed ? bodies : body; };

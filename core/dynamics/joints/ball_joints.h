@@ -1,9 +1,9 @@
-// The drift of semi-implicit Euler with joints that are all ball joints and hinges, several of them at once in the
-// lanes of the kernels: the same equations as Joints::close() solves, with 3 x 3 blocks whose inverses are kept,
+// The drift of semi-implicit Euler if all joints are ball joints or hinges. Several joints are solved at once in the
+// lanes of the kernels. The equations are those of Joints::close(), with 3 x 3 blocks whose inverses are kept,
 //   J V1 + h/2 J' V1 + g/h = 0 at the start, then by the factor of the start until g = 0 at the end (SHAKE).
-// A ball joint is a pin, which holds two points together; a hinge is two of them on its axis, of which the second
-// leaves free what lies along the axis. Where the joints make trees, each body is then moved to its joint, from the
-// root to the leaves, which leaves of a gap nothing but the rounding of positions.
+// A ball joint is one pin, which holds two points together. A hinge is two pins on its axis; the second leaves the
+// direction along the axis free. If the joints form trees, each body is then moved to its joint from the root to the
+// leaves. Only the rounding of positions then remains of a gap.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@ namespace rigor {
 
 class BallJoints {
  public:
-  // Whether all joints are ball joints, or hinges without limits or motors of given speed, and no two hold the same two
-  // bodies.
+  // Whether all joints are ball joints, or hinges without limits or motors of given speed, and each pair of bodies has
+  // at most one joint.
   static bool are_all_of(const Scene& scene);
 
   // The system must outlive it. Gaps are closed to `within` of `size` [m], and so far apart are a hinge's two pins.

@@ -81,8 +81,8 @@ void BlockCholesky::eliminate(std::size_t p, bool choose, bool find_rank) {
   }
 }
 
-// The Cholesky factor of a small block with the largest remaining pivot first, each relative to its row's own scale:
-// which rows are taken is all that is wanted of it.
+// The Cholesky factor of a small block, with the largest remaining pivot first, each relative to its row's own scale.
+// Only the selection of rows is used.
 void BlockCholesky::choose_rows(std::size_t p, bool find_rank) {
   const int rows = in_use_[p];
   Eigen::MatrixXd left = diagonal(order_.joint[p]);
@@ -126,7 +126,7 @@ void BlockCholesky::factorise_diagonal(std::size_t p) {
       smallest_pivot_ = pivot / scale;
       joint_of_smallest_ = order_.joint[p];
     }
-    // What is lost in rounding counts as infinite, which leaves its row out; whoever asks smallest_pivot() knows.
+    // A pivot lost in rounding counts as infinite, which leaves its row out. smallest_pivot() reports it.
     const double root = pivot > kLost * scale || !kept ? std::sqrt(pivot) : kInfinite, inverse = 1 / root;
     D[k + k * R] = inverse;
     for (int i = k + 1; i < R; ++i) {

@@ -1,11 +1,11 @@
-// The factor of a symmetric matrix of blocks, S = L Lᵀ, one block row a joint, of which two meet where their joints
-// share a body. Which blocks there are does not change: the order of elimination (least degree first, so that a chain
-// or tree of joints fills in nothing) and the places of all products are found once; a factorisation allocates nothing
-// and takes a time linear in the number of joints of a chain.
+// The factor S = L Lᵀ of a symmetric block matrix with one block row per joint. Two joints are coupled if they share a
+// body. The structure never changes, so the order of elimination and the positions of all products are computed once.
+// Eliminating least degree first causes no fill-in for chains and trees. A factorisation allocates nothing, and its
+// time is linear in the number of joints of a chain.
 //
-// S may be singular because rows repeat others, as in closed loops of hinges. Each block then has a rank that is fixed
-// when the factor is made: choose() picks as many of its rows, those with the largest pivots, and the others are left
-// out. A fixed rank is smooth off the manifold where they repeat each other exactly; a threshold would not be.
+// S may be singular because rows repeat others, as in closed loops of hinges. Each block has a rank that is fixed when
+// the factor is made. choose() picks that many rows, those with the largest pivots, and leaves out the others. A fixed
+// rank gives smooth results off the manifold of exact repetition; a threshold would not.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,22 +35,21 @@ class BlockCholesky {
   EliminationOrder::Place place(int first, int second) const { return order_.place(first, second); }
   Block block(std::int32_t index) { return {block_at(index), block_rows_[index], block_columns_[index]}; }
 
-  // Finds each block's rank from the S that has been filled in, on the manifold: a pivot is zero if it is below kZero
-  // of the row's own diagonal element. Rounding leaves 1e-11 of it where masses and inertias differ by 1e5; a true one
-  // as small as kZero is a mechanism within 1e-4 rad of a singular position.
+  // Finds each block's rank from the filled S, on the manifold. A pivot counts as zero below kZero times the row's own
+  // diagonal element. Rounding leaves 1e-11 of it if masses and inertias differ by 1e5. A true pivot as small as kZero
+  // occurs only within 1e-4 rad of a singular position.
   void find_ranks();
   static constexpr double kZero = 1e-8;
   int rank() const;  // of all blocks together
   bool has_redundant_rows() const { return has_redundant_; }
 
-  // Below it a row's pivot, relative to its own diagonal element, is lost in the rounding of what was subtracted from
-  // it.
+  // A row's pivot below this share of its own diagonal element is lost in the rounding of the subtracted terms.
   static constexpr double kLost = 1e-13;
 
-  // Factorises what has been filled in; S is lost. With `choose`, picks the rows anew.
+  // Factorises the filled S, which is overwritten. With `choose`, selects the rows again.
   void factorise(bool choose);
-  // The smallest pivot of a kept row relative to its own diagonal element, and the joint that has it: near zero the
-  // joints are in a singular position.
+  // The smallest pivot of a kept row relative to its own diagonal element, and its joint. Near zero the joints are in a
+  // singular position.
   double smallest_pivot() const { return smallest_pivot_; }
   std::size_t joint_of_smallest_pivot() const { return joint_of_smallest_; }
   // Solves S x = b in place; a row left out gets 0.

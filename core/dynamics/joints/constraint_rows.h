@@ -1,4 +1,4 @@
-// The rows of a joint: what each says is zero, and its first and second derivative in time,
+// The rows of a joint: the value that must be zero, and its first and second derivative in time,
 //   g = 0,   g' = J_a V_a + J_b V_b = 0,   g'' = J_a V_a' + J_b V_b' + bias = 0,
 // with V = (v, w) of each end, all in W. Joints are made of four kinds of rows; arms and directions are in W.
 #pragma once
@@ -35,8 +35,8 @@ inline Vec6 joined(const Vec3& linear, const Vec3& angular) {
   return both;
 }
 
-// Each row in two ways: as a whole, and its gap alone, which needs only poses. Here, for they are what a step does
-// most.
+// Each row has two forms: the whole row, and its gap alone, which needs only poses. They stand in the header because a
+// step evaluates them most often.
 
 // Three rows: the points at the two arms coincide.
 inline void keep_together(const EndMotion& a, const Vec3& arm_a, const EndMotion& b, const Vec3& arm_b, double* gaps) {

@@ -36,10 +36,10 @@ void EliminationOrder::find_components(const std::vector<std::pair<int, int>>& c
   std::partial_sum(first_of_component.begin(), first_of_component.end(), first_of_component.begin());
 }
 
-// Component by component eliminates the joint with the fewest neighbours, which then all become each other's; the first
-// of equals. So a chain is eliminated from one end to the other, and each joint has a body beside it that carries
-// nothing yet: from both ends at once, the last joint would be between two halves, of which each is so heavy against
-// its own two bodies that of a thousand hinges its pivot would pass for zero.
+// Eliminates the joint with the fewest neighbours (the first of equals), component by component. Its neighbours then
+// all become neighbours of each other. A chain is thus eliminated from one end to the other, so each joint has a body
+// beside it that carries nothing yet. Elimination from both ends would leave the last joint between two heavy halves.
+// With a thousand hinges its pivot relative to its own two bodies would then count as zero.
 void EliminationOrder::order(const std::vector<std::pair<int, int>>& coupled) {
   std::vector<std::set<int>> neighbours(position.size());
   for (const auto& [a, b] : coupled) {

@@ -1,6 +1,6 @@
-// The order in which a symmetric matrix of blocks, one block row a joint, is eliminated: which joints meet, because
-// they share a body, does not change, so that the order (least degree first: a chain or tree of joints fills in nothing
-// but what its bodies' joints share) and the places of all products are found once.
+// The order of elimination of a symmetric block matrix with one block row per joint. Joints are coupled if they share a
+// body, and this never changes. The order and the positions of all products are therefore computed once. Least degree
+// first causes no fill-in for chains and trees, except between joints that share a body.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct EliminationOrder {
   std::vector<std::size_t> position;  // by joint
   // Blocks below the diagonal, column by column, rows ascending: the first of each position's, and each one's row.
   std::vector<std::int32_t> first_below, row_below;
-  // Where the product of each two blocks of a column goes, in order: to a block, or to ~position's diagonal.
+  // The target of the product of each two blocks of a column, in order: a block, or the diagonal of ~position.
   std::vector<std::int32_t> target;
   std::vector<std::size_t> first_target;
   // Joints that are connected by bodies that can move make a component; its joints are eliminated one after another.

@@ -1,5 +1,5 @@
-// A fixed joint: b keeps its pose in a. Six rows: b's centre is a point of a, and three pairs of directions, one of
-// each pair in a and the other in b, stay at right angles.
+// A fixed joint: b keeps its pose in a. Six rows: b's centre is a point of a, and three pairs of directions stay at
+// right angles. One direction of each pair belongs to a, the other to b.
 #include "core/dynamics/joints/joint_constraint.h"
 
 namespace rigor {

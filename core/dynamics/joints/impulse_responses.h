@@ -1,5 +1,5 @@
-// What impulses on two bodies make of velocities: of these two alone or, where joints hold them, of all bodies that are
-// connected with them. With J the rows of the joints and M the bodies' masses and inertias,
+// The velocity changes by impulses on two bodies: of these two alone, or of all bodies that joints connect with them.
+// With J the rows of the joints and M the bodies' masses and inertias,
 //   dV = W p,   W = (1 - M⁻¹ Jᵀ S⁻¹ J) M⁻¹,
 // W the inverse masses that the joints leave: the velocities obey the joints after each single impulse.
 #pragma once
@@ -21,10 +21,10 @@ class ImpulseResponses {
 
   // The bodies that impulses on a and b change the velocities of; either may be the world.
   std::vector<int> moved_by(int a, int b) const;
-  // By body, of those `moved_by` a and b: the changes (v, w) by the impulses (N s, N m s) on the two. Valid until the
+  // The changes (v, w) by the impulses (N s, N m s) on a and b, by body, for the bodies in `moved_by`. Valid until the
   // next call.
   const std::vector<Vec6>& of(const std::vector<int>& moved, int a, const Vec6& on_a, int b, const Vec6& on_b);
-  // The change of a body's velocity that no joint holds; none of one that cannot move.
+  // The velocity change of a body without joints; zero for one that cannot move.
   Vec6 alone(int body, const Vec6& impulse) const;
 
  private:

@@ -1,6 +1,6 @@
-// Islands: what is connected by contact points, and by joints, through bodies that move. A body at rest for good
-// connects nothing, so that each island's forces can be found by themselves, at a cost that grows with the islands and
-// not with their cube.
+// Islands: bodies connected by contact points and joints through bodies that move. A permanently fixed body connects
+// nothing. Each island's forces are solved alone, so the cost grows linearly with the islands and not with the cube of
+// their number.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ struct Island {
   std::vector<std::size_t> points;  // ascending
 };
 
-// Of points between the bodies a and b of each pair, or the world; one of the two moves. In the order of their first
-// points. `joints` may be null.
+// Islands of points between the bodies a and b of each pair, or the world; one of the two moves. They are in the order
+// of their first points. `joints` may be null.
 std::vector<Island> islands_of(const System& system, const std::vector<std::pair<int, int>>& pairs,
                                const Joints* joints = nullptr);
 

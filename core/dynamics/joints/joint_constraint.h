@@ -13,9 +13,9 @@ class JointConstraint {
  public:
   virtual ~JointConstraint() = default;
   virtual int rows() const = 0;
-  // Fills rows() of them.
+  // Writes rows() rows to `out`.
   virtual void evaluate(const EndMotion& a, const EndMotion& b, ConstraintRow* out) const = 0;
-  // Of them the gaps alone, from the ends' poses.
+  // Writes only the gaps of the rows, from the poses of the ends.
   virtual void find_gaps(const EndMotion& a, const EndMotion& b, double* out) const = 0;
 };
 
@@ -30,7 +30,7 @@ class JointOf : public JointConstraint {
   const Own& own() const { return static_cast<const Own&>(*this); }
 };
 
-// The poses of the two ends at t = 0, and what is given in W as they see it.
+// The poses of the two ends at t = 0, and the conversion of data given in W to each end's frame.
 struct EndsAtStart {
   EndMotion a, b;
   Vec3 in_a(const Vec3& point_W) const { return a.R.transpose() * (point_W - a.position); }

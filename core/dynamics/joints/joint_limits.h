@@ -1,6 +1,6 @@
-// The limits of hinges and sliders as unilateral constraints g >= 0, for contact methods: g = x - lower, or upper - x,
-// with the row of g' in the velocities of the joint's two bodies. A hinge's angle counts whole turns, from the state
-// that was noted last.
+// The limits of hinges and sliders as unilateral constraints g >= 0, for contact methods. g = x - lower, or upper - x,
+// with the row of g' in the velocities of the joint's two bodies. A hinge's angle counts whole turns from the last
+// noted state.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace rigor {
 
-// The most that x can have come to within h, if its path between two instants bends one way: where the lines along
-// which it begins and ends meet. Minus infinity unless it goes up at first and comes back.
+// An upper bound of x within h, if its path between two instants bends in one direction: the intersection of the
+// tangents at both ends. Returns minus infinity unless x first rises and then returns.
 double peak_between(double x, double rate, double end_x, double end_rate, double h);
 
 class JointLimits {
@@ -23,7 +23,8 @@ class JointLimits {
   double restitution(std::size_t k) const { return limits_[k].restitution; }
 
   struct Value {
-    double gap = 0, rate = 0, bias = 0;  // rad or m; its rate; what no acceleration makes of the rate's own rate
+    // rad or m; its rate; the part of the rate's derivative that does not depend on accelerations
+    double gap = 0, rate = 0, bias = 0;
     // Unit, in W: a's velocity along it, of turning if it is a hinge's, less b's, is the rate. A slider's is that at
     // arms from the centres of mass [m, in W].
     Vec3 direction = Vec3::Zero(), arm_a = Vec3::Zero(), arm_b = Vec3::Zero();

@@ -194,7 +194,7 @@ double JointRows::largest_gap() const {
   double largest = 0;
   for (const JointRow& joint : joints_) {
     for (int k = 0, rows = joint.rows_in_use(); k < rows; ++k) {
-      if (!(std::abs(joint.gap[k]) <= largest)) largest = std::abs(joint.gap[k]);  // also what is not a number
+      if (!(std::abs(joint.gap[k]) <= largest)) largest = std::abs(joint.gap[k]);  // true also for NaN
     }
   }
   return largest;

@@ -1,6 +1,6 @@
-// The rows of all joints of a scene at one state, and what is made of them: S = J M⁻¹ Jᵀ, wrenches Jᵀ l, and what a
-// wrench does to velocities and poses. A hinge or slider with limits or a motor of given speed has a row more, that of
-// its coordinate, while that is kept at a limit or driven at a speed.
+// The rows of all joints of a scene at one state, and their products: S = J M⁻¹ Jᵀ, wrenches Jᵀ l, and the effect of a
+// wrench on velocities and poses. A hinge or slider with limits or a motor of given speed has one more row, for its
+// coordinate, while the coordinate is kept at a limit or driven at a speed.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace rigor {
 
-// What the row of a coordinate x says.
+// The function of the row of a coordinate x.
 enum class CoordinateRow {
   none,    // nothing: x is free
   kept,    // x = target; an impulse leaves x' = rate
@@ -27,7 +27,7 @@ struct JointRow {  // all rows of a joint
   std::unique_ptr<JointConstraint> constraint;
   int rows = 0, most_rows = 0;     // of the joint alone; room, with its coordinate's if it can have one
   int end[2] = {kWorld, kWorld};   // the bodies at its ends
-  int body[2] = {kWorld, kWorld};  // of those the ones that can move, or kWorld
+  int body[2] = {kWorld, kWorld};  // those of them that can move, or kWorld
   double J[2][6 * kMostRows] = {}, Y[2][6 * kMostRows] = {};  // most_rows x 6, column by column; Y = J M⁻¹
   Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();               // zero beyond the rows in use
 
@@ -53,10 +53,9 @@ class JointRows {
 
   // Takes J, gaps and biases from a state; a coordinate that is driven has no gap.
   void evaluate(BodyColumns state);
-  // The longest arm of a joint [m], what gaps are small against: what turns a rotation into a gap, the torque of a row
-  // over its force. Of the rows evaluated last; 1 if no row has an arm. That of an end that cannot move, which is as
-  // far as the joint lies from the origin, tells of what rounding leaves; of how large a mechanism is the moving ends'
-  // do.
+  // The longest arm of a joint [m], the scale of gaps: it converts a rotation to a gap, as the ratio of a row's torque
+  // to its force. It is that of the last evaluated rows, or 1 if no row has an arm. The arm of a fixed end is its
+  // distance from the origin and gives the scale of rounding. The arms of moving ends give the size of the mechanism.
   double longest_arm() const { return longest_arm(false); }
   double longest_moving_arm() const { return longest_arm(true); }
   // Fills in S of the rows evaluated last.
@@ -76,7 +75,7 @@ class JointRows {
   double response_size(const JointRow& joint, const double* wrench) const;  // the largest of its terms' sizes
   // M⁻¹ Jᵀ l of one joint, to changes of velocity by body.
   void add_response(const JointRow& joint, const Vec6& multiplier, std::vector<Vec6>& by_body) const;
-  Vec6 free_acceleration(int body, const double* wrench) const;      // of gravity and a wrench, null if there is none
+  Vec6 free_acceleration(int body, const double* wrench) const;      // of gravity and a wrench, or null
   Vec6 acceleration_by(int body, const double* wrench) const;        // M⁻¹ times a wrench
   void push(const double* impulse, MutableBodyColumns state) const;  // adds M⁻¹ times an impulse to v and w,
   void note_velocities(BodyColumns state);                           // and then reads these for times_velocity()

@@ -10,9 +10,10 @@ namespace rigor {
 namespace {
 
 constexpr double kTouch = 1e-11;      // rad, m: from so near a limit on it is reached
-constexpr double kAtRest = 1e-9;      // rad/s, m/s: what slower comes to it, or is off a motor's speed, does not move
-constexpr double kLeaves = 1e-5;      // rad/s, m/s: faster than what closing a gap of kTouch makes of what was kept
-constexpr double kNoFlight = 4e-11;   // rad, m: what is thrown no higher off its limit does not leave it
+// rad/s, m/s: a slower coordinate, or smaller deviation from a motor's speed, counts as at rest
+constexpr double kAtRest = 1e-9;
+constexpr double kLeaves = 1e-5;      // rad/s, m/s: faster than the velocity from closing a gap of kTouch
+constexpr double kNoFlight = 4e-11;   // rad, m: a coordinate that would rise no higher off its limit stays there
 constexpr double kNoEffort = 1e-9;    // of the largest multiplier: ten thousand times what rounding leaves of one
 constexpr double kNoChange = 1e-9;    // of 1 + |g| [m/s², rad/s²]: an acceleration that rounding can make
 constexpr int kMostChangesEach = 16;  // of a coordinate's mode in the search for which hold
@@ -150,7 +151,7 @@ bool JointStops::resolve_impacts(MutableBodyColumns state, double t, double shor
   return found;
 }
 
-// Which bounces end at once is a matter of what else holds after the impact. Whether there were any.
+// A bounce may end at once because of other constraints that hold after the impact. Returns whether there were any.
 bool JointStops::take_away_short_flights(BodyColumns state, double t, double shortest_flight,
                                          const std::vector<int>& hit) {
   if (std::none_of(stops_.begin(), stops_.end(), [](const Stop& stop) { return stop.bounce != 0; })) return false;
@@ -187,7 +188,7 @@ bool JointStops::find_impulses(MutableBodyColumns state) {
   return false;
 }
 
-// What held goes on to; a motor that has its speed, or may come to have it, keeps it.
+// Constraints that held stay active. A motor that has its speed, or may reach it, keeps it.
 void JointStops::guess_modes() {
   for (Stop& stop : stops_) {
     if (stop.at != 0 && !touches(stop, stop.at)) stop.at = 0;
@@ -253,14 +254,14 @@ double JointStops::distance_to(std::size_t i, Event event) const {
       return std::abs(stop.effort) - stop.motor->most - effort_tolerance_;
     if (stop.drive != Drive::pushing) return -1;
     const double to = *stop.motor->speed - stop.settled_rate;
-    // What has its speed and yet pushes is saturated: what it must leave first is that speed.
+    // A motor that has its speed and still pushes is saturated. It must first leave that speed.
     if (std::abs(to) <= kAtRest) return std::copysign(1, stop.push) * (stop.rate - *stop.motor->speed) - 2 * kAtRest;
     return std::copysign(1, to) * (stop.rate - *stop.motor->speed);
   }
   const int side = event == Event::upper ? 1 : -1;
   if (stop.at == side) return side * stop.effort - effort_tolerance_;
   if (stop.at != 0) return -1;
-  // What has bounced is not asked whether it is there: it must go further than it was.
+  // After a bounce the coordinate must go further than it was before it counts as reaching the limit again.
   const double at_start = side > 0 ? stop.settled_x - stop.upper : stop.lower - stop.settled_x;
   return stop.touched(side) - (at_start >= -kTouch ? std::max(0.0, at_start) + 2 * kTouch : 0);
 }

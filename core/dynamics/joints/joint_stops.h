@@ -1,8 +1,8 @@
 // The limits of hinges and sliders, and motors of a given speed, at an instant:
 //   a limit x <= upper   takes an effort of at most 0, and none where x < upper; what hits it leaves with x' = -e x'
 //   a motor              keeps x' = speed as long as |effort| <= most, and else pushes by `most` towards it
-// Which of them hold and which do not is a linear complementarity problem, for impulses at an impact and for efforts
-// after it: here by principal pivoting, of the first that is violated each time (K. G. Murty, 1974).
+// A linear complementarity problem decides which of them are active, for impulses at an impact and for efforts after
+// it. Principal pivoting on the first violated row solves it (K. G. Murty, 1974).
 #pragma once
 
 #include <functional>
@@ -29,18 +29,17 @@ class JointStops {
   void read(BodyColumns state, double since);
   void read_settled();  // the values at which settle() left them
 
-  // What happens at this instant: impacts change velocities; then which limits and motors hold from now on. A bounce
-  // that ends within `shortest_flight` [s] does not take place. Returns false if that could not be decided.
+  // Handles one instant: impacts change velocities, then the active limits and motors are determined. A bounce that
+  // would end within `shortest_flight` [s] is suppressed. Returns false if there is no consistent answer.
   bool settle(MutableBodyColumns state, double t, double shortest_flight);
   // Before an impact, in which no motor has a part, for its effort has a bound.
   void let_go(BodyColumns state);
-  // Which motors hold from now on. `wrench` gives, with the motors as they are being tried, the wrench columns of all
-  // that acts on the bodies beside their joints, which may be null. Returns false if that could not be decided.
+  // Determines the active motors. `wrench` returns, for the motors currently tried, the wrench columns of all loads
+  // except joint forces; it may be null. Returns false if there is no consistent answer.
   using Wrench = std::function<const double*()>;
   bool settle_motors(BodyColumns state, double t, const Wrench& wrench);
 
-  // How far each of what may happen to a coordinate is from happening, at the state that was read last; below zero
-  // until it does.
+  // The distance of each possible event of a coordinate at the state read last; below zero until it happens.
   enum class Event { upper, lower, motor };
   static constexpr Event kEvents[] = {Event::upper, Event::lower, Event::motor};
   std::size_t size() const { return stops_.size(); }
@@ -55,7 +54,7 @@ class JointStops {
   // How far the motors are from a change at the state that was read last: negative beyond it.
   double margin_of_motors() const;
 
-  // The first instant in (t, end) at which a motor of given speed begins or ends; `end` if there is none.
+  // The first instant in (t, end) at which a motor of given speed begins or ends; `end` if none does.
   double next_switch(double t, double end) const;
 
  private:

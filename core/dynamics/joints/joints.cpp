@@ -99,8 +99,8 @@ void Joints::solve() {
   for (int pass = 0; pass < 2; ++pass) refine();
 }
 
-// Near a singular position, at a distance of d rad, S has lost d^-2 roundings. What J itself says of the solution has
-// lost d^-1, and corrects it (the corrected semi-normal equations; Å. Björck, 1987).
+// At a distance of d rad from a singular position, S has lost d^-2 roundings. The residual of J has lost only d^-1, and
+// corrects the solution (the corrected semi-normal equations; Å. Björck, 1987).
 void Joints::refine() {
   const double* const wrench = rows_.wrench_of(multipliers_);
   for (std::size_t k = 0; k < rows_.size(); ++k)
@@ -221,8 +221,8 @@ void Joints::aim_driven_coordinates(BodyColumns start, double h) {
   }
 }
 
-// A chord method: the impulse's effect on the end is taken to be h S, that of the start's J at both. It begins with
-// what the rows and their rates at the start say of the end, which leaves a gap of h³.
+// A chord method. It assumes that the impulse changes the end by h S, with J of the start at both. It starts from the
+// rows and their rates at the start, which leave a gap of h³.
 bool Joints::close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt,
                    double within) {
   factorise(start, Rows::chosen_anew);

@@ -4,7 +4,7 @@
 //   velocities     J V = 0 by an impulse Jᵀ l                 velocity_impulse()
 //   a drift        that ends where g = 0, by an impulse at its start along J there  (SHAKE and RATTLE)   close()
 //   a state        projected, with the least norm in the metric of M, to g = 0 and J V = 0    project()
-// Coordinates that are kept or driven (joint_rows.h) have rows in all of these; which are is for their owner to say
+// Coordinates that are kept or driven (joint_rows.h) have rows in all of these. Their owner decides which are active
 // (joint_stops.h).
 #pragma once
 
@@ -30,9 +30,9 @@ class Joints : public ConstraintForces {
   void project(MutableBodyColumns state);
 
   // Finds the impulse at the pose `start` that closes all joints at the end of a drift of length h [s] with the
-  // velocities of `start`, to `within` of size() or to rounding. `attempt` takes wrench columns of an impulse
-  // and returns where a drift with it ends; its last call is with the impulse found. Returns false if there seems to be
-  // none: bodies turn by so much in h that nothing at its start can close the joints at its end.
+  // velocities of `start`, to `within` times size() or to rounding. `attempt` takes the wrench columns of an impulse
+  // and returns the end of a drift with it; its last call has the final impulse. Returns false if there seems to be no
+  // such impulse, because bodies turn too far in h.
   bool close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt,
              double within = 0);
   // Notes as a warning what gap is left at a state, if there is one.
@@ -43,7 +43,7 @@ class Joints : public ConstraintForces {
   // The largest |g| at a state [m, or sine of an angle].
   double gap(BodyColumns state) { return rows_.measure_gaps(state); }
 
-  // What the row of a joint's coordinate says from now on; see joint_rows.h. count_rows() is due after the last change.
+  // Sets the function of the row of a joint's coordinate; see joint_rows.h. Call count_rows() after the last change.
   void set_coordinate(std::size_t joint, CoordinateRow row, double target, double rate);
   // Counts anew at a state where the joints are closed which rows repeat others.
   void count_rows(BodyColumns state);
@@ -63,20 +63,20 @@ class Joints : public ConstraintForces {
   // not allow.
   void restrict(int component, std::vector<Vec6>& change);
 
-  // Of the last factorisation; see block_cholesky.h.
+  // That of the last factorisation; see block_cholesky.h.
   double smallest_pivot() const { return factor_.smallest_pivot(); }
 
   double size() const { return size_; }  // m: the longest arm of an end that moves, what gaps are small against
-  // Rows of all joints, and how many of them do not repeat others.
+  // Rows of all joints, and their rank.
   int rows() const;
   int rank() const { return factor_.rank(); }
 
-  // Why what was done since begin_step() is not what was asked; empty if it is.
+  // Why the work since begin_step() is less than what was requested; empty if it is not.
   void begin_step() { warning_.clear(); }
   // Notes where a hinge with a spring has turned by half a turn, at which the angle that the spring goes by jumps.
   void end_step(BodyColumns state);
   std::string warning() const { return at_start_.empty() ? warning_ : at_start_; }
-  // What was noted so far, for who tries a step and then takes another: what the refused one noted is not kept.
+  // Supports trial steps: read the notes, try a step, and restore them if the step is discarded.
   const std::string& noted() const { return warning_; }
   void note_only(std::string warning) { warning_ = std::move(warning); }
 

@@ -1,5 +1,5 @@
-// What is found out about the joints once, at t = 0: which rows repeat others, whether they contradict each other, and
-// whether it is a singular position.
+// Checks of the joints at t = 0: which rows repeat others, whether they contradict each other, and whether the position
+// is singular.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,9 +9,11 @@
 namespace rigor {
 namespace {
 
-// How far a repeated row's acceleration may be from what the others make it, relative to the terms of the row.
+// The allowed difference between a repeated row's acceleration and the one that follows from the others, relative to
+// the terms of the row.
 constexpr double kContradiction = 1e-6;
-// Of the extent: so far from a singular position pivots are 1e-4, and what Newton's method does not close is as large.
+// As a share of the extent. At this distance from a singular position pivots are 1e-4, and so is the gap that Newton's
+// method does not close.
 constexpr double kBeside = 1e-2;
 constexpr double kOpenAtStart = 1e-9;  // of the extent: a gap that no rounding explains
 
@@ -25,8 +27,8 @@ void Joints::find_ranks(BodyColumns state) {
   if (at_start_.empty()) look_for_singularity(state);
 }
 
-// Where rows repeat others, their accelerations must follow from the others' too: if they do not, the mechanism is
-// locked, or is at a position from which it cannot go on as its velocities say.
+// If rows repeat others, their accelerations must follow from the others', too. Otherwise the mechanism is locked, or
+// its velocities cannot continue from this position.
 void Joints::look_for_contradictions() {
   rows_.assemble(factor_);
   factor_.factorise(true);

@@ -10,8 +10,9 @@ namespace {
 
 constexpr std::size_t kMostNamed = 5;
 constexpr double kSmall = 1e-2;  // a tenth of a radian away, for links of like lengths
-// Of the pivots beside it, to which the parabola comes down: what is of third order in a step of a tenth of a radian. A
-// mechanism that only comes near, to a pivot p, is far above it as long as a step's own share is less than 4 p.
+// Relative to the neighbouring pivots: the least value of the parabola at a passage. It is of third order in a step of
+// a tenth of a radian. A mechanism that only comes near, to a pivot p, stays far above it while a step's own share is
+// less than 4 p.
 constexpr double kNothing = 0.2;
 
 }  // namespace

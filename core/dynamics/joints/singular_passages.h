@@ -1,7 +1,7 @@
-// When a mechanism passes a singular position, in which rows come to repeat others and another motion branches off: a
-// slider-crank of equal lengths upright, a four-bar that folds flat. At a distance of d rad from one the smallest pivot
-// of S (block_cholesky.h) is proportional to d², and a step of a run hardly ever ends in the position itself: it is
-// where a parabola through three instants' pivots comes down to next to nothing.
+// Finds when a mechanism passes a singular position, in which rows repeat others and another motion branches off.
+// Examples are an upright slider-crank of equal lengths and a four-bar that folds flat. At a distance of d rad the
+// smallest pivot of S (block_cholesky.h) is proportional to d². A step hardly ever ends exactly in the position. A
+// passage is therefore where a parabola through the pivots of three instants falls to almost zero.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ class SingularPassages {
  public:
   // The pivot of the last factorisation at t [s], later than the last time.
   void note(double t, double pivot);
-  // An impact: what follows is no continuation of what was.
+  // An impact: the motion afterwards does not continue the motion before.
   void interrupt() { known_ = 0; }
-  const std::vector<double>& times() const { return times_; }  // s, of the first of them
-  std::string text() const;                                    // "at 0.2146 s, 0.985 s"; empty where there is none
+  const std::vector<double>& times() const { return times_; }  // s, of the first passages
+  std::string text() const;                                    // "at 0.2146 s, 0.985 s"; empty if there are none
 
  private:
   struct Instant {

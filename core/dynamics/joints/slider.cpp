@@ -1,5 +1,5 @@
-// A slider: b does not turn against a, and its centre moves along an axis that is fixed in a. Five rows: three pairs of
-// directions stay at right angles, and two offsets across the axis stay what they are at t = 0.
+// A slider: b does not rotate relative to a, and its centre moves along an axis fixed in a. Five rows: three pairs of
+// directions stay at right angles, and two offsets across the axis keep their values of t = 0.
 #include "core/dynamics/joints/joint_constraint.h"
 
 namespace rigor {

@@ -1,5 +1,5 @@
-// Products and triangular solves of the blocks that joints make: up to six by six, column by column without gaps, the
-// number of rows known when compiled. Larger libraries lose more in calls and generality than the arithmetic costs.
+// Products and triangular solves of joint blocks: up to six by six, column by column without gaps, with the number of
+// rows known at compile time. Larger libraries lose more time in calls and generality than the arithmetic takes.
 #pragma once
 
 #include <type_traits>
@@ -27,7 +27,7 @@ void with_rows(int rows, const F& f) {
   }
 }
 
-// Calls f with n as a constant where it is one of those that are common beside R rows, so that its loops are unrolled.
+// Calls f with n as a constant if n is one of the common sizes beside R rows, so that its loops are unrolled.
 template <int R, typename F>
 void with_count(int n, const F& f) {
   if (n == R) return f(std::integral_constant<int, R>{});

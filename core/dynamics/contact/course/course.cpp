@@ -1,8 +1,8 @@
-// The course's impulse collision (Computational Models of Motion 2021, assignment 5, exercise 3), for spheres on planes
-// and on each other: where two bodies overlap and the contact point's relative velocity u approaches, the impulse j =
-// K⁻¹ (u' - u) takes it to u' = -e u_n n, without any tangential part (infinite friction). K is the inverse effective
-// mass of the two bodies at the point. Positions are left alone: the overlap is what the coarse step makes of it.
-// Contacts are taken one after another, each once: a single body's bounce, not a pile.
+// The course's impulse collision for spheres on planes and on each other (Computational Models of Motion 2021,
+// assignment 5, exercise 3). It acts where two bodies overlap and the relative velocity u of the contact point
+// approaches. The impulse j = K⁻¹ (u' - u) changes it to u' = -e u_n n, without tangential part (infinite friction). K
+// is the inverse effective mass of the two bodies at the point. Positions stay unchanged, so the overlap follows from
+// the coarse step. Contacts are processed one after another, each once. The method suits single bounces, not piles.
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
@@ -19,7 +19,7 @@ struct Ground {
   Plane plane;
 };
 
-// One body's share in a contact: its point's velocity, and what an impulse at the point does to it.
+// One body's share in a contact: the velocity of its point, and the effect of an impulse at the point.
 struct Side {
   int body;
   Vec3 arm;  // from the centre of mass to the point, in W
