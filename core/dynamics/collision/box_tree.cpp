@@ -26,7 +26,7 @@ void BoxTree::update(const std::vector<Aabb>& boxes, const std::vector<int>& cha
   fit();
 }
 
-// What has no centre comes last.
+// Boxes without a centre come last.
 void BoxTree::sort(const std::vector<Aabb>& boxes) {
   const auto middle = [&](std::size_t i) -> Vec3 { return 0.5 * (boxes[i].low + boxes[i].high); };
   Vec3 low = Vec3::Constant(kInfinity), high = -low;
@@ -66,7 +66,7 @@ void BoxTree::sort(const std::vector<Aabb>& boxes) {
   }
 }
 
-// Written so that what is not a number is unbounded.
+// Written so that NaN counts as unbounded.
 void BoxTree::enter(const Aabb& box, std::size_t slot) {
   Node& node = levels_[0][slot / kChildren];
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,7 +1,6 @@
-// Boxes along W's axes in a tree whose nodes have eight children each, which are looked through side by side. Boxes
-// stand in it in the order of a Morton curve through their centres, so that the children of a node lie near each other;
-// as boxes move the nodes are made to fit again, and the order, of which only the cost of a search depends, is renewed
-// now and then.
+// Boxes along W's axes in a tree with eight children per node, which are searched side by side. The boxes are in Morton
+// order of their centres, so the children of a node lie near each other. When boxes move, the nodes are refitted. The
+// order affects only the cost of a search and is renewed now and then.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +18,10 @@ class BoxTree {
     std::vector<int> nodes, children;
   };
 
-  // The tree of these boxes, of which since the last call only those at these places have changed.
+  // Updates the tree for these boxes. Only those at the given places have changed since the last call.
   void update(const std::vector<Aabb>& boxes, const std::vector<int>& changed);
-  // The places of the boxes that overlap `box`, in the tree's order; what is not a number overlaps all. They hold until
-  // the next search with this scratch.
+  // Returns the places of the boxes that overlap `box`, in the tree's order. NaN overlaps all boxes. The result is
+  // valid until the next search with this scratch.
   struct Places {
     const int* first;
     const int* last;

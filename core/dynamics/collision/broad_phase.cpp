@@ -5,7 +5,7 @@
 
 namespace rigor {
 
-// Those with a changed box: each of these with all that are not, and with the changed ones that come after it.
+// Finds the pairs of changed boxes: each changed box with all unchanged ones, and with the changed ones that follow it.
 void BroadPhase::search(int place, const std::vector<Aabb>& boxes, Part& part) const {
   for (const int other : tree_.overlapping(boxes[static_cast<std::size_t>(place)], part.scratch)) {
     if (is_changed_[static_cast<std::size_t>(other)] != 0 && other <= place) continue;
@@ -13,7 +13,7 @@ void BroadPhase::search(int place, const std::vector<Aabb>& boxes, Part& part) c
   }
 }
 
-// By the first of both, and then the few of each by the second.
+// Sorts by the first of both, and then the few of each by the second.
 void BroadPhase::sort_found() {
   first_pair_.assign(is_changed_.size() + 2, 0);
   for (const Part& part : parts_)

@@ -1,5 +1,5 @@
-// Which of many boxes along W's axes overlap, in time that grows as N log N: a tree of boxes (box_tree.h) is searched
-// for each, or, where most stay as they are, for those alone that have changed. Threads may share the searches.
+// Finds which of many boxes along W's axes overlap, in N log N time. A tree of boxes (box_tree.h) is searched for each
+// box. If most boxes stay unchanged, only the changed ones are searched. Threads may share the searches.
 #pragma once
 
 #include <utility>
@@ -15,14 +15,14 @@ class BroadPhase {
   // Each pair (first < second by their place in `boxes`) that overlaps, in ascending order. A box that is not a number
   // overlaps all.
   const std::vector<std::pair<int, int>>& overlaps(const std::vector<Aabb>& boxes);
-  // Likewise, where since the last call only the boxes at these places are not the same: a search for these alone,
-  // which threads may share.
+  // The same if only the boxes at these places have changed since the last call. Only these are searched, and threads
+  // may share the work.
   const std::vector<std::pair<int, int>>& overlaps(const std::vector<Aabb>& boxes, const std::vector<int>& changed,
                                                    ThreadPool* threads = nullptr);
 
  private:
   using Pairs = std::vector<std::pair<int, int>>;
-  struct alignas(kCacheLine) Part {  // what one thread finds
+  struct alignas(kCacheLine) Part {  // the pairs that one thread finds
     BoxTree::Scratch scratch;
     Pairs found;
   };

@@ -1,5 +1,5 @@
-// Bodies whose centres coincide, which have no direction to part in: one is taken to lie a millionth of their size
-// aside, each body in a direction of its own, so that many in one place part to all sides.
+// Bodies with coincident centres have no direction in which to separate. One is treated as a millionth of their size
+// aside. Each body has its own direction, so that many bodies in one place separate to all sides.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// A box and a capsule. The square of the distance from the box to a point that runs along the capsule's axis is convex
-// and piecewise quadratic, with pieces that end where the point passes a face's plane: its least value is found
-// exactly. An axis that itself lies inside the box is pushed out along the axis of least overlap, of the box's normals
-// and their products with it. Where the capsule lies along a face, both ends of the part over the face carry it.
+// A box and a capsule. The squared distance from the box to a point on the capsule's axis is convex and piecewise
+// quadratic. The pieces end where the point passes a face's plane, so the minimum is exact. If the axis itself enters
+// the box, it is pushed out along the axis of least overlap, among the box's normals and their cross products with it.
+// If the capsule lies along a face, both ends of the part over the face are contact points.
 #include <algorithm>
 #include <limits>
 

@@ -1,7 +1,7 @@
-// Two boxes: the axis along which they are furthest apart, out of the three face normals of each and the nine products
-// of their edges (Gottschalk, Lin, Manocha, OBBTree, 1996). Face against face: the incident face is clipped by the
-// sides of the reference face (Sutherland and Hodgman), and each corner left has its own gap. Edge against edge: the
-// two edges' nearest points.
+// Two boxes: the axis of largest separation, among the three face normals of each box and the nine products of their
+// edges (Gottschalk, Lin, Manocha, OBBTree, 1996). Face against face: the incident face is clipped by the sides of the
+// reference face (Sutherland and Hodgman), and each remaining corner has its own gap. Edge against edge: the nearest
+// points of both edges.
 #include <algorithm>
 #include <limits>
 
@@ -10,11 +10,11 @@
 namespace rigor {
 namespace {
 
-// An edge pair must be this share of the smallest half-length further apart than the best face, so that faces that lie
-// on each other, whose edges say the same but for rounding, are seen as faces.
+// An edge pair must be separated further than the best face by this share of the smallest half-length. The edges of
+// touching faces give the same separation up to rounding; such contacts then count as faces.
 constexpr double kFacePreference = 1e-5;
-// A face is cut by the sides of the other this share of its half-length further out, so that edges that lie on each
-// other keep their corners, whichever side rounding puts them.
+// A face is clipped this share of its half-length outside the sides of the other face. Edges that lie on each other
+// then keep their corners, regardless of rounding.
 constexpr double kOutside = 1e-6;
 
 struct Axis {
@@ -79,7 +79,7 @@ std::uint32_t crossing_id(std::uint32_t from, std::uint32_t to, std::uint32_t si
   return (low * 0x9E3779B1u) ^ (high * 0x85EBCA77u) ^ ((side + 1) * 0xC2B2AE3Du);
 }
 
-// What lies where n · p <= offset.
+// The half-space n · p <= offset.
 Polygon clipped(const Polygon& polygon, const Vec3& n, double offset, std::uint32_t side) {
   Polygon out;
   for (int i = 0; i < polygon.count; ++i) {

@@ -17,7 +17,7 @@ struct Collider {
   int body;
   Shape shape;
   double bounding_radius;  // m, about the body's centre of mass; infinite for a plane
-  double inradius;         // m, half the least width: what moves by less cannot pass through; infinite for a plane
+  double inradius;         // m, half the least width: a smaller motion cannot pass through; infinite for a plane
   bool fixed;
 };
 

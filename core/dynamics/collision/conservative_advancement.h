@@ -1,9 +1,9 @@
-// Whether two bodies surely stay apart while they go from one state to another: along a direction n that parts them at
-// one end, no corner or round end of either can have crossed to the other after time t, for
+// Whether two bodies surely stay apart between two states. Let n be a direction that separates them at one end. No
+// corner or round end of either can cross to the other within time t, because
 //   n·x(t) <= n·x + n·v t + A t²/2,   A the largest acceleration of any of its points on the way,
-// nor to beyond the bounding radius of the body round its centre, a bound that is tightest at both ends of [0, t] and
-// so need only be looked at there. From the first state it is taken to the middle, and from the second one back to it.
-// What passes is as if looked at at every instant.
+// and none can leave the bounding radius of the body around its centre. The bound is tightest at both ends of [0, t],
+// so only these are checked. It is applied from the first state to the middle, and from the second state back to it. A
+// passed check holds at every instant.
 #pragma once
 
 #include "core/dynamics/collision/colliders.h"

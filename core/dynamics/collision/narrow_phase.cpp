@@ -6,7 +6,7 @@
 namespace rigor {
 namespace {
 
-// Two balls; every pair of round shapes comes down to them. Where the centres meet there is no direction: any will do.
+// Two balls; every pair of round shapes reduces to them. If the centres coincide, any direction is used.
 void add_balls(const Vec3& a, double radius_a, const Vec3& b, double radius_b, std::uint32_t feature, Manifold& out) {
   const Vec3 line = a - b;
   const double distance = line.norm();

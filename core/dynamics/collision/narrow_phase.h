@@ -1,7 +1,7 @@
-// Where two shapes touch, or would: points, normals and signed gaps of sphere, box, capsule and plane, each against
-// each. A gap is exact while the shapes are apart or just touch; for two boxes it is the separation along the best of
-// the fifteen axes (two face normals' triples and the products of the edges), which is the distance for every kind of
-// touch and never more than it. Flat and long contacts have several points, each with its own gap.
+// Contact points, normals and signed gaps between sphere, box, capsule and plane, in every combination. A gap is exact
+// while the shapes are apart or just touch. Two boxes use the separation along the best of fifteen axes (the face
+// normals of both and the products of the edges). It equals the distance for every kind of touch, and never exceeds it.
+// Flat and long contacts have several points, each with its own gap.
 #pragma once
 
 #include <array>

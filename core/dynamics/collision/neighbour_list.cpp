@@ -6,8 +6,8 @@
 namespace rigor {
 namespace {
 
-// Slack, of the largest radius: what was at rest so far may begin to move; and what one fast ball asks for must not
-// make neighbours of all.
+// Bounds of the slack, relative to the largest radius. The lower bound is needed because resting balls may begin to
+// move. The upper bound keeps one fast ball from making all balls neighbours.
 constexpr double kLeast = 1.0 / 16, kMost = 4;
 
 }  // namespace
@@ -38,8 +38,8 @@ bool NeighbourList::overlap(int a, int b, BodyColumns state) const {
   return (state.position(balls_[a].body) - state.position(balls_[b].body)).squaredNorm() < distance * distance;
 }
 
-// From what the balls moved in a step since the last search; the first knows nothing but how large they are. Fewer
-// steps if a search found many pairs, for each costs a look in every step.
+// Chooses the slack from the balls' motion per step since the last search. The first choice knows only their sizes.
+// Fewer steps are allowed if a search found many pairs, because each pair is checked in every step.
 void NeighbourList::choose_slack(BodyColumns state, const Columns& spheres) {
   constexpr double kMostSteps = 256;
   constexpr std::size_t kMostPairsOfBall = 4;

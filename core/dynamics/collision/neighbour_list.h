@@ -1,7 +1,6 @@
-// Which of many spheres overlap, by a list of neighbours (Verlet, Phys. Rev. 159 (1967) 98): the broad phase is asked
-// for the pairs that may meet while no sphere moves by more than a slack along each axis, and the list holds until one
-// has. Most steps only see that none has, and look through the pairs of the list. What comes out depends on the spheres
-// alone.
+// Finds which of many spheres overlap with a neighbour list (Verlet, Phys. Rev. 159 (1967) 98). The broad phase finds
+// the pairs that may meet while no sphere moves by more than a slack along each axis. The list is valid until a sphere
+// has moved further. Most steps only check this and the listed pairs. The result depends only on the spheres.
 #pragma once
 
 #include "core/dynamics/collision/broad_phase.h"

@@ -1,6 +1,6 @@
-// What each kernels_*.cpp compiles for its instruction set, in a namespace of its own, so that no two of them share a
-// function. Nothing from other headers may come after the compiler is told of the instruction set: what they define
-// would be compiled for it, and could be linked into the rest of the program.
+// The code that each kernels_*.cpp compiles for its instruction set, in its own namespace, so that no two of them share
+// a function. No other header may be included after the instruction set is selected. Its definitions would be compiled
+// for that set, and could be linked into the rest of the program.
 #define RIGOR_INLINE __attribute__((always_inline)) inline
 #define RIGOR_LAMBDA __attribute__((always_inline))
 

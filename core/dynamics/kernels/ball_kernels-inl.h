@@ -1,5 +1,5 @@
-// The kernels of ball joints and hinges (ball_rows.h); ball_kernels.h says what each does. Included once by each
-// kernels_*.cpp, on purpose without a guard.
+// The kernels of ball joints and hinges (ball_rows.h); ball_kernels.h describes each. Each kernels_*.cpp includes this
+// file once; it has no guard on purpose.
 
 template <class T>
 RIGOR_INLINE V3<T> column3(T, const double* row, int column) {
@@ -35,12 +35,12 @@ void gather_poses(const Bodies& b, const double* state, double* poses) {
   });
 }
 
-// Without what lies along n, of length 1 or 0.
+// The part of a perpendicular to n, which has length 1 or 0.
 template <class T>
 RIGOR_INLINE V3<T> across(V3<T> a, V3<T> n) {
   return a - dot(n, a) * n;
 }
-// Of a matrix by its columns: what lies along r from the left, and along c from the right.
+// The matrix, given by its columns, without its parts along r from the left and along c from the right.
 template <class T>
 RIGOR_INLINE M3<T> across(const M3<T>& by, V3<T> r, V3<T> c) {
   const M3<T> left = {across(by.x, r), across(by.y, r), across(by.z, r)};
@@ -81,8 +81,8 @@ RIGOR_INLINE M3<T> response_of(const Record<T>& body, V3<T> r, V3<T> s) {
   return by;
 }
 
-// Of a symmetric matrix what is across n from both sides and, so that it has an inverse, what it has along n:
-// D - (n kᵀ + k nᵀ) with k = (1 - n nᵀ) D n.
+// The part of a symmetric matrix across n from both sides, plus its part along n, so that it has an inverse: D - (n kᵀ
+// + k nᵀ) with k = (1 - n nᵀ) D n.
 template <class T>
 RIGOR_INLINE Symmetric<T> parted(const Symmetric<T>& D, V3<T> n) {
   const V3<T> k = across(D * n, n);

@@ -1,7 +1,7 @@
-// What the kernels of ball joints and hinges work on (joints/ball_joints.h is the method): pins and couplings, which
-// are two pins on one body, in blocks of eight rows, and records of eight doubles a body (contact_rows.h). A pin holds
-// two points together, or, of a hinge's second, all of them but what lies along its axis. Vectors in W. Rows that fill
-// a block are of the world alone, whose record comes after the bodies'.
+// The data of the kernels for ball joints and hinges; joints/ball_joints.h describes the method. Pins, and couplings
+// (two pins on one body), are stored in blocks of eight rows. Records hold eight doubles per body (contact_rows.h). A
+// pin holds two points together; the second pin of a hinge leaves the direction along its axis free. Vectors are in W.
+// Rows that fill up a block belong to the world alone, whose record follows the bodies'.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ enum BallColumn {
 };
 enum CouplingColumn {
   kBlock = 0,  // 1/kg: of the row's pin and the column's, column by column
-  kSign = 9,   // 1 if the body is at the same end of both, -1 if not, 0 if there is none
+  kSign = 9,   // 1 if the body is at the same end of both, -1 if not, 0 without a body
   kCouplingColumns = 10
 };
 

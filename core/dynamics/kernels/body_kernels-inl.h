@@ -1,5 +1,5 @@
-// The kernels over bodies; kernels.h says what each does. Included once by each kernels_*.cpp, on purpose without a
-// guard.
+// The kernels over bodies; kernels.h describes each. Each kernels_*.cpp includes this file once; it has no guard on
+// purpose.
 
 template <class T>
 RIGOR_INLINE T get(T, const double* table, const Bodies& b, int column, std::size_t i) {

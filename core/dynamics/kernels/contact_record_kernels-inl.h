@@ -1,5 +1,5 @@
-// Records of bodies (contact_rows.h), and between them and the state; kernels.h says what comes out. Included once by
-// each kernels_*.cpp, on purpose without a guard.
+// Kernels between records of bodies (contact_rows.h) and the state; kernels.h describes the results. Each kernels_*.cpp
+// includes this file once; it has no guard on purpose.
 
 constexpr std::size_t kTwist = 6;  // columns of a record that holds v and w
 
@@ -17,7 +17,7 @@ RIGOR_INLINE Record<T> get_record(T, const double* records, const std::int32_t* 
   }
   return r;
 }
-// The first of the columns, an even number of them.
+// Writes the first columns; their number is even.
 template <class T>
 RIGOR_INLINE void put_record(double* records, const std::int32_t* rows, const Record<T>& r,
                              std::size_t columns = kRecord) {
@@ -125,7 +125,7 @@ void integrate_corrections(const Bodies& b, const double* velocities, double h, 
     put3(state, b, kPosition, i, get3(T(), state, b, kPosition, i) + moved);
     const Q4<T> q = get4(T(), state, b, kOrientation, i);
     const Q4<T> to = nearly_unit_normalised(rotation_by_twice(half_turn) * q);
-    const T size = dot(half_turn, half_turn);  // what is not turned keeps its every bit
+    const T size = dot(half_turn, half_turn);  // a body that does not rotate keeps every bit
     put4(state, b, kOrientation, i,
          Q4<T>{if_at_most(size, T{}, q.w, to.w), if_at_most(size, T{}, q.x, to.x), if_at_most(size, T{}, q.y, to.y),
                if_at_most(size, T{}, q.z, to.z)});

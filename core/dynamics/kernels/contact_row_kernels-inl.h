@@ -1,5 +1,5 @@
-// Contact constraints, several at once; contact_kernels.h says what comes out, contact/impulse/impulse.cpp has the
-// method. Included once by each kernels_*.cpp, on purpose without a guard.
+// Contact constraints, several at once. contact_kernels.h describes the results, contact/impulse/impulse.cpp the
+// method. Each kernels_*.cpp includes this file once; it has no guard on purpose.
 
 template <class T>
 RIGOR_INLINE T at_least_zero(T x) {
@@ -19,7 +19,7 @@ struct PairLanes {
   }
 };
 
-// As many rows of a block.
+// As many rows of a block as T has lanes.
 template <class T>
 struct RowLanes {
   using Lanes = T;
@@ -76,7 +76,7 @@ struct AnyRow : RowLanes<T> {
     const V3<T> friction = get3(kFrictionImpulse);
     put(kTangentImpulse, dot(t, friction)), put(kTangentImpulse + 1, dot(s, friction));
     put3(kTangent, t);
-    // The inverse effective mass: d · (I⁻¹ (arm x e) x arm) is what a unit impulse along e gives of velocity along d.
+    // The inverse effective mass: a unit impulse along e changes the velocity along d by d · (I⁻¹ (arm x e) x arm).
     const auto K = [&](V3<T> d, V3<T> e) RIGOR_LAMBDA {
       return dot(d, cross(inertia_a * cross(arm_a, e), arm_a)) + dot(d, cross(inertia_b * cross(arm_b, e), arm_b));
     };
@@ -88,7 +88,7 @@ struct AnyRow : RowLanes<T> {
     put(kSlipMass, one / (half * (tt + ss) + square_root(apart * apart + ts * ts)));
   }
 
-  // Of the points of `a` against those of `b`.
+  // The difference of the points of `a` and `b`.
   RIGOR_INLINE V3<T> velocity(const PairLanes<T>& pair) const {
     return (pair.a.v + cross(pair.a.w, get3(kArmA))) - (pair.b.v + cross(pair.b.w, get3(kArmB)));
   }
@@ -125,7 +125,7 @@ struct AnyRow : RowLanes<T> {
   }
 };
 
-// Rows of balls: what acts along the normal turns nothing, and all directions across it are alike.
+// Rows of balls: an impulse along the normal causes no rotation, and all directions across the normal are equivalent.
 template <class T>
 struct BallRow : RowLanes<T> {
   using RowLanes<T>::get;

@@ -1,7 +1,7 @@
-// What the contact kernels work on (contact/impulse/impulse.cpp is the method): rows, each a contact constraint of two
-// bodies, and records of eight doubles a body, so that a row finds a body in one cache line. Eight pairs of bodies that
-// share no moving body make a group; it has a block of eight rows, one a pair, for each contact point that the pair of
-// most points has.
+// The data of the contact kernels; contact/impulse/impulse.cpp describes the method. A row is a contact constraint of
+// two bodies. Records hold eight doubles per body, so that a row finds a body in one cache line. Eight pairs of bodies
+// that share no moving body form a group. A group has one block of eight rows, one per pair, for each contact point of
+// the pair with the most points.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ enum RowColumn {
   // Before prepare_rows(), and after it only in rows of balls: the impulse of friction, in W.
   kFrictionImpulse = 13,
 
-  // Of any two bodies.
+  // For any two bodies.
   kTangentImpulse = 13,  // N s of one sub-step, along the two tangents
   kTangent = 15,         // one of two
   kArmA = 18,            // m, from the centre of mass to a's point
@@ -37,8 +37,8 @@ enum RowColumn {
   kSlipMass = 27,     // kg, 1 / the larger eigenvalue of K_t
   kColumnsOfAny = 28,
 
-  // Of two that are balls or fixed: their arms lie along the normal, -l_a n and l_b n, and inertias are numbers I, so
-  // that nothing is to be known of tangents.
+  // For two balls or fixed bodies: their arms lie along the normal, -l_a n and l_b n, and inertias are numbers I.
+  // Tangents are not needed.
   kLengthA = 16,  // m, l_a
   kLengthB = 17,
   kTurnA = 18,  // l_a / I_a, 1/(kg m)
@@ -69,12 +69,12 @@ struct RowPlace {
 struct alignas(64) BallContacts {
   double normal[3][kRowsPerBlock];  // unit, from b to a
   double gap[kRowsPerBlock];        // m
-  double overlap[kRowsPerBlock];    // m: 0 or less; where they meet first what is left of their gap there
-  double excess[kRowsPerBlock];     // m, of the gap over what is kept
+  double overlap[kRowsPerBlock];    // m: 0 or less; for a later contact, its remaining gap at that instant
+  double excess[kRowsPerBlock];     // m, of the gap over the kept distance
 };
 
-// Records by body, and after them idle ones: rows without a constraint read the first, of a body at rest, and write one
-// of those after it, of which each thread has its own.
+// Records by body, followed by idle records. Rows without a constraint read the first of these, of a body at rest, and
+// write one of the others; each thread has its own.
 struct SolverBodies {
   double* velocities;              // v, w
   double* displacements;           // m and rad since contacts were last updated

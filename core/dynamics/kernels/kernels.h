@@ -1,7 +1,7 @@
-// The inner loops of the core, over columns of bodies (body_table.h), several bodies at once in the lanes of a vector
-// register. One source (*-inl.h) is compiled for plain x86-64 (or whatever the machine is), AVX2 and AVX-512, and the
-// widest that the processor has is chosen when the program starts. No lane knows of another and no product is fused
-// with a sum: every path gives the same bits.
+// The inner loops of the core over columns of bodies (body_table.h), several bodies at once in the lanes of a vector
+// register. One source (*-inl.h) is compiled for plain x86-64 (or the machine's own set), AVX2 and AVX-512. The program
+// selects the widest supported set at start. Lanes are independent and no product is fused with a sum, so every path
+// gives the same bits.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace rigor {
 
-// Columns of what does not change about a body; see body_constants.h, which fills them.
+// Columns of a body's constants; body_constants.h fills them.
 enum ConstantColumn {
   kInverseMass = 0,      // 1/kg, 0 for a fixed body
   kMoves = 1,            // 1, or 0 for a fixed body
@@ -28,7 +28,7 @@ enum ConstantColumn {
 // Columns of a wrench: force [N], torque about the centre of mass [N m], both in W.
 enum WrenchColumn { kForce = 0, kTorque = 3, kWrenchColumns = 6 };
 
-// Columns of what a step carries beside the state: the angular momentum in W [kg m²/s], a rotation vector [rad].
+// Columns that a step carries beside the state: the angular momentum in W [kg m²/s], a rotation vector [rad].
 enum CarriedColumn { kMomentum = 0, kTurned = 3, kCarriedColumns = 6 };
 
 // Doubles of a record: a body's values side by side, for what looks at bodies in no order.
@@ -58,7 +58,7 @@ struct StageTables {
   double* carried;  // L at the start of the step, the stage's rotation vector
 };
 
-// What an Adams method keeps: x, orientation, v, L, laid out as a body's motion, or rates of them.
+// Data of an Adams method: x, orientation, v, L, laid out as a body's motion, or their rates.
 inline constexpr std::size_t kAdamsRates = 7;
 struct AdamsTables {
   double* y;                                  // at the last instant
@@ -74,11 +74,11 @@ struct AdamsRates {
 };
 struct AdamsWeights {
   double predictor, corrector;  // of the newest rates
-  double at_end;                // the corrector's, of those at the end
+  double at_end;                // the corrector's, for the rates at the end
 };
 
-// Which rates adams_advance() goes on with: those in the table, those at the stage, by which it corrects y first, or
-// those at y itself with the forces that act there.
+// The rates that adams_advance() continues with: those in the table; those at the stage, by which it first corrects y;
+// or those at y itself with the forces there.
 enum class AdamsRatesFrom { table, stage, y };
 
 // A block of springs, for the force on b's point and the torques on both bodies (see loads.cpp for the law).
@@ -100,11 +100,11 @@ enum SpringColumn {
 };
 enum PullColumn { kPull = 0, kTorqueA = 3, kTorqueB = 6, kPullColumns = 9 };
 
-// Columns of spheres, row by row with the bodies': the radius, minus infinity where a body is no sphere, and where the
-// centre was when pairs were searched for [m].
+// Columns of spheres, row by row with the bodies'. The radius is minus infinity if a body is no sphere. The found
+// position is the centre at the last search for pairs [m].
 enum SphereColumn { kRadius = 0, kFoundAt = 1, kSphereColumns = 4 };
 
-// `wrench` is null where nothing but gravity acts. Steps in s.
+// `wrench` is null if only gravity acts. Steps are in s.
 struct Kernels {
   const char* name;
   // v and w over dt at a fixed pose: v += dt F/m, w += dt I⁻¹ (tau - w x I w).
@@ -122,32 +122,34 @@ struct Kernels {
   void (*free_drift)(const Bodies&, double* state, const double* carried, double h);
   // The same with the rotation of moser_veselov.cpp; false if its equation had no solution for some body.
   bool (*moser_veselov_drift)(const Bodies&, double* state, const double* carried, double dt);
-  // One stage of a Runge–Kutta method of which each stage needs only the rates of the one before: adds weight * rates
-  // to the sum and goes on to start + next * rates; both in s. On quaternions, or on rotation vectors
+  // One stage of a Runge–Kutta method in which each stage needs only the rates of the previous one. Adds weight * rates
+  // to the sum and continues at start + next * rates; both in s. For quaternions, or for rotation vectors
   // (classical_runge_kutta.h).
   void (*quaternion_stage)(const Bodies&, const StageTables&, const double* wrench, Stage, double weight, double next);
   void (*rotation_vector_stage)(const Bodies&, const StageTables&, const double* wrench, Stage, double weight,
                                 double next);
-  // For methods that keep the rates of several stages. With y a table of x, orientation of any length, v, L: the motion
-  // it means; the rates of y at a motion; out = y + h times the weighted sum of rates, or that sum alone if y is null;
-  // how large a change of y is: the sum of |dx|/(1 m + |x|), |dv|/(1 m/s + |v|), |dw|/(1 rad/s + |w|) and the angle
-  // [rad], with dw what the change of L makes of w; the largest over the bodies.
+  // For methods that keep the rates of several stages. y is a table of x, orientation of any length, v, L.
+  // motion_of: the motion of y. rates_at: the rates of y at a motion.
+  // combine: out = y + h times the weighted sum of rates, or only that sum if y is null.
+  // relative_size: the sum of |dx|/(1 m + |x|), |dv|/(1 m/s + |v|), |dw|/(1 rad/s + |w|) and the angle [rad], largest
+  // over the bodies. dw is the change of w by the change of L.
   void (*motion_of)(const Bodies&, const double* y, std::size_t stride_of_y, double* state);
   void (*rates_at)(const Bodies&, const double* state, const double* wrench, double* rates);
   void (*combine)(const Bodies&, const double* y, double h, const double* weights, const double* const* rates,
                   std::size_t count, double* out);
   double (*relative_size)(const Bodies&, const double* change, const double* y);
-  // The two halves of a step of an Adams method. Before the loads: for doubles `first` to `last` of the tables, the
-  // sums that the step after this will need of the rates there are. After them: corrects y by the rates at the stage,
-  // writes them to `rates`, and predicts the stage of the next step, with v and w only if it `needs_w`. Positions are
-  // taken with the velocities of the same instant.
+  // The two halves of a step of an Adams method. Before the loads, for doubles `first` to `last` of the tables: the
+  // sums of known rates for the step after this. After the loads: corrects y by the rates at the stage, writes them to
+  // `rates`, and predicts the stage of the next step. v and w are computed only if it `needs_w`. Positions use the
+  // velocities of the same instant.
   void (*sums_of_older)(std::size_t first, std::size_t last, const AdamsRates&, const AdamsTables&);
   void (*adams_advance)(const Bodies&, const AdamsTables&, const AdamsWeights&, const double* wrench, double* rates,
                         AdamsRatesFrom from, bool needs_w);
   void (*springs)(const Springs&, const double* state, std::size_t stride, double* pulls);
   // Whether no sphere is farther from where it was found than slack[axis] along any axis.
   bool (*have_stayed)(const Bodies&, const double* state, const double* spheres, const double* slack);
-  // Which spheres overlap a plane {normal, offset}, to `rows`, which has room for all: their number.
+  // Writes the spheres that overlap a plane {normal, offset} to `rows`, which has room for all, and returns their
+  // count.
   std::size_t (*below_plane)(const Bodies&, const double* state, const double* spheres, const double* plane,
                              std::int32_t* rows);
   // Between the state and records by body: v, w there and back; inverse inertias in W, xx, yy, zz, xy, xz, yz
@@ -160,8 +162,8 @@ struct Kernels {
 // The table in use.
 const Kernels& kernels();
 
-// For tests and benchmarks: every table that this processor can run, the plain one first; and one put to use in place of
-// the widest until the object goes. Not for worlds in other threads.
+// For tests and benchmarks: every table that this processor supports, the plain one first. KernelsInPlace puts one to
+// use during its lifetime. Not for worlds in other threads.
 inline constexpr std::size_t kMostKernelTables = 3;
 std::size_t available_kernels(const Kernels* (&out)[kMostKernelTables]);
 class KernelsInPlace {

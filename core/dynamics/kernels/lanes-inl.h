@@ -1,6 +1,6 @@
-// The lanes of one instruction set: `Lane`, kWidth doubles that a vector register holds, beside the plain double, with
-// what C++'s operators do not give. Included once by each kernels_*.cpp, which names the instruction set; on purpose
-// without a guard.
+// The lanes of one instruction set: `Lane` holds kWidth doubles in a vector register. The same functions exist for a
+// plain double. They add operations that C++'s operators lack. Each kernels_*.cpp, which names the instruction set,
+// includes this file once; it has no guard on purpose.
 
 #if RIGOR_LANES == 8
 using Lane = __m512d;
@@ -75,7 +75,7 @@ RIGOR_INLINE void store_two(F row, Lane first, Lane second) {
   every_other(1, __builtin_shufflevector(first, second, 1, 5, 3, 7));
 }
 #else
-// Two doubles: what every x86-64 and ARM64 has; the compiler makes of it what the machine can.
+// Two doubles, as on every x86-64 and ARM64; the compiler chooses the instructions.
 using Lane = double __attribute__((vector_size(16)));
 RIGOR_INLINE Lane broadcast(Lane, double x) { return Lane{x, x}; }
 RIGOR_INLINE Lane load(Lane, const double* p) { return Lane{p[0], p[1]}; }
@@ -117,8 +117,8 @@ RIGOR_INLINE void store_two(F row, double first, double second) {
 constexpr std::size_t width_of(double) { return 1; }
 constexpr std::size_t width_of(Lane) { return kWidth; }
 
-// Calls f(T(), row) for the rows begin, begin + 1, … or, kWidth at once, begin, begin + kWidth, …: a few rows take one
-// at a time, for the sake of the other code that reads and writes single rows right before and after.
+// Calls f(T(), row) for the rows begin, begin + 1, … or, kWidth at once, begin, begin + kWidth, …. A few rows are
+// processed one at a time, because neighbouring code reads and writes single rows.
 template <class F>
 RIGOR_INLINE void for_rows(std::size_t begin, std::size_t end, F f, std::size_t few = kFewBodies) {
   if (end - begin <= few) {

@@ -28,7 +28,7 @@ RIGOR_INLINE MoserVeselovTry<T> moser_veselov_try(const Bodies& b, std::size_t i
   return {(broadcast(T(), 1) / determinant) * solved, determinant};
 }
 
-// Takes f from a guess to the solution. In lanes where there is none, f is left at the guess and `solved` at zero.
+// Improves f from a guess to the solution. In lanes without a solution f keeps the guess and `solved` stays zero.
 template <class T>
 RIGOR_INLINE void solve_moser_veselov(const Bodies& b, std::size_t i, V3<T> a, V3<T>& f, T& solved) {
   const V3<T> guess = f;

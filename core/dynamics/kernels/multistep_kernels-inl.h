@@ -1,7 +1,7 @@
-// The passes of Adams methods; kernels.h says what they do. Included once by each kernels_*.cpp, on purpose without a
-// guard.
+// The passes of Adams methods; kernels.h describes them. Each kernels_*.cpp includes this file once; it has no guard on
+// purpose.
 
-// The newest rates come last, for they are the last to be there.
+// The newest rates come last, because they become available last.
 void sums_of_older(std::size_t first, std::size_t last, const AdamsRates& r, const AdamsTables& t) {
   for (std::size_t i = first; i < last; i += kWidth) {
     Lane predictor = Lane{}, corrector = Lane{};

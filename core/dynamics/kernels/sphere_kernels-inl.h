@@ -1,5 +1,5 @@
-// Looking through many spheres, of which few have met anything; kernels.h says what comes out. Included once by each
-// kernels_*.cpp, on purpose without a guard.
+// Searches many spheres, few of which touch anything; kernels.h describes the results. Each kernels_*.cpp includes this
+// file once; it has no guard on purpose.
 
 bool have_stayed(const Bodies& b, const double* state, const double* spheres, const double* slack) {
   bool stayed = true;
@@ -84,7 +84,7 @@ void ball_contacts(const double* places, const std::pair<int, int>* pairs, const
             margin = broadcast(T(), margin_of_size) * size, touching = a.c[7] + b.c[7];
     const T distance = square_root(dot(line, line)), speed = (zero - dot(line, v)) / distance,
             gap = distance - touching;
-    // What comes fast touches along another normal than where it is nearest now.
+    // A fast ball touches along another normal than the one at its present nearest point.
     const T meets = if_at_most(gap, zero, zero, if_at_most(step * speed, gap, zero, gap / speed));
     const T moves = square_root(dot(v, v)) * meets, ahead = if_at_most(moves, margin, zero, meets);
     const V3<T> there = line + ahead * v;

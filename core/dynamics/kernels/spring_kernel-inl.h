@@ -1,5 +1,5 @@
-// Springs, several at once: kernels.h says what comes out, loads.cpp has the law. Included once by each kernels_*.cpp,
-// on purpose without a guard.
+// Springs, several at once. kernels.h describes the results, loads.cpp the law. Each kernels_*.cpp includes this file
+// once; it has no guard on purpose.
 
 template <class T>
 struct SpringEnd {
@@ -47,7 +47,7 @@ void springs(const Springs& s, const double* state, std::size_t stride, double* 
         const SpringEnd<T> b = spring_end(s, state, stride, s.b + i, point(kPointB), constant(kBMoves));
         const V3<T> line = b.position - a.position;
         const T length = square_root(dot(line, line));
-        // Where the points meet the line has no direction, and the spring no force.
+        // If the points coincide, the line has no direction, and the spring no force.
         const V3<T> n = if_at_most(length, T{}, T{}, broadcast(T(), 1) / length) * line;
         T tension = constant(kStiffness) * (length - constant(kRestLength));
         if (s.damped) tension = tension + constant(kDamping) * dot(n, b.velocity - a.velocity);

@@ -1,5 +1,5 @@
-// The stages of Runge–Kutta methods; kernels.h says what they do. Included once by each kernels_*.cpp, on purpose
-// without a guard.
+// The stages of Runge–Kutta methods; kernels.h describes them. Each kernels_*.cpp includes this file once; it has no
+// guard on purpose.
 
 // Orientations are carried through a step as quaternions, of which only the direction counts …
 struct QuaternionChart {

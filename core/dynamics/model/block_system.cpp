@@ -10,13 +10,13 @@
 namespace rigor {
 namespace {
 
-// From what Skeel's condition number max_i (|A| |A⁻¹| |r|)_i / |r|_i leaves no digit of a solution: a factorisation of
-// a singular matrix goes through all the same, for a rounding stands where its last pivot would be zero. Scaling a row
-// or a column changes nothing, so that masses and stiffnesses may differ as they like.
+// Above this value of Skeel's condition number max_i (|A| |A⁻¹| |r|)_i / |r|_i no digit of a solution is left.
+// Factorising a singular matrix does not fail, because rounding replaces its last zero pivot. The number is invariant
+// under scaling of rows or columns, so masses and stiffnesses may differ arbitrarily.
 constexpr double kSingular = 1e-2 / std::numeric_limits<double>::epsilon();
 
-// Whether A is singular but for roundings, by one more right side: one as large as A's rows, and along no direction
-// that a system of bodies could have for its own.
+// Whether A is singular up to rounding, tested with one more right side. That side is as large as A's rows, and has no
+// direction that a system of bodies could have.
 bool is_singular(const auto& A, const auto& lu) {
   const auto magnitudes = A.cwiseAbs();
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(A.cols());
@@ -43,7 +43,7 @@ constexpr std::size_t kMostDense = 10;
 
 }  // namespace
 
-// The order of elimination depends on which blocks there are, not on what is in them: it is found once.
+// The order of elimination depends only on the structure of the blocks, not on their values. It is found once.
 struct BlockSystem::Sparse {
   using Blocks = std::vector<std::pair<std::size_t, std::size_t>>;
 
@@ -68,7 +68,7 @@ struct BlockSystem::Sparse {
   std::vector<Eigen::Triplet<double>> triplets;
   Eigen::SparseMatrix<double> matrix;
   Blocks blocks, ordered_by_cholesky, ordered_by_lu;           // now, and when the unknowns were ordered
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky;  // says so where a matrix is not positive definite
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky;  // reports a matrix that is not positive definite
   Eigen::SparseLU<Eigen::SparseMatrix<double>> lu;
 };
 

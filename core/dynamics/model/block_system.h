@@ -1,5 +1,5 @@
-// A linear system whose unknowns are six numbers a body, given block by block and solved directly: dense while it is
-// small, sparse where there are many bodies of which each meets few others.
+// A linear system with six unknowns per body, given block by block and solved directly. Small systems are dense.
+// Systems of many bodies with few couplings are sparse.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What does not change about the bodies of a system, in columns for the kernels (kernels/kernels.h).
+// The constants of the bodies of a system, in columns for the kernels (kernels/kernels.h).
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ class BodyConstants {
   std::size_t size() const { return size_; }
   // All bodies at once. Valid as long as this object stays where it is.
   Bodies all() const;
-  // Calls pass(block) for blocks that fit a cache of the first level with all that a method keeps about them: passes
-  // that need nothing from other bodies should follow each other on each block.
+  // Calls pass(block) for blocks that fit a first-level cache with all data of a method. Passes that need nothing from
+  // other bodies should follow each other on each block.
   template <typename Pass>
   void for_each_block(const Pass& pass) const {
     for_each_share(size_, [&](std::size_t first, std::size_t last) {
@@ -38,7 +38,7 @@ class BodyConstants {
   void use_threads(int count);
   // For methods that have more to do with each body than a pass; null: this thread alone.
   const std::shared_ptr<ThreadPool>& thread_pool() const { return thread_pool_; }
-  // Calls pass(first, last) for each thread's share of `rows` bodies, springs or whatever, in that thread.
+  // Calls pass(first, last) for each thread's share of `rows` bodies, springs or other rows, in that thread.
   template <typename Pass>
   void for_each_share(std::size_t rows, const Pass& pass) const {
     if (!thread_pool_ || size_ < kWorthSharing) return pass(0, rows);

@@ -1,5 +1,5 @@
-// What holds bodies together, as the equations of motion see it: forces found so that the accelerations keep the
-// constraints. Null pointers to it mean bodies that nothing holds.
+// Constraints between bodies, as seen by the equations of motion: forces for which the accelerations satisfy the
+// constraints. A null pointer means bodies without constraints.
 #pragma once
 
 #include "core/engine/body_table.h"
@@ -9,8 +9,8 @@ namespace rigor {
 class ConstraintForces {
  public:
   virtual ~ConstraintForces() = default;
-  // Which of the rows that repeat others are left out is chosen anew at the state where a step begins, and kept for its
-  // other stages: within a step the forces are a smooth function of the state.
+  // Redundant rows to leave out are chosen at the state where a step begins, and kept for its other stages. Within a
+  // step the forces are thus a smooth function of the state.
   enum class Rows { chosen_anew, as_chosen };
   // The wrench columns (kernels.h) of all loads, `wrench` (null: none but gravity) and the constraints' forces, at
   // `state`. Valid until the next call.

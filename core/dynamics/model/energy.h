@@ -1,4 +1,4 @@
-// Energy and momenta of a scene's bodies, from their states and the scene alone: never asked of an engine.
+// Energy and momenta of a scene's bodies, computed only from their states and the scene, never by an engine.
 #pragma once
 
 #include "core/engine/body_table.h"

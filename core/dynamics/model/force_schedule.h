@@ -1,7 +1,7 @@
-// When timed forces act: of many forces the few that act in a step, and the next instant at which one begins or ends,
-// without looking at all of them. A static interval tree over the forces in the order in which they begin (Cormen,
-// Leiserson, Rivest, Stein, Introduction to Algorithms, section 14.3), which keeps no state from one question to the
-// next: a question costs log n and what it finds.
+// Finds which of many timed forces act in a step, and the next instant at which one begins or ends, without a search
+// through all. It is a static interval tree over the forces in the order of their starts (Cormen, Leiserson, Rivest,
+// Stein, Introduction to Algorithms, section 14.3). It keeps no state between queries. A query costs log n plus the
+// size of its result.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ class ForceSchedule {
  public:
   explicit ForceSchedule(const std::vector<TimedForce>& forces);
 
-  // The indices, ascending, of every force that acts at some instant between two [s], in whatever order these are;
-  // those that only begin or end there may be among them.
+  // The indices, ascending, of every force that acts at some instant between two times [s], given in any order. Forces
+  // that only begin or end there may be included.
   std::vector<std::size_t> acting(double one, double other) const;
-  // The first instant strictly between t and `end`, which may lie before it, at which a force begins or ends; `end` if
-  // there is none.
+  // The first instant strictly between t and `end` at which a force begins or ends; `end` if there is none. `end` may
+  // be before t.
   double next_switch(double t, double end) const;
 
  private:

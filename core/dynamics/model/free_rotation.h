@@ -1,10 +1,11 @@
 // The rotation of a body without torque, in the splitting that conserves its angular momentum L: in principal axes with
 // moments a (the median), b, c,
 //   H = |L|²/(2a) + (1/b - 1/a)/2 L_b² + (1/c - 1/a)/2 L_c².
-// Each part turns the body exactly: the first about L in space by dt |L|/a, the others about their own axis. The first
-// commutes with the others, and these are composed symmetrically: second order, |L| kept to rounding, and exact where
-// two moments are equal. (Splittings of the free rigid body: Hairer, Lubich, Wanner, Geometric Numerical Integration,
-// VII.5.) The kernel free_drift takes this step; here is what it needs of a body.
+// Each part rotates the body exactly: the first about L in space by dt |L|/a, the others about their own axes. The
+// first commutes with the others, and these are composed symmetrically. The result has second order, keeps |L| to
+// rounding, and is exact if two moments are equal. (Splittings of the free rigid body: Hairer, Lubich, Wanner,
+// Geometric Numerical Integration, VII.5.) The kernel free_drift takes this step; this file prepares its data of a
+// body.
 #pragma once
 
 #include "core/dynamics/model/system.h"

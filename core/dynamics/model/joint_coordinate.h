@@ -1,6 +1,6 @@
-// The one coordinate x of a hinge or a slider, on which its spring, damper, limits and motors act: the angle [rad] by
-// which b has turned against a about the axis since t = 0, from -pi to pi, or the displacement [m] that b's centre has
-// come along it.
+// The one coordinate x of a hinge or a slider, on which its spring, damper, limits and motors act. For a hinge it is
+// the angle [rad] of b relative to a about the axis since t = 0, from -pi to pi. For a slider it is the displacement
+// [m] of b's centre along the axis.
 #pragma once
 
 #include "core/engine/body_table.h"
@@ -17,8 +17,9 @@ class JointCoordinate {
   int b() const { return b_; }
 
   struct Value {
-    double x = 0, rate = 0;                                 // rad, rad/s or m, m/s
-    double bias = 0;                                        // of the rate's own rate, what no acceleration makes
+    double x = 0, rate = 0;  // rad, rad/s or m, m/s
+    // the part of the rate's derivative that does not depend on accelerations
+    double bias = 0;
     Vec3 force = Vec3::Zero();                              // of a unit of effort on b; the opposite on a. N/N, in W
     Vec3 torque_a = Vec3::Zero(), torque_b = Vec3::Zero();  // about the centres of mass, in W
   };

@@ -1,5 +1,5 @@
-// How springs and timed forces change with the motion: the derivative of each body's wrench with respect to each body's
-// pose and velocity, for methods that solve for them.
+// The derivative of each body's wrench from springs and timed forces with respect to each body's pose and velocity.
+// Methods that solve for these need it.
 #pragma once
 
 #include <functional>

@@ -19,7 +19,7 @@ void add_wrench(int body, const Vec3& force, const Vec3& torque, Wrenches& out) 
   out[body].torque += torque;
 }
 
-// The force on b's point. Where the two points meet the line has no direction, and a spring of some rest length no
+// The force on b's point. If the two points coincide, the line has no direction, and a spring with a rest length has no
 // force.
 Vec3 spring_force(const Spring& spring, const PointMotion& a, const PointMotion& b) {
   const Vec3 line = b.position - a.position;

@@ -1,6 +1,6 @@
-// The forces and torques that a scene's gravity, springs, timed forces, and the springs, dampers and motors of its
-// joints put on its bodies; not what holds joints together. Used by the core's own integrators and, before each step,
-// by every adapter whose engine has no such spring: the same law for all.
+// The forces and torques on a scene's bodies by gravity, springs, timed forces, and the springs, dampers and motors of
+// its joints. Constraint forces of joints are not included. The core's integrators use them. Adapters of engines
+// without such springs use them before each step, so all engines have the same law.
 #pragma once
 
 #include <vector>
@@ -33,7 +33,7 @@ inline double share_of_step(const TimedForce& force, double t, double dt) {
   return share_of_step(force.from, force.until, t, dt);
 }
 
-// What acts on a joint's coordinate x: -stiffness (x - rest) - damping x', and the efforts of its motors.
+// Acts on a joint's coordinate x: -stiffness (x - rest) - damping x', and the efforts of its motors.
 struct JointDrive {
   JointCoordinate coordinate;
   std::size_t joint;  // index
@@ -48,8 +48,8 @@ class Loads {
  public:
   explicit Loads(const Scene& scene);
 
-  // All but gravity, over a step [t, t + dt] that begins with `bodies`. A timed force counts
-  // with its mean over the step, so that its impulse is right whatever dt is. dt = 0 takes its value at t.
+  // All loads except gravity, over a step [t, t + dt] that begins with `bodies`. A timed force counts with its mean
+  // over the step, so that its impulse is exact for any dt. dt = 0 takes its value at t.
   void evaluate(BodyColumns bodies, double t, double dt, Wrenches& out) const;
   // The same, with m g added for every body that is not fixed.
   void evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenches& out) const;
@@ -57,8 +57,8 @@ class Loads {
   // The first instant strictly between t and `end` at which a timed force or motor begins or ends; `end` if there is
   // none.
   double next_switch(double t, double end) const;
-  // Calls part(from, length) for each part of the step [t, t + dt] in which no timed force begins or ends, in order, so
-  // that a method of high order does not step across a jump.
+  // Calls part(from, length) in order for each part of the step [t, t + dt] in which no timed force begins or ends.
+  // Methods of high order thus never step across a jump.
   template <typename Part>
   void for_each_smooth_part(double t, double dt, const Part& part) const {
     double from = t;
@@ -85,7 +85,8 @@ class Loads {
       for (const std::size_t i : schedule_.acting(t, t + dt)) visit_one(forces_[i]);
     }
   }
-  // What the motors of a joint that has one of a given speed put on its coordinate from now on [N m, N].
+  // Sets the effort of a joint's motors [N m, N] on its coordinate from now on, for a joint with a motor of given
+  // speed.
   void set_push(std::size_t joint, double effort);
   const std::vector<JointDrive>& drives() const { return drives_; }
   bool empty() const { return springs_.empty() && forces_.empty() && drives_.empty(); }

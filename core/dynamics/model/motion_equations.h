@@ -1,5 +1,5 @@
-// The equations of motion as one system y' = f(y) of first order, for Runge–Kutta methods that keep the rates of all
-// their stages. y is a table of columns laid out as a body's motion, with the angular momentum L in W in place of w:
+// The equations of motion as one first-order system y' = f(y), for Runge–Kutta methods that keep the rates of all their
+// stages. y is a table of columns laid out as a body's motion, with the angular momentum L in W in place of w:
 //   x' = v,  q' = (0, w) q / 2,  v' = F/m,  L' = tau,  with w from L and the orientation.
 // Only the quaternion's direction counts.
 #pragma once
@@ -27,12 +27,12 @@ class MotionEquations {
 
   // out = y + h (weights[0] rates[0] + weights[1] rates[1] + …), or the sum alone where there is no y.
   void combine(const BodyTable* y, double h, std::span<const double> weights, BodyTable& out) const;
-  // What combine() adds up; stage s is rates_of_stage(s).
+  // The weighted sum for combine(); stage s is rates_of_stage(s).
   BodyTable& rates_of_stage(std::size_t s) { return rates_[s]; }
   void keep_stages(std::size_t count);
 
-  // How large a change of y is: the sum of |dx|/(1 m + |x|), |dv|/(1 m/s + |v|), |dw|/(1 rad/s + |w|) and the angle
-  // [rad], with dw what the change of L makes of w; the largest over all bodies.
+  // The relative size of a change of y: the sum of |dx|/(1 m + |x|), |dv|/(1 m/s + |v|), |dw|/(1 rad/s + |w|) and the
+  // angle [rad], largest over all bodies. dw is the change of w by the change of L.
   double relative_size(const BodyTable& change, const BodyTable& y) const;
 
  private:

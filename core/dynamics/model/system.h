@@ -1,7 +1,6 @@
 // The bodies of a scene as the Newton–Euler equations see them:
-//   m v' = F,   L' = tau,   L = R I_B Rᵀ w   (that is  I_W w' = tau - w x I_W w),
-// with what does not change in time prepared. A fixed body has no inverse mass and no inverse inertia, and so never
-// moves.
+//   m v' = F,   L' = tau,   L = R I_B Rᵀ w   (that is  I_W w' = tau - w x I_W w).
+// Constants are computed once. A fixed body has no inverse mass and no inverse inertia, so it never moves.
 #pragma once
 
 #include <vector>

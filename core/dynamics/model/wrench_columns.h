@@ -1,6 +1,6 @@
-// The loads of a system, all but gravity, in columns for the kernels: Loads::evaluate() in
-// other words. Springs are taken several at a time; each body then sums its own in their order, so that the result does
-// not depend on how many were.
+// All loads of a system except gravity, in columns for the kernels; the same as Loads::evaluate(). Several springs are
+// evaluated at once. Each body then sums its own springs in their order, so the result does not depend on how many were
+// evaluated at once.
 #pragma once
 
 #include "core/dynamics/kernels/kernels.h"
