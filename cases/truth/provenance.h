@@ -1,5 +1,4 @@
-// Where truths come from, and what they cannot judge: a run that the same code makes agrees with such a truth however
-// wrong both are.
+// The origin of truths, and their limits: a run made by the same code agrees with such a truth even if both are wrong.
 #pragma once
 
 #include <string>
@@ -20,10 +19,10 @@ struct Provenance {
 // "a closed form, independent of every engine and method", or the row's own words; empty for "none".
 std::string provenance_of(const std::string& truth);
 
-// Whether a metric takes what it expects from the truth, always or in some scenes. One that is not known does.
+// Whether a metric takes its expected value from the truth, always or in some scenes. An unknown metric does.
 bool is_against_truth(const std::string& metric);
 
-// Whether a run, judged by this metric against this truth, or against a reference's ensemble, is held to itself.
+// Whether a run is compared with itself, when this metric judges it against this truth or a reference's ensemble.
 bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene);
 
 }  // namespace rigor

@@ -1,5 +1,5 @@
-// What really happens in a scene: every body's state as a function of time, with an estimate of its own error. A closed
-// form is a small pure class that cites its source and checks, when made, that the scene is one it holds for.
+// The true motion of a scene: every body's state as a function of time, with an estimate of its own error. A closed
+// form is a small pure class that cites its source and checks on construction that it applies to the scene.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,7 @@ double horizon(const Truth& truth, double tolerance, double duration);
 struct TruthRow {
   std::string name;     // what truth.kind says
   std::string summary;  // one line, with the source
-  // Throws InputError with a sentence that names what the scene would have to be.
+  // Throws InputError with a sentence that names the required scene.
   std::function<std::unique_ptr<Truth>(const Scene& scene, double duration)> make;
 };
 

@@ -1,6 +1,6 @@
-// What closed forms share: a scene of fixed bodies and of moving ones, each with a motion of its own, and the parabola
-// of a body that only gravity pulls. They compute in extended precision, so that their error is the rounding of the
-// answer to double, plus what a phase of many turns adds.
+// Code shared by closed forms: a scene of fixed bodies and of moving ones, each with its own motion, and the parabola
+// of a body under gravity alone. Closed forms compute in extended precision. Their error is the rounding of the result
+// to double, plus the error of a phase over many turns.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ using ExtendedQuat = Eigen::Quaternion<Extended>;
 inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 inline constexpr double kExtendedEpsilon = static_cast<double>(std::numeric_limits<Extended>::epsilon());
 
-// Principal moments of which two differ by less than this share of the largest count as equal: some fifty roundings of
+// Two principal moments count as equal if they differ by less than this share of the largest: some fifty roundings of
 // the numbers in a scene's file.
 inline constexpr double kEqualMoments = 1e-14;
 
@@ -44,7 +44,7 @@ class BodyMotion {
  public:
   virtual ~BodyMotion() = default;
   virtual ExtendedState at(Extended t) const = 0;
-  // As Truth::error, but for the rounding of the orientation to double.
+  // As Truth::error, without the rounding of the orientation to double.
   virtual double error(double t) const = 0;
 };
 
@@ -52,8 +52,8 @@ class BodyMotion {
 std::unique_ptr<Truth> closed_form(const Scene& scene,
                                    const std::function<std::unique_ptr<BodyMotion>(const Body&)>& motion_of);
 
-// Throws InputError unless the scene needs nothing of an engine but fixed bodies and what is `allowed` (features.h).
-// `is_for` completes the sentence: the truth 'bounce' is for <spheres above a plane>.
+// Throws InputError unless the scene needs only fixed bodies and features in `allowed` (features.h). `is_for` completes
+// the sentence: the truth 'bounce' is for <spheres above a plane>.
 void check_needs(const Scene& scene, const std::string& truth, const std::string& is_for,
                  const std::vector<std::string>& allowed = {});
 

@@ -37,7 +37,7 @@ std::size_t PhasedMotion::index_at(Extended t) const {
   return later == phases_.begin() ? 0 : static_cast<std::size_t>(later - phases_.begin()) - 1;
 }
 
-// The rounding of the answer to double; each phase adds a few roundings in extended precision of what it starts from.
+// The rounding of the result to double; each phase adds a few roundings of its start in extended precision.
 double PhasedMotion::error(double t) const {
   const std::size_t index = index_at(t);
   const double farthest = std::max(farthest_[index], reach(phases_[index], t - phases_[index].from));

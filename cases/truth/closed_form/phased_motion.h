@@ -1,6 +1,6 @@
-// A motion in phases of constant acceleration, one after another: what a body does between the instants at which it
-// begins or stops to slip, hits or comes to rest. In each phase the angular acceleration lies along the angular
-// velocity (or one of them is zero), so that the angle turned is w t + a t²/2 about one axis.
+// A motion in successive phases of constant acceleration. A phase ends where the body begins or stops to slip, hits
+// something or comes to rest. In each phase the angular acceleration is parallel to the angular velocity, or one of
+// them is zero. The angle is then w t + a t²/2 about one axis.
 #pragma once
 
 #include <vector>
@@ -20,12 +20,14 @@ struct Phase {
 
 class PhasedMotion final : public BodyMotion {
  public:
-  // `start_error` [m]: by how much the scene misses what the motion takes for granted (two bodies touch, say).
+  // `start_error` [m]: the deviation of the scene from the assumptions of the motion, for example a gap between two
+  // touching bodies.
   PhasedMotion(std::vector<Phase> phases, double start_error);
 
   ExtendedState at(Extended t) const override { return phases_[index_at(t)].at(t); }
   double error(double t) const override;
-  // Where the motion starts, changes its phase, turns back, and is at `duration`: between two of these it goes one way.
+  // The instants of the start, of phase changes, of reversals, and of `duration`. Between two of these the motion is
+  // monotonic.
   std::vector<ExtendedVec3> way(Extended duration) const;
 
  private:

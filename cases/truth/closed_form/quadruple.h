@@ -1,5 +1,5 @@
-// Numbers of quadruple precision, for what a closed form takes from its scene once: differences of large sums would
-// lose a long double's digits.
+// Quadruple-precision numbers for values that a closed form computes once from its scene. Differences of large sums
+// would lose digits of a long double.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

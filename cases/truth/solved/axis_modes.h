@@ -1,5 +1,5 @@
-// What a limit and a motor of given speed make of a joint's coordinate x from one event to the next: between two events
-// the motion is smooth, with the same rows and the same efforts.
+// The effect of limits and motors of given speed on a joint's coordinate x between two events. There the motion is
+// smooth, with the same rows and the same efforts.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ struct AxisMode {
   bool has_row() const { return limit != 0 || keeps_speed; }
 };
 
-// Of each axis (joint_axis.h); empty: all are free.
+// One mode per axis (joint_axis.h); if empty, all are free.
 using AxisModes = std::vector<AxisMode>;
 
-// As plain numbers, to be kept; an impact is not among them.
+// As plain numbers for storage; an impact is not included.
 inline constexpr std::size_t kNumbersPerMode = 5;
 
 inline std::vector<double> numbers_of(const AxisModes& modes) {

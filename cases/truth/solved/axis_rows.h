@@ -1,5 +1,5 @@
-// Rows of joints' coordinates, which limits and motors of a given speed keep, for any number type and coordinates of
-// bodies, and what the coordinates do at a state.
+// Rows of joint coordinates that limits and motors of a given speed keep, and the coordinates' motion at a state, for
+// any number type and coordinates of bodies.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct AxisMotion {
   Real effort = 0;  // on b, of the row that keeps it: N m or N, or of an impact N m s or N s; 0 without a row
 };
 
-// `row` is of the coordinate's rate, and its gap the coordinate.
+// `row` is that of the coordinate's rate; its gap is the coordinate.
 template <typename Real, int N>
 ReferenceRow<Real, N> kept(ReferenceRow<Real, N> row, const AxisMode& mode, const Joint& joint) {
   if (mode.limit != 0) {
@@ -45,7 +45,7 @@ std::vector<AxisMotion<Real>> axis_motions(const AxisModes& modes, std::size_t a
   return all;
 }
 
-// All of them, or, where some repeat others, which.
+// Selects all of them, or the independent ones if some repeat others.
 template <typename Rows, typename RowVector, typename Masses>
 RowChoice choose_rows(const RowVector& rows, const Masses& inverse_masses) {
   Rows all(RowChoice::all(static_cast<int>(rows.size())));

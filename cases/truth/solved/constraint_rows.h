@@ -1,8 +1,8 @@
-// Rows J of constraints on bodies that have N velocities each, and the multipliers that keep them, for any number type:
-// S lambda = r with S = J M^-1 J^T, sparse, by LDL^T. Rows that depend on others (the loops of a plane mechanism) are
-// left out: which, a rank-revealing QR decomposition of the rows, weighed by mass, says. How many is decided once,
-// where the motion begins, for beside the manifold dependent rows look independent; which, anew where those in use have
-// come to depend on each other. What is left out holds by itself, as long as it does depend on the rest.
+// Rows J of constraints on bodies with N velocities each, and their multipliers, for any number type: S lambda = r with
+// S = J M^-1 J^T, sparse, by LDL^T. Dependent rows (the loops of a plane mechanism) are left out; a rank-revealing QR
+// decomposition of the rows, weighted by mass, selects them. The rank is decided once, at the start, because dependent
+// rows look independent beside the manifold. The selection changes when the rows in use become dependent. A row that is
+// left out is satisfied as long as it depends on the others.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -18,9 +18,9 @@ namespace rigor {
 
 enum class Residual { gap, rate };
 
-// Onto a state's constraints by `correct`, a round that takes the residuals of all rows away to first order and returns
-// how far it moved, or nothing if it cannot: positions by Newton's rounds, each of which squares what is left, until
-// that is below rounding; then velocities, which are linear.
+// Projects a state onto its constraints. `correct` removes the residuals of all rows to first order and returns the
+// size of its change, or nothing if it fails. Positions need several Newton iterations, each of which squares the rest,
+// until it is below rounding. Velocities are linear and need one.
 template <typename Real, typename Correct>
 bool project_by(const Correct& correct) {
   constexpr int kMostRounds = 4;
@@ -39,8 +39,8 @@ struct ReferenceRow {
   int body[2] = {-1, -1};                           // moving bodies, or -1
   Block block[2] = {Block::Zero(), Block::Zero()};  // d(rate)/d(velocities of that body)
   Real bias = 0;                                    // the second derivative is sum of block * acceleration, and this
-  Real gap = 0;                                     // what has to be zero
-  Real speed = 0;                                   // what the rate has to be
+  Real gap = 0;                                     // the value that must be zero
+  Real speed = 0;                                   // the required rate
 
   Real rate(const std::vector<Block>& velocities) const {
     Real sum = 0;
@@ -54,7 +54,7 @@ struct ReferenceRow {
   }
 };
 
-// Which rows are in use.
+// The rows in use.
 struct RowChoice {
   static RowChoice all(int rows) {
     RowChoice choice{rows, std::vector<int>(rows)};
@@ -73,7 +73,7 @@ class ConstraintRows {
  public:
   explicit ConstraintRows(RowChoice choice = {}) : choice_(std::move(choice)) {}
   const RowChoice& choice() const { return choice_; }
-  // Forgets that other rows have come into use since the choice was made; keeps what does not hang on it.
+  // Forgets that the selection has changed, and keeps the data that do not depend on it.
   void restart(const RowChoice& choice) {
     is_laid_out_ = is_laid_out_ && choice.chosen == choice_.chosen;
     choice_ = choice;
@@ -95,9 +95,9 @@ class ConstraintRows {
     for (int i = 0; i < choice_.rank; ++i) right[i] = -residual(rows[pivots_[i]]);
     return pushes(rows, inverse_mass, std::move(right));
   }
-  // Whether no row in use comes near to repeating others: far from what roundings make of those that do.
+  // Whether no row in use nearly repeats others: far above the level of rounding for repeated rows.
   bool is_well_posed() const { return condition() > 1e-10; }
-  // Of the last correction, by row: zero where it is left out.
+  // The multipliers of the last correction, by row: zero for rows that are left out.
   const Multipliers& multipliers() const { return multipliers_; }
 
  private:
@@ -111,7 +111,7 @@ class ConstraintRows {
   void lay_out(const std::vector<Row>& rows, std::size_t bodies);
   void place_terms(const std::vector<Row>& rows, std::size_t bodies);
   bool decompose(const std::vector<Row>& rows, const std::vector<InverseMass>& inverse_mass);
-  // Of each body, by S lambda = `right`.
+  // The change of each body, by S lambda = `right`.
   std::vector<Block> pushes(const std::vector<Row>& rows, const std::vector<InverseMass>& inverse_mass,
                             Multipliers right) const;
   double condition() const;

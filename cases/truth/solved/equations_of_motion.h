@@ -1,6 +1,7 @@
-// The equations that the reference solves: Newton-Euler under gravity, springs, dampers, timed forces, and what
-// springs, dampers and motors do along the free axes of joints, for any number type. What joints hold is
-// jointed_motion.h's. Written apart from core/dynamics on purpose, so that a mistake there cannot hide in the truth.
+// The equations that the reference solves, for any number type: Newton-Euler under gravity, springs, dampers, timed
+// forces, and springs, dampers and motors along the free axes of joints. jointed_motion.h adds the joints' constraint
+// forces. These equations are written apart from core/dynamics on purpose, so that a mistake there cannot hide in the
+// truth.
 //
 // A moving body has 13 numbers: p_WB, q (w, x, y, z), v_W, and then either w_B or L_W:
 //   body_rates:  I w' = R^T torque - w x I w,   q' = 1/2 q (0, w_B)
@@ -114,7 +115,7 @@ class EquationsOfMotion {
     return R * (inverse_inertia_[i] * (R.transpose() * get(s + 10)));
   }
 
-  // At rest; right for the fixed bodies whatever the state is.
+  // Zero velocity; correct for fixed bodies in any state.
   std::vector<Pose> standing_poses() const {
     std::vector<Pose> poses(slot_.size());
     for (std::size_t i = 0; i < slot_.size(); ++i) {
@@ -153,8 +154,8 @@ class EquationsOfMotion {
     b.force -= force, b.torque -= arm_b.cross(force);
   }
 
-  // Along the free axis n, fixed in a: a hinge's turns b about it, a slider's pushes b's centre, and a beside it.
-  // Returns the coordinate's rate.
+  // Along the free axis n, fixed in a: a hinge's effort rotates b about it, a slider's effort pushes b's centre along
+  // it, and a gets the opposite. Returns the coordinate's rate.
   Real add_joint_effort(const JointAxis<Real>& axis, Real driving, Real turned, std::vector<Pose>& poses) const {
     const Joint& joint = scene_.joints[axis.joint];
     Pose world;

@@ -1,6 +1,6 @@
-// Gragg's modified midpoint rule with 2, 4, .. 2 K substeps, extrapolated to none by Aitken and Neville: a step of
-// order 2 K for any number type (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, section II.9). Its
-// order is as high as one likes, which quadruple precision needs. The step's error is taken for that of the next lower
+// Gragg's modified midpoint rule with 2, 4, .. 2 K substeps, extrapolated to step zero by Aitken and Neville: a step of
+// order 2 K for any number type (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, section II.9). The
+// order can be arbitrarily high, as quadruple precision needs. The step's error estimate is that of the next lower
 // order.
 #pragma once
 
@@ -33,7 +33,7 @@ class Extrapolation {
     return good ? boost::numeric::odeint::success : boost::numeric::odeint::fail;
   }
 
-  // Where a step of length h ends, whatever its error; for one that is shorter than one that was good.
+  // The end of a step of length h without error control, for a step shorter than an accepted one.
   template <typename System>
   State after(System& system, const State& state, const Real& t, const Real& h) {
     system(state, slope_, t);
@@ -41,7 +41,7 @@ class Extrapolation {
   }
 
  private:
-  // Of the table of extrapolations from a state at which slope_ is.
+  // The extrapolation table from a state at which slope_ was evaluated.
   template <typename System>
   std::vector<State> last_row(System& system, const State& state, const Real& t, const Real& h) const {
     std::vector<State> row;

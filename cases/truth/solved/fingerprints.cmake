@@ -1,7 +1,7 @@
-# Writes a header with two hashes: of the sources that make the truth 'reference', and of those that make the truth
-# 'events', each with the compiler and its flags. What a solution was made by is part of its name in the cache, so that
-# no change of these sources can leave an older solution in use; a build of the same sources by the same compiler has the
-# same hashes wherever it lies.
+# Writes a header with two hashes: of the sources of the truth 'reference', and of those of the truth 'events', each
+# with the compiler and its flags. The hashes are part of a solution's name in the cache, so an old solution is never
+# used after a change of these sources. Builds of the same sources with the same compiler have the same hashes at any
+# place.
 # cmake -DROOT=... -DCOMPILER=... -DOUTPUT=... -P fingerprints.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -30,4 +30,4 @@ inline constexpr const char* kEventsMadeBy = \"${events}\";
 
 }  // namespace rigor
 ")
-file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "${text}" @ONLY)  # leaves a file alone that says so already
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "${text}" @ONLY)  # leaves an unchanged file alone

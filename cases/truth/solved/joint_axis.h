@@ -1,6 +1,7 @@
-// The coordinate of a hinge or slider, for any number type: the angle [rad] by which b has turned against a about the
-// axis since t = 0, whole turns among it, or the way [m] that b's centre has come along it. How many whole turns, the
-// poses do not say: the motion integrates the angle's rate beside them, and here it is only rounded to the nearest.
+// The coordinate of a hinge or slider, for any number type. For a hinge it is the angle [rad] of b relative to a about
+// the axis since t = 0, including whole turns. For a slider it is the displacement [m] of b's centre along the axis.
+// Poses do not determine the number of whole turns. The motion therefore integrates the angle's rate, and this code
+// rounds the angle to the nearest turn.
 #pragma once
 
 #include <algorithm>
@@ -75,7 +76,7 @@ struct ActingLoads {
   }
 };
 
-// Of the joints that a spring, damper, motor or limit acts on.
+// The axes of joints with a spring, damper, motor or limit.
 template <typename Real>
 std::vector<JointAxis<Real>> axes_in_use(const Scene& scene) {
   std::vector<JointAxis<Real>> axes;

@@ -1,5 +1,6 @@
-// The motion of jointed bodies as a differential equation, for any number type: Newton and Euler's accelerations (body
-// rates, equations_of_motion.h), and the joints' forces that keep the constraints' second derivatives zero,
+// The motion of jointed bodies as a differential equation, for any number type. It combines the accelerations of Newton
+// and Euler (body rates, equations_of_motion.h) with joint forces that keep the second derivatives of the constraints
+// at zero,
 //   M a = f + J^T lambda,  J a + bias = 0.
 // What a step leaves of the constraints themselves is projected away, weighed by mass. The rows are those of
 // newton_euler_joints.h.
@@ -46,7 +47,7 @@ class JointedMotion {
   Interval during(double t, const AxisModes& modes, RowChoice choice) const {
     return {*this, t, modes, std::move(choice)};
   }
-  // Of the rows in these modes, at a state of them.
+  // The rows in these modes, at a state.
   RowChoice choice_at(const State& state, const AxisModes& modes) const {
     const std::vector<Pose> poses = poses_of(state);
     std::vector<Row> rows = rows_at(poses);
@@ -132,7 +133,7 @@ class JointedMotion<Real>::Interval {
         first_choice_(std::move(choice)),
         solver_(first_choice_) {}
 
-  // As if it were made anew: what a state leads to does not depend on those asked for before.
+  // Resets to a new object: the result for a state does not depend on earlier calls.
   void restart() { solver_.restart(first_choice_); }
 
   void operator()(const State& state, State& change, Real t) {
@@ -159,7 +160,7 @@ class JointedMotion<Real>::Interval {
     }
   }
 
-  // Moves the state to the nearest, weighed by mass, that its joints allow. False if there is none near.
+  // Moves the state to the nearest one, weighted by mass, that its joints allow. Returns false if there is none near.
   bool project(State& state) {
     return project_by<Real>([&](Residual what) { return correct(state, what); });
   }

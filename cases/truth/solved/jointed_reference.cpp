@@ -1,9 +1,9 @@
-// The reference of jointed scenes: Newton and Euler's accelerations with the joints' forces (jointed_motion.h), in
-// extended precision, for the solution, and beside it, for its error, the same bodies by natural coordinates
-// (natural_coordinates.h), in double, which share no equation with them. Each is projected onto its constraints after
-// each step, and finds its own events (stopped_solution.h). The error so is that of the second, some 1e-12 m and rad
-// where nothing magnifies roundings. Where something does, and it takes but a few seconds, both are solved again, the
-// first to less of a tolerance and the second in extended precision as well.
+// The reference of jointed scenes, solved in two ways. The solution uses accelerations of Newton and Euler with the
+// joints' forces (jointed_motion.h), in extended precision. The second, for the error, uses natural coordinates
+// (natural_coordinates.h) in double precision and shares no equation with the first. Each is projected onto its
+// constraints after each step, and finds its own events (stopped_solution.h). The error is thus that of the second,
+// some 1e-12 m and rad unless the motion magnifies rounding. If it does, and solving takes only a few seconds, both are
+// repeated: the first with a smaller tolerance, the second in extended precision, too.
 #include "cases/truth/solved/jointed_ways.h"
 #include "cases/truth/solved/reference_solver.h"
 
@@ -12,8 +12,8 @@ namespace {
 
 using namespace solving;
 
-// Tolerances: reference_solver.cpp says why no less; the equations for the joints' forces magnify roundings by what
-// they are ill-conditioned.
+// Tolerances; reference_solver.cpp explains the lower bound. The equations of the joint forces magnify rounding by
+// their condition number.
 constexpr Way kFirst = {6, 1e-15, 1e-7}, kBeside = {5, 1e-12, 2e-7};
 constexpr Way kFirstFiner = {7, 2e-17, 1e-7}, kBesideFiner = {6, 1e-16, 2e-7};
 

@@ -23,11 +23,11 @@ Nodes nodes_of(const Scene& scene, const Way& way, const std::vector<double>& sw
   return solve(motion, stepper, switches, kMostTries);
 }
 
-// By JointedMotion, in extended precision, and that motion in double between the nodes.
+// Solves with JointedMotion in extended precision, and interpolates between nodes in double.
 Nodes newton_euler_nodes(const Scene& scene, const Way& way, const std::vector<double>& switches);
 std::unique_ptr<DoubleMotion> newton_euler_in_double(const Scene& scene, const Nodes& nodes);
 
-// By NaturalCoordinates, in double or extended precision; into `judged`.
+// Solves with NaturalCoordinates, in double or extended precision; writes to `judged`.
 enum class Precision { plain, extended };
 void compare_with_natural(Judged& judged, Precision precision, const Scene& scene, const Way& way,
                           const std::vector<double>& switches);

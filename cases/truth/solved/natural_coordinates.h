@@ -1,10 +1,10 @@
-// The motion of jointed bodies a second time, by other coordinates and other equations: a body is its centre x and the
-// directions d_1, d_2, d_3 of its own axes, twelve numbers in which the mass is constant and every joint is a
-// polynomial of degree two (García de Jalón & Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994,
-// chapter 2). There is no angular velocity, no gyroscopic torque and no quaternion in it:
+// The motion of jointed bodies in other coordinates and other equations. A body is its centre x and the directions d_1,
+// d_2, d_3 of its own axes: twelve numbers, in which the mass is constant and every joint is a polynomial of degree two
+// (García de Jalón & Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapter 2). There is no angular
+// velocity, no gyroscopic torque and no quaternion:
 //   T = m x'.x'/2 + sum E_ij d_i'.d_j' / 2,   E = (tr I)/2 - I,
-// with d_i.d_j = 0 or 1 as six constraints a body. A torque t about the centre is the forces t x d_i / 2. Where E is
-// singular or nearly (a rod, a plate) the mass is made regular by what the six constraints hold anyway:
+// with d_i.d_j = 0 or 1 as six constraints per body. A torque t about the centre becomes the forces t x d_i / 2. If E
+// is singular or nearly so (a rod, a plate), the six constraints make the mass regular:
 //   (M + c P^T P) a + J^T lambda = Q - c P^T bias_P.
 // After the numbers of all bodies stands one of each axis, as in equations_of_motion.h.
 #pragma once
@@ -246,7 +246,7 @@ class NaturalCoordinates {
   std::vector<JointAxis<Real>> axes_;
   std::vector<int> moving_, order_;    // as in JointedMotion
   std::vector<Matrix> second_moment_;  // E, of all bodies
-  std::vector<InverseMass> masses_;    // of those that move, where they are constant
+  std::vector<InverseMass> masses_;    // of the moving bodies, if they are constant
   std::vector<int> singular_;          // bodies of which they are not
   std::optional<NaturalJoints<Real>> joints_;
   RowChoice choice_;

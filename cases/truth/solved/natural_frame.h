@@ -1,5 +1,5 @@
-// A body in natural coordinates (natural_coordinates.h): its centre x, the directions d_1, d_2, d_3 of its own axes,
-// and their rates.
+// A body in natural coordinates (natural_coordinates.h): its centre x, the directions d_1, d_2, d_3 of its axes, and
+// their rates.
 #pragma once
 
 #include <Eigen/Geometry>

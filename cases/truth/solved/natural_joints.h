@@ -1,5 +1,5 @@
-// The joints of a scene in natural coordinates (natural_coordinates.h), each as polynomials of degree two in its
-// bodies' coordinates, kept at what they are at t = 0:
+// The joints of a scene in natural coordinates (natural_coordinates.h). Each is a set of polynomials of degree two in
+// its bodies' coordinates, kept at their values at t = 0:
 //   shared point   p_b - p_a                  dot product   u_a . u_b
 //   dot offset     u_a . (x_b - x_a)          squared       (p_b - p_a)^2 / 2
 // and the rate of a joint's own coordinate, of a hinge n . (w_b - w_a) with w = 1/2 sum d_i x d_i'.
@@ -26,7 +26,7 @@ class NaturalJoints {
   // `order`: of each body, its place among those that move; -1 if it is fixed.
   explicit NaturalJoints(std::vector<int> order) : order_(std::move(order)) {}
 
-  // As the bodies stand in `start`.
+  // The bodies are as in `start`.
   void add(const Joint& joint, const std::vector<Frame>& start) {
     const Frame &a = frame(start, joint.a), &b = frame(start, joint.b);
     const auto share = [&](const Vector& point) {
@@ -71,7 +71,7 @@ class NaturalJoints {
     for (const Squared& squared : squares_) add_row(squared, frames, rows);
   }
 
-  // Of the rate of an axis; its gap is the coordinate, which is `turned` but for less than half a turn.
+  // The row of an axis's rate; its gap is the coordinate, which equals `turned` up to less than half a turn.
   Row axis_row(const JointAxis<Real>& axis, const Joint& joint, const std::vector<Frame>& frames, Real turned) const {
     const Frame &a = frame(frames, joint.a), &b = frame(frames, joint.b);
     if (!axis.is_hinge) {
@@ -125,7 +125,7 @@ class NaturalJoints {
 
   static Real abs_of(const Real& number) { return number < 0 ? Real(-number) : number; }
 
-  // Two directions beside the axis: what is left of two of W's axes, made orthonormal.
+  // Two directions across the axis: two of W's axes without their parts along it, made orthonormal.
   static std::array<Vector, 2> beside(const Vector& axis) {
     Vector first = Vector::Unit(0), second = Vector::Unit(1);
     if (abs_of(axis[0]) > abs_of(axis[2])) first = Vector::Unit(2);

@@ -1,6 +1,6 @@
-// The rows of joints on bodies with velocities v, w in W, for any number type: for points p, arms r = p - centre and
-// directions fixed in a or b, with their second derivatives (Haug, Computer Aided Kinematics and Dynamics of Mechanical
-// Systems, 1989, chapter 9):
+// The rows of joints on bodies with velocities v, w in W, for any number type. They use points p, arms r = p - centre
+// and directions fixed in a or b, with their second derivatives (Haug, Computer Aided Kinematics and Dynamics of
+// Mechanical Systems, 1989, chapter 9):
 //   shared point    p_b - p_a = 0                   bias  w_b x (w_b x r_b) - w_a x (w_a x r_a)
 //   right angle     u_a . u_b = c                   bias  (w_a x (w_a x u_a)) . u_b + 2 (w_a x u_a) . (w_b x u_b) + ..
 //   no way across   n_a . (x_b - x_a) = c           bias  (w_a x (w_a x n)) . d + 2 (w_a x n) . d'
@@ -30,7 +30,7 @@ class NewtonEulerJoints {
   // `order`: of each body, its place among those that move; -1 if it is fixed.
   explicit NewtonEulerJoints(std::vector<int> order) : order_(std::move(order)) {}
 
-  // As the bodies stand in `start`.
+  // The bodies are as in `start`.
   void add(const Joint& joint, const std::vector<Pose>& start) {
     const Pose &a = pose(start, joint.a), &b = pose(start, joint.b);
     const auto in = [](const Pose& body, const Vector& point) {
@@ -79,7 +79,7 @@ class NewtonEulerJoints {
     for (const Distance& distance : distances_) add_row(distance, poses, rows);
   }
 
-  // Of the rate of an axis; its gap is the coordinate, which is `turned` but for less than half a turn.
+  // The row of an axis's rate; its gap is the coordinate, which equals `turned` up to less than half a turn.
   Row axis_row(const JointAxis<Real>& axis, const Joint& joint, const std::vector<Pose>& poses, Real turned) const {
     const Pose &a = pose(poses, joint.a), &b = pose(poses, joint.b);
     if (!axis.is_hinge) {

@@ -1,5 +1,5 @@
-// The motion of any scene without contacts, solved twice in high precision (reference_solver.h): the first is the
-// truth, and how far the second is from it is its error. A solution is computed once and kept (solution_cache.h).
+// The motion of any scene without contacts, solved twice in high precision (reference_solver.h). The first solution is
+// the truth; its distance from the second is its error. A solution is computed once and kept (solution_cache.h).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,11 +1,11 @@
-// By Gragg's extrapolation (extrapolation.h) in extended precision: with body rates for the solution, and beside it,
-// for its error, with angular momenta, another order and another tolerance. Both go from one switch of a timed force to
-// the next, so that no step straddles a jump.
+// Solves by Gragg's extrapolation (extrapolation.h) in extended precision. The solution uses body rates. A second
+// solution, for the error, uses angular momenta, another order and another tolerance. Both go from one switch of a
+// timed force to the next, so that no step crosses a jump.
 //
-// Where that leaves more of an error than is wanted (near a separatrix, or in chaos, which magnify every rounding),
-// solutions are found again in quadruple precision, if that takes but a few seconds. The steps are long: between
-// two of them Fehlberg's Runge-Kutta pair of order 8(7) fills in nodes, in double precision and afresh from each step's
-// end (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, sections II.5 and II.9).
+// Near a separatrix or in chaos every rounding is magnified, and the error may be too large. Both solutions are then
+// repeated in quadruple precision, if that takes only a few seconds. The steps are long. Between two steps Fehlberg's
+// Runge-Kutta pair of order 8(7) fills in nodes, in double precision and starting again at each step's end (Hairer,
+// Nørsett, Wanner, Solving Ordinary Differential Equations I, sections II.5 and II.9).
 #include "cases/truth/solved/reference_solver.h"
 
 #include <algorithm>
@@ -20,10 +20,10 @@ namespace {
 using namespace solving;
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 
-// `tolerance` is what an extrapolation allows a step, relative and absolute: the error of the order below its own, so
-// that its own is left with roundings. Its columns magnify these: with more of them, or less of a tolerance, steps
-// would shrink for what no step can mend. Here it is some four hundred roundings of a long double or more, and ten
-// million of a quadruple.
+// `tolerance` is the allowed error of an extrapolated step, relative and absolute. It bounds the error of the next
+// lower order, so the step's own error is at rounding level. The columns of the table magnify rounding. With more
+// columns, or a smaller tolerance, steps would shrink because of errors that no step can reduce. The value is some four
+// hundred roundings of a long double or more, and ten million of a quadruple.
 struct Method {
   Formulation form;
   int columns;

@@ -10,7 +10,7 @@ namespace rigor {
 
 inline constexpr Formulation kReferenceForm = Formulation::body_rates;
 
-// Where limits and motors of a given speed act: since when they do what they do, and what (axis_modes.h).
+// The modes of limits and motors of a given speed, and the time from which they hold (axis_modes.h).
 struct Phases {
   std::vector<long double> times;  // s
   std::vector<double> modes;       // the same number of numbers for each phase
@@ -29,10 +29,10 @@ struct ReferenceSolution {
 };
 
 // The scene may have springs, dampers, timed forces, and joints with springs, dampers, motors and limits along their
-// free axes, but no contacts.
+// free axes. It may not have contacts.
 ReferenceSolution solve_reference(const Scene& scene, double duration);
 
-// The equations that the solution's states are of, to go on from a node (solving.h).
+// The equations of the solution's states, to continue from a node (solving.h).
 namespace solving {
 class DoubleMotion;
 }

@@ -31,7 +31,7 @@ class Writer {
     for (int byte = 0; byte < 8; ++byte) bytes_.push_back(static_cast<char>(number >> (8 * byte)));
   }
   void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-  // As the double next to it and the rest.
+  // Stored as the nearest double and the rest.
   void add(long double number) {
     const auto next = static_cast<double>(number);
     add(next);
@@ -55,7 +55,7 @@ class Writer {
   std::string bytes_;
 };
 
-// Past the end it yields zeros, and says so.
+// Returns zeros past the end, and reports it.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : left_(bytes) {}
@@ -185,7 +185,7 @@ void add_joint(Writer& content, const UniversalJoint& universal) {
 
 namespace {
 
-// What moves, and for how long.
+// The moving bodies, and the duration.
 std::string motion_content(const Scene& scene, double duration) {
   Writer content;
   content.add(duration), content.add(scene.gravity);
@@ -285,7 +285,7 @@ void keep_solution(const std::string& content, const ReferenceSolution& solution
   const std::string bytes = head_of(content) + body.bytes();
   seal.add(content_hash(bytes));
 
-  // Under a name of its own first: another run never sees half a file.
+  // Writes under another name first, so that another run never sees half a file.
   std::error_code ignored;
   fs::create_directories(folder, ignored);
   const fs::path file = file_for(folder, content);

@@ -1,7 +1,7 @@
-// Reference solutions, kept from one run to the next: a file for each content of a scene, duration and sources of
-// the solver, in $RIGOR_CACHE_DIR, else $XDG_CACHE_HOME/rigor, else ~/.cache/rigor. Nothing depends on it: what cannot
-// be read, or is not what was written, is as if it were not there, and what cannot be written is not kept. An empty
-// RIGOR_CACHE_DIR switches it off.
+// Keeps reference solutions from one run to the next: one file for each content of a scene, duration and solver
+// sources. The folder is $RIGOR_CACHE_DIR, else $XDG_CACHE_HOME/rigor, else ~/.cache/rigor. No result depends on the
+// cache. A file that is unreadable or damaged counts as missing, and a failed write is ignored. An empty
+// RIGOR_CACHE_DIR turns the cache off.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,9 @@
 
 namespace rigor {
 
-// All that a reference solution depends on, bit by bit: every number of the scene that its motion has to do with, the
-// duration, and what it is made by: this program's sources and compiler (fingerprints.cmake), unless another is given.
-// Names, shapes and contacts are not among it.
+// All inputs of a reference solution, bit by bit: every number of the scene that affects its motion, the duration, and
+// this program's sources and compiler (fingerprints.cmake), unless another maker is given. Names, shapes and contacts
+// are not included.
 std::string reference_content(const Scene& scene, double duration);
 std::string reference_content(const Scene& scene, double duration, const std::string& made_by);
 // Likewise of a solution by events, with shapes and contacts.

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kFillTolerance = 1e-15;  // some five roundings of a double
 
-// Of the distance between the solutions: all err alike, by roundings that the motion magnifies, and one of the others
-// may for a while err as the first does.
+// Applied to the distance between the solutions. All have similar errors, from rounding that the motion magnifies, and
+// another solution may for a while have the same error as the first.
 constexpr double kSafety = 3;
 
 // Nodes with others between them, so near to each other that from each to the next is one step of order 8.
@@ -41,7 +41,7 @@ Nodes filled_in(const Nodes& nodes, const DoubleMotion& motion) {
   return filled;
 }
 
-// The largest that roundings in a table come to, in m and rad.
+// The largest rounding in a table, in m and rad.
 double rounding(BodyColumns bodies) {
   double largest = 1;  // of a unit quaternion
   for (std::size_t i = 0; i < bodies.size(); ++i) largest = std::max(largest, bodies.position(i).norm());

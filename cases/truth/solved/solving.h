@@ -1,6 +1,6 @@
-// What every solution of the reference is made of: its accepted steps, nodes between them that are one step of order 8
-// apart, and how far it is from other solutions. A `Motion` has start(), during(t), which is a right-hand side, and
-// write(); one with constraints has a right-hand side that projects a state onto them.
+// The parts of every reference solution: its accepted steps, nodes between them at distances of one step of order 8,
+// and its distance from other solutions. A `Motion` has start(), during(t), which is a right-hand side, and write().
+// With constraints the right-hand side also projects a state onto them.
 #pragma once
 
 #include <algorithm>
@@ -39,13 +39,13 @@ struct Nodes {
 // 0, the instants at which a timed force or a motor begins or ends, and the duration.
 std::vector<double> switch_times(const Scene& scene, double duration);
 
-// A Motion in double precision, whatever its equations are: what fills in nodes, and gives the state between them.
+// A Motion in double precision, with any equations. It fills in nodes and gives the state between them.
 class DoubleMotion {
  public:
   using State = std::vector<double>;
   struct RightHandSide {
     std::function<void(const State& state, State& change, double t)> slope;
-    std::function<bool(State& state)> project;  // onto the constraints; empty where there are none
+    std::function<bool(State& state)> project;  // onto the constraints; empty without constraints
 
     void operator()(const State& state, State& change, double t) const { slope(state, change, t); }
   };
@@ -95,7 +95,7 @@ bool finite(const std::vector<Real>& state) {
   return std::all_of(state.begin(), state.end(), [](const Real& number) { return number - number == 0; });
 }
 
-// One accepted step from t towards `end`, by h or what it is cut to; false if it cannot be made.
+// Makes one accepted step from t towards `end`, of length h or less; returns false on failure.
 template <typename Real, typename Stepper, typename System>
 bool step_towards(Stepper& stepper, System& system, Real& t, Real end, Real& h, std::vector<Real>& state,
                   std::size_t& tries_left) {

@@ -1,5 +1,5 @@
-// A solution of a scene with limits or motors that keep a speed: smooth from one event to the next. An event is a root
-// of a function of the coordinates' motion, found by taking the step in which it lies anew with other lengths:
+// The solution of a scene with limits or motors that keep a speed: smooth from one event to the next. An event is a
+// root of a function of the coordinates' motion. It is located by repeating its step with other lengths:
 //   a limit is reached, or a motor comes to its speed    its distance, and its rate, which say whether it turned
 //   between a limit lets go, or a motor can keep its speed no more    the effort beyond what it may be
 #pragma once
@@ -62,7 +62,7 @@ class StoppedSolution {
       if (nodes_.is_full() || !step_towards(stepper_, interval, t_, end, h_, state_, tries_left_)) return false;
       const Real whole = t_ - from_;
       const Real until = first_event(interval, whole);
-      if (!(until > 0 && until <= whole)) return false;  // what was settled is not so
+      if (!(until > 0 && until <= whole)) return false;  // not valid for the settled state
       const bool is_cut = until < whole;
       if (is_cut) state_ = state_after(interval, until), t_ = from_ + until;
       nodes_.add(static_cast<Extended>(t_), state_);
@@ -83,7 +83,7 @@ class StoppedSolution {
     return interval.axes_at(state);
   }
 
-  // What becomes positive at an event, and what its rate goes by; nothing where it is not of that kind.
+  // The function that becomes positive at an event, and its rate; nothing if the event cannot occur.
   struct Watch {
     std::size_t axis;
     enum class Kind { reach_limit, leave_limit, reach_speed, lose_speed } kind;
@@ -133,7 +133,7 @@ class StoppedSolution {
     return std::nullopt;
   }
 
-  // The time after from_, in [0, whole], of the first of all; `whole` if there is none.
+  // The time after from_, in [0, whole], of the first event of all; `whole` if there is none.
   Real first_event(Interval& interval, Real whole) {
     const Values before = values_at(interval, start_, from_);
     Values after = values_at(interval, state_, t_);

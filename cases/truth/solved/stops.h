@@ -1,10 +1,10 @@
-// What happens at an instant to the limits of joints and to motors that keep a speed (core/scene/scene.h):
+// The changes of joint limits and of motors that keep a speed at an instant (core/scene/scene.h):
 //   a limit x <= upper   takes an effort of at most 0, and none where x < upper; what hits it leaves with x' = -e x'
 //   a motor              keeps x' = speed as long as |effort| <= most, and else pushes by `most` towards it
-// Several at once are a linear complementarity problem, of impulses at an impact and of efforts after it; both are
-// solved by changing the first that is violated until none is (Murty, Opsearch 11, 1974). Written apart from
-// core/dynamics on purpose. What comes to rest at a limit bounces without end before: a bounce that is back within
-// twice `rest_time` does not take place, by which a coordinate is off by a rest_time² / 2, with a the acceleration.
+// Several at once form a linear complementarity problem, for impulses at an impact and for efforts after it. Both are
+// solved by changing the first violated one until none is (Murty, Opsearch 11, 1974). Written apart from core/dynamics
+// on purpose. A coordinate that comes to rest at a limit would bounce infinitely often. A bounce shorter than twice
+// `rest_time` is therefore suppressed, with an error of a rest_time² / 2, where a is the acceleration.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace rigor::solving {
 
 inline constexpr double kTouch = 1e-11;     // rad, m: an event's time is located to a thousandth of that
 inline constexpr double kSameSpeed = 1e-9;  // rad/s, m/s
-inline constexpr double kStill = 1e-11;     // rad/s, m/s: what roundings make of a coordinate that is kept
-inline constexpr double kNoShare = 1e-9;    // of the largest effort: what roundings make of none
-// And of what the weight of all bodies could ask of a joint: of a mechanism that falls freely no effort is large. A
-// limit that holds with so little too much is off by an acceleration of 1e-13 g.
+inline constexpr double kStill = 1e-11;     // rad/s, m/s: rounding of a kept coordinate
+inline constexpr double kNoShare = 1e-9;    // of the largest effort: rounding of zero
+// Also a share of the largest joint load by the weight of all bodies, because no effort is large in free fall. A limit
+// that holds with this excess gives an acceleration error of 1e-13 g.
 inline constexpr double kNoShareOfWeight = 1e-13;
 
 template <typename Motion>
@@ -44,7 +44,7 @@ class Stops {
   }
 
   const AxisModes& modes() const { return modes_; }
-  double no_effort() const { return no_effort_; }  // what roundings may make of none [N m, N]
+  double no_effort() const { return no_effort_; }  // rounding of zero [N m, N]
   const Joint& joint(std::size_t k) const { return motion_.scene().joints[motion_.axes()[k].joint]; }
   // Positive by as much as x is beyond the limit of that side.
   Real beyond(std::size_t k, int side, const Real& x) const {
@@ -84,7 +84,7 @@ class Stops {
   }
   std::size_t most_changes() const { return 16 * (1 + modes_.size()); }
 
-  // Impulses on what is hit: each keeps a limit's row, or its sign is wrong and it has none.
+  // Impulses on the limits that are hit: each limit keeps a row, or its sign is wrong and it has none.
   bool strike(State& state, const Values& before, double during) {
     for (std::size_t k = 0; k < modes_.size(); ++k) {
       if (touched_[k] * before[k].rate > kStill) modes_[k].limit = touched_[k];
@@ -131,7 +131,8 @@ class Stops {
       stop_keeping(modes_[k]);
     }
   }
-  // A motor cannot keep its speed where a limit does: it pushes with all it has, or asks for what is there.
+  // A motor cannot keep its speed at an active limit. It pushes with its largest effort, or its speed equals the
+  // limit's.
   static void stop_keeping(AxisMode& mode) {
     if (!mode.keeps_speed) return;
     mode.keeps_speed = false;
@@ -142,7 +143,7 @@ class Stops {
     return side != 0 && (speed <= kStill || speed <= rest_time_ * back);
   }
 
-  // Of two that drive one joint the later in the scene counts, as everywhere.
+  // If two motors drive one joint, the later one in the scene counts, as everywhere.
   const Motor* motor_at(std::size_t k, double t) const {
     const Motor* found = nullptr;
     for (const Motor& motor : motion_.scene().motors) {
@@ -170,7 +171,7 @@ class Stops {
   }
 
   bool is_wrong(const AxisMode& mode, int side, const AxisMotion<Real>& at) const {
-    // Half of what an event is found by: what an event ends is wrong after it.
+    // Half of the tolerance that locates an event; the ended mode is wrong after it.
     if (mode.limit != 0) return mode.limit * at.effort > no_effort_ / 2;
     if (mode.keeps_speed) return std::abs(static_cast<double>(at.effort)) > mode.most + no_effort_ / 2;
     if (side * at.acceleration > kSameSpeed && rests(side, at)) return true;
@@ -218,7 +219,7 @@ class Stops {
 
   const Motion& motion_;
   double rest_time_;     // s
-  double least_effort_;  // what roundings make of none where nothing acts
+  double least_effort_;  // rounding of zero without loads
   double no_effort_ = 0;
   AxisModes modes_;
   std::vector<int> touched_;  // of each axis: the limit at which it is, or 0

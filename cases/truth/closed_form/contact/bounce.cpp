@@ -3,10 +3,10 @@
 // where S = 2 u / g; at rest from S e / (1 - e) on (Zeno's limit of the geometric series).
 //
 // Between impacts a sphere may drift and spin freely. At an impact with the normal impulse J = m (1 + e) u friction
-// changes the slip of the contact point, (v + w x r)_t, by at most mu J (1/m + r²/I) against its direction, and not
-// below zero: from then on the sphere rolls. Infinite friction ends the slip at the first impact, none never changes
-// it. A slip that outlasts the bounces goes on under mu m g (Goldsmith, Impact, 1960, chapter 2; Brach, Mechanical
-// Impact Dynamics, 1991, chapter 2).
+// acts against the slip of the contact point, (v + w x r)_t. It reduces the slip by at most mu J (1/m + r²/I), and
+// never below zero; from then on the sphere rolls. Infinite friction ends the slip at the first impact, zero friction
+// never changes it. A slip that outlasts the bounces continues under mu m g (Goldsmith, Impact, 1960, chapter 2; Brach,
+// Mechanical Impact Dynamics, 1991, chapter 2).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class VerticalBounce {
 
   double top_speed() const { return impact_speed_; }  // m/s
 
-  // Of the impact that follows `before` others.
+  // The impact that follows `before` others.
   double impact_speed(int before) const { return impact_speed_ * std::pow(e_, before); }  // m/s
   double impact_time(int before) const {                                                  // s
     if (before == 0) return first_impact_;
@@ -78,7 +78,7 @@ class VerticalBounce {
   double g_ = 1, e_ = 0, impact_speed_ = 0, first_impact_ = 0;
 };
 
-// What one sphere does along the plane, and how it turns: a phase from each impact that still changes its slip.
+// The motion of one sphere along the plane, and its rotation: one phase from each impact that still changes its slip.
 class SidewaysMotion {
  public:
   SidewaysMotion(const Body& body, double radius, const ExtendedVec3& up, double gravity, ContactLaw law)

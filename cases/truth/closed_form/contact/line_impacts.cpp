@@ -1,9 +1,8 @@
-// Bodies on one line in empty space that run into each other centre to centre: each impact keeps the momentum of the
-// two and leaves e times their speed of approach, so that the normal impulse is (1 + e) v m1 m2/(m1 + m2) (Newton's law
-// of restitution; Goldsmith, Impact, 1960, chapter 2). A fixed body is one of infinite mass. Where several impacts
-// fall on one instant, as in Newton's cradle, they are those of the same row with vanishing gaps: from the body that
-// arrives, one after another. Of a row of equal bodies struck from one end the last one leaves with the speed of the
-// first.
+// Bodies on one line in empty space that collide centre to centre. Each impact conserves the momentum of the two and
+// leaves e times their approach speed. The normal impulse is (1 + e) v m1 m2/(m1 + m2) (Newton's law of restitution;
+// Goldsmith, Impact, 1960, chapter 2). A fixed body has infinite mass. Simultaneous impacts, as in Newton's cradle, are
+// solved as the limit of vanishing gaps: one after another from the arriving body. If one end of a row of equal bodies
+// is struck, the last body leaves with the speed of the first.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What the closed forms of bodies on a plane share: the one plane of the scene, gravity along and across it, and how
-// well a body touches it.
+// Code shared by closed forms of bodies on a plane: the one plane of the scene, gravity along and across it, and the
+// gap of a body.
 #pragma once
 
 #include <string>
@@ -9,8 +9,7 @@
 
 namespace rigor {
 
-// A body that touches less well than this does not touch: far above the digits of a case file, far below what is
-// judged.
+// A larger gap counts as no contact: far above the digits of a case file, far below the judged errors.
 inline constexpr double kTouching = 1e-9;  // m
 
 class Ground {

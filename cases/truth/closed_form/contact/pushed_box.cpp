@@ -2,8 +2,8 @@
 // rolls on the moving box without slipping: friction gives it the acceleration a k/(1 + k), k = I/(m r²), 2/7 of the
 // box's for a solid ball. So the box, with mass M and the weight of all on the plane,
 //     a (M + sum m_i k_i/(1 + k_i)) = F - mu g (M + sum m_i)
-// (the rolling test of SimBenchmark, Kang and Hwangbo, 2018: 10 kg, 25 balls of 1 kg, 150 N, mu = 0.4 under the box:
-// 0.7385 m/s² for the box and 0.2110 m/s² for the balls). With less force than friction nothing moves.
+// This is the rolling test of SimBenchmark (Kang and Hwangbo, 2018): 10 kg, 25 balls of 1 kg, 150 N, mu = 0.4 under the
+// box. It gives 0.7385 m/s² for the box and 0.2110 m/s² for the balls. With less force than friction nothing moves.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,8 +1,8 @@
-// Spheres that roll or slip on a plane, level or sloping. With k = I/(m r²), gravity g_n into the plane and g_t along
-// it, and the slip u of the contact point: while it slips, friction is -mu g_n u/|u|, and the slip changes by g_t - mu
-// g_n (1 + 1/k) u/|u|; where it has ended, the sphere rolls with g_t/(1 + k) as long as that asks for no more friction
-// than there is, |g_t| <= mu g_n (1 + k)/k; else it slips on downhill. For a solid sphere k = 2/5: 5/7 g_t, up
-// to tan(slope) = 3.5 mu (Kleppner and Kolenkow, An Introduction to Mechanics, chapter 6).
+// Spheres that roll or slip on a level or sloping plane. Let k = I/(m r²), let gravity be g_n into the plane and g_t
+// along it, and u the slip of the contact point. While the sphere slips, friction is -mu g_n u/|u|, and the slip
+// changes by g_t - mu g_n (1 + 1/k) u/|u|. After the slip the sphere rolls with g_t/(1 + k) if friction suffices, |g_t|
+// <= mu g_n (1 + k)/k. Otherwise it slips on downhill. For a solid sphere k = 2/5: 5/7 g_t, up to tan(slope) = 3.5 mu
+// (Kleppner and Kolenkow, An Introduction to Mechanics, chapter 6).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -87,7 +87,7 @@ class Roller {
   std::optional<Extended> roll_on(Phase& phase) const {
     const Extended needed = ground_.along().norm() * k_ / (1 + k_);
     if (needed > friction_ * ground_.pressing()) {
-      phase.start.angular_velocity = rolling_with(phase.start.velocity);  // the slip is nothing but roundings
+      phase.start.angular_velocity = rolling_with(phase.start.velocity);  // the slip is only rounding
       return slip_downhill(phase);
     }
     if (!are_along(phase.start.velocity, ground_.along()))

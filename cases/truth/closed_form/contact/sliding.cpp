@@ -1,8 +1,8 @@
-// Boxes that lie flat on a plane, level or sloping, and slide or hold. With gravity g_n into the plane and g_t along it
-// a moving box has the acceleration g_t - mu g_n v/|v|; one at rest holds while |g_t| <= mu g_n, and else slides with
-// g_t (1 - mu g_n/|g_t|): on a level plane it stops after v²/(2 mu g), on a slope it slides from tan(slope) > mu on
-// (Coulomb's law; e.g. Kleppner and Kolenkow, An Introduction to Mechanics). It does not turn: the
-// friction at each point of its face acts along the same line, and its moment is held by where the plane presses most.
+// Boxes that lie flat on a level or sloping plane, and slide or stick. Let gravity be g_n into the plane and g_t along
+// it. A moving box has the acceleration g_t - mu g_n v/|v|. A resting box sticks while |g_t| <= mu g_n, and otherwise
+// slides with g_t (1 - mu g_n/|g_t|). On a level plane it stops after v²/(2 mu g); on a slope it slides if tan(slope) >
+// mu (Coulomb's law; e.g. Kleppner and Kolenkow, An Introduction to Mechanics). It does not rotate. Friction at each
+// point of its face acts in the same direction, and the distribution of pressure balances its moment.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -43,7 +43,7 @@ int only_one(const Scene& scene, bool fixed, const char* what) {
   return found;
 }
 
-// From the spring's fixed end to the ball's centre, at t = 0.
+// The vector from the spring's fixed end to the ball's centre, at t = 0.
 ExtendedVec3 along_spring(const Scene& scene, int ball) {
   if (scene.springs.size() != 1) refuse_swing(fmt::format("there are {} springs", scene.springs.size()));
   const Spring& spring = scene.springs.front();
@@ -87,7 +87,7 @@ SwingAtWall find_swing(const Scene& scene) {
   return swing;
 }
 
-// From one blow to the next.
+// The time from one impact to the next.
 struct Arc {
   Extended from;  // s
   Extended x, v;  // m and m/s, then

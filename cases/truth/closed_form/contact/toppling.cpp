@@ -1,11 +1,11 @@
-// A box that turns over one of its edges, which stays where it is on a level plane: an inverted pendulum (Goldstein,
-// Classical Mechanics, 3rd ed., 5.1; of blocks: Housner, The behavior of inverted pendulum structures during
-// earthquakes, Bull. Seismol. Soc. Am. 53, 1963). With phi the angle from upright to the line of length r from the edge
-// to the centre of mass, and k² = I/m about the edge,
+// A box that rotates about one of its edges, which stays in place on a level plane. It is an inverted pendulum
+// (Goldstein, Classical Mechanics, 3rd ed., 5.1; for blocks: Housner, The behavior of inverted pendulum structures
+// during earthquakes, Bull. Seismol. Soc. Am. 53, 1963). phi is the angle from upright to the line of length r from the
+// edge to the centre of mass, and k² = I/m about the edge,
 //   phi'' = g r/k² sin phi,
-// by its Taylor series of order 24 from one node to the next: with s = sin phi, c = cos phi, s' = c phi', c' = -s phi'.
-// The edge is held by H = m r (phi'' cos phi - phi'² sin phi) and V = m g - m r (phi'' sin phi + phi'² cos phi), which
-// have to stay inside the friction cone; from where they do not, or another side lands, nothing is known.
+// by its Taylor series of order 24 from one node to the next. With s = sin phi and c = cos phi, s' = c phi' and c' = -s
+// phi'. The edge force is H = m r (phi'' cos phi - phi'² sin phi) and V = m g - m r (phi'' sin phi + phi'² cos phi). It
+// must stay inside the friction cone. The truth ends where it leaves the cone, or another side lands.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,7 +79,7 @@ class Toppling final : public BodyMotion {
     return {edge_.at + arm, turn((now.phi - nodes_[0].phi) * edge_.axis) * q_, w.cross(arm), w};
   }
 
-  // The rounding of the place, and what an unstable pendulum makes of those of its angle. Infinite from where it slips,
+  // The rounding of the position, and of the angle as an unstable pendulum magnifies it. Infinite after the box slips,
   // lands or leaves the plane.
   double error(double t) const override {
     if (t > until_ * (1 + 1e-12)) return std::numeric_limits<double>::infinity();

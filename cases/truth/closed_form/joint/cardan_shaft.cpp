@@ -1,10 +1,11 @@
-// Two shafts at an angle beta, joined by a cross whose arms are at right angles to the shafts and to each other, all
-// axes through one point, nothing else acting. With psi the first shaft's angle from where its arm is at right angles
+// Two shafts at an angle beta, joined by a cross whose arms are at right angles to the shafts and to each other. All
+// axes pass through one point, and no load acts. psi is the first shaft's angle, zero where its arm is at right angles
 // to both shafts,
 //   tan chi = cos beta tan psi,   w2 / w1 = cos beta / D²,   D² = 1 - sin² beta sin² psi
 // for the second's angle chi (Hunt, Kinematic Geometry of Mechanisms, 1978; Cardan's joint in any textbook). The cross
-// turns against the first shaft about its arm, to the angle eta with tan eta = -cos beta / (sin beta cos psi). The
-// energy M(psi) w1² / 2 stays, so that t is the integral of sqrt(M) over psi: that of an even function of period pi.
+// rotates relative to the first shaft about its arm by the angle eta with tan eta = -cos beta / (sin beta cos psi). The
+// energy M(psi) w1² / 2 is constant. So t is the integral of sqrt(M) over psi, the integral of an even function of
+// period pi.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ struct CardanLine {
   ExtendedVec3 point, axis;  // m; unit
 };
 
-// Which body is what, and the geometry at t = 0.
+// The role of each body, and the geometry at t = 0.
 struct CardanShaft {
   int first = kWorld, cross = kWorld, second = kWorld;
   CardanLine shaft, other_shaft, arm, other_arm;
@@ -142,7 +143,7 @@ class CardanPhase {
     return 1 - s * s;
   }
 
-  // M(psi): twice the energy over w1². In the cross's frame, of its arms and what is across both.
+  // M(psi): twice the energy over w1², in the cross's frame of its two arms and the direction across both.
   Extended inertia(Extended psi) const {
     const Extended ratio = this->ratio(psi), turning = eta_rate(psi), along = sin_beta_ * std::cos(psi);
     return first_ + second_ * ratio * ratio + of_cross_[0] * turning * turning +

@@ -14,7 +14,7 @@ struct Series {
   long double largest = 0;                // of the function
 };
 
-// By the trapezoidal rule.
+// Uses the trapezoidal rule.
 Series series_of(const std::function<long double(long double)>& function, long double K, int modes) {
   std::vector<long double> cosines(2 * modes), samples(modes + 1);
   Series found;

@@ -1,5 +1,5 @@
-// The integral of a smooth function of Jacobi's argument that is even and has the period 2 K, as mean u + waves(u), by
-// Fourier's series: as exact as there are coefficients (Trefethen and Weideman, SIAM Review 56, 2014).
+// The integral of a smooth, even function of Jacobi's argument with period 2 K, as mean u + waves(u). A Fourier series
+// gives it; its accuracy depends only on the number of coefficients (Trefethen and Weideman, SIAM Review 56, 2014).
 #pragma once
 
 #include <functional>

@@ -1,9 +1,9 @@
-// A heavy symmetric top on a ball joint at its axis, and, with no spin, a body on a distance joint to its centre of
-// mass (the spherical pendulum). With z the cosine of the axis's angle from the vertical, I1 across and I3 along it
-// about the joint, and the momenta L_z = I1 b and L_3 = I1 a, which stay,
+// A heavy symmetric top on a ball joint at its axis. Without spin, also a body on a distance joint to its centre of
+// mass (the spherical pendulum). z is the cosine of the axis's angle from the vertical. I1 across and I3 along the axis
+// are about the joint. The momenta L_z = I1 b and L_3 = I1 a are constant,
 //   z'² = f(z) = (alpha - beta z)(1 - z²) - (b - a z)²,   beta = 2 m g l / I1,
 //   z = z1 + (z2 - z1) sn²(p t + u0, k),   p² = beta (z3 - z1) / 4,   k² = (z2 - z1) / (z3 - z1),
-// z1 <= z2 <= 1 <= z3 being the roots of f; and what is left are the integrals of
+// z1 <= z2 <= 1 <= z3 are the roots of f. The remaining integrals are those of
 //   phi' = (b - a z) / (1 - z²),   psi' = L_3 / I3 - z phi'
 // (Whittaker, Analytical Dynamics, 4th ed., sections 55 and 71; Goldstein, Classical Mechanics, 3rd ed., section 5.7).
 // q = turn(phi, vertical) turn(theta - theta0, line of nodes) turn(psi, axis) q0. In place of z stands y = 1 - z, which
@@ -41,7 +41,7 @@ struct HeavyBody {
   Extended along = 0;                                 // kg m², I3; 0 for a body on a distance joint
   ExtendedVec3 w;                                     // rad/s, of the axis and about it, in W
   bool is_top = true;                                 // it turns with the axis
-  Extended misses = static_cast<Extended>(kEpsilon);  // rad/s, by what the scene's numbers miss of all this
+  Extended misses = static_cast<Extended>(kEpsilon);  // rad/s, the error from the rounding of the scene's numbers
 };
 
 // The three real roots of z³ + c2 z² + c1 z + c0, ascending (Viète's trigonometric form).
@@ -93,7 +93,7 @@ class HeavyTop final : public BodyMotion {
     return {position, swing * turn(psi * e_) * orientation_, velocity, w};
   }
 
-  // Rounding of the phases; of k', by which every nod is longer or shorter; and of what is small near the vertical.
+  // Rounding of the phases, of k', which changes the length of every nod, and of small quantities near the vertical.
   double error(double t) const override {
     const Extended fastest = std::max(std::abs(azimuth_rate(y_low_)), std::abs(azimuth_rate(y_high_)));
     const Extended phases = (p_ + fastest + std::abs(spin_)) * t + 1;

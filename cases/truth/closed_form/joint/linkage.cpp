@@ -2,7 +2,7 @@
 //   parallel cranks   bodies on hinges to what stands still, all turning alike, and bodies that they carry without
 //                     turning them (IFToMM benchmark A02: N windows; x'' = lambda sin x from the upright)
 //   a trammel         a body hinged to two sliders that run at right angles
-// Where all cranks and couplers lie in one line a linkage could fold; this truth goes on as parallel cranks do.
+// If all cranks and couplers lie in one line, a linkage could fold. This truth then continues as parallel cranks do.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ class Linkage {
     if (axis_.isZero(0)) refuse_linkage("it has no hinge");
   }
 
-  // Those hinged to what stands still turn; each that hangs on one of them goes as its tip does.
+  // Cranks hinged to a fixed body rotate. Bodies that hang on one of them move as its tip does.
   bool place_cranks() {
     bool found = false;
     for (const Joint& joint : scene_.joints) {
@@ -119,7 +119,7 @@ class Linkage {
   }
   ExtendedVec3 pin(int rod, int runner) const { return extended(hinge_between(rod, runner)->anchor); }
 
-  // How a point of a body goes; nothing moves of what stands still.
+  // The motion of a point of a body; zero for a fixed body.
   Swing of_point(int body, const ExtendedVec3& point) const {
     if (is_still(body)) return {};
     Swing swing = swings_[body].value_or(Swing{});
@@ -129,7 +129,7 @@ class Linkage {
     return swing;
   }
 
-  // That a joint holds whatever the angle is.
+  // Checks that a joint holds for any angle.
   void check(const Joint& joint) const {
     const auto* slider = slider_of(joint);
     const ExtendedVec3 point = slider ? ExtendedVec3::Zero() : extended(hinge_of(joint)->anchor);
@@ -146,7 +146,7 @@ class Linkage {
                                  scene_.body_name(joint.b)));
   }
 
-  // That the angle is all that may change, but where links lie in one line: two poses are not both such.
+  // Checks that the angle is the only freedom. Links in one line are an exception, but two poses are never both such.
   void check_freedom() const {
     constexpr Extended kAway = 0.7L;  // rad
     const int least = std::min(freedoms_at(0), freedoms_at(kAway));

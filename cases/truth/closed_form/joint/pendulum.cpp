@@ -1,6 +1,6 @@
-// One body that swings or goes round about an axis that stands still: on a hinge, however it lies and whatever its
-// inertia; on a ball joint or a distance joint to its centre of mass, where the motion stays in a plane. With r from
-// the axis to the centre of mass across it, x from where that points down, and n the axis,
+// One body that swings or rotates about a fixed axis. On a hinge the axis may have any direction, and the body any
+// inertia. On a ball joint, or a distance joint to its centre of mass, the motion must stay in a plane. r is the vector
+// from the axis to the centre of mass across the axis, x the angle from its lowest position, and n the axis,
 //   (n . I n + m r²) x'' = -m g_n r sin x,   g_n the part of gravity across the axis
 // (Landau and Lifshitz, Mechanics, 3rd ed., section 11, problem 1; Goldstein, Classical Mechanics, 3rd ed.,
 // section 5.6, for the axis through the centre of mass, where it turns evenly). How x goes: pendulum_phase.h.
@@ -37,7 +37,7 @@ Hung find_hung(const Scene& scene) {
   return {is_a ? joint.a : joint.b, &joint, is_a};
 }
 
-// The normal of the plane of the motion: of gravity and the arm, or of what it moves by.
+// The normal of the plane of motion, spanned by gravity and the arm, or by the arm and the velocity.
 ExtendedVec3 normal_of(const ExtendedVec3& arm, const ExtendedVec3& gravity, const ExtendedVec3& moving) {
   if (moving.norm() > 0) return moving.normalized();
   const ExtendedVec3 across = arm.cross(gravity);

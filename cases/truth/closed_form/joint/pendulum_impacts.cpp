@@ -63,7 +63,7 @@ class ImpactSwing final : public BodyMotion {
             rate * hanging_.axis};
   }
 
-  // What the pieces' phases err by, and roundings of the scene's numbers.
+  // The error of the pieces' phases, and the rounding of the scene's numbers.
   double error(double t) const override {
     double sum = static_cast<double>(misses_) + kEpsilon * static_cast<double>(hanging_.pivot.norm());
     const std::size_t last = index_at(t);
@@ -90,7 +90,7 @@ class ImpactSwing final : public BodyMotion {
   Extended misses_;  // m
 };
 
-// The one joint on which a ball hangs from what stands still.
+// The only joint on which a ball hangs from a fixed body.
 const Joint& joint_of(const Scene& scene, int ball) {
   const Joint* own = nullptr;
   for (const Joint& joint : scene.joints) {
@@ -157,7 +157,7 @@ Extended radius_of(const Scene& scene, int index) {
 
 using Pieces = std::vector<ImpactSwing::Piece>;
 
-// It comes to its lowest point from the wall's free side, and touches it just there.
+// Checks that it reaches its lowest point from the free side of the wall, and touches the wall exactly there.
 Pieces at_wall(const Scene& scene, int ball, int wall, const Hanging& hanging, double duration) {
   const auto* plane = std::get_if<Plane>(&*scene.bodies[wall].shape);
   if (!plane) refuse_impacts(fmt::format("'{}' is no plane", scene.bodies[wall].name));
@@ -208,7 +208,7 @@ std::vector<int> row_of(const Scene& scene, const std::vector<int>& balls, std::
   return row;
 }
 
-// Of the first of the row and of the last; those between hang still.
+// The motion of the first and the last of the row; those between hang still.
 std::pair<Pieces, Pieces> in_cradle(const Hanging& lead, double duration) {
   const Extended quarter = quarter_of(lead.angle, lead.square),
                  rate = std::copysign(2 * std::sqrt(lead.square) * std::sin(std::abs(lead.angle) / 2), lead.angle);

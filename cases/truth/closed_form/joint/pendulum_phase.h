@@ -11,8 +11,8 @@ namespace rigor {
 
 class PendulumPhase {
  public:
-  // From the angle at t = 0 [rad, -pi..pi], away from where it would rest, and its rate [rad/s]. `square` is w0²
-  // [1/s²]; at 0 it turns evenly.
+  // Starts from the angle at t = 0 [rad, -pi..pi] from the rest position, and its rate [rad/s]. `square` is w0² [1/s²];
+  // with 0 the rotation is uniform.
   PendulumPhase(Extended angle, Extended rate, Extended square);
 
   // Half of the angle turned since t = 0; both may have the other sign, which is the same rotation.

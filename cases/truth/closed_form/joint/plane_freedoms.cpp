@@ -37,7 +37,7 @@ class PlaneRows {
   bool moves(int body) const { return body != kWorld && column_[body] >= 0; }
   Extended angle(int body) const { return moves(body) ? poses_[body].angle : 0; }
 
-  // From a body's centre, with it, to what was at `point` at t = 0.
+  // The vector from a body's centre, moving with it, to the point that was at `point` at t = 0.
   Plane2 arm(int body, const ExtendedVec3& point) const {
     return basis_ * (turn(angle(body) * axis_) * (point - extended(scene_.bodies[body].position)).eval());
   }

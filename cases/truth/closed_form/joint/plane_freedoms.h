@@ -13,8 +13,8 @@ struct PlanePose {
   Extended angle = 0;                            // rad, turned about the plane's normal since t = 0
 };
 
-// Of the bodies that are not fixed, three each, what is left at these poses, one a body, in the plane across the unit
-// `axis`. Joints other than hinges along the axis and sliders across it count for nothing.
+// The remaining degrees of freedom of the movable bodies, three each, at these poses, one per body, in the plane across
+// the unit `axis`. Only hinges along the axis and sliders across it count.
 int plane_freedoms(const Scene& scene, const ExtendedVec3& axis, const std::vector<PlanePose>& poses);
 
 }  // namespace rigor

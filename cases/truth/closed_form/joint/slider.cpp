@@ -1,9 +1,9 @@
 // A body on a slider, with a spring and damper and gravity along the rail n:
 //   m s'' = m g . n - k (s - rest) - c s',   s the way since t = 0.
-// They are the joint's own, or those of a spring along the rail from its centre to what stands still.
-// With a spring it oscillates about rest + m g.n/k (damped_oscillation.h); without, it falls along the rail, to
-// s = v0 t + g.n t²/2, or against the damper, to  s = u t + (v0 - u) (1 - e^(-c t/m)) m/c,  u = m g.n/c. It does not
-// turn (Landau and Lifshitz, Mechanics, 3rd ed., section 25).
+// The spring and damper are those of the joint, or of a spring along the rail from its centre to a fixed point. With a
+// spring it oscillates about rest + m g.n/k (damped_oscillation.h). Without a spring it falls along the rail: s = v0 t
+// + g.n t²/2, or with a damper s = u t + (v0 - u) (1 - e^(-c t/m)) m/c, u = m g.n/c. It does not rotate (Landau and
+// Lifshitz, Mechanics, 3rd ed., section 25).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
   throw InputError("the truth 'slider' is for one body on a slider that stands still: " + why);
 }
 
-// What acts along the rail.
+// The loads along the rail.
 struct Sprung {
   Extended stiffness = 0, damping = 0, rest = 0;              // N/m, N s/m; m, a way
   Extended end = -std::numeric_limits<Extended>::infinity();  // m, a way: where a spring's other end is

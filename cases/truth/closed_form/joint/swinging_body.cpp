@@ -35,7 +35,7 @@ class SwingingBody final : public BodyMotion {
     return {position, ExtendedQuat(half.cosine, u.x(), u.y(), u.z()) * orientation_, velocity, half.rate * axis_};
   }
 
-  // What the scene's numbers miss of the motion goes on as it began.
+  // The error: the deviation of the scene's numbers from the motion grows as it began.
   double error(double t) const override {
     const double reach = static_cast<double>(std::max(swing_.along.norm(), swing_.across.norm()));
     return (1 + reach) * (phase_.error(t) + static_cast<double>(misses_) * (1 + t)) +
@@ -53,7 +53,7 @@ class SwingingBody final : public BodyMotion {
   Extended misses_;  // m/s and rad/s, m
 };
 
-// What the scene sums up to.
+// The sums over the scene.
 struct Sums {
   Extended inertia = 0;           // kg m², about the angle
   Extended along = 0, mixed = 0;  // kg m², sum m |A|² - m |B|²; sum m A . B
@@ -93,8 +93,7 @@ Extended missed(const Scene& scene, const ExtendedVec3& axis, const std::vector<
       refuse(fmt::format("body '{}' does not move with the rest", body.name));
     misses = std::max(misses, off);
     if (!swing.turns && spins) {
-      if (!PrincipalSpin(body, body.angular_velocity).holds())
-        refuse(fmt::format("body '{}' would tumble", body.name));
+      if (!PrincipalSpin(body, body.angular_velocity).holds()) refuse(fmt::format("body '{}' would tumble", body.name));
       continue;
     }
     if (turned > kSwingingBodyRoundings * (1 + w.norm()))

@@ -25,9 +25,9 @@ Swing round_axis(int body, const ExtendedVec3& axis, const ExtendedVec3& arm, bo
 
 using Refuse = std::function<void(const std::string& why)>;  // throws
 
-// The truth in which these bodies, all that move, go as above about the unit `axis`. Refuses one whose velocity is not
-// what the angle's rate gives it, or whose inertia changes; `spins`: it may turn as it likes where it does not turn
-// with x.
+// The truth in which these bodies, all that move, follow the angle about the unit `axis`. Refuses a body whose velocity
+// does not follow from the angle's rate, or whose inertia changes. With `spins` it may have any rotation where it does
+// not rotate with x.
 std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, const std::vector<Swing>& swings,
                                 bool spins, const Refuse& refuse);
 

@@ -1,5 +1,5 @@
-// Bodies fixed to each other and thrown: one rigid body, a free asymmetric top with the mass, the centre and the
-// inertia of all of them, and each keeps its place in it,
+// Bodies fixed to each other and thrown. Together they are one rigid body, a free asymmetric top with the total mass,
+// centre and inertia. Each body keeps its place in it,
 //   p_i = P + Q (place_i),   q_i = Q turn_i,   v_i = V + w x (p_i - P)
 // (the parallel-axis theorem: Goldstein, Classical Mechanics, 3rd ed., section 5.3; the top: asymmetric_top.cpp).
 #include <fmt/format.h>

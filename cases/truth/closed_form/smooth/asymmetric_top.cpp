@@ -1,11 +1,12 @@
-// A free body with three different principal moments. About the principal axes, numbered so that L circles about the
-// third, which has the largest or the smallest moment, and the second has the middle one,
+// A free body with three different principal moments. The principal axes are numbered so that L circles about the
+// third, which has the largest or the smallest moment; the second has the middle one,
 //   L = (A1 cn u, A2 sn u, A3 dn u),  u = u0 + p t
 // (Landau and Lifshitz, Mechanics, 3rd ed., section 37; van Zon and Schofield, J. Comput. Phys. 225, 2007). On the
 // separatrix, |L|² = 2 E I2, k is 1 and the functions are hyperbolic.
 //
-// The attitude is the least rotation U that takes L in B to the z axis, a turn by chi about that axis, and what takes
-// it to L in W. Since w · L = 2 E and U turns about z at (l1 l2' - l2 l1') / (1 + l3), where l = L / |L|,
+// The attitude has two parts: the smallest rotation U that takes L in B to the z axis, then a rotation by chi about
+// that axis, and the rotation from there to L in W. Since w · L = 2 E and U rotates about z at (l1 l2' - l2 l1') / (1 +
+// l3), where l = L / |L|,
 //   chi' = |L| / I3 + (2 E - |L|² / I3) / (|L| + L3),
 // which is smooth, for L3 >= 0: the one integral that is left.
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ namespace {
 // Near the separatrix |L|² - 2 E I2 is a small difference of two large sums, which would lose a long double's digits.
 using QuadMat3 = Eigen::Matrix<Quad, 3, 3>;
 
-constexpr Extended kQuadRoundings = 1e-32L;  // some fifty of them, relative
+constexpr Extended kQuadRoundings = 1e-32L;  // fifty roundings, relative
 
 Extended root(const Quad& square) { return std::sqrt(std::max<Extended>(0, rounded(square))); }
 
@@ -108,7 +109,7 @@ class AsymmetricTop final : public BodyMotion {
     from_L_ = extended(body.orientation) * (least_turn(direction(start_)) * to_principal_).conjugate();
   }
 
-  // k' of the motion, with what is known of it.
+  // k' of the motion, with its uncertainty.
   Extended find_complement(const PrincipalFrame& frame) {
     const Quad &I1 = frame.moments[0], &I2 = frame.moments[1], &I3 = frame.moments[2];
     const Quad from_separatrix = frame.excess(1);

@@ -1,5 +1,5 @@
-// A free body with two equal principal moments. With L, which stays, and the spin s = L_axis (1/I_axis - 1/I_across)
-// about the symmetry axis, w = L / I_across + s axis: the body spins at the steady rate s about its axis, and that
+// A free body with two equal principal moments. L is constant, and so is the spin s = L_axis (1/I_axis - 1/I_across)
+// about the symmetry axis: w = L / I_across + s axis. The body spins at the rate s about its axis, and the axis
 // precesses about L at |L| / I_across, so that q = turn(L t / I_across) q0 turn(s t axis_B) (Landau and Lifshitz,
 // Mechanics, 3rd ed., section 33; Kane, Likins and Levinson, Spacecraft Dynamics, 1983, section 3.1).
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ class AxisymmetricTop final : public BodyMotion {
     return {path_.position(t), q, path_.velocity(t), precession_ + spin_ * (q * axis_)};
   }
 
-  // Rounding shifts both phases; what is left between the equal moments also changes the spin as the body turns.
+  // Rounding shifts both phases. A difference of the equal moments also changes the spin as the body rotates.
   double error(double t) const override {
     const double turned = static_cast<double>(precession_.norm() + std::abs(spin_)) * t;
     return path_.error(t) + 4 * kExtendedEpsilon * turned + gap_ * turned * (1 + turned / 2);

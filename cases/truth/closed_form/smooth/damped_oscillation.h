@@ -1,7 +1,7 @@
 // The damped oscillation s'' = -2 decay s' - w0² s about s = 0, in closed form. With w² = |w0² - decay²|,
 //   s  = e^(-decay t) (s0 C + (v0 + decay s0) S),   s' = e^(-decay t) (v0 C - (decay v0 + w0² s0) S),
-// where C and S are cos wt and sin wt / w, 1 and t, or cosh wt and sinh wt / w: under-, critically and over-damped
-// (Landau and Lifshitz, Mechanics, 3rd ed., sections 21 and 25).
+// C and S depend on the damping: cos wt and sin wt / w if underdamped, 1 and t if critically damped, cosh wt and sinh
+// wt / w if overdamped (Landau and Lifshitz, Mechanics, 3rd ed., sections 21 and 25).
 #pragma once
 
 #include <vector>

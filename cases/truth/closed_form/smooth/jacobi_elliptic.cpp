@@ -49,8 +49,8 @@ DnQuadrature::DnQuadrature(long double a, long double complement) : a_(a) {
   if (complement == 0) return;
   quarter_period_ = quarter_period(complement);
   const long double modulus = std::max(kRounding, std::sqrt((1 - complement) * (1 + complement)));
-  // The n-th coefficient falls as exp(-n pi K' / K), the nearest pole being dn's, at i K'. After 16 K / K' of them they
-  // are below 1e-21.
+  // The n-th coefficient falls as exp(-n pi K' / K), because the nearest pole is that of dn, at i K'. After 16 K / K'
+  // coefficients they are below 1e-21.
   find_waves(8 + static_cast<int>(16 * quarter_period_ / quarter_period(modulus)), complement);
 }
 

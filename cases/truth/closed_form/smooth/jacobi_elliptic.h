@@ -1,6 +1,6 @@
-// Jacobi's elliptic functions of a modulus given by its complement k' = sqrt(1 - k²). Near a separatrix k is so close
-// to 1 that it has lost the digits of k', which decide everything there; the usual libraries take k. All three
-// functions come out with a small relative error, for they are computed without a subtraction.
+// Jacobi's elliptic functions of a modulus given by its complement k' = sqrt(1 - k²). The usual libraries take k. Near
+// a separatrix k is so close to 1 that it has lost the digits of k', which decide everything there. All three functions
+// have a small relative error, because they are computed without subtraction.
 #pragma once
 
 #include <vector>

@@ -20,7 +20,7 @@ namespace {
       why);
 }
 
-// What moves, and from where it is held.
+// The moving body, and the fixed end of its spring.
 struct Hanging {
   int body;
   ExtendedVec3 anchor;  // m, in W
@@ -94,8 +94,8 @@ class Oscillator final : public BodyMotion {
             along.velocity * hanging_.line, w_};
   }
 
-  // The rounding to double of the farthest it can be, and a phase's. Where the scene's rounding misses the line, the
-  // body leaves it, and ever faster while the spring is pressed.
+  // The rounding to double of the largest coordinate, and of a phase. If the scene's rounding misses the line, the body
+  // leaves it, faster and faster while the spring is compressed.
   double error(double t) const override {
     const Extended speed = moving_.swing() * std::sqrt(moving_.square);
     const Extended farthest = hanging_.anchor.norm() + std::abs(middle_) + moving_.swing();

@@ -1,6 +1,6 @@
-// Rotation about an axis that stays where it is in W and in B, because it is a principal axis of the inertia
-// (Goldstein, Classical Mechanics, 3rd ed., section 5.6). Where the numbers of a scene miss the axis by their rounding,
-// the body wobbles by as little, or tumbles after a while if the axis is that of the middle moment: error() says so.
+// Rotation about an axis that is fixed in W and in B, because it is a principal axis of the inertia (Goldstein,
+// Classical Mechanics, 3rd ed., section 5.6). If rounding of the scene's numbers misses the axis, the body wobbles by
+// the same amount. About the axis of the middle moment it tumbles after a while; error() includes this.
 #pragma once
 
 #include "cases/truth/closed_form/closed_form.h"

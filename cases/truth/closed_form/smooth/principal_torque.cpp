@@ -1,7 +1,7 @@
-// Timed torques, constant in W, about the axis a body turns about, which is a principal axis: the angle turned follows
-// I angle'' = torque, so that each torque T adds T/I (a²/2 + (until - from) b) to it, where a is how long it has acted
-// and b how long it has been over (Goldstein, Classical Mechanics, 3rd ed., section 5.5: one of Euler's equations is
-// left). The centre of mass flies its parabola.
+// Timed torques, constant in W, about the axis of rotation, which is a principal axis. The angle follows I angle'' =
+// torque, the only remaining equation of Euler (Goldstein, Classical Mechanics, 3rd ed., section 5.5). Each torque T
+// therefore adds T/I (a²/2 + (until - from) b), where a is the time it has acted and b the time since its end. The
+// centre of mass follows its parabola.
 #include <fmt/format.h>
 
 #include <algorithm>

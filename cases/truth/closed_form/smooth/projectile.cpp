@@ -1,5 +1,5 @@
-// Free flight under constant gravity: p = p0 + v0 t + g t²/2, and a spin that stays what it is because it is about a
-// principal axis: q = rotation_by(w t) q0 (Goldstein, Classical Mechanics, 3rd ed., section 5.6: torque-free motion).
+// Free flight under constant gravity: p = p0 + v0 t + g t²/2. The spin is about a principal axis and therefore
+// constant: q = rotation_by(w t) q0 (Goldstein, Classical Mechanics, 3rd ed., section 5.6: torque-free motion).
 #include <fmt/format.h>
 
 #include "cases/truth/closed_form/smooth/principal_spin.h"

@@ -1,6 +1,6 @@
-// A heavy symmetric top on a ball joint in steady precession: its axis goes round the vertical at a constant rate and
-// tilt while it spins at a constant rate about its axis. With e from the joint to the centre of mass, l the distance
-// and I about the joint, w = W + s e, where W is along gravity, and L = I w must turn with W:
+// A heavy symmetric top on a ball joint in steady precession. Its axis moves around the vertical at a constant rate and
+// tilt, and the top spins at a constant rate about its axis. e points from the joint to the centre of mass, l is the
+// distance, and I is about the joint. w = W + s e, where W is along gravity, and L = I w must rotate with W:
 //   W x L = l e x m g,   or   W (I_axis w_axis - I_across W cos tilt) = m g l
 // for a tilted top (Goldstein, Classical Mechanics, 3rd ed., section 5.7, "regular precession"). An upright one, which
 // sleeps, has only the spin. So q = turn(W t) q0 turn(s t e_B).
@@ -46,8 +46,7 @@ class SteadyPrecession final : public BodyMotion {
     return {pivot_ + length_ * e, q, w.cross(length_ * e), w};
   }
 
-  // Rounding of the answer, and of the scene: a torque that it misses the steady one by turns L away, which shifts the
-  // precession in turn.
+  // Rounding of the result, and of the scene: a torque error rotates L away, which then shifts the precession.
   double error(double t) const override {
     const Extended turned = (precession_.norm() + std::abs(spin_)) * t, reach = 1 + length_;
     const Extended away = misses_ * t * (1 + turned);
