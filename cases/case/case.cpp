@@ -30,7 +30,7 @@ std::optional<double> parse_seconds(std::string_view text) {
   return *numerator / *denominator;
 }
 
-// What may be shown of a text that nobody has checked yet.
+// The part of an unchecked text that is safe to show.
 std::string excerpt(const std::string& text) {
   std::string out;
   for (const char c : text.substr(0, 40)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;

@@ -1,4 +1,4 @@
-// A case: a scene, how to run it, what the truth is, and the gates it must pass. One TOML file of cases/suite/ each.
+// A case: a scene, how to run it, its truth, and the gates it must pass. Each is one TOML file of cases/suite/.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ struct StepSize {
   std::string text;  // as it was written, "1/30": what tables and file names show
 };
 
-// Whether it is the same step, however written: "1/30" and "0.03333333333". They agree to a billionth, by which steps
-// are rounded where they are counted as well: the runs are as long to within that part of a step's count.
+// Whether two steps are equal in any notation: "1/30" and "0.03333333333". They may differ by a billionth, the same
+// rounding that counts steps. Runs then have the same length up to that part of a step.
 bool operator==(const StepSize& a, const StepSize& b);
 
-// What a metric's value is held against. Exactly one of the limits is set (an empty better_than is none), or min and
-// max together. All but `regression` are bounds: they hold whoever wrote the engine. A regression guards a value that
-// was measured, and stands beside the engine (cases/gates/regression.h), against change.
+// The limit of a metric. Exactly one limit is set (an empty better_than is none), or min and max together. All but
+// `regression` are bounds, which hold for any engine. A regression guards a measured value against change, and stands
+// beside the engine (cases/gates/regression.h).
 struct Gate {
   std::string metric;                // a row of metrics.cpp
   std::vector<std::string> engines;  // run names; empty: every engine that supports the scene

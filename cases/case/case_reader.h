@@ -12,8 +12,8 @@ namespace rigor {
 // The keys of a case file, in the order in which messages list them.
 const std::vector<std::string>& case_keys();
 
-// Throws InputError, "file:line:column: key: what was found, what is allowed (near match)", for anything the design's
-// case file does not allow; also for a metric, truth, engine or step size that is not among `words`.
+// Throws InputError, "file:line:column: key: what was found, what is allowed (near match)", for anything the format
+// does not allow, and for a metric, truth, engine or step size that is not among `words`.
 Case read_case(const std::string& path, const std::string& id, const Vocabulary& words);
 // The same of a text that is in no file; the path is for messages.
 Case read_case_text(const std::string& text, const std::string& path, const std::string& id, const Vocabulary& words);

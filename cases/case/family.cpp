@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kExtension = ".toml";
 
-// Beside what an engine needs for it: whether anything pulls at all, and whether springs lose energy.
+// Properties beside the features: whether any load acts, and whether springs lose energy.
 Features features_of(const Scene& scene) {
   Features features;
   for (const Need& need : needs_of(scene)) features.insert(need.feature);

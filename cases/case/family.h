@@ -1,5 +1,5 @@
-// A family of cases: the folder that they stand in. Its family.toml states the gates that hold for all of them, chosen
-// by what a run is and by what a scene has; a case file keeps those that are special to it.
+// A family of cases: all cases in one folder. Its family.toml states the gates for all of them, selected by properties
+// of the run and the scene. A case file holds only its special gates.
 #pragma once
 
 #include <string>
@@ -18,8 +18,8 @@ struct Family {
 // Throws InputError, "file:line:column: key: what was found, what is allowed", as for a case.
 Family read_family(const std::string& path, const Vocabulary& words);
 
-// Appends those of the family's gates that are about such a case. Where the case states an order, a ranking or a
-// regression of the same metric for a run itself, its own counts and not the family's.
+// Appends the family's gates that apply to the case. If the case itself states an order, a ranking or a regression of
+// the same metric for a run, that gate replaces the family's.
 void add_family_gates(const Family& family, const Vocabulary& words, Case& definition);
 
 }  // namespace rigor

@@ -29,17 +29,17 @@ struct GateTable {
   std::vector<std::string> except;  // cases of the family that it is not about, by the names of their files
 };
 
-// The keys that a gate may have. Throws InputError with its place for whatever else a table holds.
+// The keys that a gate may have. Throws InputError with the place of any other key.
 GateTable read_gate_table(const TableReader& table, const Vocabulary& words);
 GateTable read_family_gate_table(const TableReader& table, const Keys& cases,
-                                 const Vocabulary& words);  // those beside it, by their files
+                                 const Vocabulary& words);  // family.toml beside them, by file
 const Keys& gate_keys();
 const Keys& family_gate_keys();
 
 // Of a case that names them itself: throws InputError for a step that its run does not have.
 std::vector<Gate> gates_of(const GateTable& table, const Case& of);
 
-// The steps of a run that the terms select, all if there are none.
+// The steps of a run that the terms select; all if there are no terms.
 std::vector<StepSize> selected_steps(const std::vector<StepTerm>& terms, const std::vector<StepSize>& of_run);
 
 }  // namespace rigor

@@ -21,8 +21,8 @@ bool is_word(const std::string& text) {
          text.find_first_of("*!") != std::string::npos || text.starts_with("order");
 }
 
-// `*` stands for any letters, also for none. What stands between two is taken where it first comes, which leaves the
-// rest most room: many stars take no longer than one.
+// `*` matches any letters, or none. The text between two stars is matched at its first occurrence, which leaves the
+// most room for the rest. The time is therefore linear, even with many stars.
 bool matches(std::string_view pattern, std::string_view text) {
   std::size_t star = pattern.find('*');
   if (star == std::string_view::npos) return pattern == text;

@@ -1,4 +1,4 @@
-// Which cells of a case a gate judges: its engines and step sizes, or all where it names none.
+// The cells of a case that a gate judges: its engines and step sizes, or all if it names none.
 #pragma once
 
 #include <optional>

@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".toml";
 
-// The case files below a folder, sorted; a family's gates are none of them. A folder that cannot be entered is passed
-// over.
+// The case files below a folder, sorted, without family.toml. An unreadable folder is skipped.
 std::vector<fs::path> case_files(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -46,8 +45,8 @@ std::string named_from(const fs::path& folder, const fs::path& path) {
   return relative.empty() || *relative.begin() == ".." ? "" : relative.generic_string();
 }
 
-// Results say where a gate stands by a path from the current folder, which is what annotations of a repository need, or
-// from the suite: not where this machine keeps its files.
+// Results give the place of a gate relative to the current folder, as annotations of a repository need, or relative to
+// the suite. They never contain this machine's paths.
 void shorten_places(Case& definition, const std::string& folder, const std::string& suite_dir) {
   std::error_code error;
   const auto shorten = [&](std::string& where) {

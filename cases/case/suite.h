@@ -12,9 +12,9 @@ namespace rigor {
 // The ids of all cases below `suite_dir`, sorted: "springs/fixed-spring".
 std::vector<std::string> suite_ids(const std::string& suite_dir);
 
-// The cases that the words name, each once: a case's id, the last part of one if only one case has it, a family (its
-// folder), a .toml file, or a folder of them. No words: the whole suite. Throws InputError with a near match for a word
-// that names nothing, and for a folder without cases.
+// The cases that the words name, each once. A word is a case's id, its last part if that is unique, a family (its
+// folder), a .toml file, or a folder of them. No words: the whole suite. Throws InputError with a near match for an
+// unknown word, and for a folder without cases.
 std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir,
                                const Vocabulary& vocabulary);
 

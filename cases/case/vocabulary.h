@@ -16,7 +16,7 @@ struct Vocabulary {
   std::vector<std::string> cross_metrics;  // across the cells of a case
   std::vector<std::string> truths;         // "none" aside
   std::vector<EngineInfo> engines;
-  // Whether a run, judged by this metric against this truth, is held to what its own code makes (provenance.h).
+  // Whether a run, judged by this metric against this truth, is compared with its own code's result (provenance.h).
   std::function<bool(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene)>
       is_held_to_itself;
 };

@@ -35,7 +35,7 @@ const RunName* run_called(const Results& grid, const std::string& name) {
 
 bool speaks_of(const KnownDeviation& row, const GateResult& answer, const CaseResult& result, const Results& grid) {
   const RunName* run = run_called(grid, answer.engine);
-  if (result.definition.gates[answer.gate].regression) return false;  // guards what is known as well
+  if (result.definition.gates[answer.gate].regression) return false;  // also guards the known value
   if (row.case_id != result.definition.id || row.metric != result.definition.gates[answer.gate].metric) return false;
   if (!run || !names_run(row, *run)) return false;
   if (answer.dt.empty()) return row.dt.empty();

@@ -24,8 +24,7 @@ std::vector<KnownDeviation> read_known_deviations(const std::string& adapters_di
                                                   const std::vector<EngineInfo>& engines);
 std::string default_adapters_dir();
 
-// Throws InputError for a row about one of these cases that none of its gates can meet: a metric, a run or a step that
-// no gate of the case has.
+// Throws InputError for a row about one of these cases that matches none of its gates: an unused metric, run or step.
 void check_known_deviations(const std::vector<KnownDeviation>& rows, const std::vector<Case>& cases,
                             const std::vector<EngineInfo>& engines);
 

@@ -1,5 +1,5 @@
-// What fell short: one row for each thing that keeps `rigor gate` from exit code 0, with the worst instant. The
-// console, the job summary and the annotations show the same rows.
+// The failures of `rigor gate`: one row for each reason against exit code 0, with the worst instant. The console, the
+// job summary and the annotations show the same rows.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Failure {
   std::string found, limit;         // "0.0612 m", "at most 0.06 m"
   std::string worst;                // "at 4.97 s: cube, position: found ..., expected ..."
   std::string because;              // the gate's, or why there is no value
-  std::string where;                // "file:line:column" of the gate or the row that says so; may be empty
+  std::string where;                // "file:line:column" of the gate or deviation row; may be empty
 };
 
 std::vector<Failure> failures(const Results& results);

@@ -64,8 +64,8 @@ class GateCheck {
     }
     return "";
   }
-  // Whether cells that somebody chose could answer the gate. Of other runs and steps it was not asked, nor of what an
-  // engine cannot do.
+  // Whether the selected cells could answer the gate. Runs and steps that were not selected do not count, nor features
+  // that an engine lacks.
   bool is_asked() const {
     std::map<std::size_t, std::size_t> steps;  // by run
     for (const Cell& cell : result_.cells) {
@@ -100,7 +100,7 @@ class GateCheck {
       return engine.name == grid_.runs[run].engine && engine.precision == "single";
     });
   }
-  // By how much the limits of a run are wider than the gate's, in the metric's unit.
+  // The amount by which a run's limits are wider than the gate's, in the metric's unit.
   double allowance(std::size_t run, const StepSize& dt) const {
     return is_single(run) ? single_precision_allowance(result_, dt.seconds, unit_.empty() ? "1" : unit_.substr(1)) : 0;
   }
@@ -113,8 +113,8 @@ class GateCheck {
     result_.gates.push_back({index_, engine, dt, answer, text, value, worst, caveat});
   }
 
-  // Of a gate that held: since when the cell, or one of a run's cells that have the metric, was not stepped by its
-  // method. What it costs it costs whatever the steps.
+  // For a gate that held: the time from which the cell, or one of the run's cells with the metric, was not stepped by
+  // its own method. `cost` is exempt.
   std::string caveat_of(const Cell& cell) const {
     if (!cell.reduced_order || gate_.metric == "cost") return "";
     const auto metric = cell.metrics.find(gate_.metric);
@@ -250,7 +250,7 @@ class GateCheck {
 
   static bool has_result(const Cell& cell) { return cell.status == Status::pass || cell.status == Status::fail; }
 
-  // For what is measured across cells.
+  // For metrics measured across cells.
   void fail_what_has_no_result() {
     for (const Cell& cell : result_.cells) {
       if (!selects(cell) || has_result(cell)) continue;
@@ -288,7 +288,7 @@ class GateCheck {
            std::max(allowance(spread.first, spread.dt), allowance(spread.second, spread.dt)));
   }
 
-  // What an order has to be at least: the gate's own, or what the method declares. An adaptive one declares none.
+  // The required order: the gate's own, or the one that the method declares. An adaptive method declares none.
   std::optional<double> wanted_order(std::size_t run) const {
     if (!gate_.declares_order) return gate_.at_least_order;
     const RunName& name = grid_.runs[run];
@@ -300,8 +300,8 @@ class GateCheck {
     return std::nullopt;
   }
 
-  // A gate that speaks of every method has to leave aside the steps at which one is not yet near its limit, and those
-  // at which only roundings are left.
+  // A gate over all methods must ignore steps at which a method is not yet in its asymptotic range, and steps at which
+  // only rounding remains.
   bool shows_order(double error, double of_precision) const {
     constexpr double kLarge = 0.03, kRoundings = 1e-10;  // m, rad: the second after thousands of steps
     return !gate_.declares_order ||

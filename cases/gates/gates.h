@@ -6,16 +6,16 @@
 
 namespace rigor {
 
-// |found - limit| <= kRounding * max(1, |limit|) is equal: a thousand roundings of a double fit into it many times
-// over, and no scheme's error that is worth a gate does.
+// |found - limit| <= kRounding * max(1, |limit|) counts as equal. This exceeds a thousand roundings of a double many
+// times, and is far below any scheme error worth a gate.
 inline constexpr double kRounding = 1e-9;
 
-// Who names runs or steps asks for less than the gates do: gates that all of these leave out then give no answer.
+// Selected runs or steps restrict the gates: gates that exclude all of them give no answer.
 enum class Asked { all, some };
 
-// Fills in result.gates, and turns a cell that did `pass` into `fail` where a gate says so. A gate on a cell that
-// crashed, timed out or is invalid fails; one that is unsupported or has no such metric it does not meet. A gate that
-// met no cell is `not_checked`, once; a family's says nothing then, see unmet_family_gates (failures.h).
+// Fills in result.gates, and turns a cell from `pass` to `fail` if a gate fails. A gate fails on a cell that crashed,
+// timed out or is invalid. Cells that are unsupported or lack the metric do not count. A gate without any cell is
+// `not_checked`, once. A family's gate then gives no answer; see unmet_family_gates (failures.h).
 void check_gates(CaseResult& result, const Results& grid, const RecordedValues& recorded = {},
                  Asked asked = Asked::all);
 

@@ -1,4 +1,4 @@
-// The quick part of a suite: the gates whose cells take a moment each, for whoever wants an answer in seconds.
+// The quick part of a suite: the gates whose cells take only a moment each.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 // Regressions: values that were measured, kept to guard against change. They are no truths. Each engine's stand beside
 // its adapter, in adapters/<name>/regression.jsonl, one JSON object a line and one line a cell:
 //   {"case": "contact/cradle", "run": "bullet", "dt": "1/30", "creep": 0.0117, "penetration": 0.0042}
-// `rigor baseline --regression <name> out/results.json` makes the file anew; its difference is what is reviewed.
+// `rigor baseline --regression <name> out/results.json` writes the file again; reviewers check its difference.
 #pragma once
 
 #include <map>
@@ -28,20 +28,21 @@ class RecordedValues {
   std::map<std::string, double> values_;
 };
 
-// Those of every regression.jsonl in a folder of `adapters_dir`. Throws InputError, "file:line:column: ...", for a line
-// that is none of the above, names what there is not, or says a thing twice.
+// Reads every regression.jsonl in a folder of `adapters_dir`. Throws InputError, "file:line:column: ...", for a line of
+// another form, an unknown name, or a duplicate value.
 RecordedValues read_recorded_values(const std::string& adapters_dir, const std::vector<EngineInfo>& engines);
 
-// The file of one engine: what the regressions of a results.json found. `left_out`: of how many there is no value, for
-// the run came to nothing. Throws InputError for a file that is no results.json or has none of that engine's.
+// The file of one engine: the values that a results.json has for its regressions. `left_out` counts those without a
+// value, because the run produced no result. Throws InputError for a file that is no results.json or has no values of
+// that engine.
 struct RegressionText {
   std::string text;
   int left_out = 0;
 };
 RegressionText regression_text(const std::string& results_path, const std::string& engine);
 
-// A value is held against the recorded one: it lies within the factor of it, either way, and 1e-9 for roundings. What
-// is wrong with it, or "".
+// Compares a value with the recorded one: it must lie within the factor of it in both directions, plus 1e-9 for
+// rounding. Returns the reason of a failure, or "".
 std::string change_from(double recorded, double value, double factor);
 
 }  // namespace rigor

@@ -1,7 +1,7 @@
-// A step rounds each position and velocity to the nearest of 2^-24 of its size, this way or that, so that n of them add
-// up to the square root of n. A velocity's rounding goes on for the rest of the run. (Higham, Accuracy and Stability of
-// Numerical Algorithms, 2.8.) How far and fast bodies go is bounded by the truth's largest kinetic energy; a step is
-// some operations long, each with a rounding.
+// A step rounds each position and velocity by up to 2^-24 of its size, in either direction. n steps therefore add up to
+// the square root of n roundings. A velocity's rounding acts for the rest of the run. (Higham, Accuracy and Stability
+// of Numerical Algorithms, 2.8.) The truth's largest kinetic energy bounds the distance and speed of bodies. A step
+// consists of several operations, each with a rounding.
 #include "cases/gates/single_precision.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kUnitRoundoff = 0x1p-24;
 constexpr double kRoundingsAStep = 8;
 
-// The largest there is of each, of the bodies that move.
+// The largest value of each, over the moving bodies.
 struct Sizes {
   double mass = 0, inertia = 0;           // kg, kg m²
   double place = 0, speed = 0, spin = 0;  // m, m/s, rad/s

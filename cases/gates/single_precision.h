@@ -1,5 +1,5 @@
-// What an engine that holds its numbers in single precision may be off by its roundings alone: bounds are wider by so
-// much for it, for they are set for engines in double precision.
+// The error from rounding alone of an engine in single precision. Bounds are set for double precision, so they are
+// wider by this amount.
 #pragma once
 
 #include <string>

@@ -21,7 +21,7 @@ namespace {
 constexpr const char* kTabForm = "# Rigor baseline 1";
 constexpr const char* kTitleKey = "rigor_baseline";
 constexpr int kForm = 2;
-constexpr int kOldestSchema = 1, kSchema = 2;  // of results.json; in the first what is not finite is null
+constexpr int kOldestSchema = 1, kSchema = 2;  // of results.json; in version 1 non-finite numbers are null
 
 // A time is measured anew each run, and a p-value is as good as another until it is very small.
 bool is_compared(const std::string& metric) {
@@ -66,7 +66,7 @@ std::string verdict_at(const Json& json, const char* key, const std::string& pla
   }
 }
 
-// Of a shift in time its size; what was not finite is worse than any number.
+// For a time shift its size; a non-finite value is worse than any number.
 double value_from(const Json& value, const std::string& metric, const std::string& place) {
   if (value.is_number()) return std::abs(value.get<double>());
   const bool is_not_finite = value.is_null() || value == "inf" || value == "-inf" || value == "nan";
@@ -95,8 +95,8 @@ Baseline::Cell cell_from(const Json& json, const std::string& place) {
   return cell;
 }
 
-// A gate's answers by what it asks, for its number changes with the file; the worst where several ask the same. That a
-// regression has nothing to hold a cell against says nothing of the cell.
+// A gate's answers by its content, because its number changes with the file. Of several with the same content the worst
+// counts. A missing recorded value of a regression does not affect the cell.
 void add_gates(const Json& json, const std::string& place, Baseline& out) {
   for (const Json& gate : json.at("gates")) {
     for (const Json& answer : gate.at("answers")) {
@@ -115,7 +115,7 @@ void check_schema(const Json& json) {
     throw InputError(fmt::format("its schema is {}; allowed: {} to {}", schema, kOldestSchema, kSchema));
 }
 
-// By case, where a long result says it once.
+// By case, because a long result states it once per case.
 std::map<std::string, std::set<std::string>> metrics_not_measured(const Json& cases) {
   std::map<std::string, std::set<std::string>> found;
   for (const Json& one : cases) {

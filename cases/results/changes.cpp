@@ -11,7 +11,7 @@
 namespace rigor {
 namespace {
 
-// "a\tb\tc" as "a, b, c"; what is empty is left out.
+// "a\tb\tc" as "a, b, c", without empty parts.
 std::string named(const std::string& key) {
   std::string out;
   std::size_t at = 0;
@@ -152,8 +152,8 @@ std::set<std::string> values_in(const std::string& listed) {
   return values;
 }
 
-// A setting may have one value for each of several scenes, and not all scenes be in both: it differs if there is a
-// value now that was not there before.
+// A setting may have one value for each of several scenes, and the two results may contain different scenes. It differs
+// if there is a value that the old result lacks.
 void compare_settings(const Baseline& before, const Baseline& after, Changes& out) {
   for (const auto& [key, now] : after.settings) {
     const auto was = before.settings.find(key);

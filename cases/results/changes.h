@@ -1,4 +1,4 @@
-// What changed from one run's baseline to another's, beyond noise.
+// Changes between the baselines of two runs, beyond noise.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A history: what results came to from commit to commit, one JSON object a line, which is only ever added to.
+// A history: results from commit to commit, one JSON object per line. Lines are only added.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ struct HistoryEntry {
   std::map<std::string, Cell> cells;  // case, engine and dt parted by tabs
 };
 
-// Of a results.json. Throws InputError for a file that is none.
+// Reads a results.json. Throws InputError for any other file.
 HistoryEntry history_entry(const std::string& results_file, const std::string& commit, const std::string& date);
 
 // Adds a line in one write. Throws InputError if the file is no history or cannot be written.

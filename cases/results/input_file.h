@@ -5,7 +5,7 @@
 
 namespace rigor {
 
-// More than any results.json of a suite; an endless file must not be read for ever.
+// Larger than any results.json of a suite; stops the reading of an endless file.
 inline constexpr std::size_t kLargestInput = std::size_t{1} << 30;  // bytes
 
 // Throws InputError for what cannot be read, is no regular file (a folder, a device, a pipe), or is larger than that.

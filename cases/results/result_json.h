@@ -1,4 +1,4 @@
-// Results as JSON: what a child process tells its parent, and the parts of results.json. One form serves both.
+// Results as JSON: the messages of a child process to its parent, and the parts of results.json. Both use one form.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ struct MessageSubject {
   bool operator==(const MessageSubject&) const = default;
 };
 
-// Fills in what the message says. Throws std::exception, and then has changed nothing, for one that is garbled: that is
-// no JSON, that lacks a part, names a cell, a status or a verdict that there is not.
+// Fills in the content of the message. Throws std::exception, without any change, for a damaged message: no JSON, a
+// missing part, or an unknown cell, status or verdict.
 MessageSubject apply_message(CaseResult& result, const std::string& message);
 
 Json json_of(const Cell& cell, const Scene& scene);
@@ -30,6 +30,6 @@ Json json_of(const StableStepResult& result);
 // JSON has no word for numbers that are not finite: they are written as "inf", "-inf" and "nan". All others come back
 // with the same bits. Text that is not UTF-8 is written with replacement characters.
 std::string text_of(Json value, int indent);
-double number_of(const Json& value);  // throws std::exception for what is neither
+double number_of(const Json& value);  // throws std::exception for any other JSON
 
 }  // namespace rigor

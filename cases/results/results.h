@@ -15,11 +15,11 @@
 
 namespace rigor {
 
-// The end of a cell. invalid: the engine refused the scene, or its method did not do what it promises (an iteration
-// that did not converge) in a run that did not blow up; one that did is `diverged`, whatever it warned of.
+// The end of a cell. invalid: the engine refused the scene, or its method did not keep its promise (an iteration that
+// did not converge) in a run that did not blow up. A run that blew up is `diverged`, with or without a warning.
 enum class Status { pass, fail, known_deviation, unexpected_pass, unsupported, diverged, crashed, timed_out, invalid };
 std::string word_of(Status status);
-Status status_of(const std::string& word);  // throws std::runtime_error for a word that is none
+Status status_of(const std::string& word);  // throws std::runtime_error for an unknown word
 
 // A metric of one cell, without its series over time.
 struct MetricValue {
@@ -34,16 +34,16 @@ struct MetricValue {
 // A result without its series over time. `trajectory` is the one it was measured on.
 MetricValue condensed(const MetricResult& result, const Trajectory& trajectory);
 
-// What a run's own scheme does by itself, as its twin in the core shows. `twin` is empty where there is none.
+// The part of the error that the scheme itself makes, as its twin in the core shows. `twin` is empty if there is none.
 struct SchemeFindings {
   std::string twin;                                            // the name of the core's run
-  std::map<std::string, MetricValue> metrics;                  // of the twin, as of a run of its own
+  std::map<std::string, MetricValue> metrics;                  // of the twin, treated like a run
   std::map<std::string, MetricValue> without_gyroscopic_term;  // of the twin with that term off, where it is on
 };
 
-// A gate's answer for one cell, or for an order fitted over several. known_deviation: it failed where the adapter's
-// known_deviations.toml says that it does; unexpected_pass: it held there. not_recorded: of a regression, where there
-// is no value to hold the cell's against.
+// A gate's answer for one cell, or for an order fitted over several. known_deviation: it failed, as the adapter's
+// known_deviations.toml says. unexpected_pass: it held although it is listed there. not_recorded: a regression has no
+// value for the cell.
 enum class GateAnswer { held, failed, not_checked, known_deviation, unexpected_pass, not_recorded };
 std::string word_of(GateAnswer answer);
 bool is_failure(GateAnswer answer);  // whether `rigor gate` may not answer with exit code 0
@@ -55,7 +55,7 @@ struct GateResult {
   std::string text;                   // a sentence
   std::optional<double> value = {};   // in the metric's unit; none where there was nothing to judge
   std::optional<Instant> worst = {};  // where the metric has one
-  std::string caveat = "";            // what a `held` does not say: over what time no method was tested; else empty
+  std::string caveat = "";            // for `held`: the time over which the method was not tested; else empty
 };
 
 // What a recorder kept (runner/recorder.h): texts that only the report it belongs to reads.
@@ -67,9 +67,9 @@ struct Cell {
   std::size_t run = 0;  // index in Results::runs
   StepSize dt;
   Status status = Status::crashed;
-  std::string reason = "it did not run";  // why, for all but `pass`
+  std::string reason = "it did not run";  // the reason; empty for `pass`
   Stability stability;
-  // From when on the run was stepped by less than its method, if it was: such a time is no test of the method.
+  // The time from which the run used less than its method, if any. That part does not test the method.
   std::optional<ReducedOrder> reduced_order;
   std::map<std::string, MetricValue> metrics;  // by name; empty if the cell did not get so far
   SchemeFindings scheme;

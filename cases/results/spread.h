@@ -1,5 +1,5 @@
-// How far two runs of a case part. A path is what a cell leaves behind for it: where its bodies were at instants that
-// all runs of one dt share, few enough that the paths of a whole case fit into memory.
+// The distance between two runs of a case. Each cell leaves a path: its bodies' positions at instants that all runs of
+// one dt share. The instants are few, so that the paths of a whole case fit into memory.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@
 namespace rigor {
 namespace {
 
-// The program has no name among what is loaded, and the kernel's part of it no file.
+// In the list of loaded objects the program has no name, and the kernel's object has no file.
 int add_file(dl_phdr_info* about, std::size_t, void* files) {
   const std::string name = about->dlpi_name;
   static_cast<std::vector<std::string>*>(files)->push_back(name.empty() ? "/proc/self/exe" : name);

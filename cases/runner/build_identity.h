@@ -1,12 +1,11 @@
-// Which build this is: what one build has computed, another does not go on from.
+// Identifies this build: one build does not continue the results of another.
 #pragma once
 
 #include <string>
 
 namespace rigor {
 
-// A hash of the program's own bytes and of those of every shared library it is linked with, engines among them. Read
-// once.
+// A hash of the bytes of the program and of every linked shared library, engines included. Computed once.
 const std::string& build_identity();
 
 }  // namespace rigor

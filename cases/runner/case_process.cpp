@@ -50,8 +50,8 @@ Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
 // How long a step has to hold to be called stable [s]: even where the run is short.
 double stability_horizon(const Case& definition) { return std::max(30.0, definition.duration); }
 
-// In a jointed scene a method that divides its own steps takes as many of them however long the step is: what it does
-// in the run's own duration is asked, and no more.
+// In a jointed scene an adaptive method takes the same number of inner steps at any dt. The search is therefore limited
+// to the run's own duration.
 double stability_horizon(const Case& definition, const MethodInfo& method) {
   return method.adaptive && !definition.scene.joints.empty() ? definition.duration : stability_horizon(definition);
 }
@@ -59,14 +59,14 @@ double stability_horizon(const Case& definition, const MethodInfo& method) {
 // A truth need not hold that long where no stable step is searched for.
 bool searches_steps(const CaseResult& planned, const GridOptions& options) {
   const auto& steps = planned.stable_steps;
-  // Another shard's search counts: the truth must be the same in all of them.
+  // The time of another shard's search also counts, because the truth must be the same in all shards.
   return options.stable_steps && std::any_of(steps.begin(), steps.end(), [](const auto& stable) {
            return stable.status != Status::unsupported || is_of_another_shard(stable.status, stable.reason);
          });
 }
 
-// The jobs of one case: first the cells, then the searches for stable steps. A run that was out of time at one step is
-// not begun at a finer one, and no stable step is searched for where it was at the coarsest.
+// The jobs of one case: first the cells, then the searches for stable steps. If a run timed out at one step, finer
+// steps are not started. If it timed out at the coarsest step, no stable step is searched.
 class CaseJobs {
  public:
   CaseJobs(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
@@ -151,7 +151,7 @@ class CaseJobs {
     return {is_cell(job) ? MessageSubject::Part::cell : MessageSubject::Part::stable_step, job.part};
   }
 
-  // Where nothing touches a finer step takes longer; among bodies that are deep in each other a coarse one may.
+  // If nothing touches, a finer step takes longer. Among deeply overlapping bodies a coarse step may take longer.
   void note_time_out(const JobSpec& job) {
     if (!is_cell(job) || anything_can_touch(planned_.definition.scene)) return;
     const auto [known, is_new] = out_of_time_.try_emplace(job.run, job.dt);
@@ -181,7 +181,7 @@ class CaseJobs {
     }
   }
 
-  // J, what the truth has in play over the stability horizon.
+  // J, the truth's energy in play over the stability horizon.
   double energy_of_stable_runs(const Case& definition) const {
     const double horizon = stability_horizon(definition);
     const bool is_jointed = !definition.scene.joints.empty();
@@ -228,7 +228,7 @@ class CaseJobs {
     return message_of_cell(job.part, failed, planned_.definition.scene);
   }
 
-  // A job's one message: what it came to and, behind a zero byte, which no JSON holds, the path.
+  // The one message of a job: its result and, after a zero byte, which JSON never contains, the path.
   static std::string joined(const Journal::Record& record) { return record.message + '\0' + record.path; }
   static Journal::Record parted(const std::string& message) {
     const std::size_t zero = std::min(message.find('\0'), message.size());
@@ -259,10 +259,10 @@ class CaseJobs {
   TruthOnSteps truth_on_steps_;
   std::optional<EnsembleReference> reference_;
   TruthFacts facts_;
-  double stable_energy_ = 0;  // J, what the truth has in play over the stability horizon
+  double stable_energy_ = 0;  // J, the truth's energy in play over the stability horizon
   std::vector<JobSpec> jobs_;
   std::map<std::string, StepSize> out_of_time_;  // by run: the coarsest step at which it was
-  CaseResult heard_;                             // of what is heard, to see whether it can be read
+  CaseResult heard_;                             // of the received messages, to check whether they are readable
   PathsOfCells paths_;
 };
 
@@ -310,7 +310,7 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   }
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts);
   const std::string message = message_of_truth(facts);
-  channel.send(message);  // from here on each job has a limit of its own
+  channel.send(message);  // from here on each job has its own limit
   if (known_truth == journal.found().end()) journal.add(Journal::kTruth, {message, ""});
   jobs.run(channel, journal);
 }

@@ -1,5 +1,5 @@
-// What happens inside the process of one case: the truth is made, then each cell is run and judged in a child of its
-// own, which inherits the truth. Results go to the grid's process as messages (cases/results/result_json.h).
+// The process of one case: it makes the truth, then runs and judges each cell in a child process, which inherits the
+// truth. Results go to the grid's process as messages (cases/results/result_json.h).
 #pragma once
 
 #include "cases/runner/grid.h"
@@ -14,8 +14,8 @@ class EnsembleReference;  // ensemble.h
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel);
 
-// Simulates, judges and records one cell: everything but its gates. `truth` and `reference` may be null. The path is
-// what the cell's spread from others is found by.
+// Simulates, judges and records one cell, without its gates. `truth` and `reference` may be null. The path serves to
+// find the cell's spread.
 struct JudgedCell {
   Cell cell;
   Path path;
@@ -27,7 +27,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
 // `truth` may be null.
 TruthFacts facts_of(const Case& definition, const Truth* truth);
 
-// Of every pair of runs at the same dt that both left a path.
+// For every pair of runs at the same dt that both left a path.
 std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths);
 
 }  // namespace rigor

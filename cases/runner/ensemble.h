@@ -16,13 +16,13 @@ inline constexpr int kPermutations = 999;
 // The starts of the case moved by numbers of this seed; only bodies that can move.
 Scene jittered(const Scene& scene, std::uint64_t seed);
 
-// Where the bodies that move end, one point a start. None, with the reason in `flaw`, if one run is not finite to the
-// end or does not do what its method promises.
+// The final positions of the moving bodies, one point per start. Empty, with the reason in `flaw`, if a run is not
+// finite to the end or breaks its method's promise.
 std::optional<Points> outcomes_of(const Engine& engine, const Settings& settings, const Case& definition, double dt,
                                   std::uint64_t first_seed, std::string& flaw);
 
-// The core's own, at the case's finest step. Held against another one at half of that: if these two differ, outcomes
-// depend on the step still, and there is nothing to hold a run against.
+// The core's own outcomes at the case's finest step, compared with another ensemble at half of that step. If these two
+// differ, outcomes still depend on the step, and no run can be judged.
 class EnsembleReference {
  public:
   EnsembleReference(const EngineTable& engines, const Case& definition);

@@ -1,5 +1,5 @@
-// Who runs the jobs of a grid: processes of this machine here; an executor that has several machines takes its place. A
-// job is data, for whoever does it has planned the same grid.
+// Runs the jobs of a grid: with processes on this machine here, or on several machines with another executor. A job is
+// plain data, because each executor has planned the same grid.
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@ struct JobSpec {
   StepSize dt = {0, ""};  // of a cell
 };
 
-// The jobs of one call, given out one by one as they are begun, so that many need not be known at once.
+// The jobs of one call, handed out one by one as they start, so that they need not all be known at once.
 class JobSource {
  public:
   virtual ~JobSource() = default;
@@ -52,17 +52,17 @@ class Executor {
   using OnEnd = std::function<void(std::size_t job, const JobEnd& end)>;
 
   virtual ~Executor() = default;
-  // One process leads: it plans, judges and writes. Another one has planned the same, does what it is given, and leaves
-  // `run` by Dismissed.
+  // One process leads: it plans, judges and writes. Another process has planned the same grid, does the assigned jobs,
+  // and leaves `run` through Dismissed.
   virtual bool leads() const { return true; }
-  // Once, before `run`: what was planned, which all have to agree on, and the folder that all have to see. Throws
-  // InputError if they do not.
+  // Called once before `run`, with the plan, on which all processes must agree, and the folder that all must see.
+  // Throws InputError otherwise.
   virtual void begin(const std::string& /*plan*/, const std::string& /*folder*/) const {}
   // Of a process that does not lead, and could not plan or has nothing to do: tells the one that does why; "": no
   // reason.
   virtual void stay_out(const std::string& /*why*/) const {}
-  // Does each job, apart from the others and from the caller, begun in their order; on_end is called once for each.
-  // What is heard of them says which it was by its place in that order, from 0. Throws Interrupted.
+  // Does each job in isolation, started in order; on_end is called once for each. Messages identify the job by its
+  // place in that order, from 0. Throws Interrupted.
   virtual void run(JobSource& jobs, const Work& work, const OnMessage& on_message, const OnEnd& on_end) const = 0;
   void run(const std::vector<JobSpec>& jobs, const Work& work, const OnMessage& on_message, const OnEnd& on_end) const {
     ListedJobs listed(jobs);

@@ -27,8 +27,8 @@ namespace {
 // after so many times its limit by the clock.
 constexpr double kWaits = 10;
 
-// A job that has sent something may go on for as long as it says something from time to time: within so many times its
-// limit by the clock, twice what the longest of its own children may take. One that was stopped says nothing.
+// A job that has sent something may continue as long as it sends something from time to time. Its limit is this many
+// times its own by the clock, twice the longest time of its children. A stopped job sends nothing.
 constexpr double kSilence = 2 * kWaits;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
@@ -43,7 +43,7 @@ struct Pipe {
   }
 };
 
-// Appends what is there to read. Closes the descriptor at its end.
+// Appends the available data. Closes the descriptor at its end.
 void drain(Descriptor& from, std::string& into) {
   char buffer[1 << 16];
   while (from.number() >= 0) {
@@ -183,7 +183,7 @@ JobEnd ForkedChild::end() const {
   return end;
 }
 
-// Of all its threads.
+// The CPU time of all its threads.
 double ForkedChild::cpu_seconds() const {
   clockid_t clock{};
   timespec used{};

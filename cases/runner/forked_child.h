@@ -1,5 +1,4 @@
-// One child of the process pool: a fork that does one job, the pipes that its messages and whatever it prints come by,
-// and how it ended.
+// One child of the process pool: a fork that does one job, the pipes for its messages and its output, and its end.
 #pragma once
 
 #include <sys/types.h>
@@ -41,7 +40,7 @@ class ForkedChild {
   int messages_descriptor() const { return messages_.number(); }
   int words_descriptor() const { return words_.number(); }
   bool has_closed_its_pipes() const { return messages_.number() < 0 && words_.number() < 0; }
-  // Reads what has come; hands over each whole message.
+  // Reads the available data; hands over each whole message.
   void listen(const std::function<void(std::size_t job, const std::string& message)>& on_message);
   bool has_ended();
   bool is_late() const;

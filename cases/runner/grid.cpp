@@ -43,7 +43,7 @@ std::string safe_name(std::string text) {
   return text.size() > kLongest ? text.substr(text.size() - kLongest) : text;
 }
 
-// A name of its own for every cell's trajectory, however alike the names it is made of.
+// A unique file name for every cell's trajectory, even if the names that it consists of are alike.
 void name_trajectories(Results& grid) {
   std::set<std::string> taken;
   for (CaseResult& result : grid.cases) {
@@ -65,8 +65,8 @@ bool is_named_by_gates(const RunName& run, const Case& definition, const std::ve
   });
 }
 
-// The search takes hundreds of runs of half a minute each, and several bodies that touch err at coarse steps long
-// before they blow up.
+// The search would take hundreds of runs of half a minute each. Several touching bodies have large errors at coarse
+// steps long before they blow up.
 std::string why_no_stable_step(const Scene& scene) {
   const long touching = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                       [](const Body& body) { return body.collides && !body.fixed; });
@@ -130,8 +130,8 @@ std::vector<std::size_t> longest_first(const Results& grid) {
   return order;
 }
 
-// Why the case's own process came to no good end: then no cell of it can be trusted that has not been heard of.
-// `planned`: the case's parts that it was to do, as they were before.
+// Why the case's own process failed: cells without a result are then not trusted. `planned`: the parts that it had to
+// do, before it started.
 void note_case_end(CaseResult& result, const CaseResult& planned, const JobEnd& end, double limit) {
   const bool is_input = end.how == Ending::refused;
   if (end.how != Ending::finished) {
@@ -169,7 +169,7 @@ class GridJobs {
 
   const std::vector<JobSpec>& jobs() const { return jobs_; }
 
-  // The case with what the job is to do of it.
+  // The case, reduced to the job's parts.
   CaseResult planned(const JobSpec& job) const {
     CaseResult own = planned_.cases[job.of_case];
     if (partition_) leave_to_others(own, partition_->cases()[job.of_case], static_cast<int>(job.part));
@@ -250,7 +250,7 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   const int at_once = std::min<int>(options.jobs, static_cast<int>(grid.cases.size()));
   GridOptions of_case = options;
   of_case.jobs = options.executor ? options.jobs : options.jobs / std::max(1, at_once);
-  // In a process of its own, to which the grid belongs.
+  // Runs in its own process, which owns the grid.
   const auto work = [&](const JobSpec& job, const Channel& channel) {
     grid.cases[job.of_case] = all_jobs.planned(job), of_case.share = static_cast<int>(job.part);
     run_case(grid, grid.cases[job.of_case], engines, of_case, channel);

@@ -13,7 +13,7 @@
 
 namespace rigor {
 
-// What the command line changes in the cases as written.
+// Changes of the cases by the command line.
 struct Overrides {
   std::vector<StepSize> dt;        // empty: each case's own
   std::optional<double> duration;  // s
@@ -28,7 +28,7 @@ struct GridOptions {
   Recorders recorders;                 // of every run
   bool stable_steps = true;            // find the largest stable dt as well
   bool is_thorough = true;             // times each run and repeats it by its twin, also where no gate asks for it
-  std::string journals = {};           // folder of what cases have come to so far (journal.h); empty: it is not kept
+  std::string journals = {};           // folder of the journals of cases (journal.h); empty: no journals
   const Executor* executor = nullptr;  // of the cases; null: processes of this machine
   int share = 0;                       // of the cases, that this process does (shards/shard.h); 0: all
   std::vector<std::string> only_metrics = {};  // measure these, costly or not, and no others; empty: all as above
@@ -41,20 +41,20 @@ struct Scope {
   bool only_judged = false;  // only cells that a gate judges; of a case without gates, all
 };
 
-// The runs that gates of these cases name and that are not among `but`: an option of a method that only one case is
-// about, say.
+// The runs that gates of these cases name and that are not among `but`. An example is an option of a method that only
+// one case tests.
 std::vector<RunName> runs_of_gates(const std::vector<Case>& cases, const std::vector<RunName>& but,
                                    const std::vector<EngineInfo>& engines);
 
-// All cells, none of which has run; those an engine cannot run are `unsupported` already. `runs` are for every case,
-// `only_where_named` for those whose gates name them. Throws InputError if there are none.
+// All cells, not yet run; cells that an engine cannot run are `unsupported`. `runs` apply to every case,
+// `only_where_named` to cases whose gates name them. Throws InputError if there are no cells.
 Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& runs, const EngineTable& engines,
                   const Scope& scope, const std::vector<RunName>& only_where_named = {});
 
-// Runs it and fills it in. One child process a case makes the truth and forks the case's cells, which inherit it; a
-// truth that hangs, throws or crashes so costs one case. As many cases at once as there are jobs, the long ones first;
-// fewer cases share the jobs out. An executor is given shares of cases, so that one long case is no tail; each makes
-// the truth anew, or takes it from the cache. `on_progress` is called as cells end.
+// Runs the grid and fills it in. One child process per case makes the truth and forks the case's cells, which inherit
+// it. A truth that hangs, throws or crashes thus costs one case. As many cases run at once as there are jobs, the long
+// ones first. If there are fewer cases, they share the jobs. An executor gets shares of cases, so that no long case
+// ends last. Each share makes the truth again, or takes it from the cache. `on_progress` is called when cells end.
 void run_grid(Results& grid, const EngineTable& engines, const GridOptions& options,
               const std::function<void(std::size_t done, std::size_t all)>& on_progress);
 

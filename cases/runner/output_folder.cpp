@@ -1,7 +1,7 @@
 // Inside the hidden folder:
-//   lock           held by flock as long as a process of the run lives, in whatever container
-//   journals/ trajectories/   the run's own and nobody else's; what is published of them are links
-//   staged/        all that is to be put into place, and `ready` once it is whole
+//   lock           held by flock while a process of the run lives, in any container
+//   journals/ trajectories/   of this run only; published files are links to them
+//   staged/        the files to move into place, and `ready` once they are complete
 #include "cases/runner/output_folder.h"
 
 #include <fcntl.h>
@@ -37,7 +37,7 @@ constexpr const char *kPartial = ".rigor-partial", *kTrajectories = "trajectorie
   throw fs::filesystem_error("", path, std::error_code(number, std::generic_category()));
 }
 
-constexpr ino_t kNoInode = static_cast<ino_t>(-1);  // of no folder, nor what stands for one that is not there
+constexpr ino_t kNoInode = static_cast<ino_t>(-1);  // for an empty path, and for one that does not exist
 
 ino_t inode_of(const fs::path& path) {
   struct stat about {};
@@ -94,8 +94,8 @@ void exchange(const fs::path& fresh, const fs::path& old) {
   fs::rename(fresh, old);
 }
 
-// Whoever was stopped in here can be followed by another that begins again: a file that is in place is no longer
-// staged, and the staged folder of trajectories is told from the one it was exchanged for by the inode in `ready`.
+// Every step here may be interrupted and repeated by another process. A file in place is no longer staged. The inode in
+// `ready` distinguishes the staged folder of trajectories from the one that it replaced.
 void put_into_place(const fs::path& staged, const fs::path& folder) {
   std::ifstream ready(staged / kReady);
   ino_t fresh = 0;
@@ -110,8 +110,8 @@ void put_into_place(const fs::path& staged, const fs::path& folder) {
   fs::remove(staged / kReady);
 }
 
-// In a process of its own, in a session of its own, so that whoever kills this one does not stop it half-way. Should it
-// fail or be killed itself, this one goes on from where it was.
+// Publishes in a separate process and session, so that killing this process does not interrupt it. If that process
+// fails or is killed, this one continues from there.
 void put_into_place_unstopped(const fs::path& staged, const fs::path& folder) {
   const pid_t child = fork();
   if (child < 0) return put_into_place(staged, folder);
@@ -189,7 +189,7 @@ OutputFolder::~OutputFolder() {
   if (is_kept_) {
     if (!fs::exists(staged_ / kReady, no_matter)) fs::remove_all(staged_, no_matter);
   } else {
-    // First what says that the trajectories are whole, last what keeps others out.
+    // Writes first what marks the trajectories as complete, and last what keeps others out.
     for (const char* name : {"journals", "staged", kTrajectories, kReady}) fs::remove_all(partial_ / name, no_matter);
     fs::remove(partial_ / "lock", no_matter), fs::remove(partial_, no_matter);
   }

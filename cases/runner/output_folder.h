@@ -1,7 +1,7 @@
-// The folder that a run writes to. Files grow in a hidden folder inside it, which a lock holds for this run alone, and
-// are put into place when all is done, so that whoever looks finds either the old outputs or the new ones. A run that
-// is stopped leaves the hidden folder, from which another can go on; one that is stopped while it puts the outputs into
-// place leaves that for the next run to finish, whatever that run is about.
+// The output folder of a run. Files grow in a hidden folder inside it, which a lock reserves for this run. They are
+// moved into place when all is done, so readers see either the old outputs or the new ones. A stopped run leaves the
+// hidden folder, and another run can continue from it. If a run is stopped while it moves outputs into place, the next
+// run of any kind completes this.
 #pragma once
 
 #include <sys/types.h>
@@ -14,19 +14,19 @@ namespace rigor {
 
 class OutputFolder {
  public:
-  // Makes the folder. Throws InputError, before anything is simulated or changed, if it cannot be written, if another
-  // run is writing to it, or if something that is no file stands where one of `file_names` would. `resume`: takes over
-  // what a run that is no longer there left, if one did.
+  // Makes the folder. Throws InputError, before any simulation or change, in three cases: it is not writable, another
+  // run writes to it, or one of `file_names` exists and is no file. `resume`: continues from the files of a run that
+  // has ended, if there are any.
   OutputFolder(const std::string& path, const std::vector<std::string>& file_names, bool resume = false);
   // Of a process that works for the one which has made the folder: says where things are, and changes nothing.
   static OutputFolder of_helper(const std::string& path) { return OutputFolder(path); }
-  ~OutputFolder();  // removes what has not been published
+  ~OutputFolder();  // removes unpublished files
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   std::string journals() const { return (partial_ / "journals").string(); }
   std::string trajectories() const { return (partial_ / "trajectories").string(); }  // where they grow
-  // Where one of `file_names` may be written bit by bit; not seen until published.
+  // Path under which one of `file_names` may be written piece by piece; invisible until published.
   std::string growing(const std::string& file_name) const { return (staged_ / "reports" / file_name).string(); }
   // One of `file_names`; not seen until published. Throws std::runtime_error, with the reason, if it cannot be written.
   void write(const std::string& file_name, const std::string& text);

@@ -115,7 +115,7 @@ void run_jobs(JobFeed& feed, int at_once, const std::function<void(std::size_t, 
       throw Interrupted{caught_signal};
     }
     for (auto& child : children) {
-      const bool has_ended = child->has_ended();  // asked first: what it said before its end is then all there
+      const bool has_ended = child->has_ended();  // checked first, so that all output before its end is available
       child->listen(on_message);
       if (!has_ended && !child->is_late()) continue;
       if (!has_ended) child->stop();

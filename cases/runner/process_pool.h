@@ -1,6 +1,6 @@
-// Runs jobs in forked children, so that a job's abort, endless loop or corrupted memory costs that job alone. A child
-// talks to its parent in framed messages through a pipe; whatever it prints is caught, and its last line kept.
-// The parent stays single-threaded (fork without exec is safe only then) and waits in poll. Children die with it.
+// Runs jobs in forked children, so that an abort, endless loop or memory corruption costs only that job. A child sends
+// framed messages to its parent through a pipe. Its printed output is captured, and the last line kept. The parent
+// stays single-threaded, since fork without exec is safe only then, and waits in poll. Children die with the parent.
 #pragma once
 
 #include <functional>
@@ -26,19 +26,19 @@ struct Job {
   double limit;  // s, CPU time until its first message; after that it ends only where it falls silent for long
 };
 
-// finished: `work` returned. refused: it threw InputError. threw: another exception. killed: by a signal.
-// exited: the child left, without a word, by exit(). timed_out: no message within the limit, or none any more.
+// finished: `work` returned. refused: it threw InputError. threw: another exception. killed: by a signal. exited: the
+// child called exit() without a message. timed_out: no message within the limit, or no further one.
 enum class Ending { finished, refused, threw, killed, exited, timed_out };
 
 struct JobEnd {
   Ending how = Ending::exited;
   int code = 0;            // the signal, or the exit code
-  std::string text;        // what was thrown
+  std::string text;        // the text of the exception
   std::string last_words;  // the last line the child printed
   double seconds = 0;      // wall time from its start to its end
 };
 
-// "killed by SIGABRT (abort); its last words: ...", for whatever is not `finished`.
+// "killed by SIGABRT (abort); its last words: ...", for every end except `finished`.
 std::string sentence_of(const JobEnd& end, double limit);
 
 // SIGINT, SIGTERM or SIGHUP arrived while jobs ran; the children are gone.
@@ -46,7 +46,7 @@ struct Interrupted {
   int signal;
 };
 
-// Where jobs come from, one by one, as children become free.
+// The source of jobs, one by one, as children become free.
 class JobFeed {
  public:
   struct Numbered {
@@ -55,7 +55,7 @@ class JobFeed {
   };
   virtual ~JobFeed() = default;
   virtual bool is_over() = 0;                      // no further job will come; asked at every turn
-  virtual std::optional<Numbered> next() = 0;      // none: for now there is none
+  virtual std::optional<Numbered> next() = 0;      // empty: no job at present
   virtual int longest_wait() const { return 50; }  // ms, until it wants to be asked again
 };
 

@@ -1,6 +1,5 @@
-// What keeps more of a run than its numbers: its trajectory as a file, its motion for a page. The runner calls
-// recorders in the process that has the run; what one returns travels with the results, and only its own report reads
-// it.
+// Keeps more of a run than its numbers: its trajectory as a file, its motion for a page. The runner calls recorders in
+// the process of the run. A recorder's result travels with the results, and only its own report reads it.
 #pragma once
 
 #include <memory>
@@ -20,14 +19,14 @@ class Recorder {
  public:
   virtual ~Recorder() = default;
   virtual std::string name() const = 0;
-  // Once a case. `facts`: what is known of the truth in numbers.
+  // Called once per case. `facts`: numbers about the truth.
   virtual Recording of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts) const = 0;
   // Once a cell that was simulated and judged.
   virtual Recording of_run(const Case& definition, const Cell& cell, const JudgedRun& run,
                            const std::vector<NamedSeries>& series, const TruthFacts& facts) const = 0;
-  // The cell came to no good end: what may have been kept of it elsewhere goes.
+  // The cell failed: removes files that were kept for it.
   virtual void discard(const Cell& cell) const = 0;
-  // Whether what it kept elsewhere of a cell is still there, for a run that goes on from another's journal.
+  // Whether the files of a cell still exist, for a run that continues from another's journal.
   virtual bool still_has(const Cell& cell) const = 0;
 };
 using Recorders = std::vector<std::shared_ptr<const Recorder>>;

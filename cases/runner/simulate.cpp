@@ -17,14 +17,14 @@
 namespace rigor {
 namespace {
 
-// Of all threads, or an engine that has its work done by others would look free.
+// Includes all threads, because an engine may let others do its work.
 double cpu_seconds_so_far() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The same, with what an engine in another process has spent for this world.
+// The same, plus the time that an engine in another process spent on this world.
 double cpu_seconds_so_far(const World& world) { return cpu_seconds_so_far() + remote_cpu_seconds(world); }
 
 // What a pair of clock readings measures of itself: it would otherwise be a good part of a small scene's step.
@@ -95,7 +95,7 @@ struct StepClock {
     return cpu_seconds_so_far(*world) - begin;
   }
 
-  // As simulate() does it.
+  // As in simulate().
   double step_by_step() const {
     const std::unique_ptr<World> world = engine.load(scene, settings);
     expect_steps(*world, dt, steps, 1);
@@ -150,7 +150,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
       run.trajectory.samples.push_back({now.time, KeptBodies(now.bodies()),
                                         is_reported(n) ? reported_reactions(*world) : std::vector<ReportedReaction>()});
     if (n == steps) {
-      run.settings = world->settings_in_force();  // some say what the run has made of them
+      run.settings = world->settings_in_force();  // some worlds report settings that depend on the run
       run.reduced_order = reduced_order_of(*world);
       return run;
     }
@@ -171,7 +171,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
 
 void check_start(const Simulation& run, const Scene& scene) {
   constexpr double kOfSinglePrecision = 1e-5;  // rad, or of the largest: some hundred of its roundings
-  constexpr double kOfNothing = 1e-9;          // m, m/s, rad/s: where all of them are 0
+  constexpr double kOfNothing = 1e-9;          // m, m/s, rad/s: where all values are 0
   if (run.trajectory.samples.empty()) return;
   BodyTable start(scene.bodies.size());
   set_initial_state(scene, start.columns());
@@ -198,7 +198,7 @@ void check_start(const Simulation& run, const Scene& scene) {
 }
 
 double timed_again(const Engine& engine, const Settings& settings, const Scene& scene, const Simulation& run) {
-  constexpr double kLongStep = 20e-6, kEnough = 4e-3;  // s; a hundred times what the clock costs; of timing in all
+  constexpr double kLongStep = 20e-6, kEnough = 4e-3;  // s; a hundred times the cost of reading the clock; total timing
   constexpr int kMost = 100;                           // repeats
   const auto& samples = run.trajectory.samples;
   const long steps = samples.empty() ? 0 : std::lround(samples.back().time / run.trajectory.dt);

@@ -7,8 +7,8 @@
 
 namespace rigor {
 
-// What the engine says that joints carry is recorded of the second step and each `reactions_every`-th from there on.
-// Every step is recorded, or every n-th where the whole would pass kLargestTrajectory bytes; or as told.
+// Records the joint loads that the engine reports, of the second step and of each `reactions_every`-th after it.
+// Records every step, or every n-th if all of them would exceed kLargestTrajectory bytes, or as requested.
 inline constexpr double kLargestTrajectory = 512e6;
 Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
                     std::optional<long> steps_per_sample = {}, bool is_timed = true, long reactions_every = 0);
@@ -16,14 +16,14 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
 // The first body with a number that is not finite.
 std::optional<int> body_not_finite(BodyColumns bodies);
 
-// Throws EngineFailure, invalid, where a run's first sample is not the scene's state at t = 0, as of bodies in another
-// order. For runs without a truth: what such a one keeps it keeps from wherever it began.
+// Throws EngineFailure (invalid) if a run's first sample is not the scene's state at t = 0, for example with bodies in
+// another order. This check is for runs without a truth, whose conservation metrics start from that sample.
 void check_start(const Simulation& run, const Scene& scene);
 
-// CPU seconds of the run's steps, for comparing engines. Where they take a few microseconds, reading the clock before
-// and after each is a good part of them, beyond what it costs by itself. A short run is run again without a pause, some
-// milliseconds in all, and the quickest repeat counts: whatever else the machine does only ever adds. Of a longer one
-// the first milliseconds are run again in both ways, and by what they differ each of its steps is corrected.
+// CPU seconds of the run's steps, to compare engines. If steps take a few microseconds, reading the clock around each
+// is a large part of them. A short run is therefore repeated without interruption for some milliseconds, and the
+// quickest repeat counts, because other load only adds time. For a longer run the first milliseconds are repeated in
+// both ways, and each step is corrected by the difference.
 double timed_again(const Engine& engine, const Settings& settings, const Scene& scene, const Simulation& run);
 
 }  // namespace rigor

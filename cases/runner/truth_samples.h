@@ -1,5 +1,5 @@
-// The truth at the instants of a run's samples. All runs of a case at one step have the same instants: these are asked
-// of the truth once, before the cells' processes are forked, which inherit them.
+// The truth at the instants of a run's samples. All runs of a case at one step share these instants. The truth is
+// evaluated there once, before the cells' processes are forked, which inherit the values.
 #pragma once
 
 #include <map>
@@ -12,7 +12,8 @@ class TruthOnSteps {
  public:
   // Keeps the truth at n dt, 0 <= n dt <= duration; nothing where that would take more than a share of the memory.
   void keep(const Truth& truth, double dt, double duration, std::size_t bodies);
-  // At every sample of the trajectory, from what is kept as far as its instants are these to the last bit.
+  // Evaluates at every sample of the trajectory. Stored values are used as long as the instants are equal to the last
+  // bit.
   TruthSamples at_samples_of(const Trajectory& trajectory, const Truth& truth, std::size_t bodies,
                              double largest_kinetic_energy) const;
 

@@ -11,9 +11,9 @@
 namespace rigor {
 namespace {
 
-// No axis of the old world lies along one of a new; all else about them is arbitrary. Several, for two runs' roundings
-// can cancel by chance, and one pair would then show too little of them: the first alone counts only where a hundred
-// times what it shows would still not matter.
+// No axis of the old world lies along one of a new world; otherwise the rotations are arbitrary. There are several,
+// because the roundings of two runs can cancel by chance, and one pair would then show too little. The first alone
+// suffices only if a hundred times its distance would still not matter.
 const Quat kTurns[] = {Quat(0.7, 0.3, -0.5, 0.4).normalized(), Quat(-0.2, 0.6, 0.5, 0.3).normalized(),
                        Quat(0.4, -0.3, 0.2, 0.8).normalized()};
 
@@ -41,15 +41,15 @@ class SteppedWorld {
   Snapshot now_;
 };
 
-// A twin beside itself in one turned world after another: what the two are apart by.
+// The distance of a twin from itself in successive rotated worlds.
 class TurnedTwin {
  public:
   TurnedTwin(std::unique_ptr<SteppedWorld> world, const Quat& turn) : world_(std::move(world)), turn_(turn) {}
 
   SteppedWorld& world() { return *world_; }
 
-  // Raises the twin's roundings at its n-th sample. Whether they are still within what a comparison allows, see
-  // samples_with_twin(): beyond, neither positions nor orientations are compared any more.
+  // Raises the twin's rounding error at its n-th sample. samples_with_twin() checks whether it is still comparable.
+  // Beyond that, neither positions nor orientations are compared.
   bool raise_rounding(std::size_t n, TwinRun& twin) {
     const BodyColumns here = twin.trajectory.samples[n].bodies.columns(), there = world_->bodies();
     for (std::size_t i = 0; i < here.size(); ++i) {
@@ -64,7 +64,8 @@ class TurnedTwin {
     return position <= kRoundingShare * extent_ || orientation <= kRoundingShare;
   }
 
-  // A hundred times what it found would end no comparison, and it found something: another turn need not be asked.
+  // A hundred times the found distance would end no comparison, and a distance was found: another rotation is not
+  // needed.
   bool is_far_from_mattering() const {
     constexpr double kFar = 0.01;
     return largest_share_ > 0 && largest_share_ < kFar * kRoundingShare;

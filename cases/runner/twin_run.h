@@ -1,4 +1,4 @@
-// What an engine's own scheme does, by the core's word: the run's twin, and what is measured of it.
+// The error of an engine's own scheme, from the core's replica: the run's twin and its measurements.
 #pragma once
 
 #include <limits>
@@ -9,23 +9,22 @@
 
 namespace rigor {
 
-// The run of the core that repeats this engine's scheme; none for a scheme of the core itself, none where bodies can
-// touch, for there a step is more than its published formula, and none where the twin lacks what the scene needs.
+// The run of the core that repeats this engine's scheme. There is none for the core's own schemes. There is none where
+// bodies can touch, because a step then exceeds its published formula, nor if the twin lacks a feature of the scene.
 std::optional<RunName> twin_of(const EngineTable& engines, const RunName& run, const Scene& scene);
 
 // How much of a twin is wanted.
 struct TwinLength {
   std::size_t compared = std::numeric_limits<std::size_t>::max();  // the first samples, those the truth is good at
-  bool is_whole = false;  // beyond what can be compared with the run as well: as long as the run itself
+  bool is_whole = false;  // also beyond the comparable part: as long as the run itself
 };
 
-// The twin is asked for its roundings, and steps, no longer than it can be compared with the run: to where roundings
-// have parted it from itself (samples_with_twin), or to where it or one of the turned ones is no longer finite.
+// The twin is stepped, and its rounding error found, only while it is comparable with the run. That ends where rounding
+// has separated it from itself (samples_with_twin), or where it or a rotated run is no longer finite.
 TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& scene, const Simulation& run,
                  double duration, TwinLength length = {});
 
-// Measures the twin like a run of its own, to show how much of the run's error its scheme must make. `judged` is
-// `run`, with its twin.
+// Measures the twin like a run, to show how much of the run's error its scheme makes. `judged` is `run`, with its twin.
 SchemeFindings judge_scheme(const EngineTable& engines, const RunName& twin, const JudgedRun& judged,
                             const Simulation& run, double duration);
 

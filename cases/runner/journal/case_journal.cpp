@@ -16,8 +16,8 @@ std::size_t index_of(const CaseResult& planned, const Results& grid) {
   return static_cast<std::size_t>(&planned - grid.cases.data());
 }
 
-// Whether a cell came to nothing in an engine from outside: its files are not all known, nor what else was in its way,
-// so that another try may end otherwise. An engine of this program would do the same again.
+// Whether a cell failed in an engine from outside. Not all of the engine's files are known, nor other causes, so a
+// second try may end differently. An engine of this program would fail again.
 bool may_end_otherwise(const Cell& cell, const Results& grid, const EngineTable& engines) {
   const bool came_to_nothing = cell.status == Status::crashed || cell.status == Status::timed_out;
   return came_to_nothing && !engines.identity_of(grid.runs[cell.run].engine).empty();

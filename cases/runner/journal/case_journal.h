@@ -1,5 +1,5 @@
-// The journal of one case, or of a shard's part of it: where it stands, which plan it belongs to, and what of it is
-// believed.
+// The journal of one case, or of a shard's part of it: its place, the plan that it belongs to, and which of its entries
+// are trusted.
 #pragma once
 
 #include <map>
@@ -18,8 +18,8 @@ std::string journal_of(const CaseResult& planned, const Results& grid, int share
 std::string plan_of(const Results& grid, const CaseResult& planned, const EngineTable& engines,
                     const GridOptions& options);
 
-// What the cells and stable steps of a case that has run have left in its journals; those that failed left nothing.
-// `grid` as it was planned.
+// The results of cells and stable steps in the journals of a case that has run; failed ones left nothing. `grid` is as
+// planned.
 std::vector<Journal::Record> kept_answers(const Results& grid, const CaseResult& planned, const EngineTable& engines,
                                           const GridOptions& options);
 

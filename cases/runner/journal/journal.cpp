@@ -56,7 +56,7 @@ Journal::Journal(const std::string& file, const std::string& plan) {
     for (Record record; take_record(bytes, whole, job, record);) found_[job] = record;
   }
   descriptor_ = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  // What cannot be kept is not kept; the run is none the worse.
+  // A failed write is ignored; the run is not affected.
   if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) return;
   lseek(descriptor_, 0, SEEK_END);
   if (whole == 0) append(title);

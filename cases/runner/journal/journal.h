@@ -1,5 +1,5 @@
-// What a case has come to so far, in a file of its own that only grows: a run that was stopped goes on from it. Nothing
-// in it is believed that is not whole, or that belongs to another plan.
+// The results of a case so far, in a file that only grows. A stopped run continues from it. Incomplete entries and
+// those of another plan are ignored.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class Journal {
   };
   static constexpr std::size_t kTruth = static_cast<std::size_t>(-1);  // the job of the truth's own record
 
-  // Reads what is there if it was begun with the same plan, else begins anew. An empty file name: nothing is kept.
+  // Reads the file if it belongs to the same plan, else starts a new one. An empty file name: nothing is kept.
   Journal(const std::string& file, const std::string& plan);
   ~Journal();
   Journal(const Journal&) = delete;

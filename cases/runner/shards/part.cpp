@@ -91,7 +91,7 @@ std::string words_of(const std::vector<std::string>& arguments) {
   return fmt::format("'rigor {}'", fmt::join(arguments, " "));
 }
 
-// "" if both are of the same grid.
+// "" if both belong to the same grid.
 std::string difference(const PartTitle& a, const PartTitle& b) {
   if (a.version != b.version) return fmt::format("version {} and {}", a.version, b.version);
   if (a.build != b.build) return "made by different builds of rigor or of an engine";

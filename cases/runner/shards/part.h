@@ -1,6 +1,5 @@
-// What the run of one shard leaves for `rigor merge`: one file, whose first line says as JSON what grid it is a part
-// of, and behind it the answers of the shard's cells, with the paths that spreads between cells of different shards
-// need.
+// The result of one shard for `rigor merge`, in one file. The first line is JSON that describes the grid. The answers
+// of the shard's cells follow, with the paths for spreads between cells of different shards.
 #pragma once
 
 #include <map>
@@ -18,9 +17,9 @@ inline constexpr const char* kPartFile = "part.journal";
 struct PartTitle {
   Shard shard;
   std::string version, build;          // of the program; see build_identity.h
-  std::vector<std::string> arguments;  // the command and what was asked of it, without what may differ between parts
+  std::vector<std::string> arguments;  // the command and its options, without options that may differ between parts
   std::string suite, adapters;         // the folders, absolute
-  // Of the whole grid: each case's id and the hash of its plan. Of a sweep: one, of all.
+  // For the whole grid: each case's id and the hash of its plan. For a sweep: one hash of everything.
   std::vector<std::pair<std::string, std::string>> plans;
   double wall_seconds = 0;
 };
@@ -49,20 +48,20 @@ std::string part_text(const PartTitle& title, const Results& planned, const Resu
 // Throws InputError for a folder that holds no part, or one that is damaged or cut short.
 Part read_part(const std::string& folder);
 
-// Throws InputError, with what differs, unless the parts are of one grid and each of another shard of it.
+// Throws InputError, naming the difference, unless the parts belong to one grid and to different shards of it.
 void check_same_grid(const std::vector<Part>& parts);
 
-// Sentences on the shards that no part is of.
+// Sentences about missing shards.
 std::vector<std::string> missing_shards(const std::vector<Part>& parts);
 
-// What merging came to, beside the grid that it filled in.
+// The result of merging, beside the grid that it filled in.
 struct Merged {
   std::vector<std::string> missing;                 // sentences: shards, cells; these cells are `crashed`
   std::vector<std::string> remarks;                 // sentences
   std::map<std::string, std::string> trajectories;  // file name -> the folder of the part that has it
 };
 
-// Fills in a planned grid. Throws InputError for an answer that is none.
+// Fills in a planned grid. Throws InputError for an invalid answer.
 Merged fill_in(Results& grid, const std::vector<Part>& parts);
 
 }  // namespace rigor

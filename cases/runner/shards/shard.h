@@ -21,7 +21,7 @@ inline constexpr int kMostShards = 100000;
 // "2/8". Throws InputError, begun by `what`, for anything but whole numbers of which the first is at most the second.
 Shard parse_shard(const std::string& text, const std::string& what);
 
-// Which shard does what of a planned grid. Cells and stable steps that are `unsupported` are nobody's: 0.
+// The shard of each part of a planned grid. Cells and stable steps that are `unsupported` belong to no shard: 0.
 class Partition {
  public:
   struct OfCase {
@@ -36,14 +36,14 @@ class Partition {
   std::vector<OfCase> cases_;
 };
 
-// Into how many shares ranks cut a grid, whatever their number, so that another number of them can go on: enough that
-// they end together, few enough that few truths are made twice.
+// The number of shares into which ranks cut a grid, for any number of ranks, so that another number of ranks can
+// continue. There are enough shares that ranks end together, and few enough that few truths are made twice.
 inline constexpr int kShares = 1024;
 
 // Those that have a part in a case, one at least.
 std::vector<int> shares_in(const Partition::OfCase& of_case);
 
-// What the others do becomes `unsupported`.
+// The parts of other shards become `unsupported`.
 void leave_to_others(CaseResult& result, const Partition::OfCase& of_case, int shard);
 
 // The grid with the cases of one shard alone, in their order, and in them as `unsupported` what other shards do.
