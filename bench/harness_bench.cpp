@@ -1,5 +1,5 @@
-// What Rigor adds to the work of an engine: the seam around each step, the process around each cell, reading a case
-// file, and the truth with and without what the cache has kept.
+// The cost that Rigor adds to an engine: the seam around each step, the process around each cell, reading a case file,
+// and the truth with and without the cache.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-// What bounds a step from below, measured in the same run: moving the state's memory, and the arithmetic of a step with
-// everything in the first-level cache.
+// Lower bounds of a step, measured in the same run: moving the state's memory, and the arithmetic of a step with all
+// data in the first-level cache.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ void copy_state(benchmark::State& state, int count) {
   report(state, seconds, static_cast<double>(state.iterations()) * repeats * count);
 }
 
-// The same by several threads, each its share; by the wall's time, the least of the copies.
+// The same with several threads, each with its share; in wall time, the fastest of the copies.
 void copy_state_by_threads(benchmark::State& state, int count, int threads) {
   constexpr int kRepeats = 10;
   const BodyTable from = state_of(scene_of(scene_row("free-bodies"), count));

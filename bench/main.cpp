@@ -1,6 +1,6 @@
-// Times what the table of ratio_table.h needs, prints it and writes Google Benchmark's JSON; with --all every engine
-// and method on every scene. --plugin P adds an engine from outside; --lanes plain, AVX2 or AVX-512 has the core take
-// that path in place of the widest that the processor can. Takes Google Benchmark's own arguments; a --benchmark_filter
+// Times the benchmarks of the table in ratio_table.h, prints it and writes Google Benchmark's JSON. --all times every
+// engine and method on every scene. --plugin P adds an engine from outside. --lanes plain, AVX2 or AVX-512 makes the
+// core use that instruction set instead of the widest one. Accepts Google Benchmark's own arguments; --benchmark_filter
 // replaces the table's selection.
 #include <benchmark/benchmark.h>
 

@@ -67,7 +67,7 @@ void run_thousand(benchmark::State& state, const Engine& engine, int count, long
   report_ours(state, before, static_cast<double>(state.iterations() * kSteps));
 }
 
-// The same calls as the seam makes, into columns of its own.
+// The same calls as the seam's, into separate columns.
 void direct(benchmark::State& state, const std::string& path, int count) {
   const rigor_engine_v1& engine = load_library(path);
   std::array<char, 1024> text{};

@@ -16,7 +16,7 @@ namespace {
 
 const std::string kCore = "core:semi-implicit-euler", kOde = "ode:worldstep", kBullet = "bullet:sequential-impulse",
                   kDart = "dart:dantzig", kMujoco = "mujoco:euler", kSimbody = "simbody:semi-explicit-euler";
-constexpr int kNameWidth = 58;  // of what is timed by itself
+constexpr int kNameWidth = 58;  // of a benchmark outside the table
 
 std::string step(const std::string& scene, int count, const std::string& run) {
   return fmt::format("step/{}/{}/{}", scene, count, run);
@@ -56,8 +56,8 @@ void add_optional(std::vector<RatioRow>& rows, const std::string& scene, int cou
   }
 }
 
-// Mechanisms, by the core's projection, against each engine's own way of holding joints. Goals are for the chain of
-// 100; an engine that has no such joints or method is told of in its row.
+// Mechanisms: the core's projection against each engine's own joints. Goals are for the chain of 100. If an engine
+// lacks such joints or the method, its row says so.
 void add_joints(std::vector<RatioRow>& rows) {
   struct Against {
     std::string run;

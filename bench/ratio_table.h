@@ -1,6 +1,5 @@
-// The table that bench/run prints: how many times as fast one run is as another, against what it should be. Round k of
-// one is set against round k of the other, which ran near it in time; shown are the median and the range of these
-// ratios.
+// The table of bench/run: how many times faster one run is than another, and the goal. Round k of one run is compared
+// with round k of the other, which ran near it in time. The table shows the median and the range of these ratios.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -14,7 +13,7 @@ namespace rigor::bench {
 struct RatioRow {
   enum class Kind { times_as_fast, at_most_times, at_most_percent_more };
   std::string what;
-  std::string of, against;  // benchmarks; what is judged, and what it is held to
+  std::string of, against;  // benchmarks: the measured one, and the one for comparison
   Kind kind;
   double goal;  // 0: none, a bound for the rows above it
 };
@@ -23,7 +22,7 @@ const std::vector<RatioRow>& ratio_rows();
 // A regular expression for the benchmarks that the table needs, and those shown below it.
 std::string filter_of_table();
 
-// Collects what is timed; prints the table at the end.
+// Collects the timings; prints the table at the end.
 class RatioTable : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context& context) override;

@@ -1,4 +1,5 @@
-// Engines as a program of their own would call them, set as their adapters set them: what the seam is held to.
+// Engines called directly, as a separate program would, with the settings of their adapters. The seam is compared with
+// these.
 #pragma once
 
 #include <memory>

@@ -42,7 +42,7 @@ void tie(Scene& scene, int a, int b, const Vec3& point_a, const Vec3& point_b, d
 
 constexpr double kSpacing = 0.5, kArm = 0.1;  // m
 
-// Bodies in a row, each held to the next off-centre, the ends to the world; every other one starts pushed aside.
+// Bodies in a row, each connected with the next off-centre, the ends with the world. Every other body starts displaced.
 Scene spring_chain(const SceneRow&, int count) {
   Scene scene;
   scene.gravity = {0, 0, -9.81};
@@ -59,7 +59,7 @@ Scene spring_chain(const SceneRow&, int count) {
   return scene;
 }
 
-// A square net, each body held to its four neighbours; its first and last rows to the world.
+// A square net: each body is connected with its four neighbours, the first and last rows with the world.
 Scene spring_net(const SceneRow&, int count) {
   Scene scene;
   scene.gravity = {0, 0, -9.81};
@@ -160,7 +160,7 @@ Scene of_the_suite(const SceneRow& row, int) { return suite_scene(row.name); }
 
 constexpr double kLink = 0.5;  // m
 
-// From one end to the other, of even density.
+// A rod between two points, of uniform density.
 Body rod(int index, const Vec3& from, const Vec3& to) {
   Body b = body(index, 0.5 * (from + to));
   b.mass = kLink;
@@ -209,8 +209,8 @@ Scene rod_net(const SceneRow&, int count) {
   return scene;
 }
 
-// Four-bar linkages side by side, each sharing a crank with the next (IFToMM benchmark A02), swinging about hanging
-// cranks, so that they never come to lie in one line.
+// Four-bar linkages side by side (IFToMM benchmark A02); each shares a crank with the next. They swing about hanging
+// cranks and never come to lie in one line.
 Scene four_bars(const SceneRow&, int count) {
   Scene scene;
   scene.gravity = {0, -9.81, 0};

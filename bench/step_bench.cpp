@@ -1,6 +1,6 @@
 // Steps of every engine and method on every scene of scenes.cpp. Each timing begins with a fresh world, unless the
-// scene's motion goes on for ever, and takes the same number of steps with every engine, so that all time the same
-// interval of motion. The checksum of the final positions shows that the work was done.
+// scene moves forever. It takes the same number of steps with every engine, so that all time the same interval of
+// motion. The checksum of the final positions shows that the work was done.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <malloc.h>
@@ -24,7 +24,7 @@ int steps_of_interval(const SceneRow& row, int count) {
   // A pile falls and comes to rest; a pyramid, whose steps are long, stands from the start.
   if (row.reached == Reached::penetration) return row.name == "pyramid" ? 60 : 240;
   if (row.reached == Reached::joint_gap) return std::clamp(5000 / count, 12, 240);
-  // What bounces must have the time to: one second.
+  // Bouncing bodies need time to bounce: one second.
   const int fewest = row.reached == Reached::energy ? static_cast<int>(std::lround(1 / row.dt)) : 5;
   return std::clamp(50000 / count, fewest, 2000);
 }
@@ -48,7 +48,7 @@ struct Subject {
   bool by_wall;  // to compare numbers of threads
 };
 
-// A step includes reading the state, which is what a user of an engine does after each.
+// A step includes reading the state, because users of an engine read it after each step.
 double run_interval(World& world, Snapshot& snapshot, int steps, double dt, bool by_wall) {
   const double start = by_wall ? wall_seconds() : thread_seconds();
   for (int n = 0; n < steps; ++n) {
@@ -59,7 +59,7 @@ double run_interval(World& world, Snapshot& snapshot, int steps, double dt, bool
   return (by_wall ? wall_seconds() : thread_seconds()) - start;
 }
 
-// What does not depend on how long the timing took; found once for each subject.
+// Results that do not depend on the length of the timing; computed once for each subject.
 struct Facts {
   double bytes_per_body, checksum, reached;
 };
@@ -108,7 +108,7 @@ void time_steps(benchmark::State& state, const Subject& subject, const std::stri
     least = std::min(least, taken);
     state.SetIterationTime(taken);
   }
-  // What else runs on the machine adds to the wall's time: the least of the stretches knows least of it.
+  // Other load only adds to wall time. The shortest of several stretches is therefore the best estimate.
   if (subject.by_wall) seconds = least * static_cast<double>(state.iterations());
   const auto body_steps = static_cast<double>(state.iterations()) * steps * subject.count;
   state.counters["ns_per_body_step"] = 1e9 * seconds / body_steps;
@@ -118,7 +118,7 @@ void time_steps(benchmark::State& state, const Subject& subject, const std::stri
   if (std::isfinite(facts.reached)) state.counters[reached_name(row.reached)] = facts.reached;
 }
 
-// What an engine refuses or loses only once it has begun is told of in its row, too.
+// If an engine refuses the scene or fails after the start, its row also says so.
 void time_or_skip(benchmark::State& state, const Subject& subject, const std::string& name) {
   try {
     time_steps(state, subject, name);
@@ -127,15 +127,15 @@ void time_or_skip(benchmark::State& state, const Subject& subject, const std::st
   }
 }
 
-// Every method of every engine; Bullet and ODE on the matched track. And the core's own on one thread and on two by the
-// wall's time.
+// Every method of every engine; Bullet and ODE on the matched track. Also the core on one and on two threads, in wall
+// time.
 std::vector<RunName> runs(const std::string& filter) {
   const std::vector<EngineInfo> infos = infos_of(engines());
   std::vector<RunName> all;
   for (const EngineInfo& info : infos) {
     if (is_on_request(info.name) && filter != "." && filter.find(info.name) == std::string::npos) continue;
     for (const MethodInfo& method : info.methods) {
-      if (!method.twin_of.empty()) continue;  // an instrument, whose speed is of no interest
+      if (!method.twin_of.empty()) continue;  // a twin is an instrument; its speed does not matter
       all.push_back(parse_run_name(info.name + ":" + method.name, infos));
       for (const OptionInfo& option : method.options) {
         if (option.name == "threads") {
@@ -155,9 +155,9 @@ std::vector<RunName> runs(const std::string& filter) {
   return all;
 }
 
-// Half a gigabyte of bodies is more than Bullet and ODE are asked to hold, and of large piles only how the core's cost
-// grows is of interest. ODE's direct solver takes 3 ms for a step of 216 balls, and that grows with their cube. Sweeps
-// beyond the engine's own number are for joints.
+// Half a gigabyte of bodies is too much for Bullet and ODE. For large piles only the growth of the core's cost is of
+// interest. ODE's direct solver takes 3 ms for a step of 216 balls, and its cost grows with the cube of the balls. More
+// sweeps than the engine's default are for joints.
 bool fits(const SceneRow& row, const RunName& run, int count) {
   const bool is_jointed = row.reached == Reached::joint_gap, is_heap = row.reached == Reached::penetration;
   const auto& options = run.settings.options;
@@ -170,7 +170,7 @@ bool fits(const SceneRow& row, const RunName& run, int count) {
   return count <= (run.settings.method == "worldstep" ? 216 : 2000);
 }
 
-// Where the pile takes 3 s and 10 s a round, a hundred times as long as the core's, one round says enough.
+// The pile takes 3 s and 10 s per round, a hundred times as long as with the core, so one round suffices.
 bool is_timed_once(const SceneRow& row, const RunName& run) {
   return row.name == "pile" && (run.engine == "dart" || run.engine == "mujoco");
 }

@@ -16,7 +16,7 @@ struct ReportRow {
 
 const std::vector<ReportRow>& reports();  // alphabetical
 
-// What the reports of a planned grid need of each run; trajectories go to `folder`.
+// The recorders that the reports of a planned grid need; trajectories go to `folder`.
 Recorders recorders_for(const Results& grid, const std::string& folder);
 
 std::string html_report(const Results& results);  // only in a build with RIGOR_HTML_REPORT

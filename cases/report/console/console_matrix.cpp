@@ -62,7 +62,7 @@ std::vector<std::string> head_lines(const std::string& name) {
   }
   std::vector<std::string> lines = {""};
   for (const std::string& part : parts) {
-    const bool is_method = lines.back().ends_with(':');  // on lines of its own
+    const bool is_method = lines.back().ends_with(':');  // on separate lines
     if (!lines.back().empty() && (is_method || lines.back().size() + part.size() > kWidth)) lines.emplace_back();
     lines.back() += part;
   }

@@ -1,5 +1,5 @@
-// The verdict matrix as a terminal shows it: cases by engines in plain text of at most 100 columns, so many engines
-// side by side as fit and the rest in further panels below.
+// The verdict matrix for a terminal: cases by engines in plain text of at most 100 columns. As many engines as fit
+// stand side by side; further panels below show the rest.
 #pragma once
 
 #include <string>

@@ -26,7 +26,7 @@ std::string metric_text(const Cell& cell, const std::string& name, double Metric
                                          : rounded(found->second.*part);
 }
 
-// A drift as per cent of what it is measured against, with its sign: lost energy is negative.
+// A drift in per cent of its scale, with its sign: lost energy is negative.
 std::string percent_text(const Cell& cell, const std::string& name) {
   const auto found = cell.metrics.find(name);
   if (found == cell.metrics.end() || !found->second.not_applicable.empty()) return kNoValue;
@@ -50,11 +50,11 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
   return cell.reduced_order ? word + " ◐" : word;  // a warning below says from when on
 }
 
-// The first column of a table; a long name gets a line of its own.
+// The first column of a table; a long name gets a separate line.
 std::string engine_column(const std::string& name) {
   constexpr std::size_t kColumn = 24;
   if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
-  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a line of its own
+  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a separate line
 }
 
 std::string explained_text(const std::vector<ExplainedRow>& rows) {
@@ -79,7 +79,7 @@ std::string table_line(const RowText& row) {
   return line + "\n";
 }
 
-// The verdict stands where the numbers of the whole run would, of which there are none.
+// The verdict replaces the numbers of the whole run if there are none.
 std::string blown_up_line(const RowText& row) {
   constexpr std::size_t kFourColumns = 34;
   return fmt::format("{} {:>8}  {:<34} {:>8}\n", engine_column(row.engine), row.first_second,
@@ -111,15 +111,15 @@ std::string gate_lines(const CaseResult& result, bool with_unchecked) {
   return lines;
 }
 
-// Of a case that has no block of its own.
+// For a case without its own block.
 std::string what_is_wrong(const CaseResult& result) {
   const std::string error = result.error.empty() ? "" : "  " + wrapped(result.error, 2) + "\n";
   return error + gate_lines(result, false);
 }
 
-// What several runs cannot do for the same reason is one sentence.
+// Runs that lack the same feature share one sentence.
 std::string unsupported_lines(const Results& results, const CaseResult& result, const StepSize& dt) {
-  // By reason, as they come; who it is that cannot stands at its beginning.
+  // By reason, in their order; each sentence begins with the runs.
   const auto essence_of = [](const std::string& reason) {
     const std::size_t at = reason.find(" has no ");
     return at == std::string::npos ? reason : reason.substr(at + 5);
@@ -230,7 +230,7 @@ RowText row_text(const Results& results, const CaseResult& result, const Cell& c
   row.energy = percent_text(cell, "energy_drift");
   row.energy_synchronised = percent_text(cell, "energy_drift_synchronised");
   row.is_blown_up = cell.stability.verdict == Verdict::blown_up;
-  if (row.is_blown_up) {  // what was measured until it blew up would read like the error of a run
+  if (row.is_blown_up) {  // values up to the blow-up would look like the error of a whole run
     row.whole = row.orientation = row.energy = row.energy_synchronised = kNoValue;
     if (cell.stability.time < 1) row.first_second = kNoValue;
   }
@@ -239,7 +239,7 @@ RowText row_text(const Results& results, const CaseResult& result, const Cell& c
 
 namespace {
 
-// What was named on the command line may leave gates out, and with them all that judges a case.
+// The selection on the command line may leave out gates, and all gates of a case with them.
 std::string unjudged_text(const Results& results) {
   std::size_t bounds = 0;
   std::vector<std::string> cases;

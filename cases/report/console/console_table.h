@@ -1,5 +1,5 @@
-// What `rigor run` prints: a block a case, one row an engine, in at most 100 columns and plain text; of many cases the
-// matrix, cases by engines.
+// The output of `rigor run`: one block per case with one row per engine, in at most 100 columns of plain text. For many
+// cases it is the matrix of cases and engines.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ namespace rigor {
 
 std::string console_table(const Results& results);
 
-// What fell short, a paragraph each, worst things first.
+// The failures, one paragraph each, worst first.
 std::string failures_text(const std::vector<Failure>& rows);
 
 // How many gates held, failed and were not checked.
 std::string gate_summary(const Results& results);
 
-// The parts of a row, in words and rounded to what can be read; report.md shows the same.
+// The parts of a row in words, rounded for reading; report.md shows the same.
 struct RowText {
   std::string engine;
   std::string first_second, whole, orientation, energy, energy_synchronised, stable_dt, verdict;

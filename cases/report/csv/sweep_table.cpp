@@ -12,7 +12,7 @@
 namespace rigor {
 namespace {
 
-// The step has a column of its own.
+// The step has a separate column.
 bool has_column(const SweepAxis& axis) { return axis.kind != SweepAxis::Kind::step; }
 
 Json json_of_value(const std::string& value) {

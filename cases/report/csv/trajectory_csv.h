@@ -1,5 +1,5 @@
-// Trajectories as CSV: time,body and the thirteen columns of a body's state, 17 significant digits (so that reading
-// gives the same double again), one row a body and instant. Names are quoted as RFC 4180 asks where they need it.
+// Trajectories as CSV: time, body and the thirteen columns of a body's state, one row per body and instant. Numbers
+// have 17 significant digits, so that reading restores the same double. Names are quoted as RFC 4180 requires.
 #pragma once
 
 #include <string>

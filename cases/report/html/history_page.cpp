@@ -16,7 +16,7 @@ constexpr double kPlotLeft = 62, kPlotTop = 10, kPlotWidth = 420, kPlotHeight = 
                  kPlotRight = 12;             // of a drawing, px
 constexpr std::size_t kMostCellsDrawn = 400;  // cells
 
-// Of the finite values that are not 0, and a tenth of a decade around them.
+// The range of the finite values other than 0, and a tenth of a decade around them.
 struct Decades {
   double least = HUGE_VAL, most = 0;
   explicit Decades(const std::vector<double>& values) {

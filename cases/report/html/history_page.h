@@ -9,7 +9,7 @@
 
 namespace rigor {
 
-// Of the cells whose names have one of `words` in them, or of all: first those that changed.
+// For all cells, or those whose names contain one of `words`: changed ones first.
 std::string history_page(const std::vector<HistoryEntry>& history, const std::vector<std::string>& words);
 
 }  // namespace rigor

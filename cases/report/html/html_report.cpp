@@ -1,6 +1,6 @@
-// report.html: one file that needs nothing else. The page's script and style, then the data: results.json and, apart
-// from it so that a case is unpacked when it is looked at, the thinned motions. All of it is JSON in <script> elements
-// that no browser runs; results.json is deflated in it, for it is long and says much the same many times.
+// report.html: one file without dependencies. It holds the page's script and style, then the data: results.json, and
+// separately the thinned motions, so that a case is unpacked only when it is viewed. All data is JSON in <script>
+// elements that no browser runs. results.json is deflated, because it is long and repetitive.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 namespace rigor {
 namespace {
 
-// Seven digits, more than the page shows anywhere: the rest would only be bytes. What is not finite the page does not
-// show. Read back by strtod, which takes a subnormal number for what it is.
+// Seven digits, more than the page shows anywhere. Non-finite values are not shown. strtod reads them back and handles
+// subnormal numbers.
 void round_numbers(Json& json) {
   if (json.is_number_float()) {
     const double value = json.get<double>();
@@ -29,7 +29,7 @@ void round_numbers(Json& json) {
   }
 }
 
-// results.json without what the page does not show.
+// results.json without the parts that the page does not show.
 std::string results_data(const Results& results) {
   Json json = results_json(results);
   for (Json& one : json["cases"]) {
@@ -66,7 +66,8 @@ void add_data(std::string& page, const char* id, const Json& json) {
   page += std::string("<script type=\"application/json\" id=\"") + id + "\">" + inside_script(json) + "</script>\n";
 }
 
-// One script runs in the page, by its hash, whatever the names in the data are; nothing is fetched or sent.
+// Only one script runs in the page, identified by its hash, whatever names the data contain. Nothing is fetched or
+// sent.
 std::string policy() {
   return fmt::format(
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src '{}'; style-src "

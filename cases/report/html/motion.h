@@ -1,4 +1,4 @@
-// A run's motion as the page will see it: until it leaves the picture, and as far as the eye can tell poses apart.
+// A run's motion for the page: until it leaves the picture, at the resolution that an eye can distinguish.
 #pragma once
 
 #include <limits>
@@ -51,7 +51,7 @@ class Poses {
  public:
   Poses(const Motion& motion, const std::vector<std::size_t>& samples);
 
-  // Of the n-th from the way on which the page takes the bodies from the a-th to the b-th; 1 is seen.
+  // The visible deviation of the n-th pose from the interpolation between the a-th and b-th; 1 is visible.
   double deviation(std::size_t n, std::size_t a, std::size_t b) const;
 
  private:

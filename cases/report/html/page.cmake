@@ -1,5 +1,6 @@
-# Builds the page of report.html into rigor_cases_light, a part of cases. npm installs what package-lock.json names into the build tree, once;
-# esbuild bundles it with page/src; the outcome is a C++ source. Nothing of it is needed when Rigor runs.
+# Builds the page of report.html into rigor_cases_light, a part of cases. npm installs the packages of package-lock.json
+# into the build tree, once. esbuild bundles them with page/src, and the result becomes a C++ source. Rigor needs none
+# of this at run time.
 set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/../reports.cpp PROPERTIES
   COMPILE_DEFINITIONS RIGOR_HTML_REPORT=$<BOOL:${RIGOR_HTML_REPORT}>)
 set(page ${CMAKE_CURRENT_LIST_DIR}/page)
@@ -35,5 +36,5 @@ add_custom_command(OUTPUT ${page_build}/page_bundle.cpp
   DEPENDS ${page_build}/installed ${page}/build.mjs ${page_sources}
   COMMENT "Bundling the report's page" VERBATIM)
 target_sources(rigor_cases_light PRIVATE ${page_build}/page_bundle.cpp)
-# The whole page is one string literal, of which clang says that other compilers need not take it.
+# The whole page is one string literal. clang warns that other compilers need not support this length.
 set_source_files_properties(${page_build}/page_bundle.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)

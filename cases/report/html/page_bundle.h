@@ -1,4 +1,4 @@
-// The page's script and style sheet, as the build made them from page/: a source of these two lies in the build tree.
+// The page's script and style sheet, built from page/. The build tree contains a source with these two lines.
 #pragma once
 
 #include <string_view>
@@ -8,6 +8,6 @@ namespace rigor {
 extern const std::string_view kPageScript;
 extern const std::string_view kPageScriptHash;  // as a content security policy names it
 extern const std::string_view kPageStyle;
-extern const std::string_view kPageLicences;  // of what the script contains
+extern const std::string_view kPageLicences;  // of the script's content
 
 }  // namespace rigor

@@ -21,14 +21,14 @@ namespace {
 
 constexpr double kLinearSeen = 5e-3;       // of a series' range: a pixel of a plot
 constexpr double kDecadesSeen = 0.04;      // of a logarithmic plot: likewise
-constexpr double kNoise = 1e-12;           // of a series in any unit: what is smaller is rounding, and has no shape
+constexpr double kNoise = 1e-12;           // of a series in any unit: smaller values are rounding without shape
 constexpr std::size_t kMostKeys = 6000;    // of a motion
 constexpr std::size_t kMostPoints = 1500;  // of the series
 constexpr std::size_t kMost = 300000, kLeast = 200;  // characters of a packing
-constexpr double kOfAllRuns = 6e6, kEvenShares = 6;  // characters; even shares of them that a run may ask for
+constexpr double kOfAllRuns = 6e6, kEvenShares = 6;  // characters; a number of even shares that a run may request
 constexpr double kCoarser = 0.7;                     // of the keys and points, from one packing to the next
 
-// What the page always plots.
+// The series that the page always plots.
 bool is_main(const NamedSeries& series) {
   constexpr const char* kMain[] = {kEnergyChange,   "angular_momentum_drift", "energy_drift_synchronised",
                                    "joint_gap",     "linear_momentum_drift",  "orientation_error",
@@ -94,7 +94,7 @@ class SeriesSet {
 
   std::size_t count() const { return count_; }
 
-  // Series by series, for each of them lies in one piece.
+  // Series by series, because each is contiguous.
   KeptSample worst_between(std::size_t a, std::size_t b) const {
     std::vector<double> shares(b - a - 1), off(b - a - 1, 0.0);  // of the samples from a + 1 on
     for (std::size_t k = 0; k < shares.size(); ++k) shares[k] = static_cast<double>(k + 1) / static_cast<double>(b - a);
@@ -137,7 +137,7 @@ class SeriesSet {
       off[k] = std::max(off[k], std::abs(between[k] - (1 - shares[k]) * first - shares[k] * last));
   }
 
-  // A series on the two scales of a plot, in what can just be seen there.
+  // A series on the two scales of a plot, in units of the smallest visible difference.
   struct Seen {
     std::vector<double> linear, decades;
   };
@@ -236,8 +236,7 @@ Packings packed(const Scene& scene, const Trajectory& trajectory, const TruthSam
   return Packer(scene, trajectory, truth, std::move(named)).packings(limit);
 }
 
-// The coarsest step is the one that is looked at, and the truth beside each run; more bodies take more room, but each
-// of them less.
+// The coarsest step is usually viewed, and the truth beside each run. More bodies take more room, but each body less.
 double weight_of(const Case& definition, double seconds) {
   double coarsest = 0;
   for (const StepSize& step : definition.dt) coarsest = std::max(coarsest, step.seconds);

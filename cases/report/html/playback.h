@@ -1,7 +1,7 @@
-// What the page plays and plots of one run: its motion and the series of its metrics, thinned. How much room there is
-// for a run only shows when all have been made, so each is packed several times, from fine to coarse, and the page
-// takes of each what fits. Full precision stays in the CSV files. The page reads it in page/src/playback_data.js; the
-// layout is in playback.cpp.
+// The motion and the metric series of one run that the page plays and plots, thinned. The room for a run is known only
+// after all runs are made. Each is therefore packed several times, from fine to coarse, and the page takes the finest
+// that fits. Full precision stays in the CSV files. page/src/playback_data.js reads the format; playback.cpp describes
+// its layout.
 #pragma once
 
 #include <string>
@@ -18,12 +18,12 @@ inline constexpr const char* kEnergyChange = "energy_change";
 // The names that a packed series' number stands for.
 const std::vector<std::string>& series_names();
 
-// Texts in base64, the finest first, each shorter than the one before. All but the finest leave out the series that
-// the page shows only when asked for more, the coarsest may have no motion.
+// Texts in base64, the finest first, each shorter than the one before. All but the finest leave out the series that the
+// page shows only on request. The coarsest may have no motion.
 using Packings = Recording;
 
-// Of one run, none longer than `limit` characters. `truth` may be null; a run that nobody could tell from it in the
-// picture keeps no motion of its own.
+// The packings of one run, each at most `limit` characters. `truth` may be null. A run that looks the same as the truth
+// keeps no motion of its own.
 Packings packed_run(const JudgedRun& run, const std::vector<NamedSeries>& series, double largest_kinetic_energy,
                     std::size_t limit);
 
@@ -31,8 +31,8 @@ Packings packed_run(const JudgedRun& run, const std::vector<NamedSeries>& series
 Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy,
                       std::size_t limit);
 
-// How many characters a cell, or with no dt the truth, can get at most, some times its even share: no more of it need
-// be kept.
+// The largest number of characters for a cell, or, without dt, for the truth: some times its even share. No longer
+// packing need be kept.
 class PlaybackLimit {
  public:
   explicit PlaybackLimit(const Results& grid);

@@ -19,7 +19,7 @@ constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 struct Kind {
   const char *word, *colour;
 };
-// What a cell came to, from the best to the worst.
+// The results of a cell, from best to worst.
 constexpr Kind kKinds[] = {{"stable", "#3b76c4"},      {"drifting", "#9cc3ea"},  {"overlapping", "#d9c84a"},
                            {"gaining", "#f0a13a"},     {"collapsed", "#b5651d"}, {"blown up", "#b3261e"},
                            {"unsupported", "#d9d9d9"}, {"invalid", "#8a8a8a"},   {"broke off", "#111111"}};

@@ -1,5 +1,5 @@
-// sweep.html: what a sweep found, drawn: a map for two keys, lines for one, points for more. One file that needs
-// nothing else, no script either.
+// sweep.html: the results of a sweep as a map for two keys, lines for one, points for more. It is one file without
+// dependencies and without a script.
 #pragma once
 
 #include <array>

@@ -1,11 +1,11 @@
-// Which commit the program was built from.
+// The commit from which the program was built.
 #pragma once
 
 #include <string>
 
 namespace rigor {
 
-// As `git describe` says it, "-dirty" where files differ from it; "" where the sources were no checkout.
+// As from `git describe`, with "-dirty" if files differ from it; "" without a checkout.
 std::string commit();
 
 }  // namespace rigor

@@ -1,4 +1,4 @@
-// What the cells of a case say of each other, for results.json: observed_order, spread and work_precision.
+// Comparisons of a case's cells for results.json: observed_order, spread and work_precision.
 #pragma once
 
 #include "cases/results/results.h"

@@ -10,7 +10,7 @@
 namespace rigor {
 namespace {
 
-// And what nobody asked for, which is not what does not apply.
+// Includes metrics that nobody requested, which differ from those that do not apply.
 void keep_values(Json& metrics) {
   Json kept = Json::object();
   for (const auto& [name, metric] : metrics.items()) {
@@ -23,8 +23,8 @@ void keep_values(Json& metrics) {
   metrics = kept;
 }
 
-// What a bound that held says of one cell is its metric's value, which stands with the cell; of a regression it is what
-// is recorded.
+// The answer of a held bound for one cell is its metric's value, which the cell already has. For a regression it is the
+// recorded value.
 void shorten_answers(Json& gate) {
   const bool is_bound = gate.at("kind") == "bound";
   for (Json& answer : gate.at("answers")) {
@@ -44,7 +44,7 @@ Json without_nulls(const Json& gate) {
   return kept;
 }
 
-// By case: the metrics that were measured in none of its cells, for nobody asked for them.
+// By case: the metrics that no cell measured, because nobody requested them.
 std::map<std::string, std::set<std::string>> unmeasured_in(const Json& cells) {
   std::map<std::string, std::set<std::string>> found;
   for (const Json& cell : cells) {

@@ -1,5 +1,5 @@
-// A run of many cases tells of each cell what it came to; the details, which make up nine tenths of the text, are told
-// where few cases are asked for.
+// Shortens results of many cases. Each cell keeps its result. The details, nine tenths of the text, appear only if few
+// cases are requested.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,13 @@ namespace rigor {
 
 inline constexpr std::size_t kMostCasesInDetail = 10;
 
-// Out of what results_json() made: what a metric is besides its value, and metrics without one; a twin's own metrics;
-// what held gates say, and of any gate what it says of a cell a second time; limits that a gate has not; why a cell is
-// stable; spreads, what observed orders are made of, those that there are not, and stable steps that nobody asked for.
-// Settings stand with the first cell that has them: `settings_of` of a later one is that one's place among the cells.
-// Metrics that nobody asked for in any cell of a case stand with the case: `not_measured`.
+// Removes from the output of results_json():
+// - data of a metric besides its value, and metrics without one; a twin's own metrics;
+// - answers of gates that held, and parts of answers that repeat the cell; limits that a gate does not have;
+// - reasons of stability; spreads, the data behind observed orders, missing orders, and stable steps that nobody
+//   requested.
+// The first cell with some settings keeps them; `settings_of` of a later cell is the number of that cell. Metrics that
+// nobody requested in any cell of a case are listed once per case: `not_measured`.
 void leave_out_details(Json& results);
 
 }  // namespace rigor

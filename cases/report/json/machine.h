@@ -1,4 +1,4 @@
-// What the results were measured with.
+// The machine and build that produced the results.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A scene for results.json: what a picture of it needs, with the case file's own words.
+// A scene for results.json: the data for a picture, in the words of the case file.
 #pragma once
 
 #include "core/base/json_fwd.h"

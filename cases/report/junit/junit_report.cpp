@@ -1,6 +1,6 @@
-// junit.xml, in the form that Jenkins, GitLab and GitHub's readers share: a testsuite a case, a testcase a cell with
-// its wall time, and one for each gate over several cells. A gate that fails is a <failure>, a cell that came to
-// nothing an <error>, what an engine cannot do and what it is known not to meet are <skipped>.
+// junit.xml, in the form that Jenkins, GitLab and GitHub's readers share. Each case is a testsuite. Each cell is a
+// testcase with its wall time, and so is each gate over several cells. A failed gate is a <failure>, a cell without
+// result an <error>. Unsupported features and known deviations are <skipped>.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ struct TestCase {
   std::string type;     // the metric that failed, or the cell's status
   std::string message;  // the first line
   std::string text;     // all of them
-  std::string warning;  // what a test that passed does not say
+  std::string warning;  // details beside a passed test
 };
 
 struct Suite {

@@ -67,7 +67,7 @@ std::string table(const TextTable& cells) {
   return text;
 }
 
-// Of many cases their tables would be more than one reads, or a forge shows: the matrix above has their numbers.
+// The tables of many cases would be too long to read, or for a forge to show. The matrix above has their numbers.
 bool has_tables(const Results& results) { return results.cases.size() <= kMostCasesInDetail; }
 
 // The command that says which known mistake a failed run's error looks like.
@@ -82,7 +82,7 @@ std::string diagnosis_line(const CaseResult& result) {
   return text.empty() ? "" : "\nWhich known mistake the error looks like:" + text + "\n";
 }
 
-// What gates answered but that they held, or held with a caveat, a paragraph each.
+// The answers of gates, except those that held without caveat, one paragraph each.
 std::vector<std::string> answers_in_full(const CaseResult& result) {
   std::vector<std::string> lines;
   for (const GateResult& gate : result.gates) {
@@ -199,7 +199,7 @@ std::string settings(const Results& results) {
   return text;
 }
 
-// An engine's runs beside its first, which the matrix above has. What ends as that one did is not told again.
+// An engine's other runs beside its first, which the matrix above shows. Results equal to the first are not repeated.
 TextTable matrix_of_engine(const Results& results, Words words, const std::vector<std::size_t>& runs) {
   TextTable matrix = verdict_matrix(results, words, runs);
   matrix.heading = fmt::format("To be read as above; = is as {}, and cases in which all are so are left out.",
@@ -215,7 +215,7 @@ TextTable matrix_of_engine(const Results& results, Words words, const std::vecto
   return matrix;
 }
 
-// Of many runs one an engine, and each engine's own behind a line to open.
+// Of many runs, one per engine is shown; the others of each engine are behind a line to open.
 std::string matrices(const Results& results, Words words) {
   std::vector<std::size_t> all(results.runs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});

@@ -1,5 +1,5 @@
-// A long report says what a gate rests on, what a setting does or what a truth is independent of once, where it is met
-// first: what ends a later paragraph in the same words is left out there, for an ellipsis.
+// Shortens long reports. The basis of a gate, the effect of a setting and the independence of a truth are explained at
+// their first place. Later paragraphs replace an identical ending by an ellipsis.
 #pragma once
 
 #include <set>

@@ -10,7 +10,8 @@ namespace rigor {
 
 struct SceneFormat {
   std::string name;
-  std::string (*text)(const Scene& scene, LeftOut& left_out);  // says what the format cannot
+  // receives notes about parts that the format cannot express
+  std::string (*text)(const Scene& scene, LeftOut& left_out);
 };
 
 const std::vector<SceneFormat>& scene_formats();

@@ -1,5 +1,5 @@
-// SDF 1.9: what moves is one model, whose links' frames are the bodies', and each fixed body a static model of its own.
-// Joints stand in the model's frame, which is W.
+// SDF 1.9. All moving bodies form one model, whose links have the bodies' frames. Each fixed body is a static model.
+// Joints are in the model's frame, which is W.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -85,7 +85,7 @@ class SdfWriter {
     add("      </link>\n    </model>\n");
   }
 
-  // All bodies may touch each other here, and there only if the model says so.
+  // In a scene all bodies may touch each other; in SDF only if the model says so.
   void add_moving() {
     add("    <model name=\"{}\">\n      <self_collide>true</self_collide>\n", kModel);
     for (const Body& body : scene_.bodies) {

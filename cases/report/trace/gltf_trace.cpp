@@ -100,7 +100,7 @@ class GltfFile {
   }
   Json& node(int index) { return json_["nodes"][static_cast<std::size_t>(index)]; }
 
-  // Floats, `width` to each of `count`.
+  // `count` rows of `width` floats.
   int add_floats(const std::vector<float>& values, int width, const Json& bounds = {}, int target = 0) {
     static const char* kTypes[] = {"", "SCALAR", "", "VEC3", "VEC4"};
     Json accessor = {{"bufferView", add_view(values.data(), values.size() * sizeof(float), target)},

@@ -11,11 +11,11 @@ namespace rigor {
 
 class McapFile {
  public:
-  // Returns what the file begins with.
+  // Returns the head of the file.
   std::string begin();
   // A channel of JSON messages; before the first message. Returns its id.
   std::uint16_t add_channel(const std::string& topic, const std::string& schema_name, const std::string& json_schema);
-  // Returns what is to be written next, which may be nothing yet. Times must not go back.
+  // Returns the data to write next, possibly none yet. Times must not decrease.
   std::string add(std::uint16_t channel, std::uint64_t nanoseconds, const std::string& json);
   std::string end();
 

@@ -1,5 +1,5 @@
-// A run as Foxglove shows it: each body a frame, moved by FrameTransforms, and once its shape, by SceneUpdate
-// (docs.foxglove.dev/docs/visualization/message-schemas). Quaternions there are x, y, z, w by name.
+// A run for Foxglove: each body is a frame, moved by FrameTransforms; SceneUpdate sends its shape once
+// (docs.foxglove.dev/docs/visualization/message-schemas). Quaternions have named components x, y, z, w there.
 #include <cmath>
 
 #include "cases/report/trace/mcap_file.h"
@@ -25,7 +25,7 @@ Json stamp(std::uint64_t nanoseconds) {
 Json object_of(const Json& properties) { return {{"type", "object"}, {"properties", properties}}; }
 Json list_of(const Json& items) { return {{"type", "array"}, {"items", items}}; }
 
-// Foxglove's schemas, as far as what is written goes.
+// The parts of Foxglove's schemas that are written.
 struct Schemas {
   Json number = {{"type", "number"}}, text = {{"type", "string"}}, flag = {{"type", "boolean"}};
   Json time = object_of({{"sec", {{"type", "integer"}}}, {"nsec", {{"type", "integer"}}}});

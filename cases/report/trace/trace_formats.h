@@ -1,5 +1,5 @@
-// One run's motion in the formats that other programs read. A row of the table each; a writer gets the samples one by
-// one and returns what is to be written next.
+// One run's motion in formats of other programs. Each is a row of the table. A writer gets the samples one by one and
+// returns the data to write next.
 #pragma once
 
 #include <memory>

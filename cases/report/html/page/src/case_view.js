@@ -1,4 +1,4 @@
-// One case: the truth, the runs in motion, their series over time, and what the cells of all step sizes say together.
+// One case: the truth, the runs in motion, their series over time, and the summary over all step sizes.
 import { asideOf, cellOf, dtOf, judgement, hasNumbers } from "./data.js";
 import { el, replace } from "./dom.js";
 import { digits, quantity } from "./format.js";
@@ -14,7 +14,7 @@ import { address, onChange, openCase, set, state } from "./state.js";
 
 const shownAtFirst = 6;
 
-// Lets the page answer to whatever has come in.
+// Lets the page process pending input.
 const pause = () => new Promise((resolve) => setTimeout(resolve));
 
 const part = (id, title, text, ...content) =>
@@ -207,7 +207,7 @@ export class CaseView {
     return { results: this.results, one: this.one, dt: this.dt, shown: this.shown };
   }
 
-  // Once the motions are there, which say where bodies came to rest.
+  // Called when the motions are loaded, which contain the positions of rest.
   drawFan() {
     const fan = this.data?.dt === this.dt.text ? frictionFan(this.context, this.data) : null;
     const text =

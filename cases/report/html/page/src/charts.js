@@ -6,7 +6,7 @@ import { set } from "./state.js";
 
 export const ink = (engine) => `var(--e${engine.index})`;
 
-// Places on a logarithmic axis; what is zero goes to `from`.
+// Positions on a logarithmic axis; zero is placed at `from`.
 export function decades(from, to, start, end) {
   const low = Math.log10(from),
     high = Math.log10(to);
@@ -26,7 +26,7 @@ export const bounds = (values) => {
   ];
 };
 
-// What errors of these orders fall by, from the coarsest step down: for the eye to hold the lines' slopes against.
+// Reference lines of these orders from the coarsest step down, to compare the slopes of the lines.
 function slopes(x, y, [finest, coarsest], [least, most]) {
   return [1, 2, 4].flatMap((order) => {
     const end = Math.max(finest, coarsest * (least / most) ** (1 / order)),
@@ -118,8 +118,8 @@ export const legend = (rows) =>
 
 const errorsOf = (one) => [...new Set(one.observed_order.map((o) => o.metric))];
 
-// A figure for each kind of error there is, a line for each engine shown: `place` says where on the x axis a cell
-// stands and what to call it, or nothing where it stands nowhere.
+// One figure for each kind of error, with one line for each shown engine. `place` returns a cell's x position and
+// label, or nothing if it has none.
 function errorFigures({ results, one, shown }, { place, axis, versus, below }) {
   const figures = errorsOf(one)
     .map((metric) => {

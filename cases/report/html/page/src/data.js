@@ -51,7 +51,7 @@ function indexed(results, playback) {
   return results;
 }
 
-// Engines that are not ours first, for they are what a reader has come for; last what only some cases asked for.
+// Other engines come first, because readers look for them; runs that only some cases need come last.
 function inReadingOrder({ engines, cells, cases }) {
   const casesOf = new Map(engines.map((e) => [e.name, new Set()]));
   for (const cell of cells) casesOf.get(cell.engine).add(cell.case);
@@ -141,7 +141,7 @@ export function dtOf(one, dtText) {
   return one.dt.find((dt) => dt.text === dtText) ?? one.coarsest;
 }
 
-// What a cell comes to: a word, a sign and how it is coloured.
+// The result of a cell: a word, a sign and a colour.
 export function judgement(cell) {
   if (!cell) return { kind: "none", sign: "", word: "not run" };
   const failed = (cell.gates ?? []).filter((gate) => gate.answer === "failed").length;
@@ -175,7 +175,7 @@ export function judgement(cell) {
 export const warningOf = (cell) =>
   cell?.reduced_order ? `from ${digits(cell.reduced_order.from)} s on stepped ${cell.reduced_order.how}` : "";
 
-// Why a cell ended as it did, and what to know beside it; for where the mouse rests.
+// The reason of a cell's status, with notes; for the mouse pointer.
 export const asideOf = (cell) => [cell.reason, warningOf(cell)].filter(Boolean).map((text) => ` – ${text}`).join("");
 
 const verdictKinds = {
@@ -186,8 +186,8 @@ const verdictKinds = {
   collapsed: { kind: "bad", sign: "↓" },
 };
 
-// How dark a cell of the matrix is: its position error in decades of the case's size, from 0 at 1e-4 of it to 1 at the
-// size itself. Nothing where there is no such error, or more to say than how large it is.
+// The shade of a matrix cell: its position error in decades of the case's size, from 0 at 1e-4 of the size to 1 at the
+// size. Empty without such an error, or if the status says more than the size of the error.
 export function shadeOf(one, cell) {
   const error = cell?.status === "pass" ? metricOf(cell, "position_error") : null;
   if (error === null || !(one.size > 0)) return null;
@@ -213,9 +213,9 @@ export function errorPoints(one, engine, metric) {
     .sort((a, b) => b.seconds - a.seconds);
 }
 
-// The largest step at which an engine's error is at most `tolerance`, read off the straight line, in logarithms, through
-// its cells. `mark`: "≥" it holds at the largest step tried already; "~" extrapolated below the finest of them, off the
-// line through the last two, if the error falls there at all and no further than a factor of 30; "<" not even there.
+// The largest step at which an engine's error is at most `tolerance`, from the straight line, in logarithms, through
+// its cells. `mark`: "≥" means that it holds at the largest tried step. "~" means extrapolated below the finest step
+// along the line through the last two, if the error falls there, by at most a factor of 30. "<" means not even there.
 export function stepFor(one, engine, metric, tolerance) {
   const furthest = 30,
     falls = 0.5; // order

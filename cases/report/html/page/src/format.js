@@ -53,7 +53,7 @@ export const singleTitle =
 // "position error" of "position_error".
 export const words = (name) => name.replaceAll("_", " ");
 
-// An engine's name on two lines: who, and which of its methods.
+// An engine's name on two lines: the engine, then its method.
 export function engineParts(name) {
   const at = name.indexOf(":");
   return at < 0 ? [name, ""] : [name.slice(0, at), name.slice(at + 1)];

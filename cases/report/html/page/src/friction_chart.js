@@ -1,5 +1,5 @@
-// Where friction stops bodies that slide off in several directions: how far each came, drawn where it came to rest. A
-// cone's friction knows no direction and leaves an arc; a pyramid's brakes harder along its diagonals and dents it.
+// Where friction stops bodies that slide in several directions: the distance of each, drawn at its place of rest. The
+// friction of a cone is isotropic and gives an arc. A pyramid brakes harder along its diagonals and dents the arc.
 import { ink, legend } from "./charts.js";
 import { cellOf, metricOf } from "./data.js";
 import { add, el, svg } from "./dom.js";

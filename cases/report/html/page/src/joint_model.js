@@ -1,5 +1,4 @@
-// Joints as they are drawn: where each of two bodies has the point that a joint holds, the joint's axis, and what lies
-// between the two where they have come apart.
+// The drawing of joints: the joint's point on each of its two bodies, its axis, and the gap between the points.
 import { pointOf, turn } from "./scene_model.js";
 
 const world = { position: [0, 0, 0], orientation_wxyz: [1, 0, 0, 0] };
@@ -53,7 +52,7 @@ export function jointSegments(joints, poses, size, seen) {
     for (const axis of axes) marks.push([add(q, axis, -2.5 * size), add(q, axis, 2.5 * size)]);
     const between = q.map((v, k) => v - p[k]);
     const along = joint.slides ? axes[0].reduce((sum, v, k) => sum + v * between[k], 0) : 0;
-    const from = joint.slides ? add(p, axes[0], along) : p; // what a slider lets free is no gap
+    const from = joint.slides ? add(p, axes[0], along) : p; // a slider's free direction is no gap
     if (!joint.isRod && Math.hypot(...q.map((v, k) => v - from[k])) > seen) gaps.push([from, q]);
   }
   return { marks, gaps };

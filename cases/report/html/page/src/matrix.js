@@ -1,4 +1,4 @@
-// The verdict matrix: cases by engines at one step, sorted by family, with what each engine's column comes to.
+// The verdict matrix: cases by engines at one step, sorted by family, with a summary of each engine's column.
 import {
   asideOf,
   cellOf,
@@ -18,7 +18,7 @@ import { el, replace, tableHead } from "./dom.js";
 import { digits, engineParts, isNumber, percent, quantity, singleTitle, words } from "./format.js";
 import { address, openCase, state } from "./state.js";
 
-// What it can show that is no metric.
+// The views that are no metric.
 export const shownAside = {
   main: "the error that matters",
   stable: "largest stable dt",
@@ -148,7 +148,7 @@ export class Matrix {
     return head;
   }
 
-  // What an engine's column comes to over all cases shown.
+  // The summary of an engine's column over all shown cases.
   summary(cases, engines) {
     const line = (label, title, of) =>
       el(
@@ -272,7 +272,7 @@ export class Matrix {
     );
   }
 
-  // The number of a cell, and a word that stands in place of the verdict where it says more.
+  // The number of a cell, and a word that replaces the verdict where it says more.
   value(one, engine, cell, verdict) {
     if (state.show === "stable") {
       const stable = one.stable.get(engine.name);

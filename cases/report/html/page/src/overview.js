@@ -1,4 +1,4 @@
-// The first screen: what was found, and the matrix of cases by engines.
+// The first screen: the findings, and the matrix of cases by engines.
 import { metricOf } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
 import { digits, quantity, words } from "./format.js";
@@ -41,8 +41,8 @@ export class Overview {
     );
   }
 
-  // What was found: a card for each of the first topics, with what stands behind it a click away; the others behind
-  // their names. The names of cases lead to them.
+  // The findings: a card for each of the first topics, with details on a click; the others behind their names. The
+  // names of cases are links.
   findings(findings) {
     const cards = 4;
     const link = (id) =>

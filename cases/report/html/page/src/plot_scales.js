@@ -1,7 +1,7 @@
-// The vertical scales of a plot: how a value is put on it, what it spans, where its ticks are and what they say.
+// The vertical scales of a plot: how values map to it, its range, and the positions and labels of its ticks.
 import { percent, power, quantity } from "./format.js";
 
-// Decades; what is zero lies on a floor of its own below the smallest value, marked 0.
+// Decades; zero lies on a separate line below the smallest value, marked 0.
 export function logarithmic(series) {
   let smallest = Infinity,
     largest = 0,

@@ -1,4 +1,4 @@
-// A scene as it is drawn: shapes with their sizes, springs with their ends, where shapes touch, what is up.
+// A scene for drawing: shapes with their sizes, springs with their ends, contact points, and the up direction.
 export function drawables(scene) {
   const reach = Math.max(...scene.bodies.map((b) => Math.hypot(...b.position)), 0.5);
   return scene.bodies.map((body, index) => ({ index, name: body.name, fixed: body.fixed, ...shapeOf(body, reach) }));
@@ -91,8 +91,8 @@ export function coil(a, b, width, turns = 9, steps = 8) {
   return points;
 }
 
-// Points at which shapes touch or overlap in these poses: spheres, capsules and the corners of boxes, against planes and
-// against spheres and boxes. `near`: how close counts.
+// Points at which shapes touch or overlap in these poses: spheres, capsules and the corners of boxes, against planes
+// and against spheres and boxes. `near` is the largest gap that counts.
 export function contacts(shapes, poses, near, most = 400) {
   const found = [],
     probes = [];

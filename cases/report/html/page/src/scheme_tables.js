@@ -4,7 +4,7 @@ import { cellOf, hasNumbers, signedMetric } from "./data.js";
 import { el, svg, tableHead } from "./dom.js";
 import { isNumber, percent, quantity, words } from "./format.js";
 
-// For each run with a twin: the whole error, the scheme's part and what is left, on one logarithmic line.
+// For each run with a twin: the whole error, the scheme's part and the rest, on one logarithmic line.
 export function schemeSplit({ results, one, dt }) {
   const rows = [
     ["position_error", "unexplained_error"],
@@ -91,7 +91,7 @@ function strip({ engine, total, scheme, rest }, range) {
   );
 }
 
-// Where the energy goes: the engine's, its scheme's, and that of the scheme without its gyroscopic term.
+// The energy over time: of the engine, of its scheme, and of the scheme without its gyroscopic term.
 function energySplit(cells) {
   const name = "energy_drift";
   const rows = cells

@@ -11,7 +11,7 @@ import { onTheme } from "./theme.js";
 import { WebglView } from "./webgl_view.js";
 import { set, state } from "./state.js";
 
-const mostWithoutGpu = 100; // bodies: more of them, shaded without a GPU, hold the page up
+const mostWithoutGpu = 100; // bodies: more of them, shaded without a GPU, make the page slow
 const longHold = 50; // ms: more, and a reader's keys and mouse seem to lag
 
 export class Stage {
@@ -188,7 +188,7 @@ export class Stage {
     this.arrange();
   }
 
-  // What each pane shows.
+  // The content of each pane.
   arrangement() {
     const layers = this.engines.map((e) => this.layers.get(e.name)).filter(Boolean);
     const ghost = this.flags.truth ? this.layers.get("truth") : null;

@@ -5,7 +5,7 @@ export const state = {
   dt: "", // as written
   engines: null, // names that are shown; null: the choice the page makes
   time: 0, // s, of the playback and the plots' cursor
-  show: "main", // what the matrix shows
+  show: "main", // the metric or view of the matrix
   tolerance: 1e-3, // m, for "dt for"
   layout: "overlay",
   log: true,
@@ -21,7 +21,7 @@ export function set(changes, { push = false } = {}) {
   for (const listener of [...listeners]) listener(new Set(changed));
 }
 
-// From its start, with the engines that the page chooses unless they are named.
+// Shows a case from its start, with the named engines, or those that the page chooses.
 export const openCase = (id, changes = {}) =>
   set({ case: id, time: 0, zoom: null, engines: null, ...changes }, { push: true });
 

@@ -215,7 +215,7 @@ export class TimePlots {
     return figure;
   }
 
-  // What the runs that did not blow up and the truth span: those that did would leave nothing of the others to be seen.
+  // The range of the truth and of runs that did not blow up. Blown-up runs would make the others invisible.
   tameRange(series, truth) {
     let low = Infinity,
       high = -Infinity;
@@ -285,7 +285,7 @@ export class TimePlots {
   }
 }
 
-// The body and the coordinate that move most; where nothing but turns, the angle.
+// The body and the coordinate that move most; the angle if bodies only rotate.
 function liveliest(bodies, data) {
   const motion = data.truth?.motion ?? [...data.runs.values()].find((run) => run.motion)?.motion;
   const moving = Math.max(

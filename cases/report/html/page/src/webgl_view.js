@@ -1,4 +1,5 @@
-// Draws the stage with three.js. Bodies of a kind are instances of one mesh, so a thousand of them are a few calls.
+// Draws the stage with three.js. Bodies of one kind are instances of one mesh, so a thousand bodies need only a few
+// calls.
 import * as THREE from "three";
 import { coil, pointOf } from "./scene_model.js";
 import { colour, isDark } from "./theme.js";
@@ -8,7 +9,7 @@ export class WebglView {
   constructor(canvas, context, { onlyWithGpu = false } = {}) {
     (this.kind = "webgl"), (this.context = context), (this.ratio = Math.min(devicePixelRatio || 1, 2));
     const quiet = console.error;
-    console.error = () => {}; // three.js would also log what it throws
+    console.error = () => {}; // three.js would also log the errors that it throws
     try {
       this.renderer = new THREE.WebGLRenderer({
         canvas,
@@ -112,7 +113,7 @@ export class WebglView {
     return { layer, group, material, lines, meshes, coils, marks, gaps, touching, trails };
   }
 
-  // Each body's whole way, shown as far as it has come; of many bodies none, for they would only hide one another.
+  // Each body's path so far. Paths of many bodies are not shown, because they would hide each other.
   trails(layer) {
     const { motion } = layer,
       moving = this.context.shapes.filter((s) => !s.fixed && s.type !== "plane");
@@ -184,7 +185,7 @@ export class WebglView {
     }
   }
 
-  // Of how long pictures take, in ms: those of a slow machine get fewer pixels.
+  // The time per picture, in ms: a slow machine gets fewer pixels.
   keepPace(took) {
     this.pace = 0.8 * (this.pace ?? 16) + 0.2 * took;
     if (this.pace > 40 && this.ratio > 0.5) (this.ratio = Math.max(0.5, this.ratio * 0.8)), (this.pace = 20);
