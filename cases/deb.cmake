@@ -1,4 +1,5 @@
-# Read by cpack before it packs: without these two it would fail in words of its own, or make a package that depends on nothing.
+# cpack reads this before it packs. Without these two tools it would fail with messages of its own, or make a package
+# without dependencies.
 foreach(program_of file:file dpkg-shlibdeps:dpkg-dev)
   string(REPLACE ":" ";" pair ${program_of})
   list(GET pair 0 program)
