@@ -1,5 +1,5 @@
-// What tests/mutants puts behind each of its questions: the mutant whose number RIGOR_MUTANT names is on, all others
-// are off. RIGOR_MUTANT_REACH: a file of a byte each, in which those that are asked for are marked.
+// The code that tests/mutants puts behind each mutant: the mutant whose number is in RIGOR_MUTANT is on, all others are
+// off. RIGOR_MUTANT_REACH names a file with one byte per mutant, in which reached mutants are marked.
 #pragma once
 
 #include <fcntl.h>

@@ -106,8 +106,8 @@ std::string arrows_back(const std::vector<Include>& includes, const Chain& chain
   });
 }
 
-// Types in namespaces that have names, and the lines where they are defined. Files are laid out by clang-format: what
-// begins a line is in a namespace alone, and a namespace of more than one line is closed by name.
+// Types in named namespaces, and the lines of their definitions. Files are formatted by clang-format: a line without
+// indent is directly in a namespace, and a namespace of more than one line is closed by its name.
 std::map<std::string, Names> types_in(const std::string& file, std::istream& in) {
   static const std::regex space("(?:inline )?namespace ?([\\w:]*) \\{"),
       type("(?:struct|class|enum class) (\\w+)(?: final)?(?: :[^;{]*)? \\{.*");

@@ -1,4 +1,4 @@
-// What the tests of the adapters measure of a single body.
+// Measurements of a single body, shared by the adapter tests.
 #pragma once
 
 #include <algorithm>
@@ -74,7 +74,7 @@ inline Scene sliding_box(double speed, double direction, double friction, const 
   return scene;
 }
 
-// Where the box of sliding_box comes to rest, over where it must: v^2 / (2 mu g).
+// The ratio of the distances at which the box of sliding_box stops, found to expected: v^2 / (2 mu g).
 inline double stop_distance_ratio(const std::string& run, double direction, double dt, double speed = 5,
                                   double friction = 0.5, const Vec3& size = {0.4, 0.4, 0.2}) {
   const double truth = speed * speed / (2 * friction * 9.81), time = speed / (friction * 9.81);

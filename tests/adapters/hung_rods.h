@@ -1,4 +1,4 @@
-// Two rods that hang on each other by a joint of any kind: what the tests of engines with joints in trees give them.
+// Two hanging rods with a joint of any kind between them, for the tests of engines with joints in trees.
 #pragma once
 
 #include <string>

@@ -1,9 +1,9 @@
-// Laws of jointed bodies that need no truth: the same mechanism told in another way must move in the same way. Over
-// every method of the core that takes joints. Engines that correct a joint by a share of its gap, or sweep over the
-// joints in an order, keep these laws only to that; what they keep of them stands in their own tests.
+// Laws of jointed bodies that need no truth: the same mechanism, described in another way, must move in the same way.
+// The tests run over every method of the core that takes joints. Engines that correct a share of a joint's gap, or
+// sweep over joints in an order, satisfy these laws only approximately; their own tests check them.
 //
-// What may differ is rounding, magnified as a small change of the start is (see laws_test.cpp), and what a projection
-// leaves: it stops within 1e-12 of what the joints hold.
+// The allowed difference is rounding, magnified like a small change of the start (see laws_test.cpp), plus the residual
+// of a projection, which stops within 1e-12 of the joints' scale.
 #include <algorithm>
 #include <limits>
 
@@ -86,8 +86,8 @@ void for_each_core_run(const Scene& scene, const std::function<void(const Run&)>
   BOOST_TEST(checked >= 8, "of the core's methods that take joints only " << checked);
 }
 
-// How many times larger a small change of the motion is at the end: of gravity, for a nudge of one body would break
-// its joint.
+// The growth of a small change of the motion until the end. The change is one of gravity, because moving one body would
+// violate its joint.
 double growth(const Run& run, const Scene& scene) {
   constexpr double kNudge = 1e-7;
   Scene nudged = scene;
@@ -95,9 +95,9 @@ double growth(const Run& run, const Scene& scene) {
   return std::max(1.0, difference(end_of(run, scene), end_of(run, nudged)) / kNudge);
 }
 
-// Each step rounds numbers of some ten, and its projection leaves 1e-12 of what the joints hold at most: mostly far
-// less, for each of its rounds squares what is left.
-// Semi-implicit Euler closes its joints to 1e-11 of a metre in each step, which over the step is a velocity.
+// Each step rounds numbers of size ten. Its projection leaves at most 1e-12 of the joints' scale, and mostly far less,
+// because each iteration squares the residual. Semi-implicit Euler closes its joints to 1e-11 of a metre in each step;
+// divided by the step this is a velocity error.
 double tolerance(const Run& run, const Scene& scene) {
   constexpr double kOfAStep = 10 * std::numeric_limits<double>::epsilon();
   const double closing = run.settings.method == "semi-implicit-euler" ? 1e-11 / kStep : 1e-12;
@@ -163,8 +163,8 @@ BOOST_AUTO_TEST_CASE(a_turned_frame_is_the_same_frame) {
 }
 
 BOOST_AUTO_TEST_CASE(the_ends_of_a_joint_may_be_exchanged) {
-  // Some rows are fixed in a: from the other end they hold the same, but are others beside what they hold, where the
-  // stages of a Runge-Kutta method are. That is a part of its own error.
+  // Some rows are fixed in a. From the other end they express the same joint, but differ beside it, where the stages of
+  // a Runge-Kutta method lie. The difference is a part of its own error.
   const Scene scene = tree(), other = ends_exchanged(scene);
   for_each_core_run(scene, [&](const Run& run) {
     const bool has_stages_beside = run.settings.method.starts_with("rk");

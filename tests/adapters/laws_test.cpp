@@ -1,8 +1,8 @@
 // Laws of mechanics that need no truth: the same scene told in another way must move in the same way. Run over every
 // engine, method and track.
 //
-// What may differ is rounding, and what the motion makes of it. Each step adds a few roundings of the numbers' size;
-// each is magnified as a small change of the start is, and that is measured, not guessed: growth().
+// The allowed difference is rounding as magnified by the motion. Each step adds a few roundings of the numbers' size.
+// Each rounding grows like a small change of the start, and growth() measures this growth.
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -58,8 +58,8 @@ double growth(const Run& run, const Scene& scene) {
   return std::max(1.0, difference(end_of(run, scene), end_of(run, nudged)) / kNudge);
 }
 
-// A rounding of the numbers' size for each step, magnified as much as the first can be: twice what the longest of the
-// steps, of fifteen stages, was seen to need, and ten times what the others were.
+// One rounding of the numbers' size per step, magnified like the first one. The factor is twice the need of the longest
+// steps, with fifteen stages, and ten times the need of the others.
 double tolerance(const Run& run, const Scene& scene, double size, int steps = kSteps) {
   return std::numeric_limits<double>::epsilon() * size * steps * growth(run, scene);
 }

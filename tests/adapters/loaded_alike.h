@@ -12,7 +12,7 @@ namespace rigor::test {
 
 inline constexpr double kLoadedStep = 1e-3;  // s
 
-// Where it is not the limits that are compared: an engine's own are soft, or as its loader has them.
+// Limits are not compared here, because an engine's own limits are soft, or follow its loader.
 inline Scene without_limits(Scene scene) {
   for (Joint& joint : scene.joints) {
     joint.lower = -std::numeric_limits<double>::infinity(), joint.upper = -joint.lower, joint.restitution = 0;

@@ -1,4 +1,4 @@
-// What engines themselves say their joints carry, where statics says it.
+// The joint loads that engines report, where statics determines them.
 #include "core/engine/reported_reactions.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ struct Reporting {
   double within;  // of a weight that is carried at rest
 };
 
-// By rows on bodies that are free: to what ODE's CFM lets a joint give way in a step, 1e-4 of it as matched; sweeps
-// enough to converge.
+// For rows on free bodies, ODE's CFM allows a joint to yield by 1e-4 per step on the matched track; there are enough
+// sweeps to converge.
 const std::vector<Reporting> kByRows = {{"ode:worldstep", 1e-3},
                                         {"ode:quickstep,iterations=200", 1e-3},
                                         {"bullet,iterations=200", 1e-3},
@@ -87,8 +87,8 @@ BOOST_AUTO_TEST_CASE(what_hangs_is_carried_with_its_weight) {
   }
 }
 
-// The weight acts at the centre of mass, about which a report's torque is: the hinge's couple and the moment of its
-// force, 1 m kg g each, take each other out.
+// The weight acts at the centre of mass, the reference point of a reported torque. The hinge's couple and the moment of
+// its force, 1 m kg g each, cancel.
 BOOST_AUTO_TEST_CASE(torques_are_about_the_centre_of_mass) {
   for (const auto& [engine, within] : reporting()) {
     const HingeJoint post{Vec3::Zero(), Vec3::UnitY()};
@@ -146,9 +146,9 @@ BOOST_AUTO_TEST_CASE(a_report_does_not_hang_on_whether_others_were_asked_for) {
   }
 }
 
-// A rod of 1 m and 1 kg, let go level and caught at the bottom of such a swing: 2.457095565 N and 24.515808869 N
-// (closed form). A report is the mean over a step, in which the force turns with the rod and changes with its angle:
-// by less than 3 w dt of itself.
+// A rod of 1 m and 1 kg, released level and caught at the bottom of its swing: 2.457095565 N and 24.515808869 N (closed
+// form). A report is the mean over a step. In a step the force rotates with the rod and changes with its angle, by less
+// than 3 w dt of itself.
 BOOST_AUTO_TEST_CASE(a_pendulum_pulls_at_its_hinge_as_the_closed_form_says) {
   constexpr double kInertia = (1 + 0.05 * 0.05) / 12, kFine = 1e-4;      // kg m², s
   const double at_bottom = std::sqrt(2 * kG * 0.5 / (kInertia + 0.25));  // rad/s
@@ -201,7 +201,8 @@ BOOST_AUTO_TEST_CASE(efforts_along_a_free_axis_are_no_reactions) {
   }
 }
 
-// A bar between two balls, of which one closes a loop: half of its weight each. As soft as MuJoCo's equalities are.
+// A bar between two balls, one of which closes a loop: each carries half of its weight, within the softness of MuJoCo's
+// equalities.
 BOOST_AUTO_TEST_CASE(loops_carry_their_share) {
   Scene scene = held(BallJoint{{-0.5, 0, 0}}, {0, 0, 0}, true);
   scene.joints.push_back({kWorld, 0, BallJoint{{0.5, 0, 0}}});
@@ -226,9 +227,9 @@ BOOST_AUTO_TEST_CASE(loops_carry_their_share) {
   }
 }
 
-// Rows that close a share erp of a gap in a step begin without a gap. Until it is what a turning body opens again in
-// each step, they carry too much, by a part that (1 - erp) is left of from step to step, whatever the step: so the
-// largest error of a report does not fall with it.
+// Rows that correct a share erp of a gap per step begin without a gap. They carry too much until the gap equals what a
+// rotating body opens in each step. The excess decays by (1 - erp) per step for any step, so the largest reported error
+// does not fall with the step.
 BOOST_AUTO_TEST_CASE(what_rows_carry_too_much_at_the_start_dies_out_by_the_share_they_leave) {
   constexpr double kFine = 1e-4;  // s
   for (const double erp : {0.5, 0.2}) {

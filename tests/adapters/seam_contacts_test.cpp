@@ -1,4 +1,4 @@
-// What every engine that declares contacts promises of them: over the table of engines, and each pair of shapes.
+// The contract of every engine that declares contacts: over the table of engines, and each pair of shapes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -44,13 +44,14 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
     const std::string feature = contact_feature(shape_name(pair.above), shape_name(pair.below));
     for (const Run& run : all_runs()) {
       scene.contact_default = {0, run.info.features.contains("friction:infinite") ? kInfiniteFriction : 1};
-      // As shipped Bullet's direct solver throws away what too many contacts carry; see bullet_engine_test.cpp. And
-      // DART makes meshes of spheres.
+      // The stock direct solver of Bullet throws away the load of too many contacts; see bullet_engine_test.cpp. DART
+      // turns spheres into meshes.
       if (!run.supports(scene, dt) || run.name() == "bullet:mlcp@stock" || has_spheres_of_meshes(run)) continue;
       BOOST_TEST_CONTEXT(run.name() << " " << feature) {
         const auto world = run.load(scene);
         const BodyState found = state_after(*world, dt, 480).columns().body(0);
-        // As deep as it can sink in the one step before the contact is seen, if the engine does not push it out again.
+        // The largest overlap from the one step before the contact is seen, if the engine does not push the body out
+        // again.
         const double deepest = std::sqrt(2 * g * drop) * dt;
         BOOST_TEST(std::abs(found.position.z() - pair.height) < deepest);
         BOOST_TEST(found.velocity.norm() < g * dt * (1 + 1e-12));  // at rest but for one step's fall, and its rounding

@@ -1,5 +1,4 @@
-// What every engine promises at the seam, whichever it is: one test over the table of engines, their methods and
-// tracks.
+// The contract of every engine at the seam: one test over the table of engines, their methods and tracks.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -225,9 +224,9 @@ BOOST_AUTO_TEST_CASE(a_timed_force_gives_its_exact_impulse_when_its_bounds_fall_
     const Vec3 velocity = body.velocity + (until - from) / body.mass * scene.forces[0].force;
     const Vec3 angular_velocity = body.angular_velocity + (until - from) / 1.5 * scene.forces[0].torque;
     BOOST_TEST((found.velocity - velocity).norm() < 1e-13);  // thirty roundings of numbers below 1
-    // MuJoCo's Runge-Kutta method carries the angular velocity along in a body frame whose turns it adds up as if they
-    // commuted, and Siconos takes the mean of the torques in the body's frame at both ends: what that makes of it is of
-    // second order.
+    // MuJoCo's Runge-Kutta method carries the angular velocity in a body frame, and adds the rotations as if they
+    // commuted. Siconos takes the mean of the torques in the body's frame at both ends. Both errors are of second
+    // order.
     const bool adds_turns = run.name().starts_with("mujoco:rk4") || run.name().starts_with("core:mujoco-rk4") ||
                             run.name().starts_with("siconos") || run.name().starts_with("core:siconos");
     BOOST_TEST((found.angular_velocity - angular_velocity).norm() < (adds_turns ? 1e-5 : 1e-13));
@@ -247,8 +246,8 @@ BOOST_AUTO_TEST_CASE(the_motion_does_not_depend_on_the_choice_of_the_body_frame)
   for_each_run(straight, 1e-2, [&](const Run& run) {
     const auto world = run.load(straight), other = run.load(turned);
     const BodyTable a = state_after(*world, 1e-2, 300), b = state_after(*other, 1e-2, 300);
-    // A free top parts from its neighbour slowly: 300 steps x 1e-15, times some 100. What chooses its steps errs by
-    // coordinates, which are others: by its accuracy in each of the 300.
+    // A free top separates from its neighbour slowly: 300 steps x 1e-15, times some 100. A method that chooses its
+    // steps has errors that depend on the coordinates: its accuracy in each of the 300 steps.
     const double rounding = chooses_steps(run) ? 300 * accuracy_of(run) : 1e-10;
     BOOST_TEST((a.columns().angular_velocity(0) - b.columns().angular_velocity(0)).norm() < rounding);
     BOOST_TEST(angle_between(a.columns().orientation(0) * turn, b.columns().orientation(0)) < rounding);

@@ -50,21 +50,20 @@ inline void for_each_run(const Scene& scene, double dt, const std::function<void
   BOOST_TEST(checked > 0, "no engine supports the scene");
 }
 
-// Simbody's integrators that choose their own steps, as all but one do as shipped, choose others where the same motion
-// is told in another way: what parts two such runs is the accuracy asked for, and no rounding.
+// Simbody's integrators with error control (all but one on the stock track) choose other steps if the same motion is
+// described in another way. Two such runs differ by the requested accuracy, not by rounding.
 inline bool chooses_steps(const Run& run) {
   if (run.info.name != "simbody") return false;
   return run.method().adaptive || (run.settings.track == Track::stock && run.settings.method != "semi-explicit-euler");
 }
 
-// Of what chooses its steps.
+// For methods that choose their steps.
 inline double accuracy_of(const Run& run) {
   if (run.settings.track == Track::stock) return 1e-3;
   return run.settings.method == "semi-explicit-euler-2" ? 1e-4 : 1e-9;
 }
 
-// The same, but for what damps every motion as it ships, btMultiBody, and what as it ships is content with a thousandth
-// of everything, CPODES.
+// The same, without two stock engines: btMultiBody damps every motion, and CPODES accepts errors of a thousandth.
 inline void for_each_undamped_run(const Scene& scene, double dt, const std::function<void(const Run&)>& check) {
   for_each_run(scene, dt, [&](const Run& run) {
     if (run.name() != "bullet:multibody@stock" && run.name() != "simbody:cpodes@stock") check(run);

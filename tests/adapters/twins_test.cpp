@@ -95,7 +95,8 @@ std::vector<std::string> runs_with_twins() {
     for (const char* engine : {"ode", "ode:quickstep", "bullet"}) names.push_back(std::string(engine) + "@" + track);
   }
   if (is_built("siconos")) {  // as shipped its iteration stops before there are only roundings left
-    for (const char* theta : {"", ",theta=0.5", ",theta=0.7", ",theta=1"}) names.push_back(std::string("siconos") + theta);
+    for (const char* theta : {"", ",theta=0.5", ",theta=0.7", ",theta=1"})
+      names.push_back(std::string("siconos") + theta);
   }
   if (is_built("simbody")) {  // as shipped the others choose their own steps
     for (const char* method : {"explicit-euler", "merson", "rk2", "rk3", "verlet"})
@@ -124,9 +125,9 @@ Unexplained unexplained(const RunName& name, const RunName& twin_name, const Sce
 
 BOOST_AUTO_TEST_SUITE(adapters_twins)
 
-// Verlet's iteration for the velocities does not converge on these springs at 1/30. What Simbody keeps of such a step
-// hangs on how far it is off (VerletIntegrator.cpp returns before, or after, the last projection), and its quaternions
-// then stay as long as they came: both swing without bounds, and apart.
+// Verlet's iteration for the velocities does not converge on these springs at 1/30 s. The result of such a step depends
+// on its residual (VerletIntegrator.cpp returns before or after the last projection), and quaternions then stay
+// unnormalised. Both runs swing without bounds, and separate.
 bool does_not_converge(const std::string& scene, const std::string& run) {
   return scene == "body-springs" && run == "simbody:verlet";
 }
@@ -151,9 +152,9 @@ BOOST_AUTO_TEST_CASE(an_engine_does_what_its_published_scheme_does_to_rounding) 
   }
 }
 
-// Bullet as shipped takes a body out of the simulation once it would go 1e6 m in a step, as these two, which blow up,
-// do (btCollisionWorld::updateSingleAabb: "Overflow in AABB"). On the matched track DISABLE_DEACTIVATION keeps that
-// from it.
+// The stock Bullet removes a body from the simulation once it would move 1e6 m in a step
+// (btCollisionWorld::updateSingleAabb: "Overflow in AABB"). These two blow up and reach that. On the matched track
+// DISABLE_DEACTIVATION prevents it.
 bool is_taken_out_by_bullet(const std::string& id, const std::string& run) {
   return run == "bullet@stock" && (id == "springs/stiff-3" || id == "springs/strong-damping");
 }
@@ -214,9 +215,9 @@ BOOST_AUTO_TEST_CASE(the_twin_alone_loses_the_energy_that_its_engine_loses) {
   }
 }
 
-// The comparison with this top ends at 7.7 s (ODE's lasts the 60 s): it starts, and its loss keeps it, near a
-// separatrix, where roundings grow. What comes after is rounding all the same: Bullet parts from Bullet in a turned
-// world as far.
+// The comparison with this top ends at 7.7 s (ODE's lasts the 60 s). It starts near a separatrix, where rounding grows,
+// and its loss of energy keeps it there. The later difference is still rounding: Bullet in a rotated world separates
+// from Bullet as far.
 BOOST_AUTO_TEST_CASE(past_the_comparison_an_engine_parts_from_itself_as_far_as_from_its_twin) {
   const Scene scene = asymmetric_top();
   const Quat turn = Quat(0.1, -0.4, 0.3, 0.6).normalized();

@@ -1,6 +1,6 @@
-// The mutation test: every engine is broken in one way after another, and the default gates must find each, in the case
-// that is about it and by a metric that points at it. The score is printed. First the controls: the wrapper alone, with
-// nothing broken, and with the world made anew before each step, must trip no gate.
+// The mutation test: every engine is broken in one way after another. The default gates must find each fault, in the
+// case for it and by a metric that points at it. The score is printed. Controls come first: the wrapper alone without a
+// fault, and with a new world before each step, must trip no gate.
 #include "adapters/faults/faults.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Of each fault of the table (adapters/faults/faults.h): the case whose gates must find it, and which gates of it.
+// For each fault of the table (adapters/faults/faults.h): the case and the gates that must find it.
 #pragma once
 
 #include <map>

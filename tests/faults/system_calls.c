@@ -3,7 +3,7 @@
 //   RIGOR_FAULT_STATE  a file of at least sizeof(struct State) bytes, which all of them share
 //   RIGOR_FAULT_AT     the call that fails, counted from 1; 0: none, they are counted only
 //   RIGOR_FAULT        how: the errno, or `kill` (the process that calls), or `kill-all` (its whole group, too)
-// What the C library calls by itself (stdio, the loader) does not pass here, but for fopen().
+// Calls inside the C library (stdio, the loader) are not intercepted, except by fopen().
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>

@@ -151,7 +151,7 @@ void read_records(const std::string& bytes) {
   }
 }
 
-// results.json or a baseline, and a history. What was read is written so that it reads the same.
+// results.json or a baseline, and a history. Data that were read are written and must read the same.
 void read_results(const std::string& bytes) {
   const std::string& path = file_with(bytes);
   read_or_refuse([&] { read_history(path); });

@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(a_turn_beyond_a_quarter_of_pi_in_one_step_falls_short) {
   };
   BOOST_TEST(limit == kPi / 4);
   for (const double angle : {0.1, 0.5, 0.999 * limit}) BOOST_TEST(std::abs(turned_by(angle) - angle) < 1e-12);
-  // The half-angle's cosine is clamped at pi/8, its sine grows on with w: what is left is their arc tangent, which may
+  // The half-angle's cosine is clamped at pi/8, but its sine grows with w. The result is their arc tangent, which may
   // exceed pi/4 and even pi/2 but never reaches pi.
   for (const double angle : {0.8, 1.0, 1.6, 2.0, 3.0}) {
     const double law = 2 * std::atan(angle / limit * std::tan(kPi / 8));
@@ -163,8 +163,8 @@ BOOST_AUTO_TEST_CASE(slow_impacts_bounce_only_in_matched) {
   BOOST_TEST(body_after(*load_run("bullet@stock", scene), 1e-3, 20).velocity.z() < 0.05);
 }
 
-// A plate that flies flat passes, in a step, many times its own thickness, but not its width: what counts is the ball
-// inside it.
+// A plate that flies flat passes, in a step, many times its own thickness, but not its width. The ball inside it
+// counts.
 BOOST_AUTO_TEST_CASE(a_thin_plate_does_not_fly_through_a_thin_wall_in_matched) {
   Scene scene = sliding_box(0, 0, 0);
   scene.gravity = Vec3::Zero();
@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(a_sliding_box_keeps_straight_only_with_all_its_corners) {
       BOOST_TEST(std::abs(yaw_of(matched.orientation)) < 1e-2);
     }
   }
-  // As shipped it finds one corner of the box in a step, which tips the box over that corner at coarse steps.
+  // The stock setting finds one corner of the box per step, which tips the box over that corner at coarse steps.
   BOOST_TEST(stop_distance_ratio("bullet@stock", 0, 1.0 / 30) > 1.1);
   BOOST_TEST(std::abs(yaw_of(body_after(*load_run("bullet@stock", sliding_box(5, 0, 0.5)), 1.0 / 30, 60).orientation)) >
              0.2);

@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(springs_and_dampers_of_joints_converge_to_the_cores) {
   }
 }
 
-// As deep as a step's fall from 0.2 m, 8 mm at 1/240 s, at most; and the two stay half a metre apart.
+// The overlap is at most a step's fall from 0.2 m, 8 mm at 1/240 s; and the two stay half a metre apart.
 BOOST_AUTO_TEST_CASE(jointed_bodies_rest_on_the_ground) {
   Scene scene;
   scene.gravity = {0, 0, -9.81};
@@ -299,8 +299,8 @@ BOOST_AUTO_TEST_CASE(settings_are_read_back_from_bullet) {
   BOOST_TEST(value("bullet:multibody@stock", "fastest coordinate") == "100 rad/s, m/s");
 }
 
-// As shipped a hinge's limit gives back 0.3 ("bias factor") of the bounce that it is told; and against a static body
-// its "frame offset" lets go of the arm in that step, so that what the arm carried is lost as well.
+// The stock setting returns only 0.3 ("bias factor") of the requested bounce at a hinge's limit. Against a static body
+// its "frame offset" also releases the arm in that step, so the arm's load is lost, too.
 BOOST_AUTO_TEST_CASE(as_shipped_a_hinges_limit_bounces_by_less_than_a_third) {
   Coordinate coordinate(true, test::Ends::from_world, 1.5);
   coordinate.scene.joints[0].upper = 0.5, coordinate.scene.joints[0].restitution = 1;
@@ -333,7 +333,7 @@ BOOST_AUTO_TEST_CASE(bullets_own_sliders_limit_never_bounces) {
   world.removeConstraint(&slider), world.removeRigidBody(&body);
 }
 
-// As shipped no coordinate of btMultiBody is faster than 100 rad/s, and all are damped.
+// The stock btMultiBody limits every coordinate to 100 rad/s and damps all of them.
 BOOST_AUTO_TEST_CASE(as_shipped_reduced_coordinates_are_held_back) {
   Scene scene = test::with_joint(FixedJoint{}, test::Ends::two_bodies);
   scene.joints.clear();

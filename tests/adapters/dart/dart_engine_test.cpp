@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(a_world_that_blows_up_is_lost_before_it_aborts) {
 }
 
 BOOST_AUTO_TEST_CASE(what_aborts_all_the_same_costs_its_cell) {
-  // As shipped DART asserts here that its solver has found numbers.
+  // The stock DART asserts here that its solver's result is finite.
   Case doll = select_cases({"mechanisms/ragdoll-on-floor"}, default_suite_dir(), test::words()).front();
   std::erase_if(doll.dt, [](const StepSize& dt) { return dt.text != "1/240"; });
   doll.gates.clear();

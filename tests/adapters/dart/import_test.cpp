@@ -14,14 +14,15 @@ namespace {
 
 const std::string kModels = RIGOR_SOURCE_DIR "/tests/cases/import/models/";
 
-// As its loader reads the file, without limits and contacts.
+// DART's loader reads the file, without limits and contacts.
 struct Own {
   dart::simulation::WorldPtr world;
 
   explicit Own(const std::string& path) {
     if (path.ends_with(".urdf")) {
       world = dart::simulation::World::create();
-      // By default a root floats there, and a link without mass has 1 kg; here, and in MuJoCo, it stands and has none.
+      // DART's default is a floating root, and 1 kg for a link without mass. Here, and in MuJoCo, the root is fixed and
+      // the link has no mass.
       dart::utils::DartLoader::Options options;
       options.mDefaultRootJointType = dart::utils::DartLoader::RootJointType::FIXED;
       options.mDefaultInertia = dart::dynamics::Inertia(1e-14, Vec3::Zero(), 1e-14 * Mat3::Identity());

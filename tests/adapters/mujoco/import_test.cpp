@@ -1,5 +1,5 @@
-// MuJoCo's own loader against our import of the same file: both step by the same scheme, so that what differs is the
-// import.
+// Compares MuJoCo's own loader with our import of the same file. Both use the same scheme, so every difference comes
+// from the import.
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 const std::string kModels = RIGOR_SOURCE_DIR "/tests/cases/import/models/";
 
-// As its loader reads the file, without what a scene is not compared in: limits, which are soft there, and contacts.
+// MuJoCo's loader reads the file, without limits, which are soft there, and without contacts.
 struct Own {
   mujoco_library::Model model;
   mujoco_library::Data data;
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(what_it_says_and_a_scene_does_not_is_named) {
                  .starts_with("m.xml:3: MuJoCo refuses the model: "));
 }
 
-// Both worlds are one model's, so that what is switched off in one and not in the other would be seen in how they move.
+// Both worlds belong to one model, so a setting that is off in only one of them would change the motion.
 BOOST_AUTO_TEST_CASE(what_a_file_switches_off_is_not_in_the_scene) {
   const auto with = [](const std::string& flags) {
     return "<mujoco><option><flag " + flags + R"(/></option><worldbody>

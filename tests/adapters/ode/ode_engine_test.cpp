@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(nothing_bounces_below_the_bounce_velocity) {
 }
 
 BOOST_AUTO_TEST_CASE(the_erp_pops_a_dead_ball_off_the_ground) {
-  // The depth it sinks to in one step, v dt at most, is given back as a speed of erp v: erp^2 of the height at most.
+  // The overlap after one step, at most v dt, is returned as a speed of erp v: at most erp^2 of the height.
   BOOST_TEST(first_apex("ode", 0, 1e-3) > 0.015);
   BOOST_TEST(first_apex("ode", 0, 1e-3) < 0.2 * 0.2);
   BOOST_TEST(first_apex("ode,erp=0.8", 0, 1e-3) > 0.25);
@@ -220,8 +220,8 @@ BOOST_AUTO_TEST_CASE(no_contact_of_two_boxes_is_left_out) {
     const Vec3 point = scene.bodies[0].orientation.conjugate() * (0.46 * Vec3(std::cos(angle), std::sin(angle), 0));
     scene.forces = {{.body = 0, .force = {0, 0, -500}, .torque = Vec3::Zero(), .point = point}};
     scene.contact_default = {0, 1};
-    // Nor does it rock, as it would on four points, of which the deepest is always one: from corner to corner at up to
-    // 9.5 rad/s (measured). Pressed towards a corner it does so on all eight, too.
+    // It does not rock either. On four points, the deepest of which is always a single one, it would rock from corner
+    // to corner at up to 9.5 rad/s (measured). If pressed towards a corner it does so on all eight, too.
     const auto world = load_run("ode", scene);
     double fastest = 0;
     for (int step = 0; step < 60; ++step)

@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(each_kind_of_joint_comes_to_the_cores_motion_at_first_order
       double errors[3];
       for (int k = 0; k < 3; ++k) errors[k] = test::pose_difference(end_of(run, scene, 1.0 / (800 << k), kEnd), truth);
       BOOST_TEST_CONTEXT(name << ", " << run << ": " << errors[0] << ", " << errors[1] << ", " << errors[2]) {
-        // Of first order, but for the next term. A body that is fixed to the world only sags, by the softness and dt².
+        // First order, up to the next term. A body that is fixed to the world only sags, by the softness and dt².
         BOOST_TEST(errors[0] / errors[1] > 1.9);
         BOOST_TEST(errors[1] / errors[2] > 1.95);
         BOOST_TEST(errors[2] < 2e-3);  // and not a slope that starts from another motion: 1.6 m and 2 rad of way
@@ -180,8 +180,8 @@ BOOST_AUTO_TEST_CASE(a_stop_gives_back_its_restitution_and_a_dead_one_nothing) {
   }
 }
 
-// ODE takes the speed of an impact from the centres' velocities alone, but gives it back along a row that also has the
-// bodies' turning: where the centres are not in line with the axis, a stop between two bodies gives back too little.
+// ODE takes the impact speed from the centres' velocities alone, but returns it along a row that includes the bodies'
+// rotation. If the centres are not in line with the axis, a stop between two bodies returns too little.
 BOOST_AUTO_TEST_CASE(the_stop_of_a_slider_between_two_bodies_gives_back_too_little) {
   for (const test::Ends ends : {test::Ends::two_bodies, test::Ends::swapped}) {
     Driven driven(kAxes[1].second, ends);
@@ -195,7 +195,7 @@ BOOST_AUTO_TEST_CASE(the_stop_of_a_slider_between_two_bodies_gives_back_too_litt
   }
 }
 
-// As shipped what went too far is pushed back by a speed that stays, a share of 0.2 of it at any step size.
+// The stock setting pushes an overshoot back with a speed that stays, a share of 0.2 of it at any step size.
 BOOST_AUTO_TEST_CASE(a_dead_stop_as_shipped_bounces) {
   double rebound = 0;
   for (int k = 0; k < 10; ++k) {  // it goes too far by chance
@@ -245,8 +245,8 @@ BOOST_AUTO_TEST_CASE(a_motor_pulls_no_harder_than_it_may) {
     driven.scene.motors = {speed(5, 0.3)};
     pushed.run(run, 0.1), driven.run(run, 0.1);
     BOOST_TEST_REQUIRE(pushed.now.rate > 0.01);
-    // A slider's effort acts in the line of b's centre here, midway between the centres there: the free pair turns a
-    // little otherwise, which is second order of a turn of 1e-2 rad.
+    // A slider's effort acts in the line of b's centre here, and midway between the centres there. The free pair
+    // rotates slightly differently, by the second order of a rotation of 1e-2 rad.
     BOOST_TEST(std::abs(driven.now.rate / pushed.now.rate - 1) < 1e-2, driven.now.rate << ", " << pushed.now.rate);
   });
 }

@@ -1,5 +1,5 @@
-// All examples of plug-ins in one report, made by the commands that adapters/plugin/README.md gives, and looked at in a
-// headless Chromium.
+// All examples of plug-ins in one report, made by the commands in adapters/plugin/README.md, and checked in a headless
+// Chromium.
 #include <sys/wait.h>
 
 #include <boost/test/unit_test.hpp>

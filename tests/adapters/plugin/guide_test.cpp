@@ -1,5 +1,5 @@
-// The guide "Bring your own engine" in adapters/README.md, done as it says: its pieces of awk saved one behind the
-// other as they come, and its commands run in between.
+// Follows the guide "Bring your own engine" in adapters/README.md: saves its pieces of awk one after another, and runs
+// its commands in between.
 #include <sys/wait.h>
 
 #include <boost/test/unit_test.hpp>

@@ -1,6 +1,6 @@
-# A plug-in that does nothing wrong, and everything otherwise than the examples. "sparse": as little as may be said,
-# whole numbers where they are whole, blanks and carriage returns. "rich": keys that no one has asked for, null for what
-# is not there, numbers with exponents, raw columns in some answers and rows in others.
+# A correct plug-in that differs from the examples in everything. "sparse" says as little as allowed, with whole
+# numbers, blanks and carriage returns. "rich" adds unknown keys, null for missing values, numbers with exponents, and
+# raw columns in some answers and rows in others.
 import json
 import struct
 import sys

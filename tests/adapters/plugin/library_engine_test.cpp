@@ -1,5 +1,5 @@
-// Engines that are shared libraries: the example against the same steps as a process, and one that misbehaves. What
-// crashes, throws or exits does so in a child process here, as a cell of the grid is one.
+// Shared libraries as engines: the example compared with the same steps as a process, and a library that misbehaves.
+// Crashes, exceptions and exits happen in a child process here, like those of a grid's cell.
 #include <stdlib.h>
 
 #include <boost/test/unit_test.hpp>
@@ -59,7 +59,7 @@ void five_steps(const Channel& channel) {
   }
 }
 
-// What five steps of it come to, in a child.
+// The result of five steps of it, in a child.
 std::string end_of(const std::string& mode) {
   const Misbehaviour misbehaviour(mode);
   std::string said;

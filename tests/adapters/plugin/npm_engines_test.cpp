@@ -1,5 +1,5 @@
-// The engines of the npm registry that the examples plug in, as package-lock.json names them: each conforms, and in
-// single precision each is as far from the truth as its scheme must be and no further.
+// The example engines of the npm registry, as package-lock.json names them. Each conforms. In single precision the
+// error of each is that of its scheme and no larger.
 #include <sys/wait.h>
 
 #include <boost/test/unit_test.hpp>

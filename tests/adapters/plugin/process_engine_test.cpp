@@ -1,5 +1,5 @@
-// Engines that are processes: the examples, and one that misbehaves in every way that we could think of. Whatever it
-// does ends in one sentence and the right kind of failure, within the time limit and in bounded memory.
+// Processes as engines: the examples, and an engine that misbehaves in every known way. Each failure ends in one
+// sentence and the right kind of failure, within the time limit and in bounded memory.
 #include <signal.h>
 #include <stdlib.h>
 

@@ -81,7 +81,7 @@ Json scenes_of_suite() {
 
 BOOST_AUTO_TEST_SUITE(adapters_plugin_protocol)
 
-// By ajv, which comes with the HTML report's page.
+// Uses ajv, which comes with the HTML report's page.
 BOOST_AUTO_TEST_CASE(the_schemas_say_what_is_said, *boost::unit_test::enable_if<RIGOR_HTML_REPORT>()) {
   const Folder folder;
   const Json said = recorded(folder);

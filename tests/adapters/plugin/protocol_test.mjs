@@ -1,4 +1,4 @@
-// Whether the published schemas take what is really said, and refuse what they must:
+// Checks that the published schemas accept real messages and reject invalid ones.
 // node protocol_test.mjs FOLDER-OF-node_modules FOLDER-OF-SCHEMAS SAID.json SCENES.json
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -9,7 +9,7 @@ const read = (file) => JSON.parse(readFileSync(file, "utf8"));
 const [said, scenes] = files.map(read);
 const Ajv = createRequire(join(modules, "index.js"))("ajv");
 
-// As published a schema lets unknown keys pass, for later versions; here each key that is written must be in it.
+// The published schemas accept unknown keys, for later versions. Here each written key must be in the schema.
 function closed(part) {
   if (Array.isArray(part)) return part.map(closed);
   if (part === null || typeof part !== "object") return part;

@@ -1,6 +1,6 @@
-// A second opinion on what the core's contact=event says of contact, by a program that shares no equation of it:
-// Siconos steps over impacts and changes of sliding by solving for them, in first order of dt, and has to come to the
-// same as dt falls. It shares the points at which bodies touch.
+// An independent check of the core's contact=event, by a program that shares no equation with it. Siconos steps over
+// impacts and changes of sliding, with first order in dt, and must converge to the same motion as dt falls. It shares
+// only the contact points.
 #include <boost/test/unit_test.hpp>
 
 #include "cases/case/suite.h"

@@ -1,4 +1,4 @@
-// Siconos in its own process: that it is one, what its law of contact is known for, and its traps, each found again.
+// Siconos in its own process: the process, the properties of its contact law, and its known traps.
 #include "adapters/siconos/siconos_engine.h"
 
 #include <boost/test/unit_test.hpp>

@@ -111,8 +111,8 @@ BOOST_AUTO_TEST_CASE(each_step_is_one_step_whatever_the_one_before_it_was) {
   }
 }
 
-// Where a step errs by more than 2^p of its accuracy, Simbody leaves quaternions as they came: at its own accuracy of
-// 1e-3 a coarse step of a top would.
+// If the error of a step exceeds 2^p times its accuracy, Simbody does not normalise quaternions. At its own accuracy of
+// 1e-3 a coarse step of a top would do this.
 BOOST_AUTO_TEST_CASE(quaternions_stay_of_length_one_at_coarse_steps) {
   for (const std::string& method : kFixedSteps) {
     const auto world = load_run("simbody:" + method, top());
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(rings_of_one_kind_of_joint_are_closed_by_constraints) {
                  fine = distance_from_truth("simbody", scene, 1.0 / 240, 0.3);
     const std::string what = joint_type_name(scene.joints[0]);
     BOOST_TEST_MESSAGE(what << ": " << coarse << ", " << fine);
-    // Of some metres and rad/s; a motion that the method has no error on is left to its roundings.
+    // For lengths of some metres and speeds of some rad/s; a motion without scheme error keeps its rounding.
     BOOST_TEST(fine < 1e-5, what << ": " << fine);
     BOOST_TEST((coarse > 11 * fine || coarse < 1e-11), what << ": " << coarse << " at twice the step, " << fine);
   }

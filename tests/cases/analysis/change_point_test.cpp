@@ -9,7 +9,7 @@ using namespace rigor;
 
 namespace {
 
-// As even noise of one part in ten, from a generator whose numbers are the same everywhere.
+// Uniform noise of one part in ten, from a generator with the same numbers on every machine.
 std::vector<double> noise(std::size_t count, unsigned long seed) {
   std::mt19937_64 engine(seed);
   std::vector<double> values(count);

@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(joints_that_part_are_found_with_the_engines_own_share) {
   BOOST_TEST(joint_diagnoses(grid, grid.cases[0]).empty());
 }
 
-// That sweeps are too few shows only beside another run of the engine, whose joints hold.
+// Too few sweeps show only beside another run of the engine whose joints hold.
 BOOST_AUTO_TEST_CASE(a_chain_stretches_beside_a_run_whose_joints_hold) {
   Results grid = test::jointed_results(test::chain_of(8, 1));
   test::set_gaps(grid, 0, {0.3, 0.2}), test::set_setting(grid, 0, "iterations", "20");

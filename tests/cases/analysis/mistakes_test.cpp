@@ -57,7 +57,7 @@ std::string first_line(const MistakeReport& report) {
   return text;
 }
 
-// What the first suspect leaves open, case by case.
+// The residual of the first suspect, case by case.
 std::string what_is_left(const MistakeReport& report) {
   std::string text;
   if (report.suspects.empty()) return text;
@@ -81,8 +81,7 @@ class Finders {
                                                       MistakeFinder::Options{2, 10});
     return place->second->report(BrokenEngine(engines_.find(name.engine), fault));
   }
-  // Whether any of the engine's motions is another with the fault in it, be it by one bit. Of scenes that the engine
-  // takes: what it refuses it is not given.
+  // Whether a fault changes any of the engine's motions, even by one bit. Only scenes that the engine supports count.
   bool is_moved_by(const std::string& run, const Fault& fault) const {
     const RunName name = parse_run_name(run, engines_.infos());
     std::vector<MotionTask> tasks;
@@ -283,8 +282,8 @@ BOOST_AUTO_TEST_CASE(the_amount_of_a_mistake_is_found) {
   }
 }
 
-// Of an engine that gets its loads from Rigor, what it tells wrongly counts as loaded alone: beside another mistake such
-// a one explains the few observations that the two are seen in as well as the other does by itself.
+// Of an engine that gets its loads from Rigor, what it tells wrongly counts as loaded alone: beside another mistake
+// such a one explains the few observations that the two are seen in as well as the other does by itself.
 BOOST_AUTO_TEST_CASE(a_mistake_alone_is_not_led_by_itself_with_another) {
   for (const Fault& fault : faults()) {
     if (fault.name != "quaternion order swapped on loading") continue;

@@ -1,5 +1,6 @@
-// rigor tune beside a full grid over the same space: no setting at any step keeps the bound for a tenth less than the
-// winner. One case; RIGOR_TUNE=all takes ten, which is some minutes, a case's id that one.
+// Compares rigor tune with a full grid over the same space: no setting at any step keeps the bound at a tenth less cost
+// than the winner. The default is one case. RIGOR_TUNE=all takes ten cases and some minutes; RIGOR_TUNE=ID takes one
+// case.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
@@ -17,8 +18,8 @@ struct Row {
   const char *id, *within;
 };
 
-// Where ODE's first-order steps keep the bound at a step that is tried. Among joints the grid has some hundred thousand
-// runs, and three values of each number are still hours.
+// Cases in which ODE's first-order steps keep the bound at some tried step. Jointed cases have some hundred thousand
+// runs, and even three values of each number take hours.
 constexpr Row kRows[] = {{"springs/fixed-spring", "1cm"},        {"springs/oscillator", "1cm"},
                          {"springs/hung-part", "1cm"},           {"springs/oscillator-underdamped", "1cm"},
                          {"springs/mass-ratio", "1cm"},          {"springs/stiff-1", "1cm"},
@@ -43,7 +44,7 @@ std::vector<std::string> all_settings(const std::string& engine, const Tuning& f
   return all;
 }
 
-// Of each of these [s], the median of so many repeats, in turn so that what disturbs the machine disturbs all.
+// The median of several repeats for each of these [s], taken in turn so that other load affects all equally.
 std::vector<double> costs_of(const std::vector<Probe>& probes, Prober& prober) {
   constexpr int kRepeats = 9;
   std::vector<std::vector<double>> costs(probes.size());

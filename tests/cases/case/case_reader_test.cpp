@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(each_case_that_cannot_be_is_refused) {
   for (const Refusal& row : kBadJudgements) check(row, kStart);
 }
 
-// What the truth 'events' is made by agrees with it however wrong both are.
+// The code that makes the truth 'events' agrees with it even if both are wrong.
 BOOST_AUTO_TEST_CASE(a_gate_that_holds_a_run_to_itself_is_refused) {
   const std::string start = R"(title = "A test"
 scene.body = [{ name = "box", mass = 1, position = [0, 0, 2], shape = { type = "box", size = [1, 1, 1] } },
@@ -145,7 +145,7 @@ because = 'x'
   BOOST_TEST(refused("events", "observed_order", itself).starts_with(":13:19: "));
   BOOST_TEST(refused("events", "position_error", "engines = 'ode'\nbetter_than = 'core:rk4,contact=event'")
                  .starts_with(":13:15: gate.better_than: found core:rk4,contact=event"));
-  // By itself a core that is not told how to treat contacts takes `event` for few bodies.
+  // Without a contact option the core takes `event` for few bodies.
   BOOST_TEST(refused("events", "position_error", "max = 1\nengines = ['core:rk4', 'ode']").starts_with(":13:12: "));
   BOOST_TEST(refused("events", "penetration", itself) == "");
   BOOST_TEST(refused("none", "position_error", itself) == "");

@@ -1,5 +1,5 @@
-// case.schema.json, which editors complete case files by, against the reader itself: the reader names the keys and the
-// words that it allows when it refuses another, so that what is added to it alone is missed here.
+// Compares case.schema.json, which editors use for completion, with the reader. The reader lists allowed keys and words
+// in its errors, so an addition to the reader alone is noticed here.
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -236,7 +236,7 @@ Json broken_cases() {
 
 }  // namespace
 
-// By ajv, which comes with the HTML report's page.
+// Uses ajv, which comes with the HTML report's page.
 BOOST_AUTO_TEST_CASE(every_case_of_the_suite_is_valid_and_broken_ones_are_not,
                      *boost::unit_test::enable_if<RIGOR_HTML_REPORT>()) {
   Json valid = Json::object();

@@ -1,4 +1,4 @@
-// Whether case.schema.json takes what it must and refuses what it must:
+// Checks that case.schema.json accepts valid files and rejects broken ones.
 // node case_schema_test.mjs FOLDER-OF-node_modules SCHEMA VALID.json BROKEN.json
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";

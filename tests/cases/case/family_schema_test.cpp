@@ -1,5 +1,5 @@
-// family.schema.json, which editors complete family.toml by, against the reader's own tables, and against
-// case.schema.json where the two speak of the same.
+// Compares family.schema.json, which editors use for completion, with the reader's tables, and with case.schema.json in
+// the common parts.
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
 #include <set>

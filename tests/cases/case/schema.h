@@ -44,7 +44,7 @@ inline Json as_json(const toml::node& node) {
   return node.value_or(std::string());
 }
 
-// That every one of `valid`, by name, is taken, and every one of the list `broken` is not.
+// Checks that every file of `valid` is accepted, and every one of `broken` is rejected.
 inline void check_by_ajv(const std::string& schema, const Json& valid, const Json& broken) {
   const Folder folder;
   const std::string files = folder.write("valid.json", valid.dump()) + " " + folder.write("broken.json", broken.dump());

@@ -1,6 +1,6 @@
-// The program where one of its system calls fails, or where it is killed at one: each in turn, over an older result.
-// Its outputs are the old or the new, whole, it says so by its exit code, and --resume after it gives the bits of a run
-// that nothing disturbed. RIGOR_ALL_CRASHES=1: at every call, not at a sample of them.
+// Runs the program with one failing system call, or kills it at one, each in turn, over an older result. Its outputs
+// must be the old or the new, complete ones, and its exit code must say which. --resume must then give the bits of an
+// undisturbed run. RIGOR_ALL_CRASHES=1 tests every call, not a sample.
 #include <cerrno>
 #include <cstring>
 

@@ -1,6 +1,5 @@
-// The program over the outputs of an older run, for tests that disturb it: what it leaves must be the old or the new,
-// whole, and what goes on from there the bits of a run that nothing disturbed. For files to which RIGOR_PROGRAM is
-// told.
+// Runs the program over the outputs of an older run, for tests that disturb it. The outputs must be the old or the new,
+// complete ones, and a continued run must give the bits of an undisturbed one. For files that define RIGOR_PROGRAM.
 #pragma once
 
 #include <boost/test/unit_test.hpp>
@@ -55,7 +54,7 @@ struct DisturbedProgram : SuiteProgram {
   // Whoever is killed between two renames leaves that to the next run; it says so by what it leaves.
   bool is_half_published() const { return fs::exists(fs::path(out) / ".rigor-partial/staged/ready"); }
 
-  // Of the outputs there are; empty if all is well.
+  // Checks the existing outputs; empty if all is well.
   std::string flaw_of(const Files& files, const Answer& answer) const {
     if (files == old) return answer.code == 0 ? "says that it is good, and nothing is new" : "";
     const std::string flaw = flaw_of_new(files, answer);
@@ -74,7 +73,7 @@ struct DisturbedProgram : SuiteProgram {
     results.erase("machine");  // which it has to ask for
     return results;
   }
-  // Of new outputs: what there is must be of this run alone, and what is missing said.
+  // Checks new outputs: all files must come from this run alone, and missing ones must be reported.
   std::string flaw_of_new(const Files& files, const Answer& answer) const {
     std::set<std::string> rest;
     for (const auto& [name, bytes] : files) rest.insert(name);

@@ -1,4 +1,4 @@
-// What somebody meets who has just got the program: what to do next, a case of one's own, completions, its files.
+// The first minutes of a new user: the next step, an own case, completions, and the program's files.
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-// Which runs a command takes.
+// The runs that a command selects.
 #include "cases/cli/grid_run.h"
 
 #include <boost/test/unit_test.hpp>

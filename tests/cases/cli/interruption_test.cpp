@@ -150,8 +150,8 @@ BOOST_AUTO_TEST_CASE(a_run_killed_while_it_publishes_goes_on_to_its_own_trajecto
   }
 }
 
-// A grid of cells that take a while each, killed at one moment after another and gone on with: what is there is always
-// whole, old or new, and no cell that had ended is run again.
+// A grid of slow cells, killed at one moment after another and continued. The files are always complete, old or new,
+// and finished cells are not repeated.
 BOOST_AUTO_TEST_CASE(a_run_killed_at_any_moment_leaves_whole_files_and_goes_on_from_there) {
   const std::vector<std::string> words = {"run",     "--engine", "core:rk4", "--engine", "ode", "--dt",
                                           "1/20000", "--jobs",   "1",        "--out",    out};

@@ -1,6 +1,6 @@
-// The program killed at random moments, at first and while it goes on with --resume: the process alone or all of its
-// group. What is there is always old or new, whole, and what goes on to its end has the bits of a run that nothing
-// disturbed. RIGOR_KILLS=1000: so many kills, not a few.
+// Kills the program at random moments, in the first run and during --resume: the process alone or its whole group. The
+// files must always be old or new and complete, and the finished run must have the bits of an undisturbed one.
+// RIGOR_KILLS=1000 sets the number of kills.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -37,7 +37,7 @@ struct KilledProgram : DisturbedProgram {
     for (int i = 0; i < 2000 && kill(-group, 0) == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     BOOST_TEST_REQUIRE(kill(-group, 0) != 0, "something that the program started is still there");
   }
-  // It lives on, in a group of its own, and has the lock until it ends: looked at before, files are old and new.
+  // It survives in a group of its own, and holds the lock until it ends. Before that, old and new files are mixed.
   void wait_for_whoever_publishes() const {
     const int lock = open((fs::path(out) / ".rigor-partial/lock").c_str(), O_RDWR | O_CLOEXEC);
     if (lock < 0) return;

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(a_gate_answers_the_same_over_ranks) {
   const Answer whole = shell("'" RIGOR_PROGRAM "' " + words + "whole"), shared = ranks(3, words + "shared");
   BOOST_TEST(whole.code == 1);
   BOOST_TEST(shared.code == 1, shared.err);
-  // Beside it the table has costs, which are measured anew.
+  // The table also has costs, which differ between measurements.
   const auto bounds = [](const std::string& out) { return out.substr(out.find("bounds:")); };
   BOOST_TEST(bounds(shared.out) == bounds(whole.out));
   BOOST_TEST(without_timings(Json::parse(content("whole/results.json"))) ==

@@ -1,5 +1,5 @@
-// The program with engines from outside: each has its column and its status, and no gate holds for one that did not
-// run.
+// The program with engines from outside: each has its column and its status, and no gate holds for an engine that did
+// not run.
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 

@@ -39,8 +39,8 @@ BOOST_AUTO_TEST_CASE(help_and_version_are_on_stdout) {
   }
 }
 
-// A rod on a hinge whose end stands still, thrown off it: the hinge lets it turn only. Of the momentum about the hinge,
-// 1 kg × 0.5 m × 2 m/s, its inertia there of 1/3 kg m² makes 3 rad/s.
+// A rod on a hinge with a fixed end, thrown: the hinge only lets it rotate. The momentum about the hinge, 1 kg × 0.5 m
+// × 2 m/s, and its inertia there of 1/3 kg m² give 3 rad/s.
 BOOST_AUTO_TEST_CASE(settle_prints_the_file_with_the_nearest_velocities_that_its_joints_allow) {
   const std::string text = R"(title = "thrown"
 [[scene.body]]
@@ -173,7 +173,7 @@ BOOST_AUTO_TEST_CASE(run_writes_its_reports_and_prints_the_table) {
   const Answer answer =
       run({"run", "stone", "--engine", "core:rk4", "--engine", "ode", "--engine", "ode", "--out", out});
   BOOST_TEST(answer.code == 0);
-  // What it will do, a line; and no progress bar where there is no terminal.
+  // One line about the plan, and no progress bar without a terminal.
   BOOST_TEST(answer.err.starts_with("rigor: 1 case by 2 runs: 4 cells; "), answer.err);
   BOOST_TEST(std::count(answer.err.begin(), answer.err.end(), '\n') == 1, answer.err);
   BOOST_TEST(answer.out.find("core:rk4") != std::string::npos);

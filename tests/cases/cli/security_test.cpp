@@ -1,6 +1,5 @@
-// What files from elsewhere may touch: nothing outside --out is written, whatever the names in a case, in what a
-// plug-in says or in a part of a grid are, and a page made from them holds no markup of theirs. See
-// .github/SECURITY.md.
+// The limits of foreign files: nothing outside --out is written, whatever names occur in a case, in the answers of a
+// plug-in or in a part of a grid. A page made from them contains none of their markup. See .github/SECURITY.md.
 #include <boost/test/unit_test.hpp>
 #include <map>
 

@@ -30,9 +30,9 @@ struct Fixture : Program {
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_sweep, Fixture)
 
-// w = sqrt(k/m). Semi-implicit Euler is stable where w dt < 2. It keeps a modified energy, by which the energy itself
-// may rise 1/(1 - (w dt/2)²) times: 10 times, which counts as blown up, at 1.9, and 3.6 times at 1.7. At 2.05 a step
-// multiplies it by 1.56, 60,000 times in the fewest steps that there are.
+// w = sqrt(k/m). Semi-implicit Euler is stable while w dt < 2. It conserves a modified energy; the energy itself may
+// rise by 1/(1 - (w dt/2)²). At 1.9 this is 10 times, which counts as blown up, and at 1.7 it is 3.6 times. At 2.05 a
+// step multiplies it by 1.56, 60,000 times in the fewest possible steps.
 BOOST_AUTO_TEST_CASE(the_boundary_of_stability_is_where_theory_puts_it) {
   const Answer answer = sweep({"--vary", "dt=1/100..1/5:log:12", "--vary", "scene.spring[0].stiffness=1e2..1e6:log:13",
                                "--engine", "core:semi-implicit-euler", "--engine", "ode", "--engine", "bullet"});

@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(a_row_of_several_runs_is_met_by_a_gate_of_one_of_them) {
   check_known_deviations(read(text), {definition}, infos());
 }
 
-// What was recorded was recorded with the deviation in it.
+// The recorded value includes the deviation.
 BOOST_AUTO_TEST_CASE(a_regression_is_no_deviation_that_is_known) {
   Results grid = judged(2, 0.5, {});
   CaseResult& result = grid.cases.front();

@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(a_row_says_what_was_found_where_and_why) {
   BOOST_TEST(failure_of(order).found == "0.01");  // an order has no unit
 }
 
-// Where there is no value, or a pass that nobody expected, the answer itself says why.
+// If there is no value, or an unexpected pass, the answer itself gives the reason.
 BOOST_AUTO_TEST_CASE(a_row_without_a_value_or_of_an_unexpected_pass_says_the_answer) {
   Gate limit = gate("position_error");
   limit.max = 0.005;

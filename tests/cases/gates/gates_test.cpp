@@ -125,8 +125,8 @@ BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold)
              std::string::npos);
 }
 
-// Of what somebody chose, a gate is answered by what is there, or was not asked; what it should have and has not is a
-// fault all the same.
+// With a selection, a gate is answered by the available cells, or not checked. A missing cell that was selected is
+// still a failure.
 BOOST_AUTO_TEST_CASE(a_gate_of_other_runs_or_steps_than_were_chosen_is_not_asked) {
   const auto answers = [](const Gate& limit, auto change) {
     GatedGrid chosen;  // of the runs and steps there are, "a" at all steps
@@ -159,7 +159,8 @@ BOOST_AUTO_TEST_CASE(a_gate_of_other_runs_or_steps_than_were_chosen_is_not_asked
   BOOST_TEST(count(answers(limit, without_the_metric), GateAnswer::not_checked) == 1);
   const auto one_without = [&](GatedGrid& chosen) { at_one_step(chosen), without_the_metric(chosen); };
   BOOST_TEST(count(answers(limit, one_without), GateAnswer::not_checked) == 1);
-  // Of both runs of the ranking, without the metric: it was asked, and is not answered; of one that cannot, it was not.
+  // Both runs of the ranking lack the metric: the gate was checked, and has no answer. If one run cannot have it, the
+  // gate was not checked.
   const auto ranked = [&](Status its) {
     return answers(ranking, [&](GatedGrid& chosen) {
       chosen.result().cells = GatedGrid().result().cells;
@@ -282,7 +283,7 @@ BOOST_AUTO_TEST_CASE(limits_are_wider_for_single_precision_by_its_roundings_and_
   BOOST_TEST(count(answers_of(3e-6), GateAnswer::held) == 0);
 }
 
-// A run may go on by steps of less than its method's order: what it was held to then says nothing of the method.
+// A run may continue with steps below its method's order. The result of a gate then says nothing about the method.
 BOOST_AUTO_TEST_CASE(a_gate_that_held_over_a_time_of_reduced_order_says_so) {
   GatedGrid fixture;
   Gate limit = gate("position_error"), order = gate("position_error");

@@ -11,7 +11,8 @@ using rigor::test::body;
 
 namespace {
 
-// Two that move, and one far off that does not. Of 4 J, 2 kg can have 2 m/s, and 0.5 kg m² can have 4 rad/s.
+// Two bodies that move, and one far away that does not. With 4 J, 2 kg can reach 2 m/s, and 0.5 kg m² can reach 4
+// rad/s.
 CaseResult thrown(double largest_kinetic_energy) {
   CaseResult result;
   result.definition = drifting_body("thrown");
@@ -49,7 +50,7 @@ BOOST_AUTO_TEST_CASE(each_unit_has_the_allowance_that_its_sizes_make) {
   }
 }
 
-// As fast as they are at the start, and by what they fall.
+// The speeds at the start, and those from their fall.
 BOOST_AUTO_TEST_CASE(without_a_truth_the_start_and_the_fall_say_how_fast_it_gets) {
   const double speed = 1 + 10 * 3, place = 5 + 3 * speed;
   const std::map<std::string, double> wanted = {{"m", place + 3 * speed}, {"m/s", speed}, {"rad/s", 0.5}, {"1", 1}};

@@ -1,4 +1,4 @@
-// What nobody vouches for: each is refused with its file and line, and nothing outside the model's folder is opened.
+// Untrusted input: each file is rejected with its name and line, and no file outside the model's folder is opened.
 #include <sys/resource.h>
 
 #include <algorithm>

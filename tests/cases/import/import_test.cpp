@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(sdf_takes_universal_ball_and_spring_and_models_in_models) {
   BOOST_TEST((joint_named(scene, "s").stiffness == 7 && joint_named(scene, "s").rest == -0.2));
 }
 
-// As files that simulators come with have it: a rail whose mass is 0, a matrix with its other half.
+// As in files of simulators: a rail of mass 0, and a matrix with both halves.
 BOOST_AUTO_TEST_CASE(a_mass_of_zero_is_none_and_half_a_matrix_is_enough) {
   const std::string rail =
       "<robot name='r'><link name='rail'><inertial><mass value='0'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
@@ -247,7 +247,7 @@ BOOST_AUTO_TEST_CASE(a_mass_of_zero_is_none_and_half_a_matrix_is_enough) {
   const auto left_out = left_out_of_model("r.urdf", rail);
   for (const char* part : {"link 'rail': <mass>: its inertia: a mass of 0 is none", "'iyx'", "'izx'", "'izy'"})
     BOOST_TEST(some_has(left_out, part), part);
-  // Where something hangs on it and it moves, nothing can be simulated, as without an <inertial>.
+  // If a moving link without mass carries others, the model cannot be simulated; the same without <inertial>.
   const std::string between =
       "<robot name='r'><link name='world'/><link name='a'><inertial><mass value='0'/><inertia ixx='1' ixy='0' ixz='0' "
       "iyy='1' iyz='0' izz='1'/></inertial></link><link name='b'><inertial><mass value='1'/><inertia ixx='1' ixy='0' "

@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(a_free_fall_by_semi_implicit_euler_loses_nothing_once_synch
   const JudgedRun run{scene, trajectory, nullptr, 0.5};
   // Rounding of 100 kg falling 490 m, of which all is in play.
   BOOST_TEST(test::measured("energy_drift_synchronised", run).measurement->value < 1e-11);
-  // As read: E - E0 = m g dt (v(t) - v(0)) / 2 up to what the step's own energy is, g²dt²/8 a kilogram.
+  // Raw: E - E0 = m g dt (v(t) - v(0)) / 2, up to the step's own energy of g²dt²/8 per kilogram.
   const double raw = 0.5 * 100 * 9.8 * dt * 9.8 * 10;
   const Measurement as_read = *test::measured("energy_drift", run).measurement;
   BOOST_TEST(as_read.value * energy_in_play(scene, 10) == raw, boost::test_tools::tolerance(1e-9));

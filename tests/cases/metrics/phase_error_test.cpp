@@ -158,8 +158,8 @@ BOOST_AUTO_TEST_CASE(the_search_goes_half_a_period_of_the_faster_motion_either_w
   BOOST_TEST(why.starts_with("the best shift is 0.74"), why);
 }
 
-// A tremble of 1e-7 m at 300 rad/s has 2e-11 of the energy that spinning has, and ten times as fast 2e-9 of it: its
-// period of 21 ms or 2 ms then ends the search. Likewise of a swing that trembles as it turns.
+// A vibration of 1e-7 m at 300 rad/s has 2e-11 of the energy of the spin, and at ten times the frequency 2e-9. Its
+// period of 21 ms or 2 ms then ends the search. The same holds for a swing that vibrates as it rotates.
 BOOST_AUTO_TEST_CASE(a_trace_of_motion_says_nothing_of_the_period) {
   const auto trembling_spin = [](double speed) {
     return [speed](double t) {
@@ -225,10 +225,9 @@ BOOST_AUTO_TEST_CASE(the_samples_a_quarter_from_both_ends_are_three_at_least) {
   BOOST_TEST(found.compared_until == 4);
 }
 
-// The truth's samples tell which shift is the best one, however far apart they are: the truth itself is asked there, at
-// both beside it, and as often between these as the root of the slope takes, which of an even motion is once. The
-// samples that are compared are 93, from 0.74 s to 19.26 s and a little more of the spin, and of passing 41, from 10 s
-// to 30 s.
+// The truth's samples find the best shift at any spacing. The truth itself is evaluated at that shift, at both
+// neighbours, and between these as often as the root of the slope needs, once for an even motion. The compared samples
+// are 93, from 0.74 s to 19.26 s and slightly more of the spin; for passing they are 41, from 10 s to 30 s.
 BOOST_AUTO_TEST_CASE(the_truth_is_asked_at_few_shifts) {
   for (const double lag : {0.4, -0.4, 0.02, 0.6}) {
     BOOST_TEST(shifts_tried(swinging_about_its_start, lag, 0.2, 100, 93) <= 8);
@@ -237,7 +236,7 @@ BOOST_AUTO_TEST_CASE(the_truth_is_asked_at_few_shifts) {
   }
 }
 
-// Of 500 samples, or of joints 40, every second one is asked for.
+// Of 500 samples, or 40 with joints, every second one is evaluated.
 BOOST_AUTO_TEST_CASE(of_many_samples_some_are_compared) {
   // Four or five shifts, by roundings.
   const auto is_few = [](double shifts) { return shifts == 4 || shifts == 5; };
@@ -247,22 +246,22 @@ BOOST_AUTO_TEST_CASE(of_many_samples_some_are_compared) {
   BOOST_TEST(is_few(shifts_tried(passing, 0.2, 0.05, 77, 38, true)));
 }
 
-// Samples of which the velocities are the wrong way round lead to a neighbour of the best shift: from there the truth
-// itself leads on, either way.
+// Samples with reversed velocities lead to a neighbour of the best shift. From there the truth itself leads on in
+// either direction.
 BOOST_AUTO_TEST_CASE(where_samples_mislead_the_truth_itself_is_followed) {
   const auto backwards = [](double t) {
     BodyState state = passing(t);
     if (std::abs(std::remainder(t, 5)) < 1e-6) state.velocity = -state.velocity;
     return state;
   };
-  // By shifts of 6.25 s: the third is the nearest to 17 s, and the second seems to be.
+  // With shifts of 6.25 s the third is the nearest to 17 s, and the second seems to be.
   for (const double lag : {17.0, -17.0, 23.0, -23.0, 30.0, -30.0})
     BOOST_TEST(shifts_tried(backwards, lag, 5, 80, 41) < 30);
 }
 
-// A truth whose velocities are not those of its positions: at 0.5 m/s, but for the instants that one of the shifts
-// beside the best asks for. The misfit is a parabola all the same, and its vertex the lag. Best of shifts by 2.5/16 s
-// is the third, 0.46875 s; its neighbours ask for samples, 0.05 s apart, less 0.3125 s and less 0.625 s.
+// A truth whose velocities do not match its positions: they are 0.5 m/s, except at the instants that one of the shifts
+// beside the best evaluates. The misfit is still a parabola with its vertex at the lag. Of shifts by 2.5/16 s the
+// third, 0.46875 s, is best; its neighbours evaluate samples, 0.05 s apart, minus 0.3125 s and minus 0.625 s.
 BOOST_AUTO_TEST_CASE(where_the_slope_has_no_root_the_vertex_of_the_misfit_counts) {
   for (const double beside : {0.0375, 0.025}) {
     for (const double speed : {-0.5, 0.0}) {

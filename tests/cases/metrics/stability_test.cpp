@@ -79,9 +79,8 @@ BOOST_AUTO_TEST_CASE(the_largest_kinetic_energy_is_the_truths_or_what_the_start_
   BOOST_TEST(energy_extremes(scene, nullptr, 2).kinetic == 529, boost::test_tools::tolerance(1e-12));
 }
 
-// A pole of 1 m that is balanced on a hinge and drawn sideways by 1e-6 of its weight: its truth comes to 3e-11 J in
-// half a second, and a joint that gives way by a tenth of a micrometre under 10 N has 1e-6 J. None of that has blown
-// up.
+// A pole of 1 m balanced on a hinge and pulled sideways by 1e-6 of its weight. Its truth reaches 3e-11 J in half a
+// second. A joint that yields by a tenth of a micrometre under 10 N has 1e-6 J. None of these counts as blown up.
 BOOST_AUTO_TEST_CASE(a_pole_that_is_balanced_has_what_it_can_fall_in_play) {
   Scene scene;
   scene.gravity = {1e-5, 0, -10};

@@ -1,4 +1,4 @@
-// What verdicts say where a bound of theirs is met exactly, and of the first and the last of their samples.
+// Verdicts exactly at their bounds, and at the first and the last of their samples.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -25,7 +25,7 @@ Scene ball_and_ground(ContactLaw law) {
   return scene;
 }
 
-// Where the scene puts them, the first body at these speeds [m/s], a second apart.
+// The scene's positions, with the first body at these speeds [m/s], a second apart.
 Trajectory at_speeds(const Scene& scene, const std::vector<double>& speeds) {
   Trajectory run{1, {}};
   for (const double speed : speeds) {
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(what_is_driven_as_its_truth_is_gains_nothing_of_its_own) {
   BOOST_TEST(verdict.why.find("nothing drives") == std::string::npos, verdict.why);
 }
 
-// What starts apart may go as deep as it is thick into what is fixed, whichever comes first in the scene.
+// Bodies that start apart may overlap a fixed body by their thickness, in any order of the scene.
 BOOST_AUTO_TEST_CASE(a_fixed_body_that_is_first_is_gone_into_as_deep) {
   Scene scene;
   scene.bodies = {test::plane(), test::on_its_own("ball", Sphere{0.5}, 2, {0, 0, 0.5})};
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(a_truth_that_has_just_a_billionth_of_what_the_scene_has_har
   };
   BOOST_TEST(kinetic(2e-9, 1, 0) == 1);
   BOOST_TEST(kinetic(2.4e-9, 1, 0) == 1.2e-9, boost::test_tools::tolerance(1e-12));
-  // Of 100 J, which a start at 10 m/s has.
+  // Relative to 100 J, which a start at 10 m/s has.
   Scene scene;
   scene.bodies = {test::body("bead", 2, {1, 1, 1})};
   scene.bodies[0].velocity = {10, 0, 0};

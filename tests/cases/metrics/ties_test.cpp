@@ -1,4 +1,4 @@
-// What metrics say of bodies that are as far off as each other, and of what is off in another way than they measure.
+// Metrics of bodies with equal errors, and of errors that a metric does not measure.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(of_two_that_creep_or_sink_as_far_the_first_is_named) {
   BOOST_TEST(measured("penetration", {scene, sinks, nullptr, 0}).worst.body == 0);
 }
 
-// What turns is where it was, and what is as fast as another may be turned as it.
+// A rotated body stays in place, and a body of equal speed may have another orientation.
 BOOST_AUTO_TEST_CASE(a_turn_is_no_displacement_and_a_speed_no_turn) {
   Scene scene = two_boxes();
   scene.bodies = {scene.bodies[2], scene.bodies[0]};
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(of_stops_as_far_off_the_first_is_named) {
   };
   BOOST_TEST(worst_of(0.75, 0.75, 1) == 0);
   BOOST_TEST(worst_of(1, 0.75, 0.75) == 2);
-  // Of the longest the last: so std::minmax_element has it.
+  // Of equally long ones the last, as with std::minmax_element.
   BOOST_TEST(worst_of(1.5, 1.5, 1) == 2);
 }
 

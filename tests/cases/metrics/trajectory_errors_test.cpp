@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(a_run_is_held_against_its_twin_until_roundings_alone_may_ha
   BOOST_TEST(compared_until({0, 3.75e-10, 3.75e-10, 3.75e-10}) == 0);
 }
 
-// Of one radian, just 1e-10.
+// Relative to one radian, exactly 1e-10.
 BOOST_AUTO_TEST_CASE(orientations_are_held_against_the_twins_up_to_just_what_roundings_may_have_made) {
   AtRest made;
   const TwinRun twin{made.trajectory, {0, 0, 0, 0}, {0, 1e-10, 1e-10, 1.2e-10}};

@@ -1,5 +1,5 @@
-// When tube asks the truth between samples, which takes long, and where it finds the nearest instant: with bodies of
-// which one alone is off, and truths that count how often they are asked.
+// When tube evaluates the truth between samples, which is slow, and where it finds the nearest instant. One of several
+// bodies has an error, and the truths count their evaluations.
 #include <boost/test/unit_test.hpp>
 #include <numbers>
 
@@ -11,7 +11,7 @@ namespace {
 
 using Motion = std::function<BodyState(double t)>;
 
-// Of any number of bodies; notes when it is asked.
+// For any number of bodies; counts its evaluations.
 class CountedTruth : public Truth {
  public:
   explicit CountedTruth(std::vector<Motion> bodies) : bodies_(std::move(bodies)) {}
@@ -82,8 +82,8 @@ BOOST_AUTO_TEST_CASE(turning_may_bring_it_near_as_well) {
   }
 }
 
-// It rushes at 1 m/s for an instant, sample 5; the run is 0.1 m ahead. What may be gained is what the fastest of three
-// samples allows.
+// The truth moves at 1 m/s for an instant, sample 5; the run is 0.1 m ahead. The possible gain follows from the fastest
+// of three samples.
 BOOST_AUTO_TEST_CASE(the_fastest_of_the_samples_before_and_after_counts) {
   for (const int rush : {0, 5, 10}) {
     const auto rushing = [=](double t) {
@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(a_slow_body_is_followed_as_far_as_a_step_goes) {
   BOOST_TEST(tube_of({slow}, {late}, 0.5, 8).measured.value == 1);
 }
 
-// Of bodies as far off the first is named.
+// Of bodies with equal errors the first is named.
 BOOST_AUTO_TEST_CASE(of_two_that_are_as_far_off_the_first_is_named) {
   const Motion rest =
                    [](double) {

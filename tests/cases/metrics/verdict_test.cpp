@@ -154,9 +154,9 @@ BOOST_AUTO_TEST_CASE(a_bounded_oscillation_of_a_kept_energy_is_neither_drift_nor
 }
 
 BOOST_AUTO_TEST_CASE(velocities_half_a_step_behind_are_brought_forward_before_the_energy_is_judged) {
-  // Thrown up at 5 m/s and back at its start after 1 s, without loss. Read half a step early it is g dt/2 too fast on
-  // the way up and too slow on the way down: m v g dt/2, 3 J between the outer tenths, of 225 J in play in a fall of 1
-  // s.
+  // Thrown up at 5 m/s and back at its start after 1 s, without loss. Half a step early, the speed is g dt/2 too high
+  // on the way up and too low on the way down: m v g dt/2, 3 J between the outer tenths, of 225 J in play in a fall of
+  // 1 s.
   Scene scene;
   scene.gravity = {0, 0, -10};
   scene.bodies = {test::body("ball", 2, {1, 1, 1})};
@@ -170,15 +170,15 @@ BOOST_AUTO_TEST_CASE(velocities_half_a_step_behind_are_brought_forward_before_th
 }
 
 BOOST_AUTO_TEST_CASE(what_loses_energy_and_regains_half_of_it_is_gaining) {
-  // From 0.5 m to lying flat at 0.1 m is all that is in play: 2 kg · 10 m/s² · 0.4 m = 8 J. It falls by 0.3 m, is
-  // lifted by 0.16 m = 3.2 J, and falls again: the first tenth and the last say nothing of it, nor does the start.
+  // The energy in play is from 0.5 m to lying flat at 0.1 m: 2 kg · 10 m/s² · 0.4 m = 8 J. It falls by 0.3 m, is lifted
+  // by 0.16 m = 3.2 J, and falls again. Neither the first and last tenth nor the start show it.
   const auto lifted = [](double t) { return t < 2 ? 0.5 : t < 4 ? 0.2 : t < 6 ? 0.36 : 0.2; };
   const Stability verdict = verdict_of_height(standing_box(), lifted);
   BOOST_TEST(word_of(verdict.verdict) == "gaining");
   BOOST_TEST(verdict.amount == 0.4, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(verdict.time == 4, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(phrase_of(verdict) == "gaining 40 %");
-  // What falls and stays down has gained nothing.
+  // A body that falls and stays down has gained nothing.
   BOOST_TEST(word_of(verdict_of_height(standing_box(), [](double t) { return t < 2 ? 0.5 : 0.45; }).verdict) ==
              "stable");
 }

@@ -1,5 +1,5 @@
-// What each metric says of where a run is worst: value, time, body, component, and both values, on runs that are off in
-// one place more than in another. A report quotes these; a number alone would not show that they are another body's.
+// The worst instant of each metric: value, time, body, component, and both values, on runs with one error larger than
+// the others. A report quotes these; a number alone would not reveal a wrong body.
 #include <fmt/format.h>
 #include <boost/test/unit_test.hpp>
 
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(impact_times_are_compared_one_by_one_up_to_the_truths_horiz
   const auto truth = make_truth("bounce", scene, 3);
   Trajectory run = test::played(*truth, scene, 0.01, 270);
   TruthSamples samples = test::sampled(*truth, run, scene, 100);
-  // From 1.5 s on it is 0.03 s behind.
+  // The delay is 0.03 s from 1.5 s on.
   for (std::size_t n = 150; n < run.samples.size(); ++n) run.samples[n].bodies = samples.bodies[n - 3];
   const Trajectory itself = test::played(*truth, scene, 0.01, 270);
   const Measurement none = *test::measured("impact_time_error", {scene, itself, &samples, 0}).measurement;
@@ -340,7 +340,7 @@ BOOST_AUTO_TEST_CASE(a_stop_that_the_truth_cannot_tell_from_none_is_none) {
              "no body comes to a stop in truth");
 }
 
-// By the square of the speed: 1e-9 of the distance is alike.
+// With the square of the speed: 1e-9 of the distance is equal.
 BOOST_AUTO_TEST_CASE(directions_are_compared_only_where_their_distances_should_be_the_same) {
   Scene scene = test::on_slope(Box{{0.4, 0.4, 0.2}}, 0, 0.5, 5);
   scene.bodies.push_back(scene.bodies[0]);

@@ -261,7 +261,7 @@ BOOST_AUTO_TEST_CASE(a_setting_of_several_values_differs_where_one_of_them_is_ne
              std::vector<std::string>{"good, solver: exact | new, was exact | rough"});
 }
 
-// Of the answers to one question the worst counts, and one over several steps has no cell that would tell of it.
+// Of several answers to one question the worst counts. An answer over several steps has no cell that would show it.
 BOOST_AUTO_TEST_CASE(an_answer_over_several_steps_is_kept_and_the_worst_of_two_counts) {
   const auto with = [](std::vector<GateAnswer> answers) {
     Results grid = gated_results();
@@ -360,6 +360,5 @@ BOOST_AUTO_TEST_CASE(a_cell_that_runs_out_of_time_is_worse_than_one_that_cannot_
   both_ways(before, after, [](const Changes& changes) { BOOST_TEST(changes.newly_failing.size() == 1u); });
   both_ways(after, before, [](const Changes& changes) { BOOST_TEST(changes.newly_passing.size() == 1u); });
 }
-
 
 BOOST_AUTO_TEST_SUITE_END()

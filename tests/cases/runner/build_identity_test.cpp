@@ -1,4 +1,4 @@
-// That results are of this program and of what it is linked with.
+// Results belong to this program and its linked libraries.
 #include "cases/runner/build_identity.h"
 
 #include <fmt/format.h>

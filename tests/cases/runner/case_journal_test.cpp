@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(each_share_of_each_case_has_a_file_of_its_own) {
   BOOST_TEST(journal_of(grid.cases[1], grid, 7, options) == "folder/1.7.journal");
 }
 
-// Whatever may change the results makes it another plan.
+// Everything that may change the results gives another plan.
 BOOST_AUTO_TEST_CASE(a_plan_is_of_all_that_its_case_depends_on) {
   const EngineTable table = engines_inside_and_outside(), other = engines_inside_and_outside("another hash");
   const Results grid = planned(table);
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_or_may_end_otherwise_is_not_believed) {
     forget_what_is_wrong(again, grid, grid.cases[0], table, options);
     return !again.found().empty();
   };
-  // By engine, then by step.
+  // Sorted by engine, then by step.
   const std::size_t inside = 0, inside_finer = 1, outside = 2;
   for (const Status status : {Status::pass, Status::crashed, Status::timed_out, Status::diverged, Status::invalid}) {
     const bool came_to_nothing = status == Status::crashed || status == Status::timed_out;
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(the_answers_of_a_case_are_those_of_all_its_shares_but_not_i
   BOOST_TEST(whole[0].message == "of all");
 }
 
-// By the cell that an answer is about, wherever it stands.
+// Found by its cell, at any place.
 BOOST_AUTO_TEST_CASE(paths_are_of_the_cells_that_left_one) {
   const EngineTable table = engines_inside_and_outside();
   const Results grid = planned(table);

@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(a_step_has_to_hold_for_thirty_seconds_or_the_run) {
   BOOST_TEST(run(definition, lost_after(31), quick(true)).stable_steps[0].step.is_floor);
 }
 
-// Of jointed bodies a method that divides its steps is asked for the run's own time alone.
+// In jointed scenes an adaptive method is searched only over the run's own duration.
 BOOST_AUTO_TEST_CASE(an_adaptive_method_among_joints_has_to_hold_for_the_run) {
   Case definition = drifting_body("a");
   definition.scene.bodies[0].velocity = Vec3::Zero();
@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(each_kind_of_failure_has_its_status) {
   }
 }
 
-// What came to an end is not done again: the second engine would crash.
+// Finished cells are not repeated: the second engine would crash.
 BOOST_AUTO_TEST_CASE(a_journal_keeps_the_truth_and_each_answer_but_no_time_out) {
   const Folder folder;
   Case definition = drifting_body("a");
@@ -234,8 +234,8 @@ BOOST_AUTO_TEST_CASE(a_journal_keeps_the_truth_and_each_answer_but_no_time_out) 
   BOOST_TEST((later.stable_steps[0].status == Status::pass), later.stable_steps[0].reason);
 }
 
-// Lifted by 1 km against 10 m/s² it has 10 kJ: a thousand times what the truth has in half a second, and less than ten
-// times the 45 kJ that it has in thirty; a thousand km are more.
+// Lifted by 1 km against 10 m/s² it has 10 kJ. This is a thousand times the truth's energy in half a second, and less
+// than ten times the 45 kJ in thirty seconds. A thousand km exceed both.
 BOOST_AUTO_TEST_CASE(what_a_stable_step_may_gain_is_measured_by_the_truth_over_thirty_seconds) {
   Case definition = drifting_body("a");
   definition.truth = "reference", definition.scene.gravity = {-10, 0, 0};

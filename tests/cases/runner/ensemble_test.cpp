@@ -1,5 +1,5 @@
-// Ensembles: starts that differ by no more than they should, outcomes that other code of the same laws repeats as a
-// distribution, and ones that a wrong law does not.
+// Ensembles: starts that differ only slightly, outcomes that other code of the same laws reproduces as a distribution,
+// and outcomes that a wrong law does not.
 #include "cases/runner/ensemble.h"
 
 #include <boost/test/unit_test.hpp>
@@ -157,8 +157,8 @@ BOOST_AUTO_TEST_CASE(one_start_that_blows_up_or_breaks_a_promise_spoils_all) {
   BOOST_TEST(flaw == "failed in step 2");
 }
 
-// The reference's step is the finest of the case: 8 steps of 0.05 s in a radian of a swing leave it 1e-3 of its way
-// from where half of that has it, a thousand times what the starts differ by.
+// The reference uses the case's finest step. With 8 steps of 0.05 s per radian of a swing its distance from the result
+// at half of that step is 1e-3 of the way, a thousand times the difference of the starts.
 BOOST_AUTO_TEST_CASE(a_reference_whose_outcomes_depend_on_its_step_is_none) {
   Case definition;
   definition.scene.bodies = {test::body("bead", 1, {1, 1, 1}, {1, 0, 0})};

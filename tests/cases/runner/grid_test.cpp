@@ -33,8 +33,7 @@ void spin() {
   }
 }
 
-// The pipe by which a cell's process answers: of Rigor's, which it can write to and does not print to, the one made
-// last.
+// The pipe for the answers of a cell's process: among Rigor's writable pipes other than its output, the newest.
 int pipe_of_answers() {
   struct stat printed {
   }, about{};

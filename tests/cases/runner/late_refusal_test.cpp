@@ -1,4 +1,4 @@
-// An engine that could make a gate pass over its bad runs by saying, once it knows them, that it does not support them.
+// An engine that could make gates skip its bad runs by refusing the scene after it knows the result.
 #include <boost/test/unit_test.hpp>
 
 #include "cases/gates/gates.h"

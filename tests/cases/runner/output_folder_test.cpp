@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(a_folder_that_another_run_writes_to_is_refused_and_untouche
   BOOST_TEST(content(place.path / "out/trajectories/a--b--c.csv") == "rows");
 }
 
-// As by a run that is killed: the kernel lets go of its lock.
+// Like a killed run: the kernel releases its lock.
 BOOST_AUTO_TEST_CASE(a_run_that_is_no_longer_there_holds_nothing) {
   const Folder place;
   const std::string out = (place.path / "out").string();
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_is_no_longer_there_holds_nothing) {
   BOOST_TEST(content(fs::path(folder.journals()) / "0.journal") == "half a case");
 }
 
-// As one whose children live on for an instant.
+// Like a run whose children survive for an instant.
 BOOST_AUTO_TEST_CASE(a_run_that_is_about_to_be_gone_is_waited_for) {
   const Folder place;
   const std::string out = (place.path / "out").string();
@@ -203,8 +203,8 @@ bool is_killed_at(int n, const std::function<void()>& work) {
   return false;
 }
 
-// At every one of its system calls, in the process that publishes and in the one that it leaves that to: whoever comes
-// next finds all of the old outputs or all of the new, and its own trajectories beside its journals.
+// Fails every system call, in the process that publishes and in its helper process. The next run finds all of the old
+// outputs or all of the new ones, and its own trajectories beside its journals.
 BOOST_AUTO_TEST_CASE(publishing_that_is_killed_anywhere_leaves_the_old_or_the_new) {
   int kills = 0, old = 0;
   for (int n = 1;; ++n, ++kills) {
@@ -244,7 +244,8 @@ BOOST_AUTO_TEST_CASE(publishing_that_is_killed_anywhere_leaves_the_old_or_the_ne
   BOOST_TEST(kills - old > 10);
 }
 
-// Who links a folder means what is behind it; who has put a link inside it has not asked for what that points to.
+// A user who links a folder means its target. A link inside the folder may come from somebody else, so its target stays
+// untouched.
 BOOST_AUTO_TEST_CASE(a_link_to_the_folder_is_followed_and_links_inside_it_are_replaced) {
   const Folder place;
   place.write("real/results.json", "old");

@@ -57,7 +57,7 @@ Part::Answer stable(std::size_t of, std::size_t run) {
   return {of, {message_of_stable_step(run, {Status::pass, "", {0.125, false, false, ""}}), ""}};
 }
 
-// Of both cases all that there is to say.
+// All answers of both cases.
 std::vector<Part::Answer> all_answers(const Results& grid) {
   std::vector<Part::Answer> answers;
   for (const std::size_t of : {0u, 1u}) {
@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(what_a_part_should_have_said_is_counted_and_named) {
   BOOST_TEST(grid.cases[1].stable_steps[0].reason == "it did not run");
 }
 
-// What no engine can do is lost by nobody.
+// A cell that no engine can run is not missing.
 BOOST_AUTO_TEST_CASE(of_a_shard_that_is_missing_all_say_so_and_nothing_is_counted_as_lost) {
   Results plan = planned();
   plan.cases[1].cells[3].status = Status::unsupported, plan.cases[1].cells[3].reason = "cannot";

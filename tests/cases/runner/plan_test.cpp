@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(a_run_without_a_truth_begins_as_the_scene_does) {
                                Change([](auto b) { b.set_velocity(1, Vec3(0, 0, 1e-3)); }),
                                Change([](auto b) { b.set_angular_velocity(1, Vec3(0, 0, 1e-3)); })})
     BOOST_CHECK_THROW(cell_of(change, nullptr), EngineFailure);
-  // As single precision has it.
+  // In single precision.
   BOOST_CHECK_NO_THROW(
       cell_of([](MutableBodyColumns b) { b.column(0)[1] = static_cast<float>(b.column(0)[1]); }, nullptr));
 }

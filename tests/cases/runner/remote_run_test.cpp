@@ -1,5 +1,5 @@
-// What a run tells a world in another process of the steps to come, what it spends there, and what it keeps of worlds
-// with matrices of their own or of lower order.
+// A run announces its next steps to a world in another process, records the world's CPU time, and keeps its matrices
+// and its reduced order.
 #include <boost/test/unit_test.hpp>
 
 #include "cases/runner/ensemble.h"
@@ -112,9 +112,9 @@ BOOST_AUTO_TEST_CASE(a_world_elsewhere_knows_what_steps_will_come) {
   for (const Expected& expected : noted.expected) BOOST_TEST((expected == Expected{0.5, 4, 1}));
 }
 
-// Of a run of 19 µs a step the first 4 ms are timed again, twice without a pause, 10 µs a step, and twice step by step,
-// 12 µs: the 2 µs between them are the looking's, and not the steps'. All that is of a world elsewhere; what the script
-// takes here is a fraction of a microsecond.
+// For a run of 19 µs per step the first 4 ms are timed again: twice without a pause, 10 µs per step, and twice step by
+// step, 12 µs. The 2 µs between them are the cost of polling, not of the steps. All of this is the other world's time;
+// the script here takes a fraction of a microsecond.
 BOOST_AUTO_TEST_CASE(a_long_runs_first_steps_are_timed_again_in_both_ways) {
   const Scene scene = test::tumbling_body();
   const NotedEngine engine(resting(), {12e-6, 10e-6});

@@ -1,5 +1,5 @@
-// What a run that goes on believes of the one before it: a cell that an engine from outside died in is tried again, for
-// what was wrong may be mended where Rigor cannot see it; what came to an end is not.
+// What a continued run reuses. A cell that failed in an engine from outside is tried again, because the cause may have
+// been fixed outside Rigor. Finished cells are not repeated.
 #include <boost/test/unit_test.hpp>
 
 #include "cases/case/run_selector.h"

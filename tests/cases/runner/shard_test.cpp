@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(every_job_is_in_exactly_one_share) {
   }
 }
 
-// What no engine expresses has no job; its case's truth, which reports show, is of one shard all the same.
+// A scene that no engine supports has no job. Its truth, which reports show, still belongs to one shard.
 BOOST_AUTO_TEST_CASE(a_case_that_nobody_runs_is_of_one_shard) {
   Results grid = planned(3, false);
   for (Cell& cell : grid.cases[1].cells) cell.status = Status::unsupported;
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(a_case_that_nobody_runs_is_of_one_shard) {
   BOOST_TEST(shares == 1);
 }
 
-// By the work that is guessed, to within the longest job.
+// Balanced by the estimated work, to within the longest job.
 BOOST_AUTO_TEST_CASE(shares_are_of_about_the_same_work) {
   const Results grid = planned(100, false);
   double all = 0, longest = 0;

@@ -137,7 +137,8 @@ BOOST_AUTO_TEST_CASE(a_run_too_long_to_keep_is_thinned_and_keeps_its_end) {
   BOOST_TEST(samples.back().time == 0.25 * 3001);
 }
 
-// By the bytes of a sample: the most steps that are all kept, and one more. The run itself ends at its first step.
+// Computed from the bytes of a sample: the largest number of steps that are all kept, and one more. The run itself ends
+// at its first step.
 BOOST_AUTO_TEST_CASE(every_step_is_kept_as_long_as_all_of_them_fit) {
   test::Script script;
   script.play = [](int step, MutableBodyColumns bodies) { bodies.column(0)[0] = step > 0 ? std::nan("") : 0; };
@@ -169,7 +170,7 @@ BOOST_AUTO_TEST_CASE(the_steps_alone_are_timed) {
   BOOST_TEST(simulate(test::ScriptedEngine({}), {}, scene, 0.1, 10).cpu_seconds < 1e-3);
 }
 
-// What the world's other threads spend is its cost as well, also where the one that steps only waits for them.
+// The CPU time of the world's other threads counts, too, also if the stepping thread only waits for them.
 BOOST_AUTO_TEST_CASE(the_time_of_every_thread_is_counted) {
   double spent = 0;  // s, of the other thread
   test::Script script;
@@ -273,7 +274,7 @@ BOOST_AUTO_TEST_CASE(a_run_has_to_start_where_the_scene_says) {
   BOOST_TEST(fault(1, 1e6 * x, 0.1, none, none) == "");  // where a plane's origin is means nothing
   scene.bodies[1].shape = Sphere{0.5};
   BOOST_TEST(fault(1, 1e6 * x, 0, none, none).starts_with("at t = 0 the position of 'ground' is 10 m from"));
-  // Where nothing moves a rounding is one of nothing.
+  // If nothing moves, a rounding has no scale.
   scene.bodies.resize(1), scene.bodies[0].shape.reset();
   scene.bodies[0].position = scene.bodies[0].velocity = scene.bodies[0].angular_velocity = none;
   scene.bodies.push_back(scene.bodies[0]);

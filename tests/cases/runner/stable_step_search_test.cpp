@@ -1,4 +1,4 @@
-// The search for the largest stable step, on an engine that holds at the steps it is told to hold at, and no others.
+// The search for the largest stable step, with an engine that is stable exactly at prescribed steps.
 #include <boost/test/unit_test.hpp>
 
 #include "cases/runner/stable_step.h"
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(a_limit_is_found_from_below_to_a_hundredth_and_to_five_wher
   }
 }
 
-// Over the factor of two below 0.1 s, where it holds by bisection: a band 4 % wide is not jumped over where springs may
+// Over the factor of two below 0.1 s, the result of the bisection. A band 4 % wide is not skipped if springs may
 // resonate with a step.
 BOOST_AUTO_TEST_CASE(a_narrow_band_of_instability_ends_the_rise) {
   for (const double from : {0.0515, 0.0555, 0.0712, 0.0912}) {
@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(a_sweep_that_takes_more_than_half_of_what_is_left_is_not_be
   BOOST_TEST(cut_of(0.94) == "by bisection from 0.5 s up: a sweep would take too many steps");
 }
 
-// Of 0.4 million steps of a body: what is left of them after the first run, which does not count, at 0.25 s.
+// Of 0.4 million steps × bodies: the rest after the first run at 0.25 s, which does not count.
 BOOST_AUTO_TEST_CASE(a_step_takes_what_its_bodies_springs_joints_limits_and_loops_take) {
   const auto steps_left = [](int springs, int joints, bool has_limits) {
     Scene scene;

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(the_search_says_when_it_ends_at_its_bounds) {
   BOOST_TEST(none.dt == 1e-5);
 }
 
-// What bisection alone steps over: a band of 5 %, half as far up as the limit, as springs have them.
+// A band that bisection alone skips: 5 % wide, half-way to the limit, as with springs.
 BOOST_AUTO_TEST_CASE(a_narrow_band_of_bad_steps_below_the_limit_is_found) {
   const Scene scene = test::tumbling_body({1, 1, 1});
   const BandEngine with_band(0.26, 0.273), without(0.26, 0.26);
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(a_search_that_takes_too_much_says_where_it_was_cut) {
   BOOST_TEST(largest_stable_dt(test::ScriptedEngine(late), {}, scene, 30, 1).dt == 0.5);
 }
 
-// From the sixtieth step on it says that it failed: no step up to 0.5 s gets through 30 s with so few.
+// From the sixtieth step on it reports a failure: no step up to 0.5 s covers 30 s with so few.
 BOOST_AUTO_TEST_CASE(a_step_at_which_the_method_fails_is_not_a_stable_one) {
   test::Script failing;
   failing.solver_warning = [](int step) { return std::string(step >= 60 ? "did not converge" : ""); };
@@ -154,8 +154,8 @@ BOOST_AUTO_TEST_CASE(the_course_scenes_have_the_known_stability_limits) {
     const char* method;
     double fixed_spring, body_springs;
   };
-  // Measured independently over 30 s. Near its limit a chaotic run holds or not by luck, and which steps are tried
-  // shifts what is found by up to a tenth.
+  // Measured independently over 30 s. Near its limit chance decides whether a chaotic run is stable, and other tried
+  // steps shift the result by up to a tenth.
   const Row rows[] = {{"explicit-euler", 4.2e-4, 2.2e-4},
                       {"semi-implicit-euler", 0.068, 0.041},
                       {"implicit-midpoint", 0.106, 0.070},

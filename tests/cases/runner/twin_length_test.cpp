@@ -11,8 +11,8 @@ namespace {
 
 constexpr long kSteps = 100;
 
-// Moves and turns its body a little in each step, along the same axis of any world: turned or not, so that the worlds
-// part by as much.
+// Moves and rotates its body slightly in each step, along the same axis of any world, so that rotated worlds separate
+// by the same amount.
 class DriftingEngine : public FaultyEngine {
  public:
   DriftingEngine(double drift, long& steps) : FaultyEngine("drifts", [](double&) {}), drift_(drift), steps_(steps) {}

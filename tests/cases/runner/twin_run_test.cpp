@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(roundings_are_the_largest_over_turned_worlds) {
   Simulation run = simulate(table.find("scripted"), {}, scene, 0.5, 2);
   const TwinRun twin = run_twin(table, the_run(), scene, run, 2);
   BOOST_TEST_REQUIRE(twin.trajectory.samples.size() == 5u);
-  // As the turns are written in twin_run.cpp.
+  // The rotations as in twin_run.cpp.
   double turned = 0;
   for (const Quat& q : {Quat(0.7, 0.3, -0.5, 0.4).normalized(), Quat(-0.2, 0.6, 0.5, 0.3).normalized(),
                         Quat(0.4, -0.3, 0.2, 0.8).normalized()}) {

@@ -1,8 +1,8 @@
-// A second opinion on what has to stand, which shares no code with any contact method: a set of forces at the points
-// where bodies touch, each inside its friction cone, that balances every weight. Such a set is a proof that the pile
-// may stand (the safe theorem of masonry: Heyman, The stone skeleton, Int. J. Solids Struct. 2, 1966); that there is
-// none, that it has to fall. Points are corners and ends of axes by a geometry of its own; a cone is the one within it
-// of kSides sides, so that what balances within that balances; forces by Lawson's and Hanson's least squares.
+// An independent check of scenes that must stand, without code of any contact method. It looks for forces at the
+// contact points, each inside its friction cone, that balance every weight. If they exist, the pile may stand (the safe
+// theorem of masonry: Heyman, The stone skeleton, Int. J. Solids Struct. 2, 1966); if not, it must fall. Points are
+// corners and ends of axes, found by separate geometry. A cone is approximated from inside by kSides sides, so a
+// solution within it is valid. Lawson's and Hanson's least squares find the forces.
 #include <Eigen/QR>
 #include <array>
 #include <boost/test/data/test_case.hpp>
@@ -62,7 +62,8 @@ bool parts(const Vec3& n, const Vec3& p, const Body& above, const Body& below) {
   return true;
 }
 
-// From b to a: a side of either that parts the two or, where edges meet, what lies midway between their sides.
+// From b to a: a face normal of either that separates the two, or between edges the direction midway between their
+// faces.
 void touch_boxes(const Scene& scene, int a, int b, std::vector<Point>& out) {
   const Body &of_a = scene.bodies[a], &of_b = scene.bodies[b];
   for (const Vec3& p : corners_of(of_a)) {
@@ -81,7 +82,7 @@ void touch_boxes(const Scene& scene, int a, int b, std::vector<Point>& out) {
   }
 }
 
-// Of logs that lie side by side.
+// For logs that lie side by side.
 void touch_capsules(const Scene& scene, int a, int b, std::vector<Point>& out) {
   const double reach =
       std::get<Capsule>(*scene.bodies[a].shape).radius + std::get<Capsule>(*scene.bodies[b].shape).radius;

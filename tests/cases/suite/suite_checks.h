@@ -1,4 +1,4 @@
-// What the suite promises of each of its families.
+// Checks that hold for each family of the suite.
 #pragma once
 
 #include <boost/test/unit_test.hpp>
@@ -26,8 +26,8 @@ inline void check_sources_and_gates(const std::vector<Case>& cases) {
   }
 }
 
-// Each closed form that a case cites can be made, begins where the scene does, to its own error there (it computes that
-// instant as it does any other) and the velocities to roundings, and ends with no more of an error than `at_the_end`.
+// Each cited closed form can be constructed. It begins at the scene's state, to its own error there (computed as at any
+// instant), with velocities to rounding. It ends with an error of at most `at_the_end`.
 inline void check_closed_forms(const std::vector<Case>& cases, double at_the_end) {
   int cited = 0;
   for (const Case& c : cases) {

@@ -20,8 +20,8 @@ BOOST_AUTO_TEST_CASE(each_truth_says_of_what_it_is_independent) {
   BOOST_TEST(provenance_of("none") == "");
 }
 
-// Only what the truth is made by is held to itself: not the core's other contacts, nor other engines, nor other truths,
-// nor by what needs no truth.
+// Only runs of the code that made the truth are compared with themselves. The core's other contact methods, other
+// engines, other truths, and metrics without a truth are not affected.
 BOOST_AUTO_TEST_CASE(contact_by_events_is_held_to_itself_by_the_truth_events_alone) {
   const Scene scene = test::dropped_sphere(0.5);
   const auto itself = [&](const char* truth, const char* metric, const char* run) {

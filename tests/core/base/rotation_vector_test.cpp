@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(the_rate_of_an_angular_velocity_is_its_inverse) {
   Directions directions;
   for (const double turn : kTurns) {
     const Vec3 phi = turn * directions.next(), w = directions.next();
-    // Of half a turn and more it magnifies: by (theta/2) / sin(theta/2), pi/2 at half a turn.
+    // Beyond half a turn it is magnified by (theta/2) / sin(theta/2), pi/2 at half a turn.
     BOOST_TEST((left_jacobian(phi) * rate_of_rotation_vector(phi, w) - w).norm() < 2 * kRounding, turn);
   }
 }

@@ -1,6 +1,5 @@
-// That every member works once a task, on what the caller wrote before it, and that the caller sees what it wrote after
-// it. Under the thread sanitizer (preset tsan) an unsynchronised access fails here even where the numbers come out
-// right.
+// Every member works once per task on the caller's earlier writes, and the caller sees the member's writes afterwards.
+// Under the thread sanitizer (preset tsan) an unsynchronised access fails here even if the numbers are right.
 #include <boost/test/unit_test.hpp>
 #include <numeric>
 #include <vector>

@@ -41,15 +41,15 @@ double distance(BodyColumns a, BodyColumns b) {
   return largest;
 }
 
-// By the judge's own equations of motion, solved in extended precision by code that shares nothing with the methods.
+// From the judge's own equations of motion, solved in extended precision by code that shares nothing with the methods.
 BodyTable accurate(const Scene& scene, double duration) {
   const auto truth = make_truth("reference", scene, duration);
   BOOST_TEST(truth->error(duration) < 1e-11);
   return test::truth_at(*truth, duration, scene.bodies.size());
 }
 
-// log2 of the ratio of the errors at dt and dt/4, halved: the next term of the series may be as large at a single
-// halving as to make one of them too good, and the other too bad.
+// log2 of the ratio of the errors at dt and dt/4, halved. At a single halving the next term of the series may make one
+// order too good and the other too bad.
 double observed_order(const Scene& scene, const BodyTable& truth, const Method& method, double duration, int steps) {
   double error[2];
   for (int k = 0; k < 2; ++k) {
@@ -74,8 +74,8 @@ BOOST_AUTO_TEST_CASE(rows_are_alphabetical_and_unique) {
               }) == integrators().end()));
 }
 
-// So many steps a second that the next term of the error series is a few per cent of the leading one, and rounding far
-// below both.
+// So many steps per second that the next term of the error series is a few per cent of the leading one, and rounding is
+// far below both.
 int steps_for_order(int order) { return order <= 2 ? 1600 : order <= 4 ? 50 : 10; }
 
 // Tolerance 0.25: what those few per cent may do to the order.
@@ -98,8 +98,8 @@ BOOST_AUTO_TEST_CASE(each_converges_at_its_stated_order) {
 }
 
 BOOST_AUTO_TEST_CASE(a_symplectic_method_does_not_gain_or_lose_energy_over_many_periods) {
-  // A body of equal moments on a spring through its centre: no gyroscopic term, so that every method stated to be
-  // symplectic is so as a whole. 200 periods; a first- or second-order drift per step would have added up.
+  // A body of equal moments on a spring through its centre has no gyroscopic term. Every method declared as symplectic
+  // is then symplectic as a whole. Over 200 periods a first- or second-order drift per step would add up.
   Scene scene;
   scene.bodies = {test::body("ball", 1, {1, 1, 1}, {1.5, 0, 0})};
   scene.bodies[0].velocity = {0, 0.4, 0};
@@ -186,9 +186,9 @@ BOOST_AUTO_TEST_CASE(a_multistep_method_forgets_when_it_is_moved) {
   }
 }
 
-// A force that begins long after t = 0 is the same force to a run that begins then. Pulling a body round by a point far
-// from its centre, it turns it by more than a radian, so that methods which keep what they know of the loads must renew
-// it. All times are sums of powers of two, and so all differences exact.
+// A force that begins long after t = 0 is the same force for a run that begins then. It pulls at a point far from the
+// body's centre and rotates the body by more than a radian, so methods with a memory of loads must renew it. All times
+// are sums of powers of two, so all differences are exact.
 BOOST_AUTO_TEST_CASE(a_method_knows_no_time_but_that_of_its_forces) {
   constexpr double kLater = 128, dt = 1.0 / 32;
   Scene scene = test::tumbling_body();

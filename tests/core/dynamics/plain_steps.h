@@ -1,5 +1,5 @@
-// One step of the core's methods written down body by body, after their formulas and nothing else: what the kernels'
-// steps are held to.
+// One step of the core's methods, written body by body directly from the formulas. The kernels' steps are compared with
+// it.
 #pragma once
 
 #include <string>

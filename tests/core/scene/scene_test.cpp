@@ -27,8 +27,8 @@ std::set<std::string> features_of(const Scene& scene) {
 
 BOOST_AUTO_TEST_SUITE(core_scene_scene)
 
-// A second derivation of each inertia: the sum over the cells of a lattice whose centres lie inside. 120 cells a side
-// miss at the surface some of the cells there, which are a tenth of all, by chance: a few in a thousand.
+// A second derivation of each inertia: the sum over the cells of a lattice whose centres lie inside. With 120 cells per
+// side a tenth of the cells are at the surface, and some are misassigned by chance: an error of a few in a thousand.
 BOOST_AUTO_TEST_CASE(inertias_are_those_of_solid_bodies) {
   constexpr int kCells = 120;
   constexpr double kCell = 3.0 / kCells;  // m

@@ -1,4 +1,4 @@
-// What counts as built to stand, when it has fallen, and when a run has blown up.
+// When a scene counts as built to stand, when it has fallen, and when a run has blown up.
 #include "cases/metrics/measures/built_at_rest.h"
 
 #include <boost/test/unit_test.hpp>

@@ -1,5 +1,5 @@
-// The energy distance against a second derivation, and the p-value against what it promises: evenly spread where both
-// samples come from one distribution, small where they do not.
+// Compares the energy distance with a second derivation, and the p-value with its promise: uniform if both samples come
+// from one distribution, small if not.
 #include "cases/metrics/measures/energy_distance.h"
 
 #include <boost/test/unit_test.hpp>
@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_SUITE(cases_metrics_measures_energy_distance)
 
 BOOST_AUTO_TEST_CASE(is_what_the_definition_says) {
   const Points x = {{0, 0}, {3, 4}}, y = {{0, 0}, {0, 1}, {6, 8}};
-  // By hand: mean |x - y| over the six pairs, |x - x'| over all four and |y - y'| over all nine.
+  // Computed by hand: mean |x - y| over the six pairs, |x - x'| over all four and |y - y'| over all nine.
   const double across = (0 + 1 + 10 + 5 + std::hypot(3, 3) + 5) / 6, within_x = 2 * 5 / 4.0,
                within_y = 2 * (1 + 10 + std::hypot(6, 7)) / 9;
   BOOST_TEST(energy_test(x, y, 9, 1).coefficient == (2 * across - within_x - within_y) / (2 * across),

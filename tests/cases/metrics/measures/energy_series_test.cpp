@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(a_rise_is_above_the_lowest_before_in_both_readings) {
   BOOST_TEST((rises_of({5, 3, 4, 2, 6}, {5, 4, 6, 6, 6}) == std::vector<double>{0, 0, 1, 0, 2}));
 }
 
-// Of the truth's largest kinetic energy, 8 J: 1e-9 of it is a rounding.
+// Relative to the truth's largest kinetic energy, 8 J: 1e-9 of it is rounding.
 BOOST_AUTO_TEST_CASE(contact_of_which_the_truth_keeps_its_energy_is_held_to_it) {
   const Scene scene = ball_and_ground({0.5, 0});
   const Trajectory run = at_speeds(scene, {2, 1, 1.5, 2});
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(what_is_driven_or_damped_is_held_to_the_truths_change_up_to
   }
 }
 
-// Without a truth, or where nothing moves in it, it is what the scene has in play over the run or the case, whichever
+// Without a truth, or with a truth at rest, the scale is the scene's energy in play over the run or the case, whichever
 // is longer: a free fall of 2 kg at 10 m/s², 100 t² J.
 BOOST_AUTO_TEST_CASE(the_scale_is_the_truths_or_what_is_in_play_over_the_longer_of_run_and_case) {
   Scene scene;

@@ -127,8 +127,8 @@ BOOST_AUTO_TEST_CASE(what_approaches_no_faster_than_gravity_makes_it_in_two_samp
   check(found[0], 0.0285, 0.285, 0.285);
 }
 
-// Near a third body several impulses may make one speed: within what two bodies can move in two samples, four tenths of
-// a metre here.
+// Near a third body several impulses may add up to one speed. Near means within the motion of two bodies in two
+// samples, here four tenths of a metre.
 BOOST_AUTO_TEST_CASE(impacts_near_a_third_body_are_left_out) {
   const auto bounces = [](double gap) {
     const double other = 1 + gap;

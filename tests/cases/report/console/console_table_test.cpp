@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(many_cases_stand_in_a_matrix_of_a_hundred_columns) {
   BOOST_TEST(text.find("not checked") == std::string::npos, text);
   BOOST_TEST(text.find("st|one") == std::string::npos, text);  // no block
   BOOST_TEST(text.find("more runs") == std::string::npos, text);
-  // Where they are of two engines alone, one each stands for them.
+  // If they belong to only two engines, one run stands for each.
   for (RunName& run : results.runs) run.engine = run.text == "wild" ? "wild" : "good";
   const std::string folded = console_table(results);
   BOOST_TEST(line_with(folded, " other").ends_with("✓▓250mm    ✕ 0.40s"), folded);

@@ -111,7 +111,8 @@ export class Browser {
     ]);
     await this.post("/actions", { actions: [{ type: "key", id: "keyboard", actions }] });
   }
-  // A way of the mouse or a finger over the page, in CSS pixels of the window, the button held from the first point on.
+  // Moves the mouse or a finger over the page, in CSS pixels of the window, with the button down from the first point
+  // on.
   async drag(points, { pointerType = "mouse" } = {}) {
     const [start, ...rest] = points.map(([x, y]) => ({
       type: "pointerMove",
@@ -167,7 +168,7 @@ export class Browser {
     });
     return Buffer.from(data, "base64");
   }
-  // What the page has complained of since the last call.
+  // The page's errors since the last call.
   async complaints() {
     const log = await this.post("/se/log", { type: "browser" });
     return log

@@ -51,14 +51,14 @@ bool is_valid(const std::string& results, const Folder& folder) {
                   folder);
 }
 
-// What stands between the tags of the element with this id.
+// The text between the tags of the element with this id.
 std::string data_of(const std::string& page, const std::string& id) {
   const std::string opening = "<script type=\"application/json\" id=\"" + id + "\">";
   const std::size_t from = page.find(opening) + opening.size();
   return page.substr(from, page.find("</script>", from) - from);
 }
 
-// What no compression makes smaller, as a motion of this many characters and ever coarser ones of it.
+// Incompressible data, as a motion of this many characters and coarser versions of it.
 Packings incompressible(std::size_t finest, std::mt19937& random) {
   std::string text;
   while (text.size() < finest)

@@ -1,5 +1,6 @@
-// The report in a headless Chromium, as a reader would use it: node page_test.mjs REPORT.html RESULTS.json SHOTS-FOLDER
-// Says of each check whether it passed; the exit code is 0 if all did. Screenshots stay in the folder.
+// Tests the report in a headless Chromium, as a reader would use it.
+// node page_test.mjs REPORT.html RESULTS.json SHOTS-FOLDER
+// Prints the result of each check; the exit code is 0 if all passed. Screenshots stay in the folder.
 import { Browser } from "./browser.mjs";
 import { everyCase, oneCase } from "./case_checks.mjs";
 import { firstScreen } from "./first_screen_checks.mjs";

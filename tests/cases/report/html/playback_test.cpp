@@ -35,7 +35,7 @@ Trajectory bouncing(double seconds, double dt) {
   return run;
 }
 
-// Where the page has the body at `time`: on the straight line between two keys.
+// The body's position at `time` on the page: on the straight line between two keys.
 Vec3 position_at(const UnpackedRun& run, double time) {
   std::size_t k = 0;
   while (k + 2 < run.keys.size() && run.keys[k + 1] * run.interval <= time) ++k;

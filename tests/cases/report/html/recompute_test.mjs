@@ -1,6 +1,7 @@
-// Whether the numbers of results.json, and with them those that the page shows, follow from the trajectories beside it,
-// the scenes in it and the truth: node recompute_test.mjs RIGOR FOLDER
-// RIGOR is asked for the truth at the instants of each trajectory; the rest is worked out here.
+// Checks that the numbers of results.json, which the page shows, follow from the trajectories beside it, the scenes in
+// it and the truth.
+// node recompute_test.mjs RIGOR FOLDER
+// RIGOR gives the truth at the instants of each trajectory; this script computes the rest.
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";

@@ -1,5 +1,4 @@
-// What the tests of the page share: the report they are given on the command line, ways to open and to read it, and
-// checks that are counted.
+// Shared code of the page tests: the report from the command line, functions to open and read it, and counted checks.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";

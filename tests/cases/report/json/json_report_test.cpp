@@ -61,14 +61,14 @@ BOOST_AUTO_TEST_CASE(a_reader_finds_every_part_by_its_name) {
   BOOST_TEST(json.at("stable_dt").at(1).at("dt").is_null());
 }
 
-// What `rigor compare` takes from a result must be in a long one too.
+// A long result must contain everything that `rigor compare` reads.
 BOOST_AUTO_TEST_CASE(of_many_cases_every_cell_keeps_its_values_and_leaves_out_its_details) {
   const Results grid = many_cases();
   const nlohmann::json full = results_json(grid), told = nlohmann::json::parse(json_report(grid));
   BOOST_TEST(told.at("cells").size() == full.at("cells").size());
   for (std::size_t i = 0; i < told.at("cells").size(); ++i) {
     const auto &brief = told.at("cells").at(i), &cell = full.at("cells").at(i);
-    // As text: what is not finite, or no text, is equal to nothing.
+    // As text: a non-finite value, or a value that is no text, equals nothing.
     for (const char* key : {"case", "engine", "dt", "status", "reason", "trajectory"})
       BOOST_TEST(text_of(brief.at(key), -1) == text_of(cell.at(key), -1), key);
     auto verdict = cell.at("verdict");

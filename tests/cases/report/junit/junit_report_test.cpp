@@ -11,8 +11,8 @@ using namespace rigor;
 
 namespace {
 
-// The sample's grid, with a gate that one cell holds, one breaks by having blown up and one has crashed under, a second
-// that is known not to hold, and a third that meets no cell.
+// The sample's grid. One gate holds for one cell, fails for a blown-up one and meets a crashed one. A second is a known
+// deviation, and a third meets no cell.
 Results gated_results() {
   Results grid = sample_results();
   CaseResult& result = grid.cases.front();
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(each_cell_is_a_test_case_with_its_outcome_and_time) {
   BOOST_TEST(count(text, "<failure ") == 1 + 1);  // blown up; the gate that met no cell
   BOOST_TEST(count(text, "<error ") == 1);        // crashed
   BOOST_TEST(count(text, "<skipped message=\"known deviation: ") == 2);
-  // As many as the suite and the whole say.
+  // The counts of the suite and of the whole.
   BOOST_TEST(count(text, "tests=\"5\" failures=\"2\" errors=\"1\" skipped=\"2\"") == 2);
 }
 

@@ -36,7 +36,8 @@ BOOST_AUTO_TEST_CASE(of_many_cases_there_is_the_matrix_alone) {
   BOOST_TEST(text.find("rigor run CASE") != std::string::npos);
 }
 
-// Of more runs than fit side by side each engine's first stands in the matrix; of the others what is not as that one.
+// If not all runs fit side by side, the matrix shows the first of each engine. Others are listed only where they differ
+// from it.
 BOOST_AUTO_TEST_CASE(an_engines_other_runs_are_told_by_what_they_set_apart) {
   Results grid = sample_results();
   CaseResult& alike = grid.cases.front();

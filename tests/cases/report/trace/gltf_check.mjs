@@ -1,4 +1,5 @@
-// node gltf_check.mjs PAGE_FOLDER FILE TIME: the world poses that three.js gives the bodies at that time, one line of JSON.
+// Prints the world poses of the bodies at a time according to three.js, one line of JSON.
+// node gltf_check.mjs PAGE_FOLDER FILE TIME
 import { readFileSync } from "node:fs";
 
 const [folder, file, time] = process.argv.slice(2);

@@ -1,5 +1,5 @@
-// A run in the formats of other programs, read back by what others read them with: Foxglove's own reader of MCAP and
-// three.js's of glTF.
+// A run in the formats of other programs, read back by the readers of others: Foxglove's reader of MCAP and three.js's
+// of glTF.
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 

@@ -85,9 +85,9 @@ BOOST_AUTO_TEST_CASE(friction_is_told_a_pyramid_from_a_cone_by_its_spread) {
 }
 
 BOOST_AUTO_TEST_CASE(a_millimetre_is_read_off_the_line_through_the_cells) {
-  // Of first order: 4 mm at 0.1 s and 2 mm at 0.05 s, so 1 mm at 0.025 s, which was not tried. Of fourth order: 4 mm
-  // and 0.25 mm, so 1 mm at 0.1 / 4^(1/4) = 0.0707 s. The third does not converge; the fourth's line reaches 1 mm at
-  // 0.05 s / 64, too far off to be called known.
+  // First order: 4 mm at 0.1 s and 2 mm at 0.05 s, so 1 mm at 0.025 s, which was not tried. Fourth order: 4 mm and 0.25
+  // mm, so 1 mm at 0.1 / 4^(1/4) = 0.0707 s. The third does not converge. The fourth's line reaches 1 mm at 0.05 s /
+  // 64, too far to be certain.
   const auto found = findings(test::priced_results({{"first", {{0.1, 4e-3, 1}, {0.05, 2e-3, 2}}},
                                                     {"fourth", {{0.1, 4e-3, 1}, {0.05, 0.25e-3, 2}}},
                                                     {"level", {{0.1, 4e-3, 1}, {0.05, 4e-3, 2}}},

@@ -1,5 +1,5 @@
-// What each closed form of the suite claims for its own error. Verdicts end where it passes a tolerance, so that it may
-// only change when somebody means it: a regression of the truths, beside the tests that hold them to other solutions.
+// The error that each closed form of the suite claims. Verdicts end where it exceeds a tolerance, so it may change only
+// on purpose. This is a regression test of the truths, beside the comparisons with other solutions.
 #include <fmt/format.h>
 
 #include <boost/test/unit_test.hpp>
@@ -38,8 +38,8 @@ std::vector<double> claims_of(const std::string& truth, const Scene& scene, std:
   return claims;
 }
 
-// Of the scene changed in one place after another: how many are refused, of how many the end is beyond what the form
-// holds for, and the sum of the others' decades, which tells of a change in any.
+// Over scenes changed in one place after another: the number refused, the number whose end exceeds the form's validity,
+// and the sum of the others' decades, which reveals any change.
 std::vector<double> spoilt_claims_of(const std::string& truth, const Scene& whole, double duration) {
   double refused = 0, left = 0, decades = 0;
   for (const test::Change& change : test::changes_of(whole)) {

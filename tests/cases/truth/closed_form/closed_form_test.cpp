@@ -15,8 +15,8 @@ using test::truth_at;
 
 namespace {
 
-// How far two states are apart, each part relative to what it is measured in: positions and velocities to the largest
-// of their body's, angles to a radian.
+// The distance of two states, each part relative to its scale: positions and velocities to the largest of their body's,
+// angles to a radian.
 double relative_distance(BodyColumns a, BodyColumns b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

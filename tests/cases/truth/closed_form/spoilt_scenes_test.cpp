@@ -1,5 +1,5 @@
-// Every scene of the suite that has a closed form, changed in one place after another: the form refuses it, or holds
-// for what was made. The other opinion is the core's adaptive method, with contact by events.
+// Every scene of the suite with a closed form, changed in one place after another. The form must refuse the scene, or
+// be correct for it. The comparison is the core's adaptive method, with contact by events.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ using namespace rigor;
 namespace {
 
 constexpr double kLongest = 0.6, kStep = 1.0 / 128;  // s: of a comparison, and of a sample
-// Of the scene's size or of a radian: a tenth of a per mille of what each change is. The core's own errors are below
-// 1e-9, but for the instant of an impact, after which they are this times a change of velocity.
+// Relative to the scene's size or a radian: a tenth of a per mille of each change. The core's own errors are below
+// 1e-9, except at the instant of an impact; afterwards they are this value times a change of velocity.
 constexpr double kAgrees = 1e-5;
 constexpr std::size_t kMostBodies = 7;  // of a scene that touches: 25 balls on a box by events would take minutes
 

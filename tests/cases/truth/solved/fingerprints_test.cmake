@@ -1,4 +1,4 @@
-# What names a kept truth follows the sources that make it, and nothing else.
+# The name of a kept truth follows the sources that make it, and nothing else.
 # cmake -DSCRIPT=.../fingerprints.cmake -DFOLDER=... -P fingerprints_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -23,7 +23,7 @@ function(fingerprints compiler reference events)
   set(${events} ${Events} PARENT_SCOPE)
 endfunction()
 
-# Of what a change must change: both, events, or neither.
+# The hashes that a change must affect: both, events, or neither.
 function(check what change)
   fingerprints(gcc reference events)
   if(change STREQUAL "neither" AND (NOT reference STREQUAL reference_before OR NOT events STREQUAL events_before))

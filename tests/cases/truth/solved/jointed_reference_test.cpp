@@ -12,8 +12,8 @@ using namespace rigor;
 
 namespace {
 
-// What passes a singular position, where the rows in use come to depend on each other; and what takes long: a stiff
-// spring, a thousand to one, a hundred links.
+// Scenes that pass a singular position, where the rows in use become dependent, and slow scenes: a stiff spring, a mass
+// ratio of a thousand, a hundred links.
 const std::set<std::string> kLeftOut = {"mechanisms/slider-crank-singular", "mechanisms/iftomm-a02-2",
                                         "mechanisms/iftomm-a02-40",         "mechanisms/iftomm-a05",
                                         "joints/mass-ratio-chain",          "joints/cable-100"};

@@ -1,8 +1,8 @@
-// One box on the plane z = 0 by impacts alone (Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996):
-// it flies freely, and a corner that meets the plane has a blow, after which it parts at the `hop` [m/s] at least. What
-// rests, slides or rolls does so in blows as small as that, so that there are no forces, modes or persistent contacts
-// to get wrong; the error is of first order in the hop. Several corners at once: those that approach take their blows
-// together, then those that these push down, and so on. Shares nothing with the code that it is held against.
+// One box on the plane z = 0 by impacts alone (Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996).
+// The box flies freely. A corner that meets the plane gets an impulse, after which it separates with at least the `hop`
+// [m/s]. Rest, sliding and rolling consist of such small impacts, so there are no forces, modes or persistent contacts
+// that could be wrong. The error is of first order in the hop. Several corners at once: those that approach get their
+// impulses together, then those that these push down, and so on. It shares no code with the code under test.
 #pragma once
 
 #include <Eigen/Dense>
@@ -93,7 +93,7 @@ class MicroCollisions {
     return h;
   }
 
-  // Of the height divided by the time, which a corner that has just left the plane has only one root of.
+  // Relative to the height divided by the time; a corner that has just left the plane has only one root.
   double meeting(const Motion& motion, int k, double latest) const {
     constexpr double kSoonest = 1e-10;  // s
     const auto rate = [&](double t) { return height(flown(motion, t), k) / t; };

@@ -1,5 +1,5 @@
-// Trees of joints that nobody chose, with springs, dampers, limits and motors: the reference and the core share no code
-// and must tell of the same motion.
+// Random trees of joints with springs, dampers, limits and motors. The reference and the core share no code and must
+// agree on the motion.
 #include <boost/test/unit_test.hpp>
 #include <random>
 
@@ -68,8 +68,8 @@ class Maker {
 
 BOOST_AUTO_TEST_SUITE(cases_truth_solved_random_mechanisms)
 
-// dormand-prince keeps some 1e-12 in each step. At limits, a flight of less than a thousandth of the step is none
-// (integrators/joint_events.cpp): 4 µs, in which 10 m/s² make 2e-5 m/s, of which a few in a second leave 1e-6 m.
+// dormand-prince keeps some 1e-12 in each step. At limits, a flight shorter than a thousandth of the step is suppressed
+// (integrators/joint_events.cpp): 4 µs, in which 10 m/s² make 2e-5 m/s. A few of these per second leave 1e-6 m.
 BOOST_AUTO_TEST_CASE(the_core_and_the_reference_tell_of_the_same_motion) {
   constexpr double kEnd = 0.5, kNoFlight = 2e-6, kSmooth = 1e-10;  // s, m
   int known = 0, with_limits = 0;

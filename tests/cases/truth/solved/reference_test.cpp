@@ -10,9 +10,9 @@ using test::truth_at;
 
 namespace {
 
-// A second solver, written apart from the first: rotation matrices and momenta, the classical Runge-Kutta method with
-// equal steps of three sizes, and Richardson's extrapolation of the three (its error then begins with h^6). Springs
-// between bodies and to the world, dampers; no timed forces.
+// A second solver, written separately: rotation matrices and momenta, the classical Runge-Kutta method with equal steps
+// of three sizes, and Richardson's extrapolation of the three (its error then begins with h^6). It supports springs
+// between bodies and to the world, and dampers; no timed forces.
 class MatrixSolver {
  public:
   explicit MatrixSolver(const Scene& scene) : scene_(scene) {}
@@ -228,8 +228,8 @@ BOOST_AUTO_TEST_CASE(a_force_that_begins_and_ends_between_two_samples_gives_its_
   }
 }
 
-// Chaos makes the error grow to a size that the second solver can show: the estimate may not be below what is really
-// wrong, nor absurdly above it.
+// Chaos makes the error grow until the second solver can measure it. The estimate must not be below the true error, nor
+// absurdly above it.
 BOOST_AUTO_TEST_CASE(the_error_estimate_is_neither_too_small_nor_absurdly_large) {
   const Scene scene = test::body_springs();
   const auto truth = make_truth("reference", scene, 30);

@@ -1,5 +1,5 @@
-// A second opinion on the truth of contact/tumbling-box, by code that shares nothing with contact=event
-// (micro_collisions.h): a box that strikes the floor on one corner after another, slides, rocks and comes to lie.
+// An independent check of the truth of contact/tumbling-box, without code of contact=event (micro_collisions.h). A box
+// strikes the floor on one corner after another, slides, rocks and comes to rest.
 #include <boost/test/unit_test.hpp>
 
 #include "core/scene/contact_laws.h"
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(impacts_alone_come_to_where_the_truth_is) {
   BodyTable state(c.scene.bodies.size());
   for (std::size_t i = 0; i < times.size(); ++i) {
     truth->at(times[i], state.columns());
-    // Of first order in the hop: what half of it changes is what is left, and as much again for the next order.
+    // First order in the hop: the remaining error is the change by half the hop, and as much again for the next order.
     const double own = 2 * distance(coarse[i], fine[i]);
     BOOST_TEST(own < 2e-5, times[i]);  // m: of 4 mm, which it must tell
     const double apart = distance(fine[i], std::as_const(state).columns().body(0));

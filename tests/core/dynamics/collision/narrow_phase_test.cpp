@@ -1,5 +1,5 @@
-// The narrow phase against a second derivation: the distance of two shapes as the least distance of points of their
-// cores, found by alternating projections onto the two convex sets, less the radii.
+// Compares the narrow phase with a second derivation: the smallest distance of points of both cores, found by
+// alternating projections onto the two convex sets, minus the radii.
 #include "core/dynamics/collision/narrow_phase.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// No impact adds energy, whatever the method, the integrator and the friction: cubes and balls that fly about in a
-// closed room without gravity, where nothing but impacts changes the energy of one that turns alike about every axis.
+// No impact adds energy, with any method, integrator and friction. Cubes and balls fly in a closed room without
+// gravity. Bodies with equal moments change their energy only in impacts.
 #include <random>
 
 #include "core/dynamics/model/energy.h"
@@ -33,7 +33,7 @@ Scene room(unsigned seed, double friction) {
   return scene;
 }
 
-// Of the energy at first.
+// Relative to the initial energy.
 double largest_gain(const Scene& scene, const std::string& method, const std::string& integrator, int steps) {
   ContactRun run(scene, method, integrator);
   const double start = rigor::energy(scene, run.state());

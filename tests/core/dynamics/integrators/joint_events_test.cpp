@@ -93,8 +93,8 @@ BOOST_AUTO_TEST_CASE(each_impact_takes_its_share_of_the_speed) {
   });
 }
 
-// A rod let go from the horizontal meets a stop at its lowest point: sin(theta_n/2) = e^n sin(theta_0/2), with quarter
-// periods between the impacts and the tops.
+// A rod released from the horizontal meets a stop at its lowest point: sin(theta_n/2) = e^n sin(theta_0/2), with
+// quarter periods between the impacts and the tops.
 BOOST_AUTO_TEST_CASE(a_pendulum_at_a_stop_keeps_the_closed_forms_times_and_energies) {
   Scene scene = test::suite_scene("joints/pendulum-90");
   scene.joints[0].lower = -kPi / 2, scene.joints[0].restitution = 0.6;
@@ -116,8 +116,8 @@ BOOST_AUTO_TEST_CASE(a_pendulum_at_a_stop_keeps_the_closed_forms_times_and_energ
   }
 }
 
-// Events are where they are to 1e-15 of a step, so that a method's own error is all there is. Steps of other lengths at
-// each event make the error's factor vary: it must fall by half of what the order says at least, over two halvings.
+// Events are located to 1e-15 of a step, so only the method's own error remains. Steps of other lengths at each event
+// change the error's factor. Over two halvings the error must fall by at least half of what the order predicts.
 BOOST_AUTO_TEST_CASE(methods_keep_their_order_across_an_impact) {
   Scene scene = test::suite_scene("joints/pendulum-90");
   scene.joints[0].lower = -kPi / 2, scene.joints[0].restitution = 0.6;
@@ -154,8 +154,8 @@ BOOST_AUTO_TEST_CASE(bounces_come_to_rest_at_the_stop) {
   });
 }
 
-// What rests at a stop is carried by it, and goes as soon as something pulls it away: here a force that begins at 0.5
-// s.
+// A body at rest on a stop is carried by it, and leaves as soon as a force pulls it away: here a force that begins at
+// 0.5 s.
 BOOST_AUTO_TEST_CASE(a_stop_carries_and_does_not_hold_back) {
   Scene scene = rail(0, 10, 0);
   scene.gravity = {-9.81, 0, 0};
@@ -194,8 +194,8 @@ BOOST_AUTO_TEST_CASE(a_motor_comes_to_its_speed_and_keeps_it) {
   const double x = 1.125 + 3 * (2.5 - 0.75) - 2 * kPi;
   for_each_method_with_joints([&](const Integrator& row) {
     const Coordinate at = after(scene, row.name, 0.05, 2.5);
-    // What is not at the motor's speed, 1.1 rad on the way up and 1.5 rad after it, is each method's own to err by: of
-    // first order half a step, 3 rad/s · 0.025 s; the discrete rotation of moser-veselov (0.15 rad)²/6 of it at most,
+    // Deviations from the motor's speed are errors of the method, 1.1 rad on the way up and 1.5 rad after it. For first
+    // order half a step, 3 rad/s · 0.025 s; for the discrete rotation of moser-veselov at most (0.15 rad)²/6 of it, for
     // rk4 its fifth power.
     const double allowed = row.order == 1 ? 0.08 : row.name == "moser-veselov" ? 1e-2 : row.name == "rk4" ? 8e-5 : 1e-9;
     BOOST_TEST(std::abs(at.rate - 3) < 1e-9);
@@ -203,8 +203,8 @@ BOOST_AUTO_TEST_CASE(a_motor_comes_to_its_speed_and_keeps_it) {
   });
 }
 
-// A spring resists as the wheel turns: the motor keeps 0.5 rad/s until k x = most, and then pushes with most against an
-// oscillation about most/k of amplitude 0.5/w.
+// A spring resists as the wheel rotates. The motor keeps 0.5 rad/s until k x = most, and then pushes with most against
+// an oscillation about most/k of amplitude 0.5/w.
 BOOST_AUTO_TEST_CASE(a_motor_that_is_too_weak_pushes_with_all_it_has) {
   Scene scene = wheel(motor_of_speed(0.5, 2));
   scene.joints[0].stiffness = 2;
@@ -289,8 +289,8 @@ BOOST_AUTO_TEST_CASE(steps_back_in_time_are_refused) {
   BOOST_TEST((world->solver_warning().find("back in time") != std::string::npos));
 }
 
-// Let go straight, it beats its limits until each hinge lies at its own: what bounces back at once does so for what the
-// other limits hold, and without them would bounce a thousand times in a step.
+// Released straight, it hits its limits until each hinge rests at its own. Some bounces end at once because the other
+// limits hold; otherwise there would be a thousand in a step.
 BOOST_AUTO_TEST_CASE(a_chain_with_limits_on_every_hinge_comes_to_rest_on_them) {
   constexpr double kLimit = 0.2, kLength = 0.2;  // rad, m
   for (const double restitution : {0.3, 0.6}) {
@@ -321,8 +321,8 @@ BOOST_AUTO_TEST_CASE(a_chain_with_limits_on_every_hinge_comes_to_rest_on_them) {
   }
 }
 
-// An arm swings up, falls onto its stops, elbow and shoulder by turns: each impact of one throws the other off, ever
-// less. These flights have no end to wait for; what they come to is rest at both.
+// An arm swings up and falls onto its stops, elbow and shoulder in turn. Each impact of one throws the other off, less
+// each time. These flights never end; their limit is rest at both.
 BOOST_AUTO_TEST_CASE(two_stops_that_throw_each_other_off_come_to_rest) {
   Scene scene;
   scene.bodies = {test::body("upper", 0.15, Vec3::Constant(0.003), {0.25, 0, 0}),

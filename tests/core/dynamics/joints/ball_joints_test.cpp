@@ -1,5 +1,5 @@
-// What holds ball joints and hinges alone against what holds every kind of joint: the same motion, in every instruction
-// set the same bits, and of trees no gap but the rounding of positions and what is left of directions.
+// Compares the special code for ball joints and hinges with the general joint code: the same motion, the same bits on
+// every instruction set, and in trees no gap but the rounding of positions and of directions.
 #include "core/dynamics/joints/ball_joints.h"
 
 #include <boost/test/unit_test.hpp>
@@ -166,8 +166,8 @@ BOOST_AUTO_TEST_CASE(trees_keep_no_gap_but_rounding) {
   }
 }
 
-// In steps of a third of a second bodies turn so far that no impulse closes the joints: the step is then the one that
-// any joints get, to the bit.
+// In steps of a third of a second bodies turn so far that no impulse closes the joints. The step then equals that of
+// the general code, to the bit.
 BOOST_AUTO_TEST_CASE(steps_without_such_an_impulse_are_handed_on) {
   Scene scene = chain(2);
   for (Body& body : scene.bodies) body.angular_velocity = {0, 9, 0}, body.velocity = Vec3(0, 9, 0).cross(body.position);

@@ -8,8 +8,7 @@ using namespace rigor;
 
 namespace {
 
-// S = B Bᵀ of joints of 3 rows on bodies, coupled as the pairs say: each joint has random rows on the two bodies that
-// it joins.
+// S = B Bᵀ for joints of 3 rows, coupled by the pairs: each joint has random rows on its two bodies.
 struct Example {
   std::vector<std::pair<int, int>> joints;  // bodies, -1 the world
   int rows = 3;

@@ -99,8 +99,8 @@ BOOST_AUTO_TEST_CASE(a_singular_position_at_the_start_is_named_at_once) {
   BOOST_TEST(warning_at(0.8) == "");
 }
 
-// The mass-weighted least-norm projection: of two bodies on one ball joint, pulled apart by a gap, each moves by
-// its share of the inverse masses, for the anchor is at both centres.
+// The mass-weighted least-norm projection: two bodies on one ball joint, separated by a gap, each move by their share
+// of the inverse masses, because the anchor is at both centres.
 BOOST_AUTO_TEST_CASE(projection_moves_each_body_by_its_inverse_mass) {
   Scene scene;
   scene.bodies = {test::body("light", 1, {1, 1, 1}), test::body("heavy", 3, {1, 1, 1})};

@@ -1,4 +1,4 @@
-// What joints keep over many steps: their gap, with every method; the energy, with symplectic ones.
+// Properties of joints over many steps: their gap with every method, and the energy with symplectic ones.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -11,8 +11,8 @@ using namespace rigor;
 
 namespace {
 
-// Each step ends on the joints, so that nothing can add up: to rounding, but of semi-implicit-euler, which stops at
-// 1e-11 of the longest arm of a body, 2 m. 1e-10 m is asked of a million steps.
+// Each step ends on the joints, so nothing can accumulate beyond rounding. semi-implicit-euler stops at 1e-11 of the
+// longest arm of a body, 2 m. The bound is 1e-10 m over a million steps.
 void check_gaps(const Scene& scene, double end, double rounding) {
   const System system(scene);
   Joints joints(scene, system);
@@ -53,8 +53,8 @@ BOOST_AUTO_TEST_CASE(joints_hold_as_well_a_kilometre_away) {
   }
 }
 
-// A hundred periods: the deviation of the energy from its start swings with the motion, and its largest value over the
-// second half is that over the first, to the thousandth of it that other phases of the same swing make.
+// A hundred periods. The deviation of the energy from its start oscillates with the motion. Its largest value over the
+// second half equals that over the first, to a thousandth, which is the effect of other phases of the same swing.
 BOOST_AUTO_TEST_CASE(symplectic_methods_keep_the_energy_of_a_double_pendulum_bounded) {
   const Scene scene = test::suite_scene("joints/double-pendulum");
   for (const char* method : {"velocity-verlet", "moser-veselov", "symplectic4"}) {

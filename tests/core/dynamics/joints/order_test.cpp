@@ -1,5 +1,5 @@
-// Each method's observed order with joints: a hinge, two, one whose bodies spin fast, and loops whose rows repeat each
-// other in a plane (rank 17 of 20) and in space (29 of 30).
+// Each method's observed order with joints: one hinge, two hinges, fast-spinning bodies, and loops with redundant rows
+// in a plane (rank 17 of 20) and in space (29 of 30).
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(every_method_that_takes_joints_keeps_its_order_over_two_hal
       const double errors[] = {error_of(scene, published, row.name, dt), error_of(scene, published, row.name, dt / 2),
                                error_of(scene, published, row.name, dt / 4)};
       for (int k = 0; k < 2; ++k) {
-        // What rounding leaves, and the published state's own error; the halvings before it are judged.
+        // The level of rounding and of the published state's own error; only larger errors are judged.
         if (errors[k + 1] < 3 * published.error + 1e-13) continue;
         ++judged;
         BOOST_TEST_CONTEXT(row.name << ", " << published.scene << ": " << errors[k] << " to " << errors[k + 1])

@@ -1,7 +1,7 @@
-// States of jointed scenes, each confirmed by two derivations that share no code: of maximal coordinates with all
-// joints' rows (Gauss's principle), Kane's equations in relative coordinates, and closed forms (elliptic functions in
-// thirty digits) or Lagrange's equations made by hand. The sources of the scenes stand in their case files; `error` is
-// the largest over all thirteen components of what the derivations differ by.
+// States of jointed scenes, each confirmed by two derivations that share no code. The derivations use maximal
+// coordinates with all joint rows (Gauss's principle), Kane's equations in relative coordinates, closed forms (elliptic
+// functions with thirty digits), or Lagrange's equations derived by hand. The case files name the sources of the
+// scenes. `error` is the largest difference of the derivations over all thirteen components.
 #pragma once
 
 #include "core/engine/body_table.h"

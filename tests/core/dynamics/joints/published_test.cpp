@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(dormand_prince_meets_every_published_state_of_a_regular_mec
   BOOST_TEST(compared >= 70);
 }
 
-// Passing a singular position in fixed steps costs digits, but neither the branch nor the joints: the error is that of
+// Passing a singular position in fixed steps costs digits, but neither the branch nor the joints. The error is that of
 // the few steps beside it, which lose order. Measured 2e-9 and 5e-12 m.
 BOOST_AUTO_TEST_CASE(rk4_passes_singular_positions_on_the_right_branch) {
   for (const test::PublishedState& published : test::kPublishedStates) {

@@ -1,5 +1,5 @@
-// Every method that steps by kernels: the same trajectories as the plain formulas, and the same bits whatever the
-// instruction set and however many bodies there are.
+// Every method that uses kernels gives the trajectories of the plain formulas, and the same bits on every instruction
+// set and for any number of bodies.
 #include "core/dynamics/kernels/kernels.h"
 
 #include <boost/test/unit_test.hpp>

@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(a_singular_system_is_said_to_be_so) {
   }
 }
 
-// Of a free body's own equations and its pull on the next, as a chain of springs has it: rows that add up to nothing.
+// A free body's own equations and its pull on the next, as in a chain of springs: rows that add up to zero.
 BOOST_AUTO_TEST_CASE(a_system_that_is_singular_but_for_roundings_is_said_to_be_so) {
   Mat6 pull = Mat6::Identity() / 3;
   pull(0, 1) = 0.1, pull(4, 2) = 0.7, pull(5, 0) = -0.3;

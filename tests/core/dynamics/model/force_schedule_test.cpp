@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Of lengths from a moment to for ever, some at the same instants.
+// Durations from an instant to infinity, some at the same instants.
 std::vector<TimedForce> some_forces(int count) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> begin(0, 40), kind(0, 9), length(1, 9);
@@ -29,7 +29,7 @@ std::vector<TimedForce> some_forces(int count) {
   return forces;
 }
 
-// By looking at each.
+// By a search through all.
 double nearest_switch(const std::vector<TimedForce>& forces, double t, double end) {
   for (const TimedForce& force : forces) {
     for (const double s : {force.from, force.until}) {

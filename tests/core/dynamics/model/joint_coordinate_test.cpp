@@ -51,7 +51,7 @@ double coordinate(const Scene& scene, const BodyTable& state) {
 
 BOOST_AUTO_TEST_SUITE(core_dynamics_model_joint_coordinate)
 
-// Beyond half a turn the angle of its spring would begin anew from the other side: said, in the step in which it does.
+// Beyond half a turn the spring's angle would jump to the other side. The step in which it does so reports it.
 BOOST_AUTO_TEST_CASE(a_sprung_hinge_that_turns_by_half_a_turn_is_named) {
   Scene scene = wheel();
   scene.joints[0].stiffness = 1e-3;
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(a_hinges_spring_and_damper_make_a_damped_oscillation) {
   const double a = 0.6 / (2 * 0.5), f = std::sqrt(8 / 0.5 - a * a), t = 1.3;
   const double exact = -0.7 + 0.7 * std::exp(-a * t) * (std::cos(f * t) + a / f * std::sin(f * t));
   BOOST_TEST(std::abs(coordinate(scene, after(scene, "dormand-prince", 0.1, 13)) - exact) < 1e-11);
-  // Of second order with its damper: a hundredth of the step's square is what a swing of 4 rad/s leaves.
+  // Second order with its damper: a swing of 4 rad/s leaves a hundredth of the step's square.
   const double coarse = std::abs(coordinate(scene, after(scene, "velocity-verlet", 0.02, 65)) - exact);
   const double fine = std::abs(coordinate(scene, after(scene, "velocity-verlet", 0.01, 130)) - exact);
   BOOST_TEST(std::log2(coarse / fine) > 1.9);

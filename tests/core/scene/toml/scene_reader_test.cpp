@@ -248,8 +248,8 @@ BOOST_AUTO_TEST_CASE(a_spring_may_stand_before_its_bodies) {
   BOOST_TEST(scene.springs.at(0).b == 0);
 }
 
-// Reading is linear: ten times the bodies take some ten times as long, where a search of all bodies for each spring
-// would take a hundred times. The best of three, for the machine does other things; 40 lies a factor from either.
+// Reading is linear: ten times the bodies take about ten times as long. A search of all bodies for each spring would
+// take a hundred times. The best of three counts, because the machine has other load; 40 is a factor away from both.
 BOOST_AUTO_TEST_CASE(ten_times_the_bodies_take_about_ten_times_as_long) {
   const auto seconds_for = [](int count) {
     std::string text;

@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(a_key_of_a_million_parts_is_refused) {
   for (const Refusal& row : rows) check_refusal(row, "f.toml", [&] { TomlFile::parse(row.text, "f.toml"); });
 }
 
-// Of these the library's behaviour is undefined: it looks them up where it has no entry, or takes a key for granted.
+// The library's behaviour is undefined for these: it looks up missing entries, or assumes a key.
 BOOST_AUTO_TEST_CASE(what_the_library_has_no_answer_for_is_refused_with_its_place) {
   const std::string name_begins = "where the name of a table begins", not_ascii = "that is not ASCII";
   const std::string outside = "is not TOML: found a character outside of strings";

@@ -1,4 +1,4 @@
-// What joints hold, as the judge measures it: distances made by hand, and rates against the distances' own change.
+// The judge's measurement of joints: constructed distances, and rates compared with the change of distances.
 #include "cases/metrics/measures/joints/joint_geometry.h"
 
 #include <boost/test/unit_test.hpp>
@@ -63,7 +63,7 @@ BodyTable gone_on(const BodyTable& from, double time) {
 
 BOOST_AUTO_TEST_SUITE(cases_metrics_measures_joints_joint_geometry)
 
-// From no gap at all, whatever the velocities do opens one at their rate.
+// From no gap at all, any violating velocity opens a gap at its rate.
 BOOST_AUTO_TEST_CASE(a_rate_is_that_at_which_the_gap_opens) {
   for (const Row& row : kJoints) {
     BOOST_TEST_CONTEXT(row.name) {

@@ -1,5 +1,4 @@
-// What joints carry: against numbers worked out elsewhere, and against the accelerations of a truth that knows of no
-// reactions.
+// Joint loads: compared with independent numbers, and with the accelerations of a truth that has no reactions.
 #include "cases/metrics/measures/joints/joint_reactions.h"
 
 #include <boost/test/unit_test.hpp>
@@ -155,7 +154,7 @@ BOOST_AUTO_TEST_CASE(only_in_its_plane_a_plane_loop_tells_what_its_joints_carry)
     BOOST_TEST((unique.force - Mat3::Identity()).norm() + (unique.couple - Mat3::Identity()).norm() < 1e-14);
 }
 
-// Of two equal hinges no one can say which carries what; what they move is the same.
+// The loads of two equal hinges are not determined individually; their effect on the motion is the same.
 BOOST_AUTO_TEST_CASE(nothing_is_unique_in_a_joint_that_is_there_twice) {
   Scene scene = suite_scene("joints/pendulum-90");
   scene.joints.push_back(scene.joints[0]);
@@ -205,7 +204,7 @@ BOOST_AUTO_TEST_CASE(velocities_are_brought_to_the_nearest_that_joints_allow) {
   BodyTable bodies = start_of(scene);
   bodies.columns().set_velocity(0, {1, -2, 3}), bodies.columns().set_angular_velocity(0, {4, 5, -4});
   JointReactions(scene).project_velocities(bodies.columns());
-  // Of m (r x v) + I w about the anchor only the part about z is left: turning at it over I + m d².
+  // Only the part of m (r x v) + I w about z through the anchor remains: the rod rotates at this over I + m d².
   const double w = (0.5 * -2 + 0.08354166666666667 * -4) / (0.08354166666666667 + 0.25);
   BOOST_TEST((bodies.columns().angular_velocity(0) - Vec3(0, 0, w)).norm() < 1e-14);
   BOOST_TEST((bodies.columns().velocity(0) - Vec3(0, 0.5 * w, 0)).norm() < 1e-14);

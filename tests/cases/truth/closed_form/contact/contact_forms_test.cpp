@@ -1,4 +1,4 @@
-// The closed forms of sliding, rolling, pushing and of impacts on a line: against what others have printed, and against
+// The closed forms of sliding, rolling, pushing and of impacts on a line, compared with published numbers, and with
 // Coulomb's law integrated step by step.
 #include <boost/test/unit_test.hpp>
 
@@ -24,15 +24,15 @@ struct Along {
   double place, speed, spin;  // m, m/s, rad/s down the slope and about its y
 };
 
-// A second derivation: Newton and Coulomb by the midpoint rule in tiny steps, friction bounded by what would stop the
-// slip within the step. `k` = I/(m r²); infinite for a body that does not turn.
+// A second derivation: Newton and Coulomb by the midpoint rule in tiny steps. Friction is bounded by the force that
+// would stop the slip within the step. `k` = I/(m r²); infinite for a body that does not rotate.
 Along march(double angle, double friction, Along now, double k, double radius, double until) {
   const double g = 9.81, pull = g * std::sin(angle), most = friction * g * std::cos(angle);
   constexpr int kSteps = 400000;
   const double h = until / kSteps, share = std::isinf(k) ? 1 : k / (1 + k);
   for (int n = 0; n < kSteps; ++n) {
     const double slip = now.speed - (std::isinf(k) ? 0 : radius * now.spin);
-    // What would end the slip by the end of this step.
+    // The force that would end the slip by the end of this step.
     const double wanted = -(slip / h + pull) * share;
     const double brake = std::clamp(wanted, -most, most);
     const double speed = now.speed + h * (pull + brake);

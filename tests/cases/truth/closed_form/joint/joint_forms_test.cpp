@@ -1,5 +1,5 @@
-// The closed forms of jointed bodies: against states and periods that others have worked out, against the reference,
-// which knows of no elliptic function, and against scenes that they do not hold for.
+// The closed forms of jointed bodies, compared with independent states and periods, with the reference, which uses no
+// elliptic function, and on scenes outside their validity.
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ BOOST_AUTO_TEST_CASE(each_published_state_is_met) {
       if (published.scene != c.id) continue;
       const BodyState found = state_at(*truth, published.time, c.scene, test::body_index(c.scene, published.body));
       const test::Difference off = test::difference(found, published.state);
-      // Their own uncertainty, of an angle twice that of a quaternion's components, and the roundings of a hundred
-      // numbers of up to 100 rad/s that they are printed as.
+      // Their own uncertainty, which for an angle is twice that of a quaternion's components, and the rounding of the
+      // printed numbers of up to 100 rad/s.
       BOOST_TEST_CONTEXT(c.id << " at " << published.time << " s, " << published.body) {
         BOOST_TEST(off.pose <= 4 * published.error + 1e-14);
         BOOST_TEST(off.velocity <= 2 * published.error + 1e-13);

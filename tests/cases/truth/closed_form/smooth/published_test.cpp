@@ -52,9 +52,9 @@ BOOST_AUTO_TEST_CASE(free_fall_for_ten_seconds) {
   }
 }
 
-// Peters and Hsu (2014) print the energies 5.001041625 and 368.5464125 J. That is not what their boxes have, which is
-// 5.00104166.. and 368.54641666.. J: their moments, .808333.., .683333.. and .141666.. kg m², had been rounded to six
-// decimals, for with those their printed digits come out, all of them and both times.
+// Peters and Hsu (2014) print the energies 5.001041625 and 368.5464125 J. Their boxes have 5.00104166.. and
+// 368.54641666.. J. Their moments, .808333.., .683333.. and .141666.. kg m², were rounded to six decimals: with the
+// rounded moments all of their printed digits and both times are reproduced.
 BOOST_AUTO_TEST_CASE(the_energies_of_the_boxes) {
   Scene stable = test::free_body(test::box_moments(), {0.5, 0, 0});
   stable.bodies[0].mass = 10, stable.bodies[0].velocity = {-0.9, 0.4, 0.1};

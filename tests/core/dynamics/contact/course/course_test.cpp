@@ -46,8 +46,8 @@ BOOST_AUTO_TEST_CASE(a_sphere_that_leaves_or_does_not_touch_is_left_alone) {
   }
 }
 
-// The rule looks at the positions before the step, so that the sphere meets the ground with more speed than it should:
-// at dt = 1/30 s the apexes of an elastic ball grow to these shares of the first height.
+// The rule uses the positions before the step, so the sphere meets the ground too fast. At dt = 1/30 s the apexes of an
+// elastic ball grow to these shares of the first height.
 BOOST_AUTO_TEST_CASE(an_elastic_ball_gains_height_at_coarse_steps) {
   const Scene scene = test::dropped_sphere(1);
   test::ContactRun run(scene, "course", "semi-implicit-euler");
