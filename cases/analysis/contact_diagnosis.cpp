@@ -12,8 +12,7 @@ std::string how_it_corrects(const Cell& cell) {
   return split.empty() ? in_its_words(cell, "erp") : split;
 }
 
-// In a pile some balls graze each other, and what a step's overlap makes of the normal there is no matter of
-// restitution.
+// In a pile some balls graze each other. The normal then depends on a step's overlap, which is no error of restitution.
 bool is_pile(const CaseResult& result) {
   constexpr std::size_t kMostTellable = 60;  // bodies
   return result.definition.scene.bodies.size() > kMostTellable;

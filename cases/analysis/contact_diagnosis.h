@@ -1,5 +1,5 @@
-// What contacts do wrong: restitution that does not converge, overlap given back as speed, friction that knows
-// directions.
+// Errors of contacts: restitution that does not converge, overlap returned as speed, friction that depends on the
+// direction.
 #pragma once
 
 #include "cases/analysis/diagnosis.h"

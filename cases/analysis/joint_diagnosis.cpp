@@ -11,7 +11,7 @@
 namespace rigor {
 namespace {
 
-constexpr double kSmall = 1e-4;  // of a joint's reach: what is less is not worth a sentence
+constexpr double kSmall = 1e-4;  // of a joint's reach: smaller gaps are not reported
 
 // Steps from the nodes of `from` to each; all that stands still is the last node.
 std::vector<int> distances(const Scene& scene, std::size_t from) {
@@ -82,10 +82,10 @@ std::optional<Diagnosis> joints_part(const CaseResult& result, const MetricOverS
   return found;
 }
 
-// Of first order in dt, step by step: what a position's error makes of the energy is of second. Only of engines that
-// say how they correct their joints: of ours the method explains the energy.
+// First order in dt from step to step; the effect of a position error on the energy is of second order. Only for
+// engines that report how they correct their joints: the core's energy is explained by its method.
 std::optional<Diagnosis> joints_take_energy(const CaseResult& result, const MetricOverSteps& drifts) {
-  constexpr double kNotable = 0.01, kAll = 1;  // of what is in play
+  constexpr double kNotable = 0.01, kAll = 1;  // of the energy in play
   if (drifts.cells.size() < 2 || may_change_energy(result.definition.scene)) return std::nullopt;
   if (setting_of(*drifts.cells.front(), "erp").empty()) return std::nullopt;
   const bool only_losses = std::all_of(drifts.values.begin(), drifts.values.end(), [](const MetricValue* drift) {

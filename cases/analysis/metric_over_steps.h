@@ -5,7 +5,7 @@
 
 namespace rigor {
 
-// From the coarsest step to the finest; without cells that have no value or blew up.
+// From the coarsest step to the finest, without cells that have no value or blew up.
 struct MetricOverSteps {
   std::vector<const Cell*> cells;
   std::vector<const MetricValue*> values;
@@ -18,11 +18,11 @@ MetricOverSteps metric_over_steps(const CaseResult& result, std::size_t run, con
 // The runs that the case has cells of, ascending.
 std::vector<std::size_t> runs_of(const CaseResult& result);
 
-// What the engine tells of the setting in force, "" if it tells nothing; and as a sentence.
+// The engine's report of the setting in force, "" if there is none; and as a sentence.
 std::string setting_of(const Cell& cell, const std::string& setting);
 std::string in_its_words(const Cell& cell, const std::string& setting);
 
-// Of the series, at its n-th step.
+// The value of the series at its n-th step.
 Diagnosis diagnosis_of(const char* topic, const CaseResult& result, const MetricOverSteps& series, std::size_t n,
                        double value, const std::string& cause);
 

@@ -5,7 +5,7 @@
 namespace rigor {
 namespace {
 
-// What a mass at `offset` has about the origin beyond what it has about itself (Steiner).
+// The inertia of a mass at `offset` about the origin, beyond its inertia about itself (Steiner).
 Mat3 steiner(double mass, const Vec3& offset) {
   return mass * (offset.squaredNorm() * Mat3::Identity() - offset * offset.transpose());
 }

@@ -24,7 +24,7 @@ fs::path folder_of(const std::string& model) {
   return fs::weakly_canonical(folder.empty() ? "." : folder, error);
 }
 
-// What MuJoCo opens is named by `file`, or by one of the six faces of a texture.
+// The files that MuJoCo opens are named by `file`, or by one of the six faces of a texture.
 bool names_a_file(const std::string& attribute) { return attribute.starts_with("file"); }
 bool names_a_folder(const std::string& attribute) {
   return attribute == "meshdir" || attribute == "texturedir" || attribute == "assetdir";
@@ -83,7 +83,7 @@ class MjcfFiles {
     if (error || !is_inside(file, folder))
       throw InputError(fmt::format("{}: <{}>: '{}' leaves the folder of the model", where, element, path));
     const auto status = fs::status(file, error);
-    if (!fs::exists(status)) return;  // MuJoCo says so
+    if (!fs::exists(status)) return;  // MuJoCo reports it
     if (!fs::is_regular_file(status) || fs::file_size(file, error) > kLargestModel)
       throw InputError(fmt::format("{}: <{}>: '{}' is no regular file of at most {} MiB", where, element, path,
                                    kLargestModel >> 20));

@@ -1,4 +1,4 @@
-// Which files a model may name: those in its own folder and below, wherever links lead.
+// The files that a model may name: those in its own folder and below, after links are resolved.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// XML as files of robots are written in it: every element knows its line, what is not asked for is named, and what has
-// no place in such a file (document types and with them entities, names given twice) is refused.
+// XML of robot files. Every element knows its line, and unused parts are reported. Document types and thereby entities,
+// and duplicate names, are refused.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ class XmlElement {
 
   std::string name() const;
   std::string where() const;                                // "file:line"
-  std::string place() const;                                // "file:line: link 'arm'", for what is left out
+  std::string place() const;                                // "file:line: link 'arm'", for parts that are left out
   [[noreturn]] void refuse(const std::string& what) const;  // InputError: "file:line: <link>: what"
 
   std::optional<std::string> find(const std::string& attribute) const;
@@ -51,13 +51,13 @@ class XmlElement {
 
   std::vector<std::pair<std::string, std::string>> attributes() const;
 
-  // Names what is left out; refuses a word that is near one of the known, for it was meant to be one.
+  // Reports unknown words as left out. Refuses a word that is near a known one, because it is probably a mistake.
   void check(const XmlKnown& known, LeftOut& left_out) const;
 
  private:
   double one_number(const std::string& text, const std::string& what) const;
   std::vector<double> numbers(const std::string& text, std::size_t count, const std::string& what) const;
-  std::string described() const;  // "link 'arm'", or of what has no name "link 'arm': <limit>"
+  std::string described() const;  // "link 'arm'", or for an element without name "link 'arm': <limit>"
   bool check_word(const std::string& word, const std::string& place, const std::string& what,
                   const std::vector<std::string>& words, const XmlKnown& known, LeftOut& left_out) const;
 

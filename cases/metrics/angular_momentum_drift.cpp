@@ -1,6 +1,7 @@
-// The angular momentum about the moving bodies' centre of mass, which neither gravity nor springs between them change:
-// it must be L(0) + the timed torques' impulses, where nothing holds the bodies from outside and no timed force has an
-// arm that depends on the motion; else it is held against the truth's. Absolute, as L(0) may be 0.
+// The drift of the angular momentum about the moving bodies' centre of mass, which neither gravity nor springs between
+// them change. It must be L(0) plus the impulses of timed torques, if nothing holds the bodies from outside and no
+// timed force has an arm that depends on the motion. Otherwise it is compared with the truth's. Absolute, because L(0)
+// may be 0.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // How long a structure built to stand (built_at_rest.h) stands: the first instant at which a body has moved by more
-// than half the radius of the sphere round it; the end of the run if none ever has.
+// than half its bounding radius, or the end of the run.
 #include "cases/metrics/measures/built_at_rest.h"
 #include "cases/metrics/metric.h"
 

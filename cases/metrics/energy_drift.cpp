@@ -1,4 +1,4 @@
-// (E - E_expected) / scale, from the velocities as they are read; what is expected, and the scale: energy_series.h.
+// (E - E_expected) / scale, from the raw velocities. energy_series.h defines the expected energy and the scale.
 #include <cmath>
 
 #include "cases/metrics/measures/energy_series.h"

@@ -1,7 +1,7 @@
-// The most that a run's energy ever rises above the lowest it has had before, relative to the energy in play
-// (energy_series.h: energy_scale, rises_of). Nothing but a driving force may add energy: an impact or friction takes it
-// or leaves it, and so does a damper. What rises is the scheme's doing (overlap pushed out as speed, an impact answered
-// too fast); what falls is not judged here, for friction and restitution may well ask for it.
+// The largest rise of a run's energy above its lowest earlier value, relative to the energy in play (energy_series.h:
+// energy_scale, rises_of). Only a driving force may add energy; an impact, friction or a damper removes it or leaves
+// it. A rise is an error of the scheme (overlap pushed out as speed, an impact answered too fast). A fall is not judged
+// here, because friction and restitution may cause it.
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/metrics/measures/measuring.h"
 

@@ -1,6 +1,6 @@
-// Where bounces magnify errors beyond any truth, no trajectory is right: what can be is how outcomes are distributed.
-// A case with `ensemble = n` is run from n starts 1e-6 apart; what the run makes of them is held against what a
-// reference makes of n others, by their energy distance (measures/energy_distance.h).
+// Where bounces magnify errors beyond any truth, no trajectory is correct, but the distribution of outcomes can be. A
+// case with `ensemble = n` is run from n starts 1e-6 apart. The outcomes are compared with a reference's outcomes from
+// n other starts by their energy distance (measures/energy_distance.h).
 #include <fmt/format.h>
 
 #include "cases/metrics/measures/ensembles.h"

@@ -1,6 +1,6 @@
-// Friction that depends on the direction of sliding: of bodies that in truth all stop after the same distance, each on
-// its own way, the longest less the shortest of their ways, relative to the true one. A friction pyramid brakes along
-// its diagonal with the force of both its axes, sqrt(2) of the cone's, and shows 0.29.
+// Friction that depends on the direction of sliding, for bodies whose true stopping distances are all equal. The value
+// is the longest minus the shortest distance, relative to the true one. A friction pyramid brakes along its diagonal
+// with the force of both its axes, sqrt(2) of the cone's, and gives 0.29.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,5 @@
-// How much too early or late an impact is: the largest distance in time between the k-th impact of a pair in the run
-// and in truth (impacts.h, both from samples at the same instants). One that never comes is late by the rest of the
-// run.
+// The largest difference in time between the k-th impact of a pair in the run and in truth (impacts.h, both from
+// samples at the same instants). A missing impact is late by the rest of the run.
 #include <cmath>
 
 #include "cases/metrics/measures/impacts.h"

@@ -1,6 +1,6 @@
-// How far the two ends of a joint are apart, and how fast, in what the joint holds of their places
-// (joint_geometry.h). The first thing that tells stabilisations apart: none lets the gap grow with time, Baumgarte's
-// and ERP keep it at a level that depends on dt, a projection at rounding.
+// The gap between the two ends of a joint and its rate, in the directions that the joint holds (joint_geometry.h). It
+// distinguishes stabilisations best. Without one the gap grows with time, Baumgarte's method and ERP keep it at a level
+// that depends on dt, and a projection keeps it at rounding.
 #include "cases/metrics/measures/joints/joint_series.h"
 
 namespace rigor {

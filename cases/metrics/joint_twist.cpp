@@ -1,4 +1,4 @@
-// By what angle the two ends of a joint have turned against each other, and how fast, where the joint lets them not
+// The relative rotation of the two ends of a joint and its rate, in the directions that the joint locks
 // (joint_geometry.h).
 #include "cases/metrics/measures/joints/joint_series.h"
 

@@ -1,5 +1,5 @@
-// P = sum m v must be P(0) + M g t + the impulses of the timed forces, where nothing holds the bodies from outside;
-// else it is held against the truth's. Absolute, so that it means the same where P(0) = 0.
+// P = sum m v must be P(0) + M g t + the impulses of the timed forces, if nothing holds the bodies from outside.
+// Otherwise it is compared with the truth's. Absolute, so that it has the same meaning if P(0) = 0.
 #include "cases/metrics/measures/momentum_series.h"
 #include "core/dynamics/model/energy.h"
 

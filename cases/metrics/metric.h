@@ -19,24 +19,25 @@ struct TruthSamples {
   std::vector<KeptBodies> bodies;  // one for each sample of the trajectory
   std::vector<double> error;       // the truth's own error at each, see Truth::error
   double largest_kinetic_energy;   // J, over the whole run
-  const Truth* source = nullptr;   // what was sampled, to be asked between the first sample and the last
+  const Truth* source = nullptr;   // the sampled truth, to evaluate between the first sample and the last
 };
 
 struct ComparedReactions;  // measures/joints/reaction_difference.h
-// By sample: what joints carry, for the force and the couple are asked for one after the other; nothing where the
-// equations of motion do not tell.
+// By sample: joint loads, shared by the metrics of force and couple; empty if the equations of motion do not determine
+// them.
 using ReactionsBySample = std::map<std::size_t, std::shared_ptr<const ComparedReactions>>;
 struct ReactionsKnown {
   ReactionsBySample at_states, reported;
 };
 
-// The run's twin: its own scheme, repeated by the core (Engine::twin), at the instants of the run's samples; fewer if
-// the twin blew up before, or was wanted no further than it can be compared with the run (runner/twin_run.h).
+// The run's twin: its own scheme, repeated by the core (Engine::twin), at the instants of the run's samples. There are
+// fewer samples if the twin blew up earlier, or was needed only while it is comparable with the run
+// (runner/twin_run.h).
 struct TwinRun {
   Trajectory trajectory;
-  // What roundings alone may have made of the twin up to each sample: the largest distance from the same twin in
-  // worlds turned about, where the motion is the same and every rounding another. Never falls. Of the first samples, as
-  // many as can be compared.
+  // The effect of rounding alone on the twin up to each sample: the largest distance from the same twin in rotated
+  // worlds, where the motion is the same and every rounding differs. It never decreases. For the first samples, as many
+  // as can be compared.
   std::vector<double> position_rounding;     // m
   std::vector<double> orientation_rounding;  // rad
 };
@@ -68,7 +69,7 @@ struct JudgedRun {
 struct Instant {
   double time = 0;  // s
   int body = kWorld;
-  std::string component;  // what was compared: "position", "energy", "L.x"
+  std::string component;  // the compared quantity: "position", "energy", "L.x"
   double found = 0, expected = 0;
 };
 
@@ -104,7 +105,7 @@ struct CrossMetricRow {
 
 const std::vector<CrossMetricRow>& cross_metrics();  // alphabetical
 
-// Of a metric of either kind; empty if there is none of that name.
+// Looks in both kinds of metrics; empty if there is none of that name.
 std::string unit_of_metric(const std::string& name);
 
 }  // namespace rigor

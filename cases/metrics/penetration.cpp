@@ -1,5 +1,5 @@
-// The deepest overlap of two bodies' shapes at any sample (overlaps.h); zero where all keep apart. What the scene
-// overlaps at the start is not the engine's doing and is taken off.
+// The deepest overlap of two bodies' shapes at any sample (overlaps.h); zero if all stay apart. Overlap of the scene's
+// start is subtracted, because the engine did not cause it.
 #include <fmt/format.h>
 
 #include "cases/metrics/measures/measuring.h"

@@ -1,8 +1,9 @@
 // The one shift in time of the whole truth that fits the run best: s minimises the misfit
 //   J(s) = mean over samples of Σ m |p - P(t - s)|² + φᵀ I φ,  φ = 2 vec(Q(t - s)⁻¹ q),
-// in which a metre and a radian weigh as they do in the kinetic energy. s > 0: the run lags; s < 0: it leads. The best
-// of 33 shifts within half a period either way (a whole one cannot be told from none) brackets the root of dJ/ds. Which
-// it is, the truth's samples tell, gone on from at their own speed; the truth itself is asked there and beside it.
+// in which a metre and a radian have the weight that they have in the kinetic energy. s > 0: the run lags; s < 0: it
+// leads. The best of 33 shifts within half a period in both directions (a whole period equals none) brackets the root
+// of dJ/ds. The truth's samples, extrapolated at their own speed, select it. The truth itself is evaluated there and
+// beside it.
 #include <fmt/format.h>
 
 #include <boost/math/tools/roots.hpp>
@@ -40,7 +41,7 @@ class Fit {
   Misfit at(double shift) {
     return misfit([&](double t) { run_.truth->source->at(t, shifted_.columns()); }, shift);
   }
-  // By the truth's samples alone.
+  // Uses only the truth's samples.
   Misfit roughly_at(double shift) {
     return misfit([&](double t) { go_on_from_sample(t); }, shift);
   }
@@ -86,10 +87,10 @@ class Fit {
     }
   }
 
-  // 2π √(half the mean square distance from the start / the mean square speed) is the period of a turn about one axis,
-  // and 0.7 of that of an oscillation that starts at its middle, 1.2 of one that starts at its end; else it is of the
-  // motion's own measure. The faster of moving and turning counts, unless it is a trace (1e-9 of the energy) of the
-  // other. 0 where nothing moves.
+  // 2π √(half the mean square distance from the start / the mean square speed) is the period of a rotation about one
+  // axis. It is 0.7 of the period of an oscillation that starts at its middle, and 1.2 if that starts at its end. For
+  // other motions it has the right magnitude. The faster of translation and rotation counts, unless it has only 1e-9 of
+  // the other's energy. 0 if nothing moves.
   void find_period() {
     double moved = 0, turned = 0, speed = 0, spin = 0, mass = 0;
     const auto truth = [&](std::size_t n) { return run_.truth->bodies[n].columns(); };
@@ -134,8 +135,8 @@ class Fit {
   std::vector<std::size_t> chosen_;
 };
 
-// Round the best of the shifts tried: the root of the slope between its neighbours, or the vertex of the parabola
-// through the three misfits where the slope has none there.
+// Refines the best shift: the root of the slope between its neighbours, or the vertex of the parabola through the three
+// misfits if the slope has no root there.
 double refined(Fit& fit, std::map<int, Misfit>& tried, int best, double step, double dt) {
   const Misfit &before = tried[best - 1], &here = tried[best], &after = tried[best + 1];
   const double low = (best - 1) * step, middle = best * step, high = (best + 1) * step;
@@ -151,7 +152,7 @@ double refined(Fit& fit, std::map<int, Misfit>& tried, int best, double step, do
   return 0.5 * (root.first + root.second);
 }
 
-// From a shift down to the first that is better than both beside it; into `tried` those that were asked for.
+// Descends from a shift to the first that is better than both neighbours; adds evaluated shifts to `tried`.
 int least_beside(Fit& fit, double step, int best, std::map<int, Misfit>& tried) {
   const auto value = [&](int k) {
     if (std::abs(k) > kEitherWay) return std::numeric_limits<double>::infinity();

@@ -1,7 +1,6 @@
-// By how much the forces and couples that joints carry at the run's own states differ from those at the truth's: what a
-// designer of bearings reads from a simulation. Both are worked out from the equations of motion (joint_reactions.h),
-// none is asked of an engine (reported_reaction_error.cpp does), and each counts in the directions in which it is
-// unique.
+// The difference between the joint loads at the run's own states and those at the truth's, which a designer of bearings
+// reads from a simulation. Both follow from the equations of motion (joint_reactions.h). Loads that an engine reports
+// are judged in reported_reaction_error.cpp. Each counts in the directions in which it is unique.
 #include "cases/metrics/measures/joints/joint_series.h"
 #include "cases/metrics/measures/joints/reaction_difference.h"
 

@@ -1,5 +1,5 @@
-// |speed of separation / speed of approach - e| of an impact, the largest over the run's impacts (impacts.h): what the
-// engine made of the pair's restitution. Needs no truth.
+// |speed of separation / speed of approach - e| of an impact, the largest over the run's impacts (impacts.h). Needs no
+// truth.
 #include <cmath>
 
 #include "cases/metrics/measures/impacts.h"

@@ -60,8 +60,8 @@ Stability judge_stability(const JudgedRun& run, const std::optional<NotFinite>& 
 }
 
 EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double duration) {
-  // Milliseconds apart over a usual run: between two samples little is missed, and it serves as a scale. Losses and
-  // gains take their time: nothing of them is missed between every fourth.
+  // The samples are milliseconds apart in a usual run, so little is missed between two of them, and the value serves as
+  // a scale. Losses and gains are slow; every fourth sample shows them.
   constexpr int kSamples = 4096, kEach = 4;
   BodyTable bodies(scene.bodies.size());
   EnergyExtremes found;
@@ -74,8 +74,8 @@ EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double du
     if (n == 0) start = now;
     found.change = std::max(found.change, std::abs(now - start));
   }
-  // A truth that stays at an equilibrium, or nearly, as a pole that is balanced does, says nothing of what may come
-  // into motion beside it: what hardly moves has less than 1/30,000 of the speed that the scene has in play.
+  // A truth near an equilibrium, for example a balanced pole, does not show how much energy may come into motion. A
+  // body counts as hardly moving below 1/30,000 of the speed that the scene has in play.
   constexpr double kHardlyMoves = 1e-9;  // of the energy
   const double of_scene = energy_in_play(scene, duration);
   if (!(std::max(found.kinetic, found.change) > kHardlyMoves * of_scene)) found.kinetic = of_scene;

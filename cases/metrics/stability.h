@@ -11,9 +11,9 @@
 
 namespace rigor {
 
-// Blown up: a number is not finite, or |E - E0| > 10 x the energy that the truth has in play: its largest kinetic
-// energy or, where that is more, the largest change of its energy. A weight that dampers let creep back to rest moves
-// little and loses much. Else verdict.h judges. `not_finite`: where the simulation ended for it.
+// Blown up: a number is not finite, or |E - E0| > 10 x the energy in play of the truth. That is its largest kinetic
+// energy or, if larger, the largest change of its energy: a weight that dampers bring to rest moves little and loses
+// much. Otherwise verdict.h judges. `not_finite`: where the simulation ended for that reason.
 Stability judge_stability(const JudgedRun& run, const std::optional<NotFinite>& not_finite,
                           double largest_kinetic_energy, double largest_energy_change = 0);
 
@@ -25,8 +25,8 @@ struct EnergyExtremes {
 };
 EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double duration);
 
-// Whether the energy's change from its start [J] is what a run that has not blown up may show. Friction and impacts may
-// take any amount, as on a long slope: there only a rise is bounded. False, too, where the energy is not a number.
+// Whether the energy's change from its start [J] is possible without a blow-up. Friction and impacts may remove any
+// amount, as on a long slope; then only a rise is bounded. Also false if the energy is NaN.
 bool is_bounded(double change, double energy_in_play, bool may_lose);
 
 }  // namespace rigor

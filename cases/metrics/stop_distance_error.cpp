@@ -1,5 +1,5 @@
-// How far a body that the truth brings to a stop has gone, relative to how far it should have: (found - expected) /
-// expected, the largest of its magnitudes over the bodies, at the end of the run. What creeps on after its stop counts.
+// The relative error of the distance of a body that the truth brings to a stop: (found - expected) / expected, the
+// largest magnitude over the bodies, at the end of the run. Creep after the stop counts.
 #include <cmath>
 
 #include "cases/metrics/measures/measuring.h"

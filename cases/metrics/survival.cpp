@@ -1,5 +1,4 @@
-// How long a run lasted: the instant at which the verdict on its stability (stability.h) says that it blew up, or the
-// end of the run if it did not.
+// How long a run lasted: the instant at which it blew up according to its verdict (stability.h), or the end of the run.
 #include <cmath>
 
 #include "cases/metrics/metric.h"

@@ -1,7 +1,7 @@
-// The share of a run's time that it is inside a tube round the truth: at some instant within one dt of now, every body
-// was or will be, in truth, within its tolerance, |Δp|²/r² + (Δangle)²/a² <= 1. r is 1 % of the extent of the body's
-// true path, the diagonal of the box round it, or 1 mm if that is more; a is 1 % of half a turn. A run that is right
-// but for a little lag so stays inside where position_error counts every metre of it.
+// The share of a run's time inside a tube around the truth. At some instant within one dt of now, every body must be
+// within its tolerance of the truth: |Δp|²/r² + (Δangle)²/a² <= 1. r is 1 % of the diagonal of the box around the
+// body's true path, or 1 mm if that is larger; a is 1 % of half a turn. A run that is correct except for a small lag
+// stays inside, while position_error counts its whole distance.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -51,8 +51,8 @@ class Tube {
   }
 
  private:
-  // By how many tolerances the truth can come nearer within a dt, at twice the fastest that it moves at the samples
-  // there: where that is not enough it need not be asked for, which takes long.
+  // An upper bound, in tolerances, of how much nearer the truth can come within a dt: at twice its largest speed at the
+  // samples there. If that is not enough, the slow evaluation of the truth is skipped.
   double reach(std::size_t n) const {
     constexpr double kMargin = 2;
     double fastest = 0;
@@ -102,7 +102,7 @@ MetricResult measure_tube(const JudgedRun& run) {
   const std::size_t count = samples_within(run, std::min(kTruthNeededPosition, kTruthNeededOrientation));
   if (count == 0) return {{}, kNoSamples};
   Tube tube(run, count);
-  // Samples: a share to 1e-4. Of jointed bodies, whose truth takes up to a hundred times as long to answer, to 1e-3.
+  // Samples: a share to 1e-4. For jointed bodies, whose truth takes up to a hundred times as long, to 1e-3.
   const std::size_t most = run.scene.joints.empty() ? 10000 : 1000, every = 1 + count / most;
   std::size_t inside = 0, all = 0;
   Measurement out;

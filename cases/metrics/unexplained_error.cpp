@@ -1,6 +1,5 @@
-// The largest distance, over bodies and time, between where the engine has a body and where its twin has it: what is
-// left of the position's error once the scheme's own part is taken off. In metres; relative to motion_extents() it is
-// rounding while below 1e-9.
+// The largest distance, over bodies and time, between the engine's and its twin's position of a body: the part of the
+// position error that the scheme does not explain. In metres; it is rounding while below 1e-9 of motion_extents().
 #include "cases/metrics/measures/measuring.h"
 
 namespace rigor {

@@ -1,5 +1,5 @@
-// The largest angle, over bodies and time, of the turn that takes the engine's orientation of a body to its twin's:
-// what is left of the orientation's error once the scheme's own part is taken off. Relative to one radian.
+// The largest angle, over bodies and time, between the engine's and its twin's orientation of a body: the part of the
+// orientation error that the scheme does not explain. Relative to one radian.
 #include "cases/metrics/measures/measuring.h"
 
 namespace rigor {

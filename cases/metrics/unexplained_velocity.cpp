@@ -1,6 +1,5 @@
-// Velocities and angular velocities, as read, against those of the engine's twin, for as long as its positions and
-// orientations can be held against each other. A rounding of a position is one of a velocity times the motion's
-// fastest frequency.
+// Raw velocities and angular velocities, compared with those of the engine's twin for as long as its positions and
+// orientations are comparable. A rounding of a position gives one of a velocity, times the motion's fastest frequency.
 #include <algorithm>
 
 #include "cases/metrics/measures/rate_gap.h"

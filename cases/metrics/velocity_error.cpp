@@ -1,5 +1,5 @@
-// Velocities and angular velocities, as read, against the truth's. A semi-implicit step leaves them half a step behind
-// the positions, which is an error of first order here: what is read belongs to no one instant.
+// Raw velocities and angular velocities, compared with the truth's. A semi-implicit step leaves them half a step behind
+// the positions. This is a first-order error here, because the values read belong to no single instant.
 #include "cases/metrics/measures/rate_gap.h"
 
 namespace rigor {

@@ -19,8 +19,8 @@
 namespace rigor {
 namespace {
 
-// Of the energy in play. A drift is told from what the means of tenths wander by themselves. A rise is in both readings
-// of the energy, of which roundings are the only noise: half as much is told, which two digits of a verdict show.
+// Relative to the energy in play. A drift must exceed the random variation of the means of tenths. A rise is in both
+// readings of the energy, whose only noise is rounding. Half of that is reported, which two digits of a verdict show.
 constexpr double kMoved = 0.01, kRisen = 0.005;
 
 constexpr Verdict kVerdicts[] = {Verdict::stable,  Verdict::drifting,  Verdict::overlapping,
@@ -91,7 +91,7 @@ std::optional<Stability> overlapping(const JudgedRun& run) {
   if (!anything_can_touch(scene)) return {};
   const Overlaps overlaps(scene);
   std::optional<Stability> worst;
-  double most = 1;  // of what is allowed
+  double most = 1;  // relative to the allowed value
   for (const Sample& sample : run.trajectory.samples) {
     overlaps.visit(sample.bodies.columns(), [&](const Overlap& found) {
       const double share = found.depth / deepest_allowed(scene.bodies[found.a], scene.bodies[found.b]);
@@ -117,7 +117,7 @@ std::optional<Stability> collapsed(const JudgedRun& run) {
                                fell->time, run.scene.body_name(fell->body), fell->found)};
 }
 
-// The worst of them is the word; what else was found is said behind it.
+// The word is the worst of them; the sentence lists the others.
 Stability worst_of(std::vector<Stability> found) {
   std::stable_sort(found.begin(), found.end(),
                    [](const Stability& a, const Stability& b) { return a.verdict > b.verdict; });

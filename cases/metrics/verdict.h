@@ -1,4 +1,4 @@
-// The verdict on a run in one word, and what it stands on.
+// The verdict on a run in one word, and its reasons.
 #pragma once
 
 #include <string>
@@ -7,17 +7,16 @@
 
 namespace rigor {
 
-// From the best to the worst; of several that apply the worst is the word, and all of them are in the sentence.
-//   drifting     the energy, with the velocities brought to the positions' time, has moved away from what it should be
-//                by more than 1 % of what is in play between the first and the last tenth of what can be compared
-//   overlapping  a body has gone deeper into a fixed one than it is thick itself, or into one that moves by more than
-//                half the thickness of the thinner of the two
-//   gaining      energy that nothing drives has risen above the lowest before, at any sample, by more than 0.5 % of
-//   what
-//                is in play: asked where bodies can touch, and where dampers act and no truth says what they take
-//   collapsed    what the truth says stands where it was built has fallen (built_at_rest.h)
+// From best to worst. If several apply, the word is the worst, and the sentence contains all of them.
+//   drifting     The energy moved away from its expected value by more than 1 % of the energy in play. Compared are the
+//                first and the last tenth of the comparable time, with velocities at the positions' time.
+//   overlapping  A body entered a fixed one by more than its own thickness, or a moving one by more than half the
+//                thickness of the thinner of the two.
+//   gaining      Energy that nothing drives rose above its lowest earlier value, at any sample, by more than 0.5 % of
+//                the energy in play. Checked if bodies can touch, and if dampers act and there is no truth.
+//   collapsed    A structure fell that stands in its truth (built_at_rest.h).
 //   blown up     see stability.h
-// What is in play, and what the energy should be: energy_series.h.
+// The energy in play and the expected energy: energy_series.h.
 enum class Verdict { stable, drifting, overlapping, gaining, collapsed, blown_up };
 std::string word_of(Verdict verdict);         // "blown up"
 Verdict verdict_of(const std::string& word);  // throws InputError for any other word

@@ -1,6 +1,5 @@
-// Whether an engine does what the seam asks (core/engine/engine.h), check by check: for one that comes from outside,
-// and any other. Small scenes, each with a truth of its own; whatever fails says what was sent, what came back and what
-// was due.
+// Checks whether an engine meets the seam's contract (core/engine/engine.h), for engines from outside and any other.
+// The scenes are small, each with its own truth. Each failure shows the request, the answer and the expected answer.
 #pragma once
 
 #include <string>
@@ -25,11 +24,11 @@ struct Trial {
 
 struct ConformanceCheck {
   std::string name;
-  std::string asks;  // what holds, as a sentence
+  std::string asks;  // the requirement, as a sentence
   CheckResult (*run)(const Trial& trial);
 };
 
-const std::vector<ConformanceCheck>& conformance_checks();  // in the order in which they are of use to an author
+const std::vector<ConformanceCheck>& conformance_checks();  // ordered by their use to an author
 
 // The check's result; an engine that throws, or that does not answer, breaks it.
 CheckResult check_result(const ConformanceCheck& check, const Trial& trial);

@@ -94,12 +94,12 @@ OrderFound errors_of_top(const Trial& trial, int steps) {
   return found;
 }
 
-// A method that divides its steps by itself until they are good enough does so with one of half a turn; one that only
-// says so, and would be asked for no order, is far off.
+// An adaptive method divides a step of half a turn until it is accurate. A method that only claims to be adaptive, and
+// would escape the check of its order, has a large error.
 CheckResult an_adaptive_top_needs_no_short_steps(const Trial& trial) {
   constexpr double kLongStep = 3;  // s, at some 1 rad/s
-  // By tolerances of a thousandth, as some engines ship, 0.04; of one step without division 0.14 to 3, but for
-  // compositions of exact rotations, which are as good as the loosest.
+  // The error is 0.04 with tolerances of a thousandth, as some engines ship. It is 0.14 to 3 for one undivided step,
+  // except for compositions of exact rotations, which are as accurate as the loosest.
   constexpr double kMost = 0.1;
   std::string sent;
   Body uneven = odd_body();
@@ -114,8 +114,8 @@ CheckResult a_top_turns_as_its_order_says(const Trial& trial) {
   constexpr int kSteps = 100;
   const OrderFound found = errors_of_top(trial, kSteps);
   const double rounding = 20 * kSteps * rounding_of(trial);  // ten of numbers of about 1 for each step of the longer
-  // A body without a gyroscopic term, or that takes w in another frame, is off by a good part of w² t in a second; of
-  // a first order step the error is w² dt.
+  // Without the gyroscopic term, or with w in another frame, the error is a large part of w² t in a second. The error
+  // of a first-order step is w² dt.
   constexpr double kFirstOrder = 2.0 / kSteps;
   Comparison top(found.sent + "; read");
   top.number("an error [rad, rad/s] of", found.coarse, 0, kFirstOrder + rounding);

@@ -1,4 +1,4 @@
-// What the checks share: scenes, worlds taken some steps on, and the words for what differs.
+// Shared code of the checks: scenes, worlds after some steps, and the text of differences.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ class Comparison {
   CheckResult result_;
 };
 
-// A world that remembers what was asked of it.
+// A world that remembers its requests.
 class TriedWorld {
  public:
   TriedWorld(const Trial& trial, const Scene& scene);
@@ -48,7 +48,7 @@ Body round_body();
 Scene scene_of(Body body, const Vec3& gravity = Vec3::Zero());
 Body solid(const std::string& name, const Shape& shape, const Vec3& position);
 
-// Empty if the engine says that it can run the scene, else why it is not asked to.
+// Empty if the engine declares that it can run the scene, else the reason for skipping it.
 std::string why_not(const Trial& trial, const Scene& scene, double dt);
 
 // The rows of a table of checks, a file each.

@@ -9,11 +9,10 @@
 
 namespace rigor {
 
-// Why the run's scene is not one of them, or its truth moves; empty if it is and does not.
+// Why the run's scene is not built to stand, or its truth moves; empty if it stands.
 std::string why_not_built_at_rest(const JudgedRun& run);
 
-// The first instant at which a body of such a scene has moved by more than half the radius of the sphere round it; none
-// if all of them stand.
+// The first instant at which a body of such a scene has moved by more than half its bounding radius; none if all stand.
 std::optional<Instant> collapse_of(const JudgedRun& run);
 
 }  // namespace rigor

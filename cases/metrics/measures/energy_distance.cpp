@@ -60,7 +60,7 @@ EnergyTest energy_test(const Points& x, const Points& y, int permutations, std::
   std::iota(order.begin(), order.end(), std::size_t{0});
   const Means found = pooled.means(order);
   if (found.across == 0) return {};
-  // What chance makes of the same points counts as large as well where only roundings part it from what was found.
+  // A random division counts as equally large if only rounding separates it from the observed one.
   const double least = found.energy() - 1e-12 * found.across;
   std::mt19937_64 random(seed);
   int as_large = 0;

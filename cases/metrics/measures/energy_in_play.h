@@ -1,21 +1,23 @@
-// The energy that a scene has in play, from the scene alone: what a gain or a loss is measured by where no truth says
-// how much of it comes into motion. Never from a run that is judged: one that flies apart would excuse itself.
+// The energy that a scene has in play, from the scene alone. It is the scale of gains and losses if no truth says how
+// much energy comes into motion. It never comes from the judged run, because a run that flies apart would excuse
+// itself.
 #pragma once
 
 #include "core/scene/scene.h"
 
 namespace rigor {
 
-// J, the most kinetic energy that the bodies should come to have within `duration` [s]: what they start with, what
-// the springs store, what timed forces can give, and each body's weight times the height it can fall. That height ends
-// at the highest support under the body, and does not count the inradius that is left under its centre:
+// J, the largest kinetic energy that the bodies should reach within `duration` [s]: their initial energy, the energy of
+// the springs, the work of timed forces, and each body's weight times the height it can fall. The height ends at the
+// highest support under the body, and does not count the inradius below its centre:
 //   a level plane                     the body's centre over it
-//   a tilted plane                    likewise, and then the slope as far as it slides without friction
-//   any other fixed shape, no plane   the body's centre over the lowest point of the sphere round the lowest such shape
-//   a spring, or several in a chain   to the world or a fixed body: their lengths, with what twice all of the scene's
-//                                     weight stretches each by
+//   a tilted plane                    the same, then the slope as far as it slides without friction
+//   any other fixed shape, no plane   the body's centre over the lowest point of the lowest such shape's bounding
+//   sphere a spring, or several in a chain   to the world or a fixed body: their lengths, plus the extension of each
+//   under
+//                                     twice the scene's weight
 //   nothing                           a free fall
-// Where nothing can fall, move or recoil: what would lift every body by its inradius; without gravity, 1 J.
+// If nothing can fall, move or recoil: the energy that would lift every body by its inradius; without gravity, 1 J.
 double energy_in_play(const Scene& scene, double duration);
 
 }  // namespace rigor

@@ -1,4 +1,4 @@
-// A run's energy over time beside what it should be: the ground of both energy metrics and of the verdicts on energy.
+// A run's energy over time, and its expected energy: the basis of both energy metrics and of the verdicts on energy.
 #pragma once
 
 #include <string>
@@ -10,35 +10,35 @@ namespace rigor {
 
 struct EnergySeries {
   std::vector<double> found, expected;  // J, one for each sample compared
-  double scale = 1;                     // J, what a drift is relative to
+  double scale = 1;                     // J, the scale of a drift
   bool only_gains_count = false;        // expected: the lowest so far
   std::string not_applicable;           // why there is nothing to expect; empty if there is
 };
 
-// `stagger`: the velocities are first brought forward by that many steps, see synchronised.h; 0 takes them as they are
-// read. So they are, too, where forces push what contact brakes: the push alone, without the friction that all but
-// balances it, would bring them further from the positions' time than they were.
+// `stagger`: the velocities are first advanced by that many steps, see synchronised.h; 0 uses them unchanged. They also
+// stay unchanged where forces push bodies that contact brakes. The push alone, without the friction that almost
+// balances it, would move them further from the positions' time.
 //
-// What is expected, the first that applies:
-//   nothing takes or gives energy                        what it was at the start
-//   a truth whose energy stays what it was               likewise (an elastic bounce, say)
+// The expected energy, by the first row that applies:
+//   no gain or loss of energy                            the energy at the start
+//   a truth with constant energy                         the same (for example an elastic bounce)
 //   timed forces, or dampers, and a truth                its own start plus the truth's change, up to its horizon
 //   timed forces without a truth                         nothing
-//   contact that may lose energy, or dampers             not above the lowest so far: only gains count
+//   contact that may lose energy, or dampers             at most the lowest so far: only gains count
 EnergySeries energy_series(const JudgedRun& run, double stagger);
 
 // J, at each sample, with the velocities brought forward by `stagger` steps.
 const std::vector<double>& energies_of(const JudgedRun& run, double stagger);
 std::vector<double> lowest_so_far(const std::vector<double>& energies);  // J, the sample itself included
 
-// J, at each sample: by how much the energy has risen above the lowest before, in both of its readings, whichever says
-// less. As read, a bounce seems to gain what lies between the velocity's time and the position's; brought forward by
-// the free acceleration, so does a body that comes to rest on another, which holds it. No real gain is missed by
-// either.
+// J, at each sample: the rise of the energy above its lowest earlier value, in both readings; the smaller one counts.
+// In the raw reading a bounce seems to gain energy by the time between velocity and position. In the advanced reading a
+// body that comes to rest on another does so, because free acceleration ignores the support. A real gain appears in
+// both.
 std::vector<double> rises_of(const std::vector<double>& as_read, const std::vector<double>& synchronised);
 
-// Whether contact may take energy: an impact below restitution 1 does, and so does friction, even an infinite one when
-// a body slips as it lands.
+// Whether contact may remove energy: an impact with restitution below 1, or friction, even an infinite one when a body
+// slips as it lands.
 bool contact_may_lose(const Scene& scene);
 
 // Whether timed forces or motors act.
@@ -47,8 +47,8 @@ bool is_driven(const Scene& scene);
 // Whether contact, dampers or limits, timed forces or motors may take or give energy.
 bool may_change_energy(const Scene& scene);
 
-// J: what a change of energy is relative to: the truth's largest kinetic energy; without one, or where nothing moves in
-// it, what the scene has in play (energy_in_play.h) over the run's duration.
+// J: the scale of an energy change. It is the truth's largest kinetic energy. Without a truth, or if nothing moves in
+// it, it is the scene's energy in play (energy_in_play.h) over the run's duration.
 double energy_scale(const JudgedRun& run);
 
 }  // namespace rigor

@@ -1,5 +1,5 @@
-// What a run makes of many starts close to each other, beside what the reference makes of others: the places in which
-// the bodies that move end.
+// The outcomes of many starts close to each other, of the run and of the reference: the final places of the moving
+// bodies.
 #pragma once
 
 #include <string>

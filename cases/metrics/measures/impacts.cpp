@@ -157,7 +157,7 @@ class Watcher {
   const Scene& scene_;
   const Trajectory& trajectory_;
   Synchroniser synchroniser_;
-  double spacing_, slowest_;  // s between samples; m/s, what gravity adds in two of them: slower is rest
+  double spacing_, slowest_;  // s between samples; m/s, what gravity adds in two of them: a slower body rests
   double fastest_ = 0;        // m/s, that a surface has moved so far
   BodyTable bodies_;
   std::map<Pair, Watch> watched_;

@@ -1,6 +1,6 @@
 // The impacts of a recorded run: for each pair of bodies, the instants at which they stop approaching each other. The
-// samples before and after are carried to the touch along their own free flight (constant velocities and gravity), so
-// that neither the speeds nor the time of an impact depend on where in a step it fell.
+// samples before and after are extrapolated to the contact along their own free flight (constant velocities and
+// gravity). The speeds and the time of an impact thus do not depend on its position inside a step.
 #pragma once
 
 #include <map>
@@ -17,9 +17,10 @@ struct ImpactSpeeds {
   double after = 0;   // m/s, the speed of separation at the touch; 0 if they stay together
 };
 
-// By pair (a < b), in order of time. Left out are impacts near a third body, for several impulses may make one speed
-// there; of bodies with corners all but the first, for the next may be of another corner; and those slower than a tenth
-// of the pair's fastest: a ball that comes to rest makes any number of them, the last of which no finite step resolves.
+// By pair (a < b), in order of time. Some impacts are left out: those near a third body, because several impulses may
+// add up to one speed; of bodies with corners all but the first, because the next may be of another corner; and those
+// slower than a tenth of the pair's fastest. A ball that comes to rest makes any number of them, and no finite step
+// resolves the last.
 std::map<std::pair<int, int>, std::vector<ImpactSpeeds>> impacts_of(const Scene& scene, const Trajectory& trajectory,
                                                                     double leapfrog_stagger);
 

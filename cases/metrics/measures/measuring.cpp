@@ -6,7 +6,7 @@
 namespace rigor {
 namespace {
 
-// At the start every run is what the scene says: a comparison there alone would find no error in any of them.
+// At the start every run equals the scene. A comparison only there would find no error in any run.
 std::size_t beyond_the_start(std::size_t count, const JudgedRun& run) {
   return count == 1 && run.trajectory.samples.size() > 1 ? 0 : count;
 }

@@ -1,4 +1,4 @@
-// What metrics share: keeping the worst of a series of values, and how far a truth can be compared with.
+// Shared code of metrics: the worst of a series of values, and how long a truth can be compared.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ class TimeSeries {
   Measurement measurement_;
 };
 
-// The truth must be this good at an instant to be compared with there. At the steps that are judged a scheme is off by
-// a micrometre or more within a few steps; below that, an angle or a length says nothing about the scheme.
+// The required accuracy of the truth at a compared instant. At the judged steps a scheme has an error of a micrometre
+// or more after a few steps. Below that, an angle or a length says nothing about the scheme.
 inline constexpr double kTruthNeededPosition = 1e-6;     // m
 inline constexpr double kTruthNeededOrientation = 1e-6;  // rad
 
@@ -26,17 +26,17 @@ inline constexpr double kTruthNeededOrientation = 1e-6;  // rad
 // there any where only the start would be: there nothing is off.
 std::size_t samples_within(const JudgedRun& run, double needed);
 
-// A run is held against its twin while the truth is good enough, if there is one, and while roundings alone cannot have
-// parted them by more than this share of their scale. Roundings grow with the motion's own sensitivity: past that
-// instant no distance between the two says anything of the engine.
+// A run is compared with its twin while the truth, if any, is accurate enough, and while rounding alone cannot have
+// separated them by more than this share of their scale. Rounding grows with the sensitivity of the motion. Past that
+// instant no distance between the two says anything about the engine.
 inline constexpr double kRoundingShare = 1e-10;
 
 // m: the farthest from W's origin that a body of the twin has come by each sample. Positions are rounded relative to
 // it.
 std::vector<double> motion_extents(const Trajectory& trajectory);
 
-// The first samples of the run, all those at which it can be held against its twin, if more than the start. `rounding`
-// is the twin's, `scale` what it is relative to at each sample.
+// The number of first samples at which the run can be compared with its twin, if more than the start. `rounding` is the
+// twin's, `scale` its scale at each sample.
 std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& rounding,
                               const std::vector<double>& scale, double needed_of_truth);
 

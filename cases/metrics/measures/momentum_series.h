@@ -1,4 +1,4 @@
-// What both momentum metrics share: when a momentum is known without a truth, and the comparison with what it must be.
+// Shared code of the momentum metrics: when a momentum is known without a truth, and the comparison with it.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,7 @@
 namespace rigor {
 
 // Why something outside the moving bodies acts on them, besides gravity and timed forces: a spring or joint to the
-// world or to a fixed body, or contact with a fixed body. Empty if nothing does: the momenta then follow from the
-// forces alone.
+// world or to a fixed body, or contact with a fixed body. If empty, the forces alone determine the momenta.
 std::string why_held_from_outside(const Scene& scene);
 
 // Seconds of [0, t] during which the force acts.

@@ -1,4 +1,4 @@
-// How deep bodies' shapes overlap beyond what the scene starts with, by the judge's own geometry (shape_gap.h).
+// The overlap of bodies' shapes beyond that of the scene's start, by the judge's own geometry (shape_gap.h).
 #pragma once
 
 #include <functional>

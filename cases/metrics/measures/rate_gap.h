@@ -1,5 +1,4 @@
-// The largest difference, over bodies and time, of velocities or angular velocities between a run and what it is held
-// against.
+// The largest difference, over bodies and time, of velocities or angular velocities between a run and a comparison.
 #pragma once
 
 #include <functional>
@@ -11,7 +10,7 @@ namespace rigor {
 
 using RateOf = Vec3 (BodyColumns::*)(std::size_t body) const;
 
-// Over the first `count` samples; expected(n) is what the n-th is held against.
+// Over the first `count` samples; expected(n) is the comparison for the n-th.
 inline MetricResult rate_gap(const JudgedRun& run, std::size_t count, RateOf rate, const std::string& letter,
                              const std::function<BodyColumns(std::size_t n)>& expected) {
   if (count == 0) return {{}, kNoSamples};

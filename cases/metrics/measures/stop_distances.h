@@ -15,7 +15,7 @@ struct Stop {
   double time;             // s, of that sample
 };
 
-// Bodies that move in truth and are at rest in truth at the last sample. `why_none`: the reason where there is none.
+// Bodies that move in truth and rest in truth at the last sample. `why_none`: the reason if there are none.
 std::vector<Stop> stops_of(const JudgedRun& run, std::string& why_none);
 
 }  // namespace rigor

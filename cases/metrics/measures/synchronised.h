@@ -1,6 +1,6 @@
-// Velocities brought to the time of the positions. The velocities of a semi-implicit step belong half a step before the
-// positions; taken as they are read, the energy oscillates by what lies between the two instants, which is sampling and
-// not loss (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed., section I.3.1: Störmer-Verlet).
+// Velocities advanced to the time of the positions. The velocities of a semi-implicit step belong half a step before
+// the positions. Raw energies therefore oscillate by the difference of both instants, which is an effect of sampling
+// and no loss (Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed., section I.3.1: Störmer-Verlet).
 #pragma once
 
 #include <optional>

@@ -1,10 +1,10 @@
-// What joints carry: the forces and couples that keep their constraints' second derivatives zero at a given state,
+// The loads of joints: the forces and couples that keep their constraints' second derivatives zero at a given state,
 //   M a = f + Jᵀ λ,   J a + b = 0   =>   J M⁻¹ Jᵀ λ = -(J M⁻¹ f + b),
-// where f are gravity, springs, timed forces and what acts along the joints' free axes, and b the centripetal terms.
+// where f contains gravity, springs, timed forces and loads along the joints' free axes, and b the centripetal terms.
 //
-// Where rows of J depend on each other (a plane mechanism's loop of hinges) joints may also carry loads that balance
-// among themselves, the null space of Jᵀ: no motion tells them. A reaction is unique in the directions in which those
-// have no part, and only there it is compared.
+// If rows of J depend on each other (a plane mechanism's loop of hinges), joints may also carry loads that balance each
+// other, the null space of Jᵀ. The motion does not determine them. A reaction is unique only in the directions without
+// such loads, and only these are compared.
 #pragma once
 
 #include <optional>
@@ -23,13 +23,12 @@ struct JointReaction {
   Vec3 couple = Vec3::Zero();  // N m
 };
 
-// Projections on the directions in which a reaction is unique; zero where there is none that the joint can carry
-// anything in.
+// Projections onto the directions in which a reaction is unique; zero if the joint has none with a load.
 struct UniqueReaction {
   Mat3 force = Mat3::Identity(), couple = Mat3::Identity();
 };
 
-// Why the equations of motion alone do not tell what the scene's joints carry; empty if they do.
+// Why the equations of motion alone do not determine the joint loads of the scene; empty if they do.
 std::string why_reactions_are_unknown(const Scene& scene);
 
 class JointReactions {

@@ -1,4 +1,4 @@
-// What the joint metrics share: the worst joint at each sample.
+// Shared code of the joint metrics: the worst joint at each sample.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// What the metrics of joints' reactions share: what joints carry, found in one way or another, held against the truth's
-// in the directions in which it is unique, at a hundred instants or so, evenly through the run: a reaction takes a
-// hundred times what a distance does.
+// Shared code of the reaction metrics. Joint loads, from any source, are compared with the truth's in the directions in
+// which they are unique. This is done at about a hundred instants, evenly through the run, because a reaction costs a
+// hundred times as much as a distance.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace rigor {
 
-// The force or the couple, and what it is called: "reported force".
+// The force or the couple, and its name: "reported force".
 struct ReactionPart {
   std::string what;
   Vec3 JointReaction::*of;
@@ -28,10 +28,10 @@ struct ComparedReactions {
 // At a sample, by its number; nothing where the equations of motion do not tell.
 using CompareReactions = std::function<std::optional<ComparedReactions>(std::size_t sample)>;
 
-// From one sample compared to the next, of so many.
+// The distance between compared samples, for this many samples.
 std::size_t samples_between_reactions(std::size_t samples);
 
-// At the samples, by their numbers; with the reason where there is none. What is `known` is not compared again.
+// The values at these sample numbers, with the reason if there is none. `known` values are not computed again.
 MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPart& part,
                                          const std::vector<std::size_t>& samples, ReactionsBySample& known,
                                          const CompareReactions& compare);
