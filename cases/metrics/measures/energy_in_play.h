@@ -12,10 +12,9 @@ namespace rigor {
 // highest support under the body, and does not count the inradius below its centre:
 //   a level plane                     the body's centre over it
 //   a tilted plane                    the same, then the slope as far as it slides without friction
-//   any other fixed shape, no plane   the body's centre over the lowest point of the lowest such shape's bounding
-//   sphere a spring, or several in a chain   to the world or a fixed body: their lengths, plus the extension of each
-//   under
-//                                     twice the scene's weight
+//   any other fixed shape, no plane   the body's centre over the lowest point of the lowest one's bounding sphere
+//   a spring, or several in a chain   to the world or a fixed body: their lengths, plus the extension of each
+//                                     under twice the scene's weight
 //   nothing                           a free fall
 // If nothing can fall, move or recoil: the energy that would lift every body by its inradius; without gravity, 1 J.
 double energy_in_play(const Scene& scene, double duration);
