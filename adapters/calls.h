@@ -1,5 +1,4 @@
-// What a run's settings are in an engine's own words: the calls that its adapter makes for them, to paste into one's
-// own program.
+// A run's settings in an engine's own words: the calls of its adapter, to paste into a user's program.
 #pragma once
 
 #include <string>
@@ -9,8 +8,8 @@
 
 namespace rigor {
 
-// Lines of code, `world` and `body` as the engine's tutorials call them; the last is the step, of `dt` as written. None
-// for an engine that has no calls of its own.
+// Lines of code, with `world` and `body` as in the engine's tutorials; the last line is the step, with `dt` as written.
+// Empty for an engine without calls.
 std::vector<std::string> engine_calls(const RunName& run, const std::string& dt);
 
 }  // namespace rigor

@@ -48,7 +48,7 @@ const std::vector<EngineOnRequest>& engines_on_request();  // alphabetical, buil
 bool is_on_request(const std::string& engine);
 
 EngineTable built_in_engines();  // alphabetical; a copy of one's own, to add others to
-const EngineTable& engines();    // the same, for those who add none
+const EngineTable& engines();    // the same, without additional engines
 
 inline const std::vector<EngineInfo>& infos_of(const EngineTable& table) { return table.infos(); }
 inline const Engine& find_engine(const EngineTable& table, const std::string& name) { return table.find(name); }

@@ -1,7 +1,7 @@
-// Between Rigor's conventions and Bullet's. Both: SI, right-handed, velocities of the centre of mass in the world
-// frame. They differ in the quaternion's order (ours w first, Bullet's last), and in the inertia: ours is any symmetric
-// matrix in the body frame B, Bullet's is diagonal. So Bullet is given the principal frame P, turned against B by a
-// constant R_BP.
+// Conversion between Rigor's conventions and Bullet's. Both use SI units, right-handed frames, and velocities of the
+// centre of mass in the world frame. They differ in the quaternion's order (ours w first, Bullet's last), and in the
+// inertia. Ours is any symmetric matrix in the body frame B, Bullet's is diagonal. Bullet therefore gets the principal
+// frame P, rotated relative to B by a constant R_BP.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

@@ -85,8 +85,8 @@ std::unique_ptr<World> BulletEngine::load(const Scene& scene, const Settings& se
   return std::make_unique<BulletWorld>(scene, settings);
 }
 
-// The defaults are those that BulletWorld sets, or leaves; a cfm that is not named is by the masses, in the twin as
-// there. As shipped, jointed bodies fall asleep together, and reduced coordinates are damped: neither is repeated.
+// The defaults are those that BulletWorld sets or leaves. An unnamed cfm follows from the masses, in the twin as there.
+// On the stock track jointed bodies fall asleep together, and reduced coordinates are damped; the twin repeats neither.
 std::string BulletEngine::twin(const Settings& settings) const {
   if (settings.method == "multibody") return settings.track == Track::matched ? "core:bullet-multibody-twin" : "";
   std::string name =

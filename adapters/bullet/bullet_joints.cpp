@@ -9,7 +9,7 @@
 namespace rigor::bullet {
 namespace {
 
-constexpr double kFar = 1e30;  // m: a limit that is none
+constexpr double kFar = 1e30;  // m: a limit that is never reached
 
 // Axes in W of a frame of which the given ones are taken as they are.
 Mat3 frame_with_z(const Vec3& z) {
@@ -25,7 +25,7 @@ Mat3 frame_with_x(const Vec3& x) {
   return frame;
 }
 
-// A frame that both bodies share at t = 0, as each of them sees it. Bullet's bodies are principal frames.
+// A frame that both bodies share at t = 0, in each body's own frame. Bullet's bodies use principal frames.
 struct SharedFrame {
   btTransform in_a, in_b;
 
@@ -85,9 +85,9 @@ struct Make {
   std::unique_ptr<btTypedConstraint> operator()(const DistanceJoint&) const { return nullptr; }  // refused before
 
  private:
-  // Angles count from -pi to pi: a limit there is none, and of limits beyond Joints::unwind() takes care. Matched, the
-  // bounce is not cut to "bias" times itself, and what is past a limit is not pushed back ("stop ERP" 0), which would
-  // throw it off at a share of the speed it came with.
+  // Angles lie between -pi and pi, so a limit there is none; Joints::unwind() handles limits beyond. On the matched
+  // track the bounce is not multiplied by "bias". An overshoot is not pushed back ("stop ERP" 0), because that would
+  // return a share of the incoming speed.
   void limit(btHingeConstraint& hinge) const {
     const double pi = std::numbers::pi;
     set_limits(hinge, std::max(joint.lower, -pi), std::min(joint.upper, pi), joint.restitution, matched);
@@ -139,7 +139,7 @@ void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of, 
 }
 
 void Joints::enter(btDynamicsWorld& world) {
-  constexpr bool kApart = false;  // whether what a joint connects may touch is for the scene to say (Body::collides)
+  constexpr bool kApart = false;  // the scene decides whether jointed bodies may touch (Body::collides)
   for (const auto& constraint : constraints_) world.addConstraint(constraint.get(), kApart);
 }
 
@@ -160,7 +160,7 @@ std::vector<ReportedReaction> Joints::reactions() const {
   return reactions;
 }
 
-// Bullet knows a hinge's limits as an arc of less than a turn: it gets the part of them that is within reach.
+// Bullet stores a hinge's limits as an arc of less than a turn. It gets the part within reach.
 void Joints::unwind() {
   constexpr double kTurn = 2 * std::numbers::pi, kReach = 3;  // rad
   for (Winding& at : winding_) {

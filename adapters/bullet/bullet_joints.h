@@ -26,7 +26,7 @@ namespace rigor::bullet {
 
 class Joints {
  public:
-  // The body of an index, or for kWorld and a fixed body without one of its own a body that stands at the origin.
+  // The body with this index. For kWorld, and for a fixed body without its own, a body at the origin.
   using BodyOf = std::function<btRigidBody&(int)>;
 
   // Bodies stand as the scene has them at t = 0, and outlive this.
@@ -39,7 +39,8 @@ class Joints {
   void set_motors(double t, double dt);
 
   bool empty() const { return constraints_.empty(); }
-  // From the next step on; of joints without limits, for Bullet keeps a slider's by a second constraint.
+  // Applies from the next step on, to joints without limits, because Bullet keeps a slider's limits in a second
+  // constraint.
   void ask_for_reactions();
   std::vector<ReportedReaction> reactions() const;
 

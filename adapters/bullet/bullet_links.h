@@ -35,7 +35,7 @@ struct NewLinks {
 };
 void add_links(btMultiBody& tree, const Joint& joint, const JointEnds& ends, const NewLinks& links);
 
-// From those of the joint's ends in W. `link`: the child's.
+// Computed from the joint's ends in W. `link`: the child's.
 void set_velocities(btMultiBody& tree, int link, const Joint& joint, const JointEnds& ends);
 
 }  // namespace rigor::bullet

@@ -1,5 +1,4 @@
-// What the matched track sets Bullet's ERP and CFM of joints to where a run does not say, for the engine and its twin
-// alike.
+// Bullet's ERP and CFM of joints on the matched track, if a run does not set them; for the engine and its twin.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +7,9 @@
 
 namespace rigor::bullet {
 
-// The share of a joint's gap that is closed in a step, by a speed that stays. Each step opens a gap of half the path's
-// curvature times (v dt)², of which 1/ERP stands open and takes energy: a rod let go from the horizontal loses 62 % of
-// its energy in 10 s at 1/30 s as shipped (0.2), 32 % at 0.5, 10 % at 1. But at 1 a chain that whips faster than the
+// The share of a joint's gap that a step closes, by a speed that stays. Each step opens a gap of half the path's
+// curvature times (v dt)²; 1/ERP of it remains and costs energy. At 1/30 s a rod released from the horizontal loses 62
+// % of its energy in 10 s with the stock 0.2, 32 % with 0.5, 10 % with 1. But with 1 a chain that whips faster than the
 // step resolves gains energy with the direct solver, a quarter of its own in 3 s.
 inline constexpr double kErp = 0.5;
 

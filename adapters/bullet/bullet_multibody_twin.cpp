@@ -1,5 +1,5 @@
-// The step of bullet:multibody (btMultiBody of Bullet 3.24, matched track), to be held against Bullet itself; ball
-// joints and free bases turn by turn_of().
+// The step of bullet:multibody (btMultiBody of Bullet 3.24, matched track), for comparison with Bullet itself.
+// turn_of() rotates ball joints and free bases.
 #include "adapters/bullet/bullet_multibody_twin.h"
 
 #include "adapters/bullet/bullet_turn.h"

@@ -33,8 +33,8 @@ BulletMultibodyWorld::BulletMultibodyWorld(const Scene& scene, const Settings& s
   read_bodies();
 }
 
-// What is past a limit is pushed back, a share "erp" of it in a step, by a speed that stays: matched, none of it. As
-// shipped a limit has an impulse of at most 100 N s or N m s.
+// Bullet pushes back a share "erp" of an overshoot per step, by a speed that stays; on the matched track it is 0. The
+// stock limit has an impulse of at most 100 N s or N m s.
 void BulletMultibodyWorld::add_limits(const Scene& scene, bool matched) {
   if (matched) world_.getSolverInfo().m_erp = world_.getSolverInfo().m_erp2 = 0;
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
@@ -77,7 +77,7 @@ void BulletMultibodyWorld::add_motors(const Scene& scene) {
 void BulletMultibodyWorld::set_motors(double dt) {
   for (const Drive& drive : drives_) {
     const double share = share_of_step(drive.motor.from, drive.motor.until, clock_.time(), dt);
-    drive.row->setMaxAppliedImpulse(drive.motor.most * share * dt);  // N s, N m s; none of 0
+    drive.row->setMaxAppliedImpulse(drive.motor.most * share * dt);  // N s, N m s; 0 without impulse
   }
 }
 
@@ -206,7 +206,7 @@ void BulletMultibodyWorld::add_loads(double dt) {
   }
 }
 
-// From the base outwards: Bullet keeps turns and offsets from parent to child, and rates of joints.
+// From the base outwards: Bullet keeps rotations and offsets from parent to child, and joint rates.
 void BulletMultibodyWorld::read_bodies() {
   struct Motion {
     btQuaternion from_W;

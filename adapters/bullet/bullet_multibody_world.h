@@ -4,10 +4,10 @@
 //   ball spherical    hinge revolute    slider prismatic    fixed fixed
 //   universal         two revolute ones with a link between them that has neither mass nor inertia; only the inertia
 //                     of all that hangs on a joint is ever divided by, and that is never zero here
-// The root of a tree that floats free is a body with six coordinates; v and w of its own are stepped in W. Link frames
-// are principal frames, for Bullet's inertias are diagonal. Limits and motors that keep a speed are impulses of
-// Bullet's solver after the accelerations: a limit stops what has come past it (btMultiBodyJointLimitConstraint),
-// without rebound. "parent to this" takes vectors from the parent's frame.
+// The root of a free tree is a body with six coordinates; its v and w are stepped in W. Link frames are principal
+// frames, because Bullet's inertias are diagonal. Limits and motors that keep a speed are impulses of Bullet's solver
+// after the accelerations. A limit stops a joint that passed it (btMultiBodyJointLimitConstraint), without rebound.
+// "parent to this" maps vectors from the parent's frame.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -90,7 +90,8 @@ class BulletMultibodyWorld : public World, public ReportsReactions {
   std::vector<Drive> drives_;
   btEmptyShape no_shape_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;  // that touch nothing
-  std::vector<std::vector<int>> body_of_link_;  // by tree: of the base first; kWorld for what is no body of the scene
+  // by tree: bodies, base first; kWorld for links without a body of the scene
+  std::vector<std::vector<int>> body_of_link_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;

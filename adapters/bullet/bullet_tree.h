@@ -14,13 +14,13 @@ struct Branch {
   int joint;
 };
 
-// A base, and what hangs on it, parents first. On the world, or a fixed body, one joint hangs a tree of its own.
+// A base and its links, parents first. Each joint to the world, or to a fixed body, starts a tree.
 struct Tree {
   int base;  // a body that floats free, or kWorld
   std::vector<Branch> branches;
 };
 
-// Every body that moves is in one of them. The joints must close no loop.
+// Every moving body belongs to one of them. The joints must close no loop.
 std::vector<Tree> trees_of(const Scene& scene);
 
 }  // namespace rigor::bullet

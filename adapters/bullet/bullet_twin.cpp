@@ -1,20 +1,18 @@
-// The smooth step of Bullet 3.24, to be held against Bullet itself. Semi-implicit Euler; with I = R0 I_B R0ᵀ of the
-// step's start and I_B the inertia in whatever body frame (Bullet takes the principal one, which changes roundings
-// alone):
+// The smooth step of Bullet 3.24, for comparison with Bullet itself: semi-implicit Euler. I = R0 I_B R0ᵀ is that of the
+// step's start, with I_B the inertia in any body frame (Bullet uses the principal one, which only changes rounding):
 //   w1 = w0 + dt I⁻¹ tau + g,   v1 = v0 + dt F/m,   x1 = x0 + dt v1,   then a turn by dt w1
 // g, the gyroscopic change of w, knows nothing of tau and is, as btRigidBody::setFlags says,
 //   implicit-body, -world   one Newton step from w0 for I (w - w0) + dt w x I w = 0:
 //                           g = -(I + dt ([w0]x I - [I w0]x))⁻¹ dt (w0 x I w0); the same in either frame, but for
 //                           roundings
 //   explicit                -dt I⁻¹ (w0 x I w0), the torque cut off at a limit (m_maxGyroscopicForce)
-// The turn is the exponential map; past pi/4 its sine and cosine are those of pi/4, while the sine is still multiplied
-// by the whole of w1: the quaternion, normalised, turns by 2 atan(tan(pi/8) |w1| dt / (pi/4)). Below 1e-3 rad/s Bullet
-// takes the sine's series, which differs by less than a rounding. As shipped, a body that stays below 0.8 m/s and 1
-// rad/s for more than 2 s falls asleep one step later, for good where nothing touches it.
-// Joints act between the velocities and the turn: see bullet_twin_joints.h.
-// Not repeated, for it is no part of the scheme: as shipped Bullet takes a body out of the simulation, its velocity
-// still standing, once the box around it and where it will be a step later is 1e6 m across
-// (btCollisionWorld::updateSingleAabb).
+// The rotation is the exponential map. Beyond pi/4 its sine and cosine are those of pi/4, but the sine is still
+// multiplied by the whole w1. The normalised quaternion then rotates by 2 atan(tan(pi/8) |w1| dt / (pi/4)). Below 1e-3
+// rad/s Bullet uses the sine's series, which differs by less than a rounding. On the stock track a body below 0.8 m/s
+// and 1 rad/s for more than 2 s falls asleep one step later, permanently if nothing touches it. Joints act between the
+// velocities and the rotation: see bullet_twin_joints.h. One effect is no part of the scheme and not repeated. On the
+// stock track Bullet removes a body from the simulation, with its velocity unchanged, once the box around its present
+// and next position is 1e6 m across (btCollisionWorld::updateSingleAabb).
 #include "adapters/bullet/bullet_twin.h"
 
 #include <Eigen/LU>
@@ -32,7 +30,7 @@ namespace {
 constexpr double kNoLimit = 1e30;                               // N m
 constexpr double kSlow = 0.8, kSlowTurn = 1, kTimeToSleep = 2;  // m/s, rad/s, s
 
-// What the gyroscopic torque depends on: the inertia in W and in B, the orientation, w in W, the step, and the limit [N
+// The inputs of the gyroscopic torque: the inertia in W and in B, the orientation, w in W, the step, and the limit [N
 // m].
 struct Spin {
   Mat3 inertia_W, inertia_B;
@@ -46,9 +44,9 @@ using GyroscopicChange = Vec3 (*)(const Spin& spin);
 
 Vec3 no_change(const Spin&) { return Vec3::Zero(); }
 
-// One Newton step, in the frame of its arguments. Bullet solves it by Cramer's rule and leaves a determinant below the
-// rounding unit undivided (btMatrix3x3::solve33): of a body whose moments are some 6e-6 kg m² or less, nothing is left
-// of the gyroscopic torque.
+// One Newton step, in the frame of its arguments. Bullet solves it by Cramer's rule and does not divide by a
+// determinant below the rounding unit (btMatrix3x3::solve33). For moments of some 6e-6 kg m² or less, no gyroscopic
+// torque remains.
 Vec3 newton_change(const Mat3& inertia, const Vec3& w, double dt) {
   const Vec3 L = inertia * w;
   const Mat3 slope = inertia + dt * (cross_matrix(w) * inertia - cross_matrix(L));
@@ -59,7 +57,7 @@ Vec3 newton_change(const Mat3& inertia, const Vec3& w, double dt) {
 
 Vec3 implicit_world_change(const Spin& spin) { return newton_change(spin.inertia_W, spin.w, spin.dt); }
 
-// As Bullet does: the whole of w goes to B and back in each step, which rounds more than its change alone would.
+// As in Bullet: the whole w is converted to B and back in each step, which rounds more than converting only its change.
 Vec3 implicit_body_change(const Spin& spin) {
   const auto turned = [](const Quat& q, const Vec3& v) {
     return Vec3((q * Quat(0, v.x(), v.y(), v.z()) * q.conjugate()).vec());
@@ -140,7 +138,7 @@ class BulletTwin : public Stepper {
   GyroscopicChange gyroscopic_change_;
   double limit_;  // N m
   bool may_sleep_;
-  std::unique_ptr<BulletTwinJoints> joints_;  // null where there are none
+  std::unique_ptr<BulletTwinJoints> joints_;  // null without joints
   std::vector<double> time_slow_;  // s. The one thing that a later step depends on beside the state, as in Bullet
   Wrenches wrenches_;
 };

@@ -1,7 +1,6 @@
-// Joints as Bullet 3.24 with its direct solver (MLCP, Dantzig) holds them, for its twin: Bullet's own rows
-// (bullet_twin_rows.h), and the solution that all direct solvers come to (twin_joint_solver.h). Sequential impulses are
-// sweeps of Gauss and Seidel over the same rows, which end before they converge where joints hang in a row: not
-// repeated.
+// Joints of Bullet 3.24 with its direct solver (MLCP, Dantzig), for its twin: Bullet's own rows (bullet_twin_rows.h),
+// and the common solution of all direct solvers (twin_joint_solver.h). Sequential impulses are Gauss-Seidel sweeps over
+// the same rows. They end before convergence where joints form a chain, and are not repeated.
 #pragma once
 
 #include <memory>

@@ -79,8 +79,8 @@ class Hinge : public BulletJointRows {
   Frames frames_;
 };
 
-// btGeneric6DofSpring2Constraint with the displacements along a's axes kept, and some of the three angles of the turn
-// from a's axes to b's, about a's z first and b's x last.
+// btGeneric6DofSpring2Constraint with locked displacements along a's axes, and some of the three angles from a's axes
+// to b's locked, about a's z first and b's x last.
 class SixCoordinates : public BulletJointRows {
  public:
   SixCoordinates(const Frames& frames, bool keeps_all_angles) : frames_(frames), keeps_all_angles_(keeps_all_angles) {}

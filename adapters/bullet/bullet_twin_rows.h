@@ -1,6 +1,5 @@
-// The rows that Bullet 3.24's constraints put on their bodies, as bullet_joints.h chooses them, on the matched track.
-// Where a kind is written differently from the core's own rows, it matters: the same joint, other numbers to second
-// order in the gap.
+// The rows of Bullet 3.24's constraints, as bullet_joints.h chooses them, on the matched track. Some rows are written
+// differently from the core's. This matters: the same joint has other numbers, to second order in the gap.
 #pragma once
 
 #include <memory>

@@ -41,9 +41,9 @@ double inner_radius(const Shape& shape) {  // m, of the largest ball inside
   return 0;
 }
 
-// A body that moves by more than its inner ball's radius in a step is stopped where that ball first touches another,
-// and loses the rest of the step, and with it its bounce: only for scenes where nothing bounces. As shipped it passes
-// through what it steps over.
+// A body that moves by more than its inner ball's radius in a step is stopped where that ball first touches another. It
+// loses the rest of the step, and its bounce, so this is only for scenes without restitution. The stock track lets it
+// pass through.
 void stop_at_first_touch(btRigidBody& body, double radius) {
   body.setCcdMotionThreshold(radius);
   body.setCcdSweptSphereRadius(radius);
@@ -96,7 +96,7 @@ void BulletWorld::apply(const Settings& settings) {
   solver.m_splitImpulse = word_option(settings, "split-impulse", on_off(solver.m_splitImpulse)) == "on";
 }
 
-// What follows from the scene, where the run does not say.
+// Values that follow from the scene if the run does not set them.
 void BulletWorld::match(const Scene& scene, const Settings& settings) {
   if (!scene.joints.empty() && !settings.options.contains("erp")) world_.getSolverInfo().m_erp = bullet::kErp;
   if (settings.method == "mlcp" && !settings.options.contains("cfm")) softness_ = bullet::softness(scene);
@@ -132,8 +132,8 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
   if (matched_) {
     if (row.moves) row.body->setActivationState(DISABLE_DEACTIVATION);
     row.body->setDamping(0, 0);
-    // m: no impulse across a gap, which would brake a body before its bounce. Where nothing bounces that impulse is
-    // right.
+    // m: no impulse across a gap, which would brake a body before its bounce. Without restitution that impulse is
+    // correct.
     if (bounces_) row.body->setContactProcessingThreshold(0);
     if (row.moves && body.collides && !bounces_) stop_at_first_touch(*row.body, inner_radius(*body.shape));
   }
@@ -145,7 +145,7 @@ void BulletWorld::step(double dt) {
   if (!loads_.empty()) add_loads(dt);
   joints_->set_motors(clock_.time(), dt);
   if (softness_ > 0) world_.getSolverInfo().m_globalCfm = softness_ * dt;
-  // No sub-steps: with them Bullet would advance by whole multiples of 1/60 s, whatever dt is.
+  // No sub-steps: with them Bullet would advance by multiples of 1/60 s for any dt.
   world_.stepSimulation(dt, 0);
   clock_.advance(dt);
   look_for_fallback();

@@ -65,7 +65,7 @@ class BulletWorld : public World, public ReportsReactions {
   btDbvtBroadphase broadphase_;
   btDantzigSolver dantzig_;
   std::unique_ptr<btSequentialImpulseConstraintSolver> solver_;
-  // What joints to the world hold on to. It takes no part in the world, and so has no contacts.
+  // The anchor of joints to the world. It is not in the world's list of bodies, and so has no contacts.
   btRigidBody ground_{btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &no_shape_)};
   std::unique_ptr<bullet::Joints> joints_;
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, solver_.get(), &configuration_};

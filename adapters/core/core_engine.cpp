@@ -17,7 +17,7 @@ namespace rigor {
 namespace {
 
 constexpr const char* kVersion = "0.1.0";
-constexpr const char* kDefault = "dormand-prince";  // right whatever the step
+constexpr const char* kDefault = "dormand-prince";  // correct at any step
 
 class CoreWorld : public World, public MayReduceOrder {
  public:
@@ -68,7 +68,7 @@ class CoreWorld : public World, public MayReduceOrder {
     if (orientation_) settings.emplace_back("orientation", orientation_->name);
     if (integrator_.adaptive) settings.emplace_back("tolerance", fmt::format("{}", tolerance_));
     settings.emplace_back("contact", contact_name_);
-    // Asked each time, for some say what the run has made of them.
+    // Computed at each call, because some settings depend on the run.
     const SettingsInForce of_contact = contact_ ? contact_->settings_in_force() : SettingsInForce();
     settings.insert(settings.end(), of_contact.begin(), of_contact.end());
     if (joints_) settings.emplace_back("joints", fmt::format("{} rows, of rank {}", joints_->rows(), joints_->rank()));
@@ -193,7 +193,7 @@ EngineInfo CoreEngine::made_info() const {
     info.features.insert(method.features.begin(), method.features.end());
   }
   for (const Integrator& row : integrators_) info.methods.push_back(method_info(row));
-  // The first is what a run named "core" gets. Twins last.
+  // The first is the default of "core". Twins come last.
   std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.twin_of.empty(); });
   std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.name == kDefault; });
   return info;

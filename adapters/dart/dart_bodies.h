@@ -1,8 +1,8 @@
 // A scene's bodies and joints as DART's skeletons, one for each tree of joints.
 //
-// DART's conventions and ours: SI here and there; a body's frame is ours, its origin set at the centre of mass; poses
-// are transforms from the body to the world. A joint's frame is set at its point, turned as the body that hangs on it,
-// so that a ball joint's rates are those of that body in its own frame. Angles and ways count from t = 0.
+// DART's conventions and ours: both use SI. A body's frame is ours, with its origin at the centre of mass; poses are
+// transforms from the body to the world. A joint's frame is at its point, oriented like its child body, so a ball
+// joint's rates are those of that body in its own frame. Angles and displacements count from t = 0.
 #pragma once
 
 #include <dart/dynamics/BodyNode.hpp>
@@ -16,8 +16,8 @@ namespace rigor {
 struct DartBodies {
   std::vector<::dart::dynamics::SkeletonPtr> skeletons;
   std::vector<::dart::dynamics::BodyNode*> bodies;  // by body of the scene; one that is fixed does not move
-  // By joint of the scene: null if it has no coordinate of its own. DART counts from the parent to what hangs on it:
-  // ours is that, or its negative.
+  // By joint of the scene: null if it has no coordinate of its own. DART counts from parent to child: our coordinate is
+  // equal or the negative.
   struct Coordinate {
     ::dart::dynamics::Joint* joint = nullptr;
     double sign = 1;

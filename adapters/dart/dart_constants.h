@@ -1,6 +1,5 @@
-// What is global to DART: the constants of its constraints, which hold for the whole process, and its messages, which
-// go to std::cerr and std::cout in colours. A world sets the constants for each of its steps, and puts back what was
-// there.
+// DART's global state: the constants of its constraints, which hold for the whole process, and its messages, which go
+// to std::cerr and std::cout in colours. A world sets the constants for each of its steps, and restores the old values.
 #pragma once
 
 #include <sstream>
@@ -27,7 +26,7 @@ class ForOneStep {
   Constants before_;
 };
 
-// Keeps what is written to std::cerr and std::cout while it lives.
+// Captures the output to std::cerr and std::cout during its lifetime.
 class Messages {
  public:
   Messages();

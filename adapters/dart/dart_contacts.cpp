@@ -63,7 +63,7 @@ class LawNumbers {
   std::vector<std::set<std::size_t>> of_;  // by body
 };
 
-// Beside DART's own, by which two bodies that do not move are not tried.
+// Added to DART's own filter, which excludes pairs of immobile bodies.
 class LawFilter : public ::dart::collision::BodyNodeCollisionFilter {
  public:
   explicit LawFilter(const Scene& scene) : laws_(scene) {}

@@ -1,6 +1,6 @@
-// A scene's shapes and contact laws in DART, which multiplies the restitutions of two shapes and takes the lesser of
-// their frictions. A body has its shape once for each law that it takes part in, and only shapes of the law of their
-// pair are tried against each other: so every pair has its own.
+// A scene's shapes and contact laws in DART, which multiplies the restitutions of two shapes and takes the smaller
+// friction. A body has one shape for each law that it takes part in. Only shapes of the law of their pair are tested
+// against each other, so every pair has its own law.
 #pragma once
 
 #include <dart/collision/CollisionFilter.hpp>
@@ -13,15 +13,15 @@ namespace rigor {
 // Half the edge of the box whose upper face stands for a plane. m
 inline constexpr double kDartPlaneReach = 500;
 
-// Gives the bodies their shapes. What it returns has to be the filter of the world's collisions.
+// Gives the bodies their shapes. The returned filter must be that of the world's collisions.
 std::shared_ptr<::dart::collision::CollisionFilter> add_dart_shapes(const Scene& scene, DartBodies& made);
 
 // The box that stands for a plane has edges.
 class DartPlaneEdges {
  public:
   explicit DartPlaneEdges(const Scene& scene);
-  // Throws EngineFailure for a body that has come beside the box, where nothing would hold it: as unsupported, or as
-  // diverged where it is so far off that it has been thrown there.
+  // Throws EngineFailure for a body beside the box, where nothing would hold it: unsupported, or diverged if it is so
+  // far away that it was thrown there.
   void check(BodyColumns bodies) const;
 
  private:

@@ -1,4 +1,4 @@
-// What the matched track sets in DART, and why: adapters/dart/README.md.
+// The settings of DART's matched track. The reasons are in adapters/dart/README.md.
 #pragma once
 
 #include <cstddef>

@@ -8,9 +8,9 @@
 namespace rigor {
 namespace {
 
-// DART keeps orientations of free bodies and balls as rotation vectors, and writes them anew after each step. Its
-// exponential map is cut off behind the second power for turns of less than 1e-3 rad (Geometry.cpp: expMapRot), where
-// it turns too far by a sixth of their third power: the smaller the step, the less it is what it should be.
+// DART keeps orientations of free bodies and balls as rotation vectors, and writes them again after each step. For
+// rotations below 1e-3 rad its exponential map is cut off after the second power (Geometry.cpp: expMapRot). The
+// rotation is then too large by a sixth of its third power, so smaller steps have larger errors.
 Mat3 exponential(const Vec3& v) {
   constexpr double kSmall = 1e-3;  // rad
   const double angle = v.norm();

@@ -32,8 +32,7 @@ constexpr double kDartRunaway = 1e50;
 
 bool runs_away(const Vec3& v) { return !(v.squaredNorm() < kDartRunaway * kDartRunaway); }
 
-// What is left for the loads that DART does not know: springs and forces, motors of effort, and what drives the joints
-// that close loops.
+// The loads that DART does not have: springs and forces, motors of effort, and the drives of joints that close loops.
 Scene external_part(const Scene& scene, const SpanningTree& tree) {
   Scene left;
   left.bodies = scene.bodies, left.springs = scene.springs, left.forces = scene.forces, left.joints = scene.joints;

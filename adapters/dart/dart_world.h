@@ -5,8 +5,8 @@
 
 namespace rigor {
 
-// Throws EngineFailure (unsupported) for what features do not say: a slider or universal joint that closes a loop, a
-// limit that bounces, a coefficient that DART takes for zero.
+// Throws EngineFailure (unsupported) for cases that features do not cover: a slider or universal joint that closes a
+// loop, a limit that bounces, a coefficient that DART treats as zero.
 std::unique_ptr<World> make_dart_world(const Scene& scene, const Settings& settings);
 
 }  // namespace rigor

@@ -15,7 +15,7 @@ void scale_off_diagonal(Body& body, double factor) {
   }
 }
 
-// Of a scene whose z axis points up, or whose y axis does: the one taken for the other.
+// Confuses the vertical axis: z for y, or y for z.
 void swap_axes_of_gravity(Scene& scene) { std::swap(scene.gravity.y(), scene.gravity.z()); }
 
 Fault factor_on_bodies(const std::string& pattern, void (*change)(Body&, double)) {

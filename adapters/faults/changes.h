@@ -1,4 +1,4 @@
-// Changes of a scene, of a step and of what is read that faults of more than one kind make.
+// Changes of a scene, of a step and of read values that several kinds of faults share.
 #pragma once
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ Fault on_reading(const std::string& name, F change) {
   return fault;
 }
 
-// A fault by some amount: `pattern` is its name with {} for that, `make` what it does by it.
+// A fault by some amount: `pattern` is its name with {} for the amount, `make` applies it.
 template <typename Make>
 Fault by_amount(const std::string& pattern, double amount, Make make) {
   Fault fault = make(amount);

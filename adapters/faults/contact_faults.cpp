@@ -33,8 +33,8 @@ std::function<void(Scene&)> each_plane(F change) {
   });
 }
 
-// The plane's friction on a body that slides at the angle a to the first of two axes in the plane, when each axis has
-// its own limit mu N: together they brake with mu N / max(|cos a|, |sin a|), along the diagonal with sqrt(2) mu N.
+// The plane's friction on a body that slides at the angle a to the first of two axes in the plane, if each axis has its
+// own limit mu N. Together they brake with mu N / max(|cos a|, |sin a|), along the diagonal with sqrt(2) mu N.
 double of_pyramid(const ContactLaw& law, const Body& body, const Plane& plane) {
   const Vec3 first = plane.normal.unitOrthogonal(), second = plane.normal.cross(first);
   const double along = std::abs(first.dot(body.velocity)), across = std::abs(second.dot(body.velocity));
@@ -42,7 +42,7 @@ double of_pyramid(const ContactLaw& law, const Body& body, const Plane& plane) {
   return speed > 0 ? law.friction * speed / std::max(along, across) : law.friction;
 }
 
-// By the velocities at the start: where bodies slide straight, their directions do not change.
+// Uses the velocities at the start: where bodies slide straight, their directions do not change.
 void friction_as_pyramid(Scene& scene) {
   std::vector<ContactPair> pairs = scene.contact_pairs;
   for (int ground = 0; ground < static_cast<int>(scene.bodies.size()); ++ground) {

@@ -1,5 +1,5 @@
-// A mistake that engines and their adapters have been seen to make, as what it changes: the scene on loading, the state
-// before each step, or what is read.
+// A mistake that has been seen in engines and their adapters, described by its changes: of the scene on loading, of the
+// state before each step, or of the read values.
 #pragma once
 
 #include <functional>
@@ -26,12 +26,12 @@ struct Fault {
   std::function<void(Moment&)> step = {};                           // before each step, of scenes without joints
   std::function<void(MutableBodyColumns, const Scene&)> read = {};  // on reading
   bool reads_late = false;                                          // gives the state of the step before
-  // Where the fault is off by an amount: that of this one, in the unit of its name, and the same by another amount.
+  // For a fault by an amount: this amount in the unit of its name, and the same fault by another amount.
   double amount = 0;
   std::function<Fault(double)> by = {};
 };
 
-// Both of them, `first` first wherever they meet.
+// Both of them; `first` comes first where they conflict.
 Fault combined(const Fault& first, const Fault& second);
 
 }  // namespace rigor

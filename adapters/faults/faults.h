@@ -1,5 +1,5 @@
-// The table of faults. The tests break every engine by each of them, and a gate must find it; `rigor diagnose` holds an
-// engine's error against what each of them would make.
+// The table of faults. The tests break every engine with each of them, and a gate must find it. `rigor diagnose`
+// compares an engine's error with the effect of each.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace rigor {
 
-const std::vector<Fault>& faults();  // by what they are about
+const std::vector<Fault>& faults();  // grouped by subject
 
 // The table's parts.
 std::vector<Fault> body_faults();

@@ -1,4 +1,4 @@
-// Of the first joint: where it stands, and what it is.
+// Faults of the first joint: its place and its type.
 #include "adapters/faults/changes.h"
 #include "adapters/faults/faults.h"
 

@@ -36,7 +36,7 @@ Vec3 end_of(const Scene& scene, int body, const Vec3& point) {
   return body == kWorld ? point : scene.bodies[body].position + scene.bodies[body].orientation * point;
 }
 
-// A spring between two bodies acts on b alone: what it gives to a is taken back.
+// A spring between two bodies acts on b alone: its force on a is removed.
 void drop_reactions(Moment& moment) {
   for (const Spring& spring : moment.scene.springs) {
     if (spring.a == kWorld || spring.b == kWorld) continue;
@@ -72,7 +72,7 @@ void forces_a_step_late(Moment& moment) {
   for (TimedForce& force : moment.scene.forces) force.from += moment.dt, force.until += moment.dt;
 }
 
-// What was applied in a step is still there in the next, to which its own is added.
+// The load of a step remains in the next, which adds its own.
 void forces_add_up(Moment& moment) {
   for (std::size_t i = 0; i < moment.scene.forces.size(); ++i) {
     TimedForce& force = moment.scene.forces[i];

@@ -1,4 +1,4 @@
-// What is told of a state that is right.
+// Wrong reports of a correct state.
 #include "adapters/faults/changes.h"
 #include "adapters/faults/faults.h"
 

@@ -1,4 +1,4 @@
-// The gyroscopic term, the step size, and what is done to the state between steps.
+// Faults of the gyroscopic term, of the step size, and of the state between steps.
 #include "adapters/faults/changes.h"
 #include "adapters/faults/faults.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 using namespace faulty;
 
-// What the gyroscopic term adds to w in a step, and so `times` more of it. -1: it is dropped; -2: its sign is wrong.
+// Adds `times` the change of w by the gyroscopic term in a step. -1: the term is dropped; -2: its sign is wrong.
 std::function<void(Moment&)> gyroscopic(double times) {
   return each_moving([times](Body& body, double dt) {
     const Mat3 R = matrix_of(body.orientation), I = R * body.inertia * R.transpose();

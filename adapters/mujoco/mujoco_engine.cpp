@@ -31,7 +31,7 @@ MethodInfo implicit() {
           .options = options_of_all()};
 }
 
-// Its stages are of order 4, but the turns of a step's stages are added as if they commuted.
+// Its stages have order 4, but it adds the rotations of a step's stages as if they commuted.
 MethodInfo rk4() {
   return {.name = "rk4",
           .summary = "Runge and Kutta's method; of order 2 in the orientation of a free body",

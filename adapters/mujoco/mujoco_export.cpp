@@ -35,7 +35,7 @@ struct GeomForOthers {
   }
 };
 
-// By principal moments and axes: a full inertia MuJoCo would diagonalise to 2.5e-8 of itself only.
+// Uses principal moments and axes, because MuJoCo would diagonalise a full inertia only to a relative 2.5e-8.
 std::string inertia_of_body(const Body& body) {
   if (body.inertia.isDiagonal(0)) return fmt::format(R"(diaginertia="{}")", numbers(Vec3(body.inertia.diagonal())));
   const SymmetricEigen principal = eigen_of(body.inertia);

@@ -1,5 +1,5 @@
-// A scene for whoever has MuJoCo: MJCF with the scene's own names, its limits and motors, and its velocities as a
-// keyframe. What the adapter itself steps is mujoco_mjcf.h's.
+// A scene for users of MuJoCo: MJCF with the scene's own names, its limits and motors, and its velocities as a
+// keyframe. The adapter itself steps the text of mujoco_mjcf.h.
 #pragma once
 
 #include <string>

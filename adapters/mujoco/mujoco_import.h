@@ -1,5 +1,5 @@
-// A model as MuJoCo compiles it, back as links, joints and shapes: what is read is the compiled model, with all its
-// digits, and not the text.
+// Converts a model that MuJoCo has compiled to links, joints and shapes. It reads the compiled model with all its
+// digits, not the text.
 #pragma once
 
 #include <string>

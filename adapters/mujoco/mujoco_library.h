@@ -1,5 +1,5 @@
-// What is global to MuJoCo: its two handlers. As shipped a warning goes to stdout and to a file in the working folder,
-// and an error asks for Enter and ends the process.
+// MuJoCo's global state: its two handlers. By its defaults a warning goes to stdout and to a file in the working
+// folder, and an error waits for Enter and ends the process.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -18,8 +18,7 @@ struct DeleteData {
 using Model = std::unique_ptr<mjModel, DeleteModel>;
 using Data = std::unique_ptr<mjData, DeleteData>;
 
-// From here on an error is thrown as a std::runtime_error, and a warning is kept for take_warnings(). Any number of
-// times.
+// From here on an error throws std::runtime_error, and a warning is kept for take_warnings(). May be called repeatedly.
 void start();
 std::string take_warnings();  // of this thread since the last call; empty if none
 

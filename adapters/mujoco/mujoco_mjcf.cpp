@@ -14,7 +14,6 @@ namespace {
 std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 std::string text_of(const Quat& q) { return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z()); }
 
-
 std::string name_of(int body) { return fmt::format("b{}", body); }
 
 // MuJoCo's numbers of friction: sliding along two axes, spinning, rolling twice. Contacts of three rows look at the
@@ -84,8 +83,8 @@ class Writer {
     add("/>\n");
   }
 
-  // Room for contacts and constraints is set once. A shape touches a dozen others at most in a heap, with up to eight
-  // points where both are boxes; what is more than fits is a solver warning.
+  // The memory for contacts and constraints is set once. In a heap a shape touches at most a dozen others, with up to
+  // eight points between boxes. More than fits is a solver warning.
   void write_size() {
     std::size_t shapes = 0;
     for (const Body& body : scene_.bodies) shapes += body.collides;

@@ -10,8 +10,8 @@
 namespace rigor {
 namespace {
 
-// MuJoCo's compiler diagonalises a full inertia to 2.5e-8 of itself only, which turns a top by 1e-7 rad in a hundred
-// steps: the principal moments and axes are set anew to rounding.
+// MuJoCo's compiler diagonalises a full inertia only to a relative 2.5e-8, which rotates a top by 1e-7 rad in a hundred
+// steps. The principal moments and axes are therefore set again to rounding.
 void set_inertia(mjModel& model, int body, const Mat3& inertia) {
   const SymmetricEigen principal = eigen_of(inertia);
   Mat3 axes = principal.vectors;

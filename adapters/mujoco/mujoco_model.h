@@ -1,4 +1,4 @@
-// A scene as a model of MuJoCo's: its text in MJCF, and what the text cannot say with all digits.
+// A scene as a model of MuJoCo: its text in MJCF, and values that the text cannot hold with all digits.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace rigor {
 struct MujocoModel {
   mujoco_library::Model model;
   std::vector<int> body;  // by body of the scene: MuJoCo's, or -1 for a fixed one without one
-  // By joint of the scene: where its coordinate stands in qvel, or -1 if it has none of its own, and 1 or -1: the
-  // coordinate is MuJoCo's or its negative, for MuJoCo counts from the parent to what hangs on it.
+  // By joint of the scene: the place of its coordinate in qvel, or -1 without a coordinate of its own, and the sign 1
+  // or -1. MuJoCo counts from parent to child, so the coordinate is MuJoCo's or its negative.
   struct Coordinate {
     int velocity = -1;
     double sign = 1;

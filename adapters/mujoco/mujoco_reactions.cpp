@@ -34,8 +34,8 @@ MujocoReactions::MujocoReactions(const Scene& scene, const SpanningTree& tree, c
   }
 }
 
-// cfrc_int is torque and force on a body from its parent, in W, the torque about the centre of mass of the whole tree.
-// An equality's rows are the three components in W of what its point of the first body gets.
+// cfrc_int is the torque and force on a body from its parent, in W, with the torque about the centre of mass of the
+// whole tree. An equality's rows are the three components in W of the force on its point of the first body.
 std::vector<ReportedReaction> MujocoReactions::after_step(const mjModel& model, mjData& data,
                                                           const MujocoModel& made) const {
   mj_rnePostConstraint(&model, &data);

@@ -1,7 +1,7 @@
-// What MuJoCo says that joints carry: of the trees' joints cfrc_int, which mj_rnePostConstraint fills, and of the loops
-// the forces of their equalities. MuJoCo's cfrc_int leaves out what tendons do, which springs and distance joints are,
-// and the torque of an equality that welds is no torque in W: of scenes with these there are no
-// reports. Nor are there of rk4, which leaves the forces of its last stage, at no instant of the run.
+// The joint loads that MuJoCo reports: cfrc_int for joints of trees, which mj_rnePostConstraint fills, and the forces
+// of equalities for loops. cfrc_int omits tendons, which are springs and distance joints. The torque of a weld equality
+// is not a torque in W. Scenes with these have no reports. rk4 has none either, because it leaves the forces of its
+// last stage, which belong to no instant of the run.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ class MujocoReactions {
   MujocoReactions(const Scene& scene, const SpanningTree& tree, const std::string& method);
 
   bool are_said() const { return are_said_; }
-  // As Euler's and the implicit method leave the data after a step: at its start.
+  // The data as left by a step of Euler's or the implicit method: those of the step's start.
   std::vector<ReportedReaction> after_step(const mjModel& model, mjData& data, const MujocoModel& made) const;
 
  private:

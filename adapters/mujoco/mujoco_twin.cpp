@@ -1,10 +1,10 @@
-// The smooth steps of MuJoCo 2.2, to be held against MuJoCo itself. A free body's coordinates are position, orientation
-// q, velocity in W and angular velocity w in B; with tau the torque in B and I the inertia there:
+// The smooth steps of MuJoCo 2.2, for comparison with MuJoCo itself. A free body's coordinates are position,
+// orientation q, velocity in W and angular velocity w in B. tau is the torque in B and I the inertia there:
 //   euler     w1 = w0 + dt I⁻¹ (tau - w0 x I w0),   v1 = v0 + dt F/m,   x1 = x0 + dt v1,   q1 = q0 exp(dt w1),
 //             and alike in the coordinates of joints (adapters/reduced_twin.h); the others for free bodies alone
 //   implicit  the same with (I + dt ([w0]x I - [I w0]x))⁻¹ for I⁻¹ and, where springs damp, one Newton step for their
 //             forces: (M + dt sum c j jᵀ) (V1 - V0) = dt f, j the slope of a spring's length in the velocities of one
-//             body; what one body's velocity does to another's force is left out
+//             body; the effect of one body's velocity on another's force is left out
 //   rk4       the classical stages of (x, q, v, w), but q_s = q0 exp(c_s dt w) of the stage before and
 //             q1 = q0 exp(dt sum b_s w_s), which leaves out that turns do not commute: order 2
 // Springs are evaluated at each stage; timed forces are wrenches that are held over the step.
@@ -134,7 +134,7 @@ class Rk4Twin : public Stepper {
     });
   }
 
-  // From the step's start, `time` long, with these rates.
+  // Advances from the step's start over `time` with these rates.
   void advance(MutableBodyColumns state, const std::vector<Rates>& rates, double time) const {
     const BodyColumns start = start_.columns();
     for (std::size_t i = 0; i < state.size(); ++i) {

@@ -36,8 +36,8 @@ void stiffen_loops(mjModel& model, double dt) {
   }
 }
 
-// What goes beyond a limit is stopped within a step, and the little that it went too far is left, which falls with the
-// step: a push back would be a speed that stays, and a dead stop would bounce.
+// A limit stops the motion within a step. The small overshoot remains and falls with the step. Pushing it back would
+// add a speed that stays, and a stop without restitution would bounce.
 void stiffen_limits(mjModel& model, double dt) {
   for (int i = 0; i < model.njnt; ++i) {
     if (!model.jnt_limited[i]) continue;
@@ -46,9 +46,9 @@ void stiffen_limits(mjModel& model, double dt) {
   }
 }
 
-// Contacts keep the time that they ship with (0.02 s, but never less than 2 dt): friction that must end a slide at once
-// would press the bodies apart, and they would hop. What is changed is how much of the law's acceleration they get: as
-// shipped 0.9, and bodies creep down slopes that hold them. With 0.9999 the solver's line search fails now and then.
+// Contacts keep the shipped time constant (0.02 s, at least 2 dt). Friction that ends a slide at once would press the
+// bodies apart, and they would hop. Only the share of the law's acceleration is changed: the shipped 0.9 lets bodies
+// creep down slopes that should hold them. With 0.9999 the solver's line search sometimes fails.
 constexpr mjtNum kContactImpedance = 0.999;
 
 void set_impedance(mjtNum* solimp, int count) {
@@ -150,7 +150,7 @@ void MujocoWorld::read_jointed(MutableBodyColumns out, std::size_t i) const {
   out.set_angular_velocity(i, {velocity[0], velocity[1], velocity[2]});
 }
 
-// From what the step has left in the data, before that is worked out anew for where the bodies came to.
+// From the data that the step left, before they are computed for the new positions.
 void MujocoWorld::note_reactions() const {
   if (is_asked_ && is_step_in_data_ && !lost_) reactions_ = said_.after_step(*made_.model, *data_, made_);
   is_step_in_data_ = false;

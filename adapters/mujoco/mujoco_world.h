@@ -40,7 +40,7 @@ class MujocoWorld : public World, public ReportsReactions {
   bool lost_ = false;    // blown up: from then on its state is "not a number"
   MujocoReactions said_;
   bool is_asked_ = false;
-  mutable bool is_step_in_data_ = false;  // and not yet what the bodies came to
+  mutable bool is_step_in_data_ = false;  // not yet computed for the new positions
   mutable std::vector<ReportedReaction> reactions_;
   Clock clock_;
   std::string solver_warning_;

@@ -78,8 +78,8 @@ std::unique_ptr<World> OdeEngine::load(const Scene& scene, const Settings& setti
   return std::make_unique<OdeWorld>(scene, settings);
 }
 
-// Of its options only these touch smooth motion. The defaults are those that OdeWorld sets; a cfm that is not named is
-// by the masses, in the twin as there.
+// Only these options affect smooth motion. The defaults are those that OdeWorld sets. An unnamed cfm follows from the
+// masses, in the twin as there.
 std::string OdeEngine::twin(const Settings& settings) const {
   const bool matched = settings.track == Track::matched;
   std::string name =

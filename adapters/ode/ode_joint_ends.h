@@ -1,6 +1,6 @@
-// The ends of a joint as ODE counts them, for the engine and its twin alike: an angle or displacement is that of its
-// first body against its second, and the first must move. So b comes first, as the scene counts, and where b stays, a
-// comes first and all signs turn.
+// The ends of a joint in ODE's order, for the engine and its twin. An angle or displacement is that of ODE's first body
+// relative to its second, and the first must move. So b comes first, which gives the scene's signs. If b is fixed, a
+// comes first and all signs change.
 #pragma once
 
 #include "core/scene/scene.h"

@@ -15,9 +15,9 @@ namespace rigor {
 const OdeJoints::Axis OdeJoints::kHinge = {dJointSetHingeParam, dJointGetHingeParam};
 const OdeJoints::Axis OdeJoints::kSlider = {dJointSetSliderParam, dJointGetSliderParam};
 
-// Ours and ODE's: anchors and axes are given in W at t = 0 in both; points of a distance joint are in the bodies'
-// frames here and in W there. A joint's kind has the same rows in both, to the same manifold: ODE's slider has its axis
-// in its first body and its offset in its second, which without relative turning is the same line.
+// Our conventions and ODE's: both give anchors and axes in W at t = 0. Points of a distance joint are in the bodies'
+// frames here and in W there. A joint type has equivalent rows in both. ODE's slider has its axis in its first body and
+// its offset in its second, which is the same line without relative rotation.
 struct OdeJoints::Maker {
   dWorldID world;
   const OdeJointEnds& ends;
@@ -97,9 +97,9 @@ OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBody
   }
 }
 
-// What goes beyond a stop in a step is pushed back, a share of dParamStopERP of it, by a speed that stays: a dead stop
-// would bounce with up to that share of the speed, at any step size. On the matched track the little that a step goes
-// too far is left, and falls with the step.
+// ODE pushes back a share dParamStopERP of an overshoot per step, by a speed that stays. A stop without restitution
+// would rebound with up to that share of the speed at any step size. On the matched track the small overshoot stays,
+// and falls with the step.
 void OdeJoints::set_limits(const Joint& joint, const Held& held, Track track) {
   assert(held.axis && "only a hinge and a slider are read with limits");
   if (std::isfinite(held.low)) held.axis->set(held.id, dParamLoStop, held.low);
@@ -125,8 +125,8 @@ std::vector<ReportedReaction> OdeJoints::reactions() const {
 
 bool OdeJoints::Held::has_limits() const { return std::isfinite(low) || std::isfinite(high); }
 
-// ODE measures a hinge's angle from -pi to pi and compares it with the stops as they are: they are moved by the whole
-// turns that the hinge has made.
+// ODE measures a hinge's angle from -pi to pi and compares it directly with the stops. The stops are shifted by the
+// hinge's whole turns.
 void OdeJoints::unwind() {
   constexpr double kTurn = 2 * std::numbers::pi;
   for (Held& held : joints_) {

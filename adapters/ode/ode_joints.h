@@ -15,18 +15,18 @@ void refuse_shared_motors(const Scene& scene);
 
 class OdeJoints {
  public:
-  // Of a world whose ERP and CFM are set, for some joints take a copy of them; and whose bodies, null for one that
-  // stays, are where they are at t = 0. The world destroys them.
+  // The world's ERP and CFM must be set already, because some joints copy them. Bodies are at their poses of t = 0;
+  // null stands for a fixed body. The world destroys the joints.
   OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track);
 
   // For a step whose middle is t: turns on the motors that keep a speed from <= t < until, and the others off; and puts
   // the stops of hinges into the turn that these are in.
   void drive(double t);
-  // What hinges, sliders and universal joints read anew in each step, for the joints that have a copy of it.
+  // Values that hinges, sliders and universal joints read in each step, for the joints that copy them.
   void set_cfm(double cfm);
 
   bool empty() const { return joints_.empty(); }
-  // From the next step on.
+  // Applies from the next step on.
   void ask_for_reactions();
   std::vector<ReportedReaction> reactions() const;
   SettingsInForce settings_in_force() const;

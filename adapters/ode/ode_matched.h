@@ -1,4 +1,4 @@
-// What the matched track sets ODE's ERP and CFM to where a run does not say, for the engine and its twin alike.
+// ODE's ERP and CFM on the matched track, if a run does not set them; for the engine and its twin.
 #pragma once
 
 #include <algorithm>
@@ -7,10 +7,10 @@
 
 namespace rigor {
 
-// The share of a joint's gap that is closed in a step. The scheme opens a gap of half the path's curvature times
-// (v dt)² in each step, so that 1/ERP of that stands open and takes energy. As shipped, 0.2, a rod let go from the
-// horizontal loses a quarter of its energy in two seconds at 1/30 s; at 0.5 a tenth. From 0.65 on a chain that whips
-// faster than the step resolves gains energy, sixteen times its own at 0.8; at 0.5 it still loses some.
+// The share of a joint's gap that a step closes. The scheme opens a gap of half the path's curvature times (v dt)² in
+// each step; 1/ERP of it remains and costs energy. At 1/30 s a rod released from the horizontal loses a quarter of its
+// energy in two seconds with the stock 0.2, and a tenth with 0.5. From 0.65 on a chain that whips faster than the step
+// resolves gains energy, sixteen times its own at 0.8; at 0.5 it still loses some.
 inline constexpr double kMatchedJointErp = 0.5;
 
 // CFM/dt, as a share of the heaviest body's 1/mass: an impulse is changed by no more than that share.

@@ -1,6 +1,6 @@
-// The smooth step of ODE 0.16, to be held against ODE itself. Semi-implicit Euler with Lacoursière's implicit
-// gyroscopic term ("Stabilizing gyroscopic forces in rigid multibody simulations", 2006), that is, one linearised step
-// of L' = tau with L0 = I w0 held in the gyroscopic product, at the inertia I = R0 I_B R0ᵀ of the step's start:
+// The smooth step of ODE 0.16, for comparison with ODE itself. It is semi-implicit Euler with Lacoursière's implicit
+// gyroscopic term ("Stabilizing gyroscopic forces in rigid multibody simulations", 2006). This is one linearised step
+// of L' = tau with L0 = I w0 constant in the gyroscopic product, at the inertia I = R0 I_B R0ᵀ of the step's start:
 //   (I - dt [L0]x) w* = I w0,   w1 = w* + dt I⁻¹ tau,   v1 = v0 + dt F/m,   x1 = x0 + dt v1
 // and then a turn by dt w1: exact ("finite"), or q <- (q + dt/2 (0, w1) q) / |...| ("infinitesimal"), as
 // dBodySetFiniteRotationMode says. Loads are constant over the step. Nothing is damped unless it is asked for. Joints
@@ -62,7 +62,7 @@ class OdeTwin : public Stepper {
   StepperParts parts_;
   bool is_gyroscopic_;
   const OrientationUpdate& turn_;
-  std::unique_ptr<OdeTwinJoints> joints_;  // null where there are none
+  std::unique_ptr<OdeTwinJoints> joints_;  // null without joints
   Wrenches wrenches_;
 };
 

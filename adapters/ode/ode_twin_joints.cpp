@@ -23,8 +23,8 @@ void keep_from_turning(const Vec3& p, double missing, OdeRows& rows, int at) {
   rows.missing[at] = missing;
 }
 
-// Three rows: the second keeps its orientation in the first; what is missing is twice the vector of the quaternion that
-// leads there.
+// Three rows: the second body keeps its orientation in the first. The error is twice the vector part of the quaternion
+// that leads there.
 void keep_orientation(const OdeEnd& first, const OdeEnd& second, const Quat& relative, OdeRows& rows, int at) {
   rows.on_first.block<3, 3>(at, 3).setIdentity();
   rows.on_second.block<3, 3>(at, 3) = -Mat3::Identity();

@@ -1,5 +1,5 @@
-// Joints as worldstep of ODE 0.16 holds them, for its twin: rows as its manual derives them ("Joint error and the error
-// reduction parameter", "Constraint equations"), told from its motion, and the solution that all direct solvers come to
+// The joints of worldstep of ODE 0.16, for its twin: rows as its manual derives them ("Joint error and the error
+// reduction parameter", "Constraint equations"), confirmed by its motion, and the common solution of all direct solvers
 // (twin_joint_solver.h).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace rigor {
 
-// Where one end of a joint is; the world, and a body that stays, at W itself.
+// The place of one end of a joint; the world and fixed bodies are at W itself.
 struct OdeEnd {
   Vec3 position = Vec3::Zero();
   Quat orientation = Quat::Identity();

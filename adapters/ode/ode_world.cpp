@@ -47,7 +47,7 @@ struct MakeGeom {
   }
 };
 
-// Of what the method `auto` decides by.
+// The number on which the method `auto` decides.
 bool has_too_many_for_worldstep(const Scene& scene) {
   const auto can_touch = [](const Body& body) { return body.collides && !body.fixed; };
   return std::count_if(scene.bodies.begin(), scene.bodies.end(), can_touch) > kMostForWorldStep;
@@ -169,8 +169,8 @@ void OdeWorld::advance(double dt) {
   if (!done) solver_warning_ = "ODE had no memory for the step";
 }
 
-// QuickStep shuffles its constraints by a random sequence that is global to the process. Each world continues its own,
-// so that a run gives the same bits whatever else has run.
+// QuickStep shuffles its constraints with a random sequence that is global to the process. Each world continues its own
+// sequence, so that a run gives the same bits after any other run.
 int OdeWorld::quick_step(double dt) {
   dRandSetSeed(random_seed_);
   const int done = dWorldQuickStep(world_, dt);

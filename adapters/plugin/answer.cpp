@@ -13,7 +13,7 @@ namespace {
 
 std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-// The words of a message's own, whatever the engine wrote there.
+// The message's own words, whatever the engine wrote there.
 std::string text_of(const Json& answer, const char* key, const std::string& otherwise) {
   const auto found = answer.find(key);
   return found != answer.end() && found->is_string() ? found->get<std::string>() : otherwise;

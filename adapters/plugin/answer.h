@@ -1,4 +1,4 @@
-// One answer of an engine from outside, read strictly: what is not one is an EngineFailure that quotes it.
+// Strict reader of an answer by an engine from outside. An invalid one is an EngineFailure that quotes it.
 #pragma once
 
 #include <optional>
@@ -28,13 +28,13 @@ struct Question {
 };
 
 // The object in the line, if it says "ok": true. Throws EngineFailure: unsupported, diverged (EngineDiverged) or
-// crashed, as the engine says; invalid for a line that is not an answer to what was asked.
+// crashed, as the engine says; invalid for a line that does not answer the request.
 Json parsed_answer(const std::string& line, const Question& asked);
 
-// Of "bodies": a row of thirteen finite numbers for each. Throws EngineFailure (invalid) for anything else.
+// Reads "bodies": a row of thirteen finite numbers for each. Throws EngineFailure (invalid) for anything else.
 void read_bodies(const Json& answer, const Question& asked, MutableBodyColumns into);
 
-// Of "time" [s]: what it should be after so many steps, but for roundings of a clock in single precision.
+// Checks "time" [s]: the expected time after so many steps, up to roundings of a clock in single precision.
 void check_time(const Json& answer, const Question& asked, double due, double dt);
 
 bool is_time(double time, double due, double dt);

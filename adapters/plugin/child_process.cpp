@@ -94,7 +94,7 @@ ChildProcess::ChildProcess(std::string command, double limit, int log, std::stri
   pid_ = fork();
   if (pid_ < 0) throw std::system_error(errno, std::generic_category(), "starting a plug-in");
   if (pid_ == 0) become_the_child(in[0], out[1], err[1], parent);
-  setpgid(pid_, pid_);  // here as well as there, whoever comes first
+  setpgid(pid_, pid_);  // here as well as there, whichever runs first
   close(in[0]), close(out[1]), close(err[1]);
   to_ = in[1], from_ = out[0], words_from_ = err[0];
   for (const int descriptor : {to_, from_, words_from_}) fcntl(descriptor, F_SETFL, O_NONBLOCK);
@@ -125,7 +125,7 @@ ChildProcess::~ChildProcess() {
   close_one(to_);
   if (is_ours()) {
     siginfo_t how{};
-    close_one(from_);  // one that would write for ever ends here
+    close_one(from_);  // stops one that writes forever
     ends_within(pid_, kGraceful, how);
     kill(-pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
@@ -188,7 +188,7 @@ void ChildProcess::send() {
   if (count < 0 && errno != EAGAIN && errno != EINTR) out_.clear();  // it no longer listens, but may have answered
 }
 
-// What is answered soon is not slept for: to be woken takes longer than most steps. Who waits for this core gets it.
+// Polls first, because waking up takes longer than most steps. Yields to others that wait for this core.
 void ChildProcess::look_briefly() {
   const double begin = seconds_of(CLOCK_THREAD_CPUTIME_ID);
   while (in_.empty() && seconds_since(asked_) < kBrief && read_answer()) sched_yield();

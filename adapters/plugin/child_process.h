@@ -1,6 +1,6 @@
-// A command as a child process that answers each line with one line. Whatever the child does, the caller gets an answer
-// or an EngineFailure within the time limit, in bounded memory. The child has its own process group, which is killed
-// at the end, and dies with the process that started it.
+// A command as a child process that answers each line with one line. The caller always gets an answer or an
+// EngineFailure, within the time limit and in bounded memory. The child has its own process group, which is killed at
+// the end, and dies with the process that started it.
 #pragma once
 
 #include <sys/types.h>
@@ -12,10 +12,10 @@ namespace rigor {
 
 class ChildProcess {
  public:
-  // `command` is a simple command, its words split and quoted as a shell does: /bin/sh -c "exec COMMAND". `limit`:
-  // seconds that it may sleep over each request, and of CPU time for all of them together, so that no verdict depends
-  // on what else the machine does; by the clock ten times that, for each request. `log`: a descriptor to which what
-  // the child says on stderr is passed on, behind the name; -1 for none.
+  // `command` is a simple command, with words split and quoted as in a shell: /bin/sh -c "exec COMMAND". `limit` is in
+  // seconds: for sleeping over each request, and for the CPU time of all requests together, so that other load on the
+  // machine does not decide. By the clock each request has ten times the limit. `log` is a descriptor for the child's
+  // stderr, with the name in front; -1 for none.
   ChildProcess(std::string command, double limit, int log, std::string name);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -33,7 +33,7 @@ class ChildProcess {
  private:
   [[noreturn]] void become_the_child(int in, int out, int err, pid_t parent) const;
   void refuse_unasked(const std::string& request);
-  // Until `done`: writes what is left of `out_`, reads into `in_`.
+  // Until `done`: writes the rest of `out_`, reads into `in_`.
   template <typename Done>
   void exchange(const std::string& request, const Done& done);
   void send();

@@ -25,8 +25,8 @@ namespace {
 
 constexpr std::uint64_t bits_of(double number) { return std::bit_cast<std::uint64_t>(number); }
 
-// The thirteen columns that a library writes, each between guards that it must not: a write past its end is found at
-// once, before it is believed.
+// The thirteen columns that a library writes, each between guards. A write past the end is found before the values are
+// used.
 class GuardedColumns {
  public:
   explicit GuardedColumns(std::size_t bodies) : bodies_(bodies), data_(13 * (bodies + 2 * kGuards), kNothing) {
@@ -176,7 +176,7 @@ LibraryEngine::LibraryEngine(std::string path, double limit) : path_(std::move(p
 
 std::unique_ptr<World> LibraryEngine::load(const Scene& scene, const Settings& settings) const {
   refuse_unsupported(info_.engine, settings, scene);
-  limit_memory();  // of the cell's process, which is ours: what is loaded into it has no other
+  limit_memory();  // of the cell's process, which also holds the library
   return std::make_unique<LibraryWorld>(load_library(path_), fmt::format("plug-in '{}'", path_), info_, scene,
                                         settings);
 }

@@ -11,7 +11,7 @@ namespace rigor {
 
 class LibraryEngine : public Engine {
  public:
-  // Asks what it is in a child process. Throws InputError, in one sentence, if it does not say. `limit`: s.
+  // Asks for the library's description in a child process. Throws InputError, in one sentence, on failure. `limit`: s.
   LibraryEngine(std::string path, double limit);
 
   EngineInfo info() const override { return info_.engine; }

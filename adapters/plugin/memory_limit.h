@@ -1,5 +1,5 @@
-// The memory that an engine from outside may have. What asks for more is refused it, by which an engine dies at the
-// price of its cell, and not whatever else the machine does.
+// The memory limit of an engine from outside. Larger requests fail, so the engine costs its cell and does not affect
+// other programs.
 #pragma once
 
 #include <sys/resource.h>
@@ -11,7 +11,7 @@ namespace rigor {
 // Bytes of data: RLIMIT_DATA, for address space alone is reserved by the gigabyte in WebAssembly.
 inline constexpr rlim_t kMostMemory = rlim_t{4} << 30;
 
-// Of this process, for good. Between fork and exec it may be called: system calls alone.
+// Applies to this process permanently. May be called between fork and exec: only system calls.
 inline void limit_memory() {
   rlimit now{};
   getrlimit(RLIMIT_DATA, &now);

@@ -1,5 +1,5 @@
-// What an engine from outside says of itself, read from the JSON of its handshake. Unknown keys are ignored, a
-// capability that is absent is false.
+// The description that an engine from outside gives in the JSON of its handshake. Unknown keys are ignored; a missing
+// capability is false.
 #pragma once
 
 #include <string>

@@ -22,8 +22,8 @@ int log_descriptor() {
   return descriptor;
 }
 
-// The plug-in as it was named, and what it is made of, as far as its words name files: what one version has computed,
-// another does not go on from.
+// The plug-in's name and its files, as far as its words name files. A run does not continue the results of another
+// version.
 std::string identity_of(const std::string& plugin) {
   std::uint64_t hash = content_hash(plugin);
   std::istringstream words(plugin);

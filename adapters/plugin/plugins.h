@@ -9,7 +9,7 @@
 namespace rigor {
 
 // A path that ends in ".so" is a shared library, anything else a command line. `limit`: seconds, see ChildProcess.
-// Throws InputError for one that does not say what it is, or whose name is taken.
+// Throws InputError for a plug-in that does not describe itself, or whose name is taken.
 void add_plugin(EngineTable& table, const std::string& plugin, double limit);
 
 // The parts of RIGOR_PLUGINS, which colons separate.

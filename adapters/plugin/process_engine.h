@@ -10,9 +10,9 @@ namespace rigor {
 
 class ProcessEngine : public RemoteEngine {
  public:
-  // Starts the command once, to ask what it is. Throws InputError, in one sentence, if it does not say.
+  // Starts the command once to get its description. Throws InputError, in one sentence, on failure.
   explicit ProcessEngine(PluginStart start);
-  // One of which it is known what it is: nothing is started before its first world.
+  // An engine with a known description: nothing is started before its first world.
   ProcessEngine(PluginStart start, PluginInfo info);
   ~ProcessEngine() override;
 

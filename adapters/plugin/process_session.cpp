@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "columns of doubles are read as they come");
 
 constexpr std::size_t kShortAnswer = 1 << 20;  // bytes
-// A body's row is 13 numbers of up to 25 characters; whatever else an engine tells of it has as much room again.
+// A body's row is 13 numbers of up to 25 characters; other data of the engine may take as much again.
 constexpr std::size_t kLongestRow = 1 << 10;  // bytes
 
 std::string row_of(const double* first) {
@@ -123,7 +123,7 @@ void ProcessSession::keep_warning(const Json& answer) {
   warning_ = found != answer.end() && found->is_string() ? in_quotes(found->get<std::string>()) : "";
 }
 
-// Of the n-th table of as many bodies: thirteen columns, one behind the other.
+// The n-th table of this many bodies: thirteen columns, one after another.
 void ProcessSession::copy_raw(const Question& asked, std::size_t n, MutableBodyColumns into) const {
   const double* next = raw_.data() + n * kColumnNames.size() * into.size();
   for (std::size_t c = 0; c < kColumnNames.size(); ++c) {

@@ -21,7 +21,8 @@ struct PluginStart {
 
 class ProcessSession {
  public:
-  // Starts the command and shakes hands. Throws InputError for an info that is none, EngineFailure for no answer.
+  // Starts the command and performs the handshake. Throws InputError for an invalid description, EngineFailure without
+  // an answer.
   explicit ProcessSession(const PluginStart& start);
 
   const PluginInfo& info() const { return info_; }
@@ -35,7 +36,7 @@ class ProcessSession {
   // `count` steps, of which each `every`-th, and the last, is sampled into one of the tables; `begin`: s.
   void run(int world, double begin, double dt, long count, long every, std::vector<KeptBodies>& samples);
   void unload(int world);
-  // What the engine said of its last step or run: why it is not what the method promises.
+  // The engine's message about its last step or run: why it is less accurate than the method promises.
   const std::string& warning() const { return warning_; }
 
  private:

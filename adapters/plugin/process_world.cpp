@@ -12,7 +12,7 @@
 namespace rigor {
 namespace {
 
-// Of one request: so many steps, and so many bytes of its samples, each number of some 20 characters.
+// Limits of one request: steps, and bytes of its samples, each number of some 20 characters.
 constexpr long kMostSteps = 1000;
 constexpr double kMostBytes = 8e6, kBytesOfBody = 260;
 
@@ -90,8 +90,8 @@ void ProcessWorld::run_ahead() {
   }
 }
 
-// Where a run diverged what came before it is not told: the world is made anew, taken to where it was, and goes on step
-// by step, so that the motion is kept to the step at which it ends.
+// A diverged `run` does not return earlier samples. The world is created again, advanced to its old state, and stepped
+// one by one, so that the motion is kept up to its last step.
 void ProcessWorld::go_back_and_step() {
   const double dt = ahead_.dt;
   ahead_ = {};

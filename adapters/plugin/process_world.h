@@ -26,10 +26,10 @@ class ProcessWorld : public RemoteWorld {
   }
 
  private:
-  // Steps that are announced, and those of them that the engine has taken already.
+  // Announced steps, and how many of them the engine has already taken.
   struct Ahead {
     double dt = 0;
-    long left = 0, every = 1;   // of what was announced, not yet asked for
+    long left = 0, every = 1;   // announced steps that were not yet requested
     long count = 0, taken = 0;  // of the last request, and how many of its steps have been handed out
     std::vector<KeptBodies> samples;
   };
@@ -53,7 +53,7 @@ class ProcessWorld : public RemoteWorld {
   bool steps_are_equal_ = true;  // all so far were of last_dt_
   Ahead ahead_;
   mutable BodyTable state_;
-  mutable bool is_read_ = false;  // state_ is of now
+  mutable bool is_read_ = false;  // state_ is current
   std::string warning_;           // of the last request for steps
   mutable std::string lost_why_;  // not empty: the state is no longer finite
 };

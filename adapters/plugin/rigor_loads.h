@@ -1,5 +1,5 @@
-// Springs, dampers and timed forces for an engine from outside that takes wrenches: rows of force [N] and torque about
-// the centre of mass [N m], both in W, one a body in the scene's order.
+// Springs, dampers and timed forces for an engine from outside that accepts wrenches: rows of force [N] and torque
+// about the centre of mass [N m], both in W, one per body in the scene's order.
 #pragma once
 
 #include <vector>

@@ -44,7 +44,7 @@ std::string asked_info(const rigor_engine_v1& engine, const std::string& path) {
   return text;
 }
 
-// Sends 'i' and the info, or 'e' and the sentence of what is wrong.
+// Sends 'i' and the description, or 'e' and an error sentence.
 [[noreturn]] void probe(const std::string& path, int to, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
@@ -52,7 +52,7 @@ std::string asked_info(const rigor_engine_v1& engine, const std::string& path) {
   const rlimit no_core_file{0, 0};
   setrlimit(RLIMIT_CORE, &no_core_file);
   limit_memory();
-  dup2(STDERR_FILENO, STDOUT_FILENO);  // what it prints is no data of ours
+  dup2(STDERR_FILENO, STDOUT_FILENO);  // its printed output is not part of our data
   std::string answer;
   try {
     answer = "i" + asked_info(load_library(path), path);

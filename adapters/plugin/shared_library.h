@@ -7,8 +7,8 @@
 
 namespace rigor {
 
-// Loads it into this process, for good. Throws InputError with the sentence of what is wrong with it. It may do
-// anything: ask in a process that may be lost.
+// Loads it permanently into this process. Throws InputError with a sentence about the error. A library may do anything,
+// so call this in a process that may be lost.
 const rigor_engine_v1& load_library(const std::string& path);
 
 // The text of its info, asked in a child process: one that crashes, exits or hangs is an InputError.

@@ -20,7 +20,7 @@ std::string path_of_process() {
 
 // One thread: OpenBLAS, which Siconos brings, would start one for each core, for matrices of a few rows.
 PluginStart start_of_process() {
-  constexpr double kLimit = 60;  // s; a cell has a limit of its own
+  constexpr double kLimit = 60;  // s; a cell has its own limit
   return {fmt::format("env OPENBLAS_NUM_THREADS=1 '{}'", path_of_process()), kLimit, -1};
 }
 
@@ -28,7 +28,7 @@ PluginStart start_of_process() {
 
 SiconosEngine::SiconosEngine() : ProcessEngine(start_of_process(), read_plugin_info(kSiconosInfo, "rigor-siconos")) {}
 
-// As it ships its iteration stops at a momentum of 1e-6 that is left over, which is no rounding.
+// The stock iteration stops at a residual momentum of 1e-6, far above rounding.
 std::string SiconosEngine::twin(const Settings& settings) const {
   if (settings.track == Track::stock) return "";
   const auto theta = settings.options.find("theta");

@@ -1,5 +1,5 @@
-// Siconos, in a process of its own (README.md of this folder): the program rigor-siconos, which stands beside this one
-// or, where it is installed, in ../libexec/rigor.
+// Siconos in a separate process (README.md of this folder): the program rigor-siconos, which stands beside this one or,
+// when installed, in ../libexec/rigor.
 #pragma once
 
 #include "adapters/plugin/process_engine.h"

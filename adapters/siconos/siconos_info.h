@@ -1,4 +1,5 @@
-// What rigor-siconos says of itself, as its answer to `info`: the program that starts it need not start it to know.
+// The description that rigor-siconos gives as its answer to `info`. The main program knows it without starting the
+// process.
 #pragma once
 
 namespace rigor {

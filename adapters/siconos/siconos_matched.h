@@ -1,4 +1,4 @@
-// What the matched track sets, for the process that steps Siconos, its scheme replica and its calls.
+// The settings of the matched track, for the process of Siconos, its scheme replica and its calls.
 #pragma once
 
 namespace rigor {

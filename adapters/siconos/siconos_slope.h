@@ -1,5 +1,5 @@
-// How a body's own motion changes the loads on it, for Newton's method: alike in the process that steps Siconos and in
-// its scheme replica. Siconos solves body by body, so that what one body's motion does to another's load is left out.
+// The derivative of a body's loads by its own motion, for Newton's method; the process of Siconos and its scheme
+// replica share it. Siconos solves body by body, so the effect of one body's motion on another's load is left out.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace rigor {
 
-// By body: derivatives of (force in W, torque in B) by the velocities (v in W, w in B) at the end of a step to `t`
-// [s], which move a body by `reach` [s] times themselves. `wrenches`: the loads there.
+// By body: derivatives of (force in W, torque in B) by the velocities (v in W, w in B) at the end of a step to `t` [s],
+// which move a body by `reach` [s] times themselves. `wrenches`: the loads there.
 void load_slopes(const Loads& loads, BodyColumns state, const Wrenches& wrenches, double t, double reach,
                  std::vector<Mat6>& out);
 

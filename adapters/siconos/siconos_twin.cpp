@@ -2,9 +2,9 @@
 // of which -w x I w is a part. A step solves
 //   M (u1 - u0) = h (theta f1 + (1 - theta) f0),
 //   x1 = x0 + h (theta v1 + (1 - theta) v0),   p1 = p0 exp(h (theta w1 + (1 - theta) w0))
-// by Newton's method for u, of which the derivative leaves out what one body does to another, with positions behind
-// each pass (MoreauJeanOSI.cpp; Acary and Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 2008, chapter
-// 10).
+// solved by Newton's method for u. The derivative leaves out the coupling between bodies, and positions lag one
+// iteration behind (MoreauJeanOSI.cpp; Acary and Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 2008,
+// chapter 10).
 #include "adapters/siconos/siconos_twin.h"
 
 #include <Eigen/LU>
@@ -17,7 +17,7 @@
 namespace rigor {
 namespace {
 
-// What turns w in B into the state's, undone: of a quaternion that is longer than 1 it is no rotation.
+// The inverse of the map from w in B to the state's; for a quaternion longer than 1 it is no rotation.
 Vec3 in_body(BodyColumns state, std::size_t i) {
   const Quat q = state.orientation(i);
   Mat3 turn;
@@ -25,9 +25,9 @@ Vec3 in_body(BodyColumns state, std::size_t i) {
   return turn.partialPivLu().solve(state.angular_velocity(i));
 }
 
-// Siconos takes the sine of a small angle, over the angle, from a series: that of the tangent (RotationQuaternion.cpp:
-// sin_x), by which a turn of less than 2e-3 rad in a step is an eighth of its third power too far, and the quaternion
-// gets longer: it is not made unit again.
+// For small angles Siconos takes the ratio sin(x)/x from the series of the tangent (RotationQuaternion.cpp: sin_x). A
+// rotation of less than 2e-3 rad in a step is then too large by an eighth of its third power. The quaternion grows,
+// because it is not normalised.
 Quat exponential(const Vec3& turn) {
   constexpr double kSmall = 1e-3;  // rad
   const double half = 0.5 * turn.norm();
@@ -48,7 +48,7 @@ class SiconosTwin : public Stepper {
   }
 
  private:
-  // What begins and ends is the same all through it.
+  // Timed loads are constant over the step.
   void step_part(MutableBodyColumns state, double t, double dt) {
     const double middle = t + 0.5 * dt;
     start_ = BodyColumns(state);

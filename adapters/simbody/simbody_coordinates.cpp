@@ -109,7 +109,7 @@ void SimbodyCoordinates::place(const State& state, MutableBodyColumns bodies) {
   }
 }
 
-// What M does in F, then what that makes of the body; see Across.
+// The velocity of M in F, then its effect on the body; see Across.
 void SimbodyCoordinates::place(const State& state, std::size_t n) {
   const Node& node = nodes_[n];
   const Pose above = node.above < 0 ? Pose{} : poses_[static_cast<std::size_t>(node.above)];

@@ -1,7 +1,7 @@
-// The motion of jointed bodies in Simbody's coordinates, for the twins of its integrators: q, one angle or displacement
-// along each axis of a joint, a quaternion (w, x, y, z) for a ball, a quaternion and a position for a free body; and u,
-// their speeds, the angular velocity of a ball and of a free body for its quaternion's. A joint's frames: F, fixed in
-// the parent, and M, fixed in the body, which coincide at t = 0; u is that of M in F, in F's axes.
+// The motion of jointed bodies in Simbody's coordinates, for the twins of its integrators. q holds one angle or
+// displacement along each axis of a joint, a quaternion (w, x, y, z) for a ball, a quaternion and a position for a free
+// body. u holds their speeds, with the angular velocity for a quaternion. A joint has two frames, which coincide at t =
+// 0: F, fixed in the parent, and M, fixed in the body. u is the velocity of M in F, in F's axes.
 //   q' = N(q) u,   M(q) u' = what loads and gyroscopic terms leave
 // with u' by the recursion over the tree of Featherstone (Rigid Body Dynamics Algorithms, 2008, ch. 7), as in Simbody.
 #pragma once
@@ -61,11 +61,12 @@ class SimbodyCoordinates {
   };
   struct Across {  // from the parent's centre to the body's
     Vec3 arm;      // m, in W
-    Columns6 S;    // what each speed adds to the body's (w, v)
-    Vec6 c;        // and what there is of acceleration without u'
+    Columns6 S;    // the contribution of each speed to the body's (w, v)
+    Vec6 c;        // and the acceleration without u'
   };
 
-  // What gather() leaves of a node for u_rate(): its inertia along its speeds, that inverted, and the force along them.
+  // The data of a node that gather() leaves for u_rate(): its inertia along its speeds, the inverse, and the force
+  // along them.
   struct Solved {
     Columns6 U;
     Eigen::MatrixXd inverse;

@@ -20,8 +20,8 @@ MethodInfo runge_kutta(const std::string& name, const std::string& summary, int 
   return {.name = name, .summary = summary, .order = order};
 }
 
-// Its projection takes and gives energy where a step leaves a constraint by a first-order error: a pendulum of mass 1
-// on a rod of 1 m gains joules in ten seconds at 1/30.
+// Its projection changes the energy if a step leaves a constraint with a first-order error: a pendulum of mass 1 on a
+// rod of 1 m gains joules in ten seconds at 1/30 s.
 MethodInfo semi_explicit_euler() {
   return {.name = "semi-explicit-euler",
           .summary = "velocities first, then positions; no loops nor rods, whose projection would feed it energy",
@@ -66,7 +66,7 @@ std::unique_ptr<World> SimbodyEngine::load(const Scene& scene, const Settings& s
   return simbody_world(scene, settings);
 }
 
-// As it ships an integrator chooses its steps by its error, but for semi-explicit Euler, which has no estimate of it.
+// Stock integrators choose their steps by error control, except semi-explicit Euler, which estimates no error.
 std::string SimbodyEngine::twin(const Settings& settings) const {
   const MethodInfo method = method_of(info(), settings);
   const bool takes_fixed_steps =

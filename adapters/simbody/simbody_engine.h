@@ -1,6 +1,6 @@
-// Simbody, double precision. Bodies move in the coordinates of the joints that hang them on each other; what closes a
-// loop is a constraint, met by the accelerations of each stage and projected to after each step (Sherman, Seth, Delp,
-// "Simbody: multibody dynamics for biomedical research", 2011). No contacts: see README.md.
+// Simbody, double precision. Bodies move in the coordinates of their joints. Joints that close a loop are constraints:
+// the accelerations of each stage satisfy them, and each step ends with a projection (Sherman, Seth, Delp, "Simbody:
+// multibody dynamics for biomedical research", 2011). No contacts: see README.md.
 #pragma once
 
 #include "core/engine/engine.h"

@@ -1,4 +1,4 @@
-// By which of Simbody's mobilizers each body of a scene hangs on its parent, for the adapter and for its twins.
+// The mobilizer of Simbody that connects each body of a scene with its parent, for the adapter and for its twins.
 #pragma once
 
 #include <vector>

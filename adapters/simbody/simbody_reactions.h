@@ -1,6 +1,5 @@
-// What Simbody says that joints carry: of its mobilizers their reactions, of the constraints that close loops what
-// these put on the bodies. Both belong to an instant; over a step they are the mean of those at its ends. Compiled as
-// simbody_system.h is.
+// The joint loads that Simbody reports: reactions of its mobilizers, and forces of the constraints that close loops.
+// Both belong to an instant; the value of a step is the mean of both ends. Compiled like simbody_system.h.
 #pragma once
 
 #include <vector>

@@ -36,7 +36,7 @@ SimTK::Body::Rigid rigid_of(const Body& body) {
 
 }  // namespace
 
-// What Rigor's law puts on each body, worked out anew at each stage of a step.
+// The loads of Rigor's law on each body, computed at each stage of a step.
 class StageLoads : public SimTK::Force::Custom::Implementation {
  public:
   explicit StageLoads(const SimbodySystem& owner) : owner_(owner), bodies_(owner.scene_.bodies.size()) {}
@@ -196,7 +196,7 @@ void SimbodySystem::add_constraints(const Joint& joint) {
   }
 }
 
-// The velocity of M in F, in F's axes; where a mobilizer has not all six speeds it takes what it has of them.
+// The velocity of M in F, in F's axes; a mobilizer with fewer than six speeds takes its part of them.
 void SimbodySystem::set_start(const Mobilizer& joint) {
   const Body& body = scene_.bodies[joint.body];
   const SimTK::MobilizedBody& mobilized_body = matter_.getMobilizedBody(bodies_[joint.body]);
@@ -239,8 +239,8 @@ void SimbodySystem::read(const SimTK::State& state, MutableBodyColumns out) cons
     const SimTK::MobilizedBody& body = matter_.getMobilizedBody(bodies_[i]);
     const SimTK::Transform& pose = body.getBodyTransform(state);
     const SimTK::SpatialVec& velocity = body.getBodyVelocity(state);
-    // Of a free body the coordinates themselves: the pose is made of them after normalising, which would hide a lost
-    // norm.
+    // For a free body, the coordinates themselves. Its pose is computed from the normalised quaternion, which would
+    // hide a lost norm.
     const SimTK::Vec4 q = is_free_[i] ? SimTK::Vec4(body.getOneQ(state, 0), body.getOneQ(state, 1),
                                                     body.getOneQ(state, 2), body.getOneQ(state, 3))
                                       : SimTK::Vec4(pose.R().convertRotationToQuaternion());

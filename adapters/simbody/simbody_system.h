@@ -1,6 +1,6 @@
-// A scene as a multibody system of Simbody's. Compiled as C++17, which is as far as Simbody 3.7's headers go (its index
-// types are compared ambiguously in C++20), and with NDEBUG, so that what they check is the same in every build: what
-// they would check of inertias is checked here (why_no_inertia()).
+// A scene as a multibody system of Simbody. It is compiled as C++17, because Simbody 3.7's index types have ambiguous
+// comparisons in C++20. It uses NDEBUG, so that the checks in its headers are the same in every build. why_no_inertia()
+// replaces their check of inertias.
 //
 // Simbody's conventions and ours: SI here and there; quaternions (w, x, y, z), body to parent; W is called Ground, and
 // angular velocity comes before linear velocity. A body's frame has its origin at the centre of mass here too.
@@ -30,7 +30,7 @@ class SimbodySystem {
 
   // The loads that are Rigor's own: timed forces, and the springs, dampers and motors of joints.
   const Loads& loads() const { return loads_; }
-  // What acts from now on is what acts in the step from `from` to `to` [s]; false if that is what acted before.
+  // Selects the loads of the step from `from` to `to` [s]; returns false if they are unchanged.
   bool set_interval(double from, double to);
 
   // A joint by constraints, and the one of its bodies that surely moves.

@@ -1,5 +1,5 @@
-// The steps of Simbody 3.7's integrators for free bodies and trees of joints, to be held against Simbody itself. With q
-// and u its coordinates and speeds (simbody_coordinates.h), f what u' is at a state and N what makes q' of u:
+// The steps of Simbody 3.7's integrators for free bodies and trees of joints, for comparison with Simbody itself. q and
+// u are its coordinates and speeds (simbody_coordinates.h), f is u' at a state, and N maps u to q':
 //   explicit-euler       q1 = q0 + h N(q0) u0,   u1 = u0 + h f0
 //   semi-explicit-euler  u1 = u0 + h f0,         q1 = q0 + h N(q0) u1
 //   verlet               q1 = q0 + h q0' + h²/2 q0'',  u1 = u0 + h/2 (f0 + f(q1, u1)) by iteration from u0 + h f0
@@ -18,7 +18,7 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-// A step on (q, u); what it needs of the bodies it asks for.
+// A step on (q, u); it asks for the needed data of the bodies.
 class SimbodyTwin : public Stepper {
  public:
   explicit SimbodyTwin(const StepperParts& parts)
@@ -79,8 +79,8 @@ class SemiExplicitEulerTwin : public SimbodyTwin {
   }
 };
 
-// The iteration ends as Simbody's does (VerletIntegrator.cpp): where u changes by no more than 1e-4 of itself, after
-// ten turns, or where a turn after the second changes more than the one before it.
+// The iteration ends like Simbody's (VerletIntegrator.cpp): if u changes by at most 1e-4 of itself, after ten
+// iterations, or if a later iteration than the second changes more than the one before.
 class VerletTwin : public SimbodyTwin {
  public:
   using SimbodyTwin::SimbodyTwin;
@@ -110,7 +110,7 @@ class VerletTwin : public SimbodyTwin {
 };
 
 struct Tableau {
-  std::vector<std::vector<double>> stages;  // of each stage but the first, what it takes of the rates before it
+  std::vector<std::vector<double>> stages;  // the weights of earlier rates, for each stage but the first
   std::vector<double> weights;
 };
 const Tableau kTrapezoid = {{{1}}, {0.5, 0.5}};

@@ -48,13 +48,13 @@ const MethodRow& row_of(const std::string& method) {
   return rows.at(method);
 }
 
-// An integrator whose step is fixed takes the whole way to where it is sent as one step, if that is not longer: this
-// one is longer than any, so that each step may have a length of its own without the integrator being set up anew.
+// An integrator with a fixed step takes the whole way to its target as one step, if that is not longer than the fixed
+// step. This one is longer than any, so each step may have its own length without a new integrator.
 constexpr double kLongestStep = 1e9;  // s
 
-// Where a step's estimate of its own error is more than 2^p times the accuracy, neither constraints nor quaternions are
-// projected (AbstractIntegratorRep::attemptDAEStep), and the step is kept: a loose accuracy does no harm to a fixed
-// step, a tight one does. Likewise for constraints that a step leaves by more than the root of their tolerance.
+// If a step's error estimate exceeds 2^p times the accuracy, Simbody keeps the step but projects neither constraints
+// nor quaternions (AbstractIntegratorRep::attemptDAEStep). A fixed step therefore needs a loose accuracy. The same
+// holds for constraint errors above the root of their tolerance.
 constexpr double kLoosest = 0.5, kConstraintTolerance = 1e-3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -81,7 +81,7 @@ class SimbodyWorld : public World, public ReportsReactions, public SparesReactio
     }
     if (steps.accuracy) integrator_->setAccuracy(*steps.accuracy);
     if (steps.constraint_tolerance) integrator_->setConstraintTolerance(*steps.constraint_tolerance);
-    // What steps past the end and reads between would step past a jump of the loads too.
+    // An integrator that steps past the end and interpolates would also step past a jump of the loads.
     const bool jumps = !scene.forces.empty() || !scene.motors.empty();
     if (!steps.reads_between || jumps) integrator_->setAllowInterpolation(false);
     moves_ = system_.start().getNU() > 0;
@@ -150,9 +150,8 @@ class SimbodyWorld : public World, public ReportsReactions, public SparesReactio
   std::string solver_warning_;
 };
 
-// Of constraints that all repeat what the tree of joints says already the matrix G M⁻¹ Gᵀ is nothing but roundings,
-// which Simbody, whose ranks are relative, takes for a matrix. Squares of roundings are below 1e-30 of what a row else
-// comes to.
+// If all rows of the constraints repeat rows of the tree, the matrix G M⁻¹ Gᵀ contains only rounding. Simbody's ranks
+// are relative, so it would treat it as a regular matrix. Squares of roundings are below 1e-30 of a usual row.
 void SimbodyWorld::refuse_what_has_no_forces() const {
   SimTK::State state = system_.start();
   system_.system().realize(state, SimTK::Stage::Acceleration);
@@ -173,7 +172,7 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
-// Whether the state, or what a step of dt makes of its speeds, is beyond what a motion has.
+// Whether the state, or its speeds after a step of dt, exceed those of any motion.
 bool SimbodyWorld::runs_away(double dt) const {
   SimTK::State state = integrator_->getAdvancedState();
   if (!(largest_in(state.getY()) < kBlownUp)) return true;
@@ -201,7 +200,7 @@ void SimbodyWorld::note_start(double dt) {
   mean_.assign(system_.scene().joints.size(), {});
 }
 
-// What was carried at the end of the step before is what is carried now, unless the loads are others.
+// The joint loads of the last step's end are those of this start, unless the loads changed.
 void SimbodyWorld::note_begin_of_part(double from, bool differs) {
   if (!reports()) return;
   begin_ = differs || end_time_ != from ? reactions_now() : end_;
@@ -231,8 +230,8 @@ std::vector<ReportedReaction> SimbodyWorld::reactions() const {
   return reactions_->reported(mean, start_.columns());
 }
 
-// A first call after a start returns at once, without a step; and a change of the loads is a start, before which what
-// was worked out with the old ones has to be forgotten.
+// The first call after a start returns at once, without a step. A change of the loads is such a start; values computed
+// with the old loads must be invalidated first.
 void SimbodyWorld::advance(double from, double to) {
   const int failures = integrator_->getNumConvergenceTestFailures();
   try {

@@ -11,7 +11,7 @@ import math
 import sys
 
 answers = sys.stdout
-sys.stdout = sys.stderr  # whatever else prints must not get among the answers
+sys.stdout = sys.stderr  # other output must not mix with the answers
 
 INFO = {"ok": True, "name": "toy-py", "version": "1", "precision": "double", "features": ["wrench", "fixed-body"],
         "methods": [{"name": "euler", "summary": "semi-implicit Euler, angular momentum kept in the world frame",
@@ -131,6 +131,6 @@ open_worlds = {}
 for line in sys.stdin:
     try:
         reply = answer(open_worlds, json.loads(line))
-    except Exception as error:  # one answer for each request, whatever happens
+    except Exception as error:  # one answer for each request in any case
         reply = {"ok": False, "status": "failed", "why": repr(error)}
     print(json.dumps(reply, allow_nan=False), file=answers, flush=True)

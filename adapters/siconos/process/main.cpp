@@ -1,6 +1,6 @@
 // rigor-siconos: Siconos as a process that speaks Rigor's protocol for engines from outside
-// (adapters/plugin/README.md). A process of its own, for its libraries bring Bullet in single precision, which does not
-// live beside ours in double.
+// (adapters/plugin/README.md). It is a separate process, because its libraries load Bullet in single precision, which
+// conflicts with our double-precision one.
 #include <unistd.h>
 
 #include <cstdio>
@@ -124,7 +124,7 @@ class Worlds {
   std::vector<double> columns_;
 };
 
-// What Siconos prints by itself goes to stderr, so that it never gets among the answers.
+// Siconos's own output goes to stderr, so that it never mixes with the answers.
 std::FILE* answers_alone() {
   std::FILE* answers = fdopen(dup(STDOUT_FILENO), "w");
   dup2(STDERR_FILENO, STDOUT_FILENO);

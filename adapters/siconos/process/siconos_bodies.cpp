@@ -68,7 +68,8 @@ void Bodies::gather() {
   }
 }
 
-// Siconos asks body by body, in their order, while none of them moves: worked out when it begins anew.
+// Siconos asks for each body in order, while none of them moves. The loads are computed when it starts again at the
+// first.
 const Wrench& Bodies::wrench(int body) {
   if (body <= last_wrench_ || wrenches_.empty()) {
     gather();

@@ -1,5 +1,5 @@
 // The moving bodies of a scene as Siconos's dynamical systems: position (x, q wxyz) in W, twist (v in W, w in B), and
-// what acts on them, worked out by Rigor's law wherever Siconos asks for forces: at both ends of a step.
+// their loads. Rigor's law computes the loads whenever Siconos asks for forces: at both ends of a step.
 #pragma once
 
 #include <NewtonEulerDS.hpp>
@@ -29,7 +29,8 @@ class LoadedBody : public NewtonEulerDS {
 
   using NewtonEulerDS::computeForces;
   void computeForces(double time, SP::SiconosVector q, SP::SiconosVector twist) override;
-  // By the twist, of the gyroscopic moment and of the loads, which follow the position that the twist leads to.
+  // Derivatives by the twist, of the gyroscopic moment and of the loads, which follow the position that results from
+  // the twist.
   void computeJacobianvForces(double time) override;
 
  private:
@@ -45,11 +46,11 @@ class Bodies {
   // Systems made anew from where the bodies are. A step of dt [s] moves them by theta dt times the twist at its end.
   void make_systems(double theta, double dt);
   const std::vector<BodyPointer>& systems() const { return systems_; }  // null for a fixed body
-  // What Siconos has now, in columns; fixed bodies as they are.
+  // Siconos's present state in columns; fixed bodies are unchanged.
   void gather();
   BodyColumns state() const { return table_.columns(); }
   const Loads& loads() const { return loads_; }
-  // What begins and ends is as it is at `time` [s], from now on.
+  // Timed loads are those at `time` [s] from now on.
   void set_time(double time) { time_ = time; }
   // Force and torque on a body; valid until the next call.
   const Wrench& wrench(int body);

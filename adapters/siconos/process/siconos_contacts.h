@@ -1,6 +1,6 @@
-// Contact points for Siconos, found by Rigor's narrow phase: Siconos's own collision detection is Bullet's in single
-// precision, with planes that are slabs of 1000 m and boxes with rounded edges. What a contact does is Siconos's:
-// Newton's restitution and Coulomb's cone.
+// Contact points for Siconos, found by Rigor's narrow phase. Siconos's own collision detection is Bullet's in single
+// precision, with planes as slabs of 1000 m and boxes with rounded edges. Siconos applies the contact laws: Newton's
+// restitution and Coulomb's cone.
 #pragma once
 
 #include <InteractionManager.hpp>

@@ -19,8 +19,7 @@
 namespace rigor::siconos {
 namespace {
 
-// What Siconos's solver of contacts answered last: 0 if it arrived. Siconos has one place to say it for a whole
-// process.
+// The last result of Siconos's contact solver: 0 if it converged. Siconos has one such place per process.
 int last_answer = 0;
 
 void keep_answer(int answer, Simulation*) { last_answer = answer; }
@@ -81,8 +80,8 @@ void SiconosWorld::start(double time, double dt) {
   simulation_->initialize();
 }
 
-// Siconos stops at a momentum [N s, N m s] that is left over, which adds up over thousands of steps; of heavier bodies
-// roundings are larger, and all passes are made. Contact is of first order, and is told from roundings sooner.
+// Siconos stops at a residual momentum [N s, N m s], which adds up over thousands of steps. Heavier bodies have larger
+// rounding, and then all iterations are made. Contact is of first order and stands out from rounding earlier.
 void SiconosWorld::set_newton() {
   const double rounding = contacts_->is_needed() ? 1e-12 : 1e-15;  // m/s, rad/s
   double lightest = std::numeric_limits<double>::infinity();
@@ -93,7 +92,7 @@ void SiconosWorld::set_newton() {
   simulation_->setWarnOnNonConvergence(false);
 }
 
-// Roundings of heavy bodies and large loads may stand above the tolerance; what is ten million times it is none.
+// Rounding of heavy bodies and large loads may exceed the tolerance; ten million times the tolerance is no rounding.
 void SiconosWorld::look_back() {
   constexpr double kNoRounding = 1e7;  // times the tolerance
   constexpr double kTooFar =
@@ -116,7 +115,7 @@ void SiconosWorld::step(double dt) {
   });
 }
 
-// What begins or ends does so between two simulations, for one remembers the forces at its last step's end.
+// Loads begin or end between two simulations, because a simulation remembers the forces at its last step's end.
 void SiconosWorld::step_part(double from, double dt) {
   const double middle = from + 0.5 * dt;
   try {

@@ -27,7 +27,7 @@ class SiconosWorld {
   void step(double dt);
   double time() const { return clock_.time(); }  // s
   BodyColumns state() const { return bodies_->state(); }
-  // Why the last step is not what the method promises; empty if it is.
+  // Why the last step is less accurate than the method promises; empty if it is not.
   const std::string& warning() const { return warning_; }
   int lost_body() const;  // the first whose state is not finite; -1 for none
   std::vector<std::pair<std::string, std::string>> settings_in_force() const;

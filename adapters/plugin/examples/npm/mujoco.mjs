@@ -68,7 +68,7 @@ serve({
         data.xfrc_applied.fill(0);
         wrenches?.forEach((wrench, i) => data.xfrc_applied.set(wrench, 6 * (i + 1)));  // body 0 is the world
         mujoco.mj_step(model, data);
-        // Where it blows up it begins anew, in silence.
+        // MuJoCo restarts silently after a blow-up.
         if (!(data.time > before)) throw new Diverged("MuJoCo found its state unstable and reset it");
       },
       rows: () => scene.body.map((body, i) => {

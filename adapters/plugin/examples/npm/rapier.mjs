@@ -1,5 +1,5 @@
-// Rapier (npm @dimforge/rapier3d-compat, single precision): each request one step of dt, with one iteration of its
-// solver on the track `matched`, for more of them split the step and hold forces over the parts; four as shipped.
+// Rapier (npm @dimforge/rapier3d-compat, single precision). Each request is one step of dt. The track `matched` uses
+// one solver iteration, because more of them split the step and hold forces over the parts; the stock track uses four.
 import { back, directionIn, oneLaw, pointIn, pose, principal, serve, times } from "./serve.mjs";
 import RAPIER from "@dimforge/rapier3d-compat";
 

@@ -1,5 +1,5 @@
-// What the engines of this folder share: the protocol's loop over an engine { info, load(scene, settings) }, whose load
-// gives a world { step(dt, wrenches), rows(), settings, free() }; and what their conversions need.
+// Shared code of this folder's engines: the protocol's loop over an engine { info, load(scene, settings) }, whose load
+// returns a world { step(dt, wrenches), rows(), settings, free() }, and helpers for conversions.
 import { readSync, writeSync } from "node:fs";
 
 // What an engine or its runtime prints must not get among the answers. Import this before the engine.
@@ -64,8 +64,8 @@ export function serve(engine) {
   process.exit(0); // a runtime's own threads and timers do not keep it
 }
 
-// Of [xx, yy, zz, xy, xz, yz]: moments, and the quaternion (w, x, y, z) of the frame in which they are principal, by
-// Jacobi's rotations.
+// From [xx, yy, zz, xy, xz, yz]: moments, and the quaternion (w, x, y, z) of the principal frame, by Jacobi's
+// rotations.
 export function principal([xx, yy, zz, xy, xz, yz]) {
   const a = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
   let q = [1, 0, 0, 0];
