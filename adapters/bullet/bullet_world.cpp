@@ -210,8 +210,8 @@ std::string BulletWorld::restitution_in_words() const {
   if (!bounces_) return "none in this scene";
   if (matched_)
     return "contacts act from the touch on, so that no impulse across a gap brakes a body before its bounce";
-  return "as shipped a contact acts across the last gap before the touch and takes the speed that would close it: what "
-         "is left to bounce depends on where in a step the touch falls, and does not converge as dt falls";
+  return "as shipped a contact already brakes the speed that would close the last gap. The rebound depends on the "
+         "position of the touch in a step, and does not converge as dt falls";
 }
 
 SettingsInForce BulletWorld::settings_in_force() const {

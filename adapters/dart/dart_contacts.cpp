@@ -157,9 +157,10 @@ void DartPlaneEdges::check(BodyColumns bodies) const {
       if (height > solid.bounding_radius || beside + solid.bounding_radius < kDartPlaneReach) continue;
       throw EngineFailure(
           beside > 2 * kDartPlaneReach ? FailureKind::diverged : FailureKind::unsupported,
-          fmt::format("body '{}' is {:.0f} m from the point of plane '{}' next to the origin, and the box that stands "
-                      "for a plane in DART ends at {:g} m",
-                      solid.name, beside, names_[p], kDartPlaneReach));
+          fmt::format(
+              "body '{}' is {:.0f} m from the point of plane '{}' nearest to the origin. DART's box for a plane "
+              "ends at {:g} m",
+              solid.name, beside, names_[p], kDartPlaneReach));
     }
   }
 }

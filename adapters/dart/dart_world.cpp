@@ -322,7 +322,7 @@ SettingsInForce DartWorld::settings_in_force() const {
                                                 constants_.contact_erp, constants_.contact_speed,
                                                 constants_.contact_cfm, solver().getCollisionOption().maxNumContacts));
   in_force.emplace_back("friction",
-                        "pyramid, its directions chosen by the engine: along its diagonal it brakes with "
+                        "pyramid, its directions chosen by the engine. Along its diagonal it brakes with "
                         "sqrt(2) of the force, and a slide ends after 0.71 of its way");
   in_force.emplace_back("bounce threshold", "0.1 m/s, of the speed that would be given back");
   return in_force;

@@ -162,8 +162,8 @@ void OdeWorld::advance(double dt) {
   solver_warning_ = ode_library::take_messages();
   if (solver_warning_.starts_with("LCP")) {
     solver_warning_ = fmt::format(
-        "ODE's direct solver gave up ({}): bodies have more contacts than carry them, so that its equations have no "
-        "single solution, and the forces of that step are not one of them",
+        "ODE's direct solver gave up ({}): bodies have more contacts than they need, so its equations have no unique "
+        "solution. The forces of that step are wrong",
         solver_warning_);
   }
   if (!done) solver_warning_ = "ODE had no memory for the step";
@@ -219,19 +219,19 @@ std::vector<ReportedReaction> OdeWorld::reactions() const {
 
 std::string OdeWorld::erp_in_words() const {
   std::string words = fmt::format("{:g}", dWorldGetERP(world_));
-  if (!joints_->empty()) words += ": that share of a joint's gap is closed in one step, as speed, which stays";
+  if (!joints_->empty()) words += ": the share of a joint's gap that one step closes, by a speed that stays";
   if (!can_touch_) return words;
   if (!joints_->empty()) words += fmt::format("; contacts {:g}", contact_erp_);
   return words +
-         ": that share of an overlap is pushed out in one step, as speed, which a body that should not bounce keeps: "
-         "it pops up. 0 would let bodies sink instead";
+         ": the share of an overlap that one step pushes out, by a speed that stays. A body without bounce thus pops "
+         "up. With 0 bodies would sink";
 }
 
 std::string OdeWorld::cfm_in_words() const {
   if (softness_ == 0) return fmt::format("{:g}", dWorldGetCFM(world_));
   return fmt::format(
-      "{:.3g} 1/kg x dt, {:g} of the heaviest body's 1/mass: less, and the direct solver fails where a "
-      "body has more contacts or joints than it needs; more, and these are soft",
+      "{:.3g} 1/kg x dt, {:g} of the heaviest body's 1/mass. With less, the direct solver fails where a body has more "
+      "contacts or joints than it needs. With more, these are soft",
       softness_, softness_share_);
 }
 
@@ -258,7 +258,7 @@ SettingsInForce OdeWorld::settings_in_force() const {
       {"contact surface layer", fmt::format("{:g} m", dWorldGetContactSurfaceLayer(world_))},
       {"friction", matched_
                        ? "pyramid, its first direction along the sliding velocity, so that it brakes as the cone does"
-                       : "pyramid, its directions chosen by the engine: along its diagonal it brakes with sqrt(2) of "
+                       : "pyramid, its directions chosen by the engine. Along its diagonal it brakes with sqrt(2) of "
                          "the force, and a slide ends after 0.71 of its way"},
       {"bounce threshold", fmt::format("{:g} m/s", bounce_threshold())},
       {"springs and timed forces", "user forces, recomputed before each step"},

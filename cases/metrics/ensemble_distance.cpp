@@ -26,17 +26,17 @@ MetricResult measure_p_value(const JudgedRun& run) { return measured(run, &Energ
 }  // namespace
 
 MetricRow ensemble_distance() {
-  return {"ensemble_distance", "1",
-          "energy distance of where bodies end from where the reference's do, of many starts 1e-6 apart: 0 alike, 1 "
-          "apart",
-          measure_distance};
+  return {
+      "ensemble_distance", "1",
+      "energy distance between the final places of bodies and the reference's, for many starts 1e-6 apart: 0 equal, 1 "
+      "disjoint",
+      measure_distance};
 }
 
 MetricRow ensemble_p_value() {
-  return {
-      "ensemble_p_value", "1",
-      "how often chance alone makes two ensembles of one distribution as far apart as the run's and the reference's",
-      measure_p_value, true};
+  return {"ensemble_p_value", "1",
+          "probability that two ensembles of one distribution differ as much as the run's and the reference's",
+          measure_p_value, true};
 }
 
 }  // namespace rigor

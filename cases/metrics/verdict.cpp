@@ -54,7 +54,7 @@ Stability drift(const JudgedRun& run, const EnergySeries& energies) {
   const Verdict verdict = std::abs(share) > kMoved ? Verdict::drifting : Verdict::stable;
   return {verdict, 0, kWorld,
           fmt::format("from the first to the last tenth of {:.4g} s the energy moved by {:+.3g} % of the {:.3g} J in "
-                      "play from where it should be",
+                      "play from its expected value",
                       time, 100 * share, energies.scale),
           share};
 }

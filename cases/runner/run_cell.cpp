@@ -24,8 +24,8 @@ void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
     if (run.not_finite && !run.solver_warning.empty()) cell.reason += "; " + run.solver_warning;
   } else if (!run.solver_warning.empty()) {
     cell.status = Status::invalid;
-    cell.reason =
-        fmt::format("from {:.4g} s on not what its method promises: {}", run.solver_warning_time, run.solver_warning);
+    cell.reason = fmt::format("after {:.4g} s the method no longer met its promise: {}", run.solver_warning_time,
+                              run.solver_warning);
   } else {
     cell.status = Status::pass;
     cell.reason.clear();

@@ -41,7 +41,7 @@ std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& r
                               const std::vector<double>& scale, double needed_of_truth);
 
 inline constexpr const char* kNoTwin =
-    "the run has no twin: it is the core's own scheme, or bodies can touch, or its way with joints is not repeated";
+    "the run has no twin: it is a core scheme, bodies can touch, or the twin lacks its joints";
 inline constexpr const char* kNoTruth = "the case has no truth";
 inline constexpr const char* kNoSamples = "there is no sample after the start at which the truth is good enough";
 

@@ -76,10 +76,9 @@ void Joints::look_for_singularity(BodyColumns start) {
   const bool is_open = !(rows_.largest_gap() <= kOpenAtStart * extent_);
   if (!is_open) count_rows(state);
   if (is_open || rank() != rank_at_start) {
-    at_start_ = fmt::format(
-        "the joints are in a singular position at t = 0: {} of their {} rows repeat others there, and "
-        "no longer do beside it",
-        rows() - rank_at_start, rows());
+    at_start_ =
+        fmt::format("the joints are in a singular position at t = 0: {} of their {} rows repeat others only there",
+                    rows() - rank_at_start, rows());
   }
   count_rows(start);
 }

@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(a_cell_says_what_became_of_its_run) {
   BOOST_TEST(good.metrics.at("survival").value == 0.5);
   const Cell warned = cell_of(fine, "gave up");
   BOOST_TEST((warned.status == Status::invalid));
-  BOOST_TEST(warned.reason == "from 0.1 s on not what its method promises: gave up");
+  BOOST_TEST(warned.reason == "after 0.1 s the method no longer met its promise: gave up");
   const Cell blown_up = cell_of(lost, "");
   BOOST_TEST((blown_up.status == Status::diverged));
   BOOST_TEST(blown_up.reason == "blown up at 0.10 s: stone; at 0.1 s the state of 'stone' is no longer finite");

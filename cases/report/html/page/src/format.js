@@ -48,7 +48,7 @@ export const seconds = (value, count = 2) => `${value.toFixed(count)} s`;
 
 // Of an engine that holds its numbers in single precision.
 export const singleTitle =
-  "its numbers have 24 bits: what it cannot do better for that is added to the limit of each gate on it";
+  "single precision, 24 bits: the limits of its gates include the effect of rounding";
 
 // "position error" of "position_error".
 export const words = (name) => name.replaceAll("_", " ");

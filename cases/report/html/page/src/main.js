@@ -57,7 +57,7 @@ async function start() {
       el(
         "p",
         {},
-        "This browser is too old for the report: it has no DecompressionStream (Chrome 80, Firefox 113, Safari 16.4). report.md says the same in words.",
+        "This browser is too old for the report: it lacks DecompressionStream (Chrome 80, Firefox 113, Safari 16.4). Read report.md instead.",
       ),
     );
     return;
