@@ -206,7 +206,7 @@ void BulletMultibodyWorld::add_loads(double dt) {
   }
 }
 
-// From the base outwards: Bullet keeps rotations and offsets from parent to child, and joint rates.
+// Goes from the base outwards: Bullet keeps rotations and offsets from parent to child, and joint rates.
 void BulletMultibodyWorld::read_bodies() {
   struct Motion {
     btQuaternion from_W;

@@ -57,7 +57,7 @@ Vec3 newton_change(const Mat3& inertia, const Vec3& w, double dt) {
 
 Vec3 implicit_world_change(const Spin& spin) { return newton_change(spin.inertia_W, spin.w, spin.dt); }
 
-// As in Bullet: the whole w is converted to B and back in each step, which rounds more than converting only its change.
+// The whole w is converted to B and back in each step, as in Bullet, which rounds more than converting only its change.
 Vec3 implicit_body_change(const Spin& spin) {
   const auto turned = [](const Quat& q, const Vec3& v) {
     return Vec3((q * Quat(0, v.x(), v.y(), v.z()) * q.conjugate()).vec());

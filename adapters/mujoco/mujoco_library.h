@@ -1,5 +1,5 @@
-// MuJoCo's global state: its two handlers. By its defaults a warning goes to stdout and to a file in the working
-// folder, and an error waits for Enter and ends the process.
+// MuJoCo's global state: its two handlers. The default handlers write a warning to stdout and to a file in the working
+// folder. On an error they wait for Enter and end the process.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -18,7 +18,7 @@ struct DeleteData {
 using Model = std::unique_ptr<mjModel, DeleteModel>;
 using Data = std::unique_ptr<mjData, DeleteData>;
 
-// From here on an error throws std::runtime_error, and a warning is kept for take_warnings(). May be called repeatedly.
+// Errors throw std::runtime_error from here on, and warnings are kept for take_warnings(). May be called repeatedly.
 void start();
 std::string take_warnings();  // of this thread since the last call; empty if none
 

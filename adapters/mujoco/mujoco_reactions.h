@@ -1,7 +1,7 @@
 // The joint loads that MuJoCo reports: cfrc_int for joints of trees, which mj_rnePostConstraint fills, and the forces
 // of equalities for loops. cfrc_int omits tendons, which are springs and distance joints. The torque of a weld equality
 // is not a torque in W. Scenes with these have no reports. rk4 has none either, because it leaves the forces of its
-// last stage, which belong to no instant of the run.
+// last stage.
 #pragma once
 
 #include <string>

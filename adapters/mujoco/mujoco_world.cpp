@@ -150,7 +150,7 @@ void MujocoWorld::read_jointed(MutableBodyColumns out, std::size_t i) const {
   out.set_angular_velocity(i, {velocity[0], velocity[1], velocity[2]});
 }
 
-// From the data that the step left, before they are computed for the new positions.
+// Uses the data that the step left, before they are computed for the new positions.
 void MujocoWorld::note_reactions() const {
   if (is_asked_ && is_step_in_data_ && !lost_) reactions_ = said_.after_step(*made_.model, *data_, made_);
   is_step_in_data_ = false;

@@ -13,8 +13,8 @@ namespace rigor {
 class ChildProcess {
  public:
   // `command` is a simple command, with words split and quoted as in a shell: /bin/sh -c "exec COMMAND". `limit` is in
-  // seconds: for sleeping over each request, and for the CPU time of all requests together, so that other load on the
-  // machine does not decide. By the clock each request has ten times the limit. `log` is a descriptor for the child's
+  // seconds: for sleeping over each request, and for the CPU time of all requests together. Other load on the machine
+  // thus does not decide. Each request also has ten times the limit by the clock. `log` is a descriptor for the child's
   // stderr, with the name in front; -1 for none.
   ChildProcess(std::string command, double limit, int log, std::string name);
   ~ChildProcess();

@@ -1,6 +1,6 @@
-// Where bounces magnify errors beyond any truth, no trajectory is correct, but the distribution of outcomes can be. A
-// case with `ensemble = n` is run from n starts 1e-6 apart. The outcomes are compared with a reference's outcomes from
-// n other starts by their energy distance (measures/energy_distance.h).
+// For cases in which bounces magnify errors beyond any truth: no trajectory is correct, but the distribution of
+// outcomes can be. A case with `ensemble = n` is run from n starts 1e-6 apart. The outcomes are compared with a
+// reference's outcomes from n other starts by their energy distance (measures/energy_distance.h).
 #include <fmt/format.h>
 
 #include "cases/metrics/measures/ensembles.h"

@@ -23,7 +23,7 @@ struct TruthSamples {
 };
 
 struct ComparedReactions;  // measures/joints/reaction_difference.h
-// By sample: joint loads, shared by the metrics of force and couple; empty if the equations of motion do not determine
+// Joint loads by sample, shared by the metrics of force and couple; empty if the equations of motion do not determine
 // them.
 using ReactionsBySample = std::map<std::size_t, std::shared_ptr<const ComparedReactions>>;
 struct ReactionsKnown {

@@ -1,7 +1,7 @@
-// By how much the forces and couples that an engine itself says its joints carry differ from the truth's: what a user
-// reads from its feedback. An engine's is the mean over a step, for it holds velocities at the step's end; the truth's
-// is taken as the mean of those at the step's two ends, which is right to second order. Directions and what has no
-// value are those of reaction_error.cpp.
+// The difference between the joint loads that an engine reports and the truth's; a user reads them from its feedback.
+// The engine's value is the mean over a step, because it holds velocities at the step's end. The truth's value is the
+// mean of those at the step's two ends, which is correct to second order. Directions and missing values are those of
+// reaction_error.cpp.
 #include <algorithm>
 
 #include "cases/metrics/measures/joints/joint_series.h"
@@ -58,8 +58,8 @@ MetricResult measure_reports(const JudgedRun& run, const ReactionPart& part) {
   constexpr double kOneStep = 1.5;
   if (samples[1].time > kOneStep * run.trajectory.dt) return {{}, "steps are not recorded one by one"};
   std::optional<ReportedReactions> reported;  // made only where something is not known yet
-  // Not in the first step: it begins with velocities of its own instant and not of the step before, so that an engine
-  // that holds them at steps' ends carries nothing yet of what turning takes.
+  // The first step is left out. It begins with velocities of its own instant, so an engine that holds them at the ends
+  // of steps does not yet carry the loads of rotation.
   const std::size_t count = samples_within(run, kTruthNeededPosition);
   std::vector<std::size_t> compared;
   for (std::size_t n = 2; n < count; ++n) {

@@ -1,7 +1,7 @@
 // The share of a run's time inside a tube around the truth. At some instant within one dt of now, every body must be
 // within its tolerance of the truth: |Δp|²/r² + (Δangle)²/a² <= 1. r is 1 % of the diagonal of the box around the
-// body's true path, or 1 mm if that is larger; a is 1 % of half a turn. A run that is correct except for a small lag
-// stays inside, while position_error counts its whole distance.
+// body's true path, or at least 1 mm; a is 1 % of half a turn. A run that is correct except for a small lag stays
+// inside, while position_error counts its whole distance.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -95,7 +95,7 @@ Baseline::Cell cell_from(const Json& json, const std::string& place) {
   return cell;
 }
 
-// A gate's answers by its content, because its number changes with the file. Of several with the same content the worst
+// A gate's answers by its content, because its number changes with the file. The worst of several with the same content
 // counts. A missing recorded value of a regression does not affect the cell.
 void add_gates(const Json& json, const std::string& place, Baseline& out) {
   for (const Json& gate : json.at("gates")) {
@@ -115,7 +115,7 @@ void check_schema(const Json& json) {
     throw InputError(fmt::format("its schema is {}; allowed: {} to {}", schema, kOldestSchema, kSchema));
 }
 
-// By case, because a long result states it once per case.
+// Grouped by case, because a long result states it once per case.
 std::map<std::string, std::set<std::string>> metrics_not_measured(const Json& cases) {
   std::map<std::string, std::set<std::string>> found;
   for (const Json& one : cases) {

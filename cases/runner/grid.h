@@ -52,9 +52,9 @@ Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& ru
                   const Scope& scope, const std::vector<RunName>& only_where_named = {});
 
 // Runs the grid and fills it in. One child process per case makes the truth and forks the case's cells, which inherit
-// it. A truth that hangs, throws or crashes thus costs one case. As many cases run at once as there are jobs, the long
-// ones first. If there are fewer cases, they share the jobs. An executor gets shares of cases, so that no long case
-// ends last. Each share makes the truth again, or takes it from the cache. `on_progress` is called when cells end.
+// it. A truth that hangs, throws or crashes thus costs one case. Cases run side by side on all jobs, the long ones
+// first. If there are fewer cases, they share the jobs. An executor gets shares of cases, so that no long case ends
+// last. Each share makes the truth again, or takes it from the cache. `on_progress` is called when cells end.
 void run_grid(Results& grid, const EngineTable& engines, const GridOptions& options,
               const std::function<void(std::size_t done, std::size_t all)>& on_progress);
 

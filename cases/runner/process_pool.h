@@ -27,7 +27,7 @@ struct Job {
 };
 
 // finished: `work` returned. refused: it threw InputError. threw: another exception. killed: by a signal. exited: the
-// child called exit() without a message. timed_out: no message within the limit, or no further one.
+// child called exit() without a message. timed_out: no message within the limit, or no more of them.
 enum class Ending { finished, refused, threw, killed, exited, timed_out };
 
 struct JobEnd {

@@ -19,7 +19,7 @@ struct TwinLength {
   bool is_whole = false;  // also beyond the comparable part: as long as the run itself
 };
 
-// The twin is stepped, and its rounding error found, only while it is comparable with the run. That ends where rounding
+// The twin is stepped, and its rounding error found, only while it is comparable with the run. This ends where rounding
 // has separated it from itself (samples_with_twin), or where it or a rotated run is no longer finite.
 TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& scene, const Simulation& run,
                  double duration, TwinLength length = {});

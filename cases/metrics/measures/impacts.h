@@ -17,10 +17,11 @@ struct ImpactSpeeds {
   double after = 0;   // m/s, the speed of separation at the touch; 0 if they stay together
 };
 
-// By pair (a < b), in order of time. Some impacts are left out: those near a third body, because several impulses may
-// add up to one speed; of bodies with corners all but the first, because the next may be of another corner; and those
-// slower than a tenth of the pair's fastest. A ball that comes to rest makes any number of them, and no finite step
-// resolves the last.
+// By pair (a < b), in order of time. Three kinds of impacts are left out:
+// - those near a third body, because several impulses may add up to one speed;
+// - of bodies with corners all but the first, because the next may be of another corner;
+// - those slower than a tenth of the pair's fastest. A ball that comes to rest makes any number of them, and no finite
+//   step resolves the last.
 std::map<std::pair<int, int>, std::vector<ImpactSpeeds>> impacts_of(const Scene& scene, const Trajectory& trajectory,
                                                                     double leapfrog_stagger);
 

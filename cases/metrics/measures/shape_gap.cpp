@@ -80,8 +80,8 @@ double between(const Rod& rod, const Cuboid& box) {
   return std::min({at(0.5 * (low + high)), at(-1), at(1)}) - rod.radius;
 }
 
-// Separating axes: the faces' normals and the edges' cross products (Gottschalk, Lin, Manocha, OBBTree, 1996). Of two
-// boxes that overlap the shortest way apart is along one of them.
+// Separating axes: the faces' normals and the edges' cross products (Gottschalk, Lin, Manocha, OBBTree, 1996). One of
+// them is the direction of least overlap of two boxes.
 double between(const Cuboid& a, const Cuboid& b) {
   const Vec3 apart = b.centre - a.centre;
   double widest = -kInfinity;

@@ -1,5 +1,5 @@
-// The verdict matrix for a terminal: cases by engines in plain text of at most 100 columns. As many engines as fit
-// stand side by side; further panels below show the rest.
+// The verdict matrix for a terminal: cases by engines in plain text of at most 100 columns. Engines stand side by side
+// while they fit; further panels below show the rest.
 #pragma once
 
 #include <string>

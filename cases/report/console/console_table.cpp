@@ -119,7 +119,7 @@ std::string what_is_wrong(const CaseResult& result) {
 
 // Runs that lack the same feature share one sentence.
 std::string unsupported_lines(const Results& results, const CaseResult& result, const StepSize& dt) {
-  // By reason, in their order; each sentence begins with the runs.
+  // Grouped by reason, in their order; each sentence begins with the runs.
   const auto essence_of = [](const std::string& reason) {
     const std::size_t at = reason.find(" has no ");
     return at == std::string::npos ? reason : reason.substr(at + 5);

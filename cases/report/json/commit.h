@@ -5,7 +5,7 @@
 
 namespace rigor {
 
-// As from `git describe`, with "-dirty" if files differ from it; "" without a checkout.
+// The text of `git describe`, with "-dirty" if files differ from it; "" without a checkout.
 std::string commit();
 
 }  // namespace rigor

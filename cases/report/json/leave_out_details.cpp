@@ -44,7 +44,7 @@ Json without_nulls(const Json& gate) {
   return kept;
 }
 
-// By case: the metrics that no cell measured, because nobody requested them.
+// The metrics by case that no cell measured, because nobody requested them.
 std::map<std::string, std::set<std::string>> unmeasured_in(const Json& cells) {
   std::map<std::string, std::set<std::string>> found;
   for (const Json& cell : cells) {

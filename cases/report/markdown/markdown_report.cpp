@@ -215,7 +215,7 @@ TextTable matrix_of_engine(const Results& results, Words words, const std::vecto
   return matrix;
 }
 
-// Of many runs, one per engine is shown; the others of each engine are behind a line to open.
+// If there are many runs, one per engine is shown; the others of each engine are behind a line to open.
 std::string matrices(const Results& results, Words words) {
   std::vector<std::size_t> all(results.runs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});

@@ -44,7 +44,7 @@ class BodyMotion {
  public:
   virtual ~BodyMotion() = default;
   virtual ExtendedState at(Extended t) const = 0;
-  // As Truth::error, without the rounding of the orientation to double.
+  // The same as Truth::error, without the rounding of the orientation to double.
   virtual double error(double t) const = 0;
 };
 

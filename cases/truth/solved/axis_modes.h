@@ -21,7 +21,7 @@ struct AxisMode {
 // One mode per axis (joint_axis.h); if empty, all are free.
 using AxisModes = std::vector<AxisMode>;
 
-// As plain numbers for storage; an impact is not included.
+// Plain numbers for storage; an impact is not included.
 inline constexpr std::size_t kNumbersPerMode = 5;
 
 inline std::vector<double> numbers_of(const AxisModes& modes) {

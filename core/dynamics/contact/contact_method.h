@@ -1,5 +1,5 @@
-// What every contact method of the core offers: the contacts it expresses, and a stepper that carries a scene with
-// contacts over a step by means of an integrator's. One method, one file; contact_methods.cpp is the table.
+// The interface of the core's contact methods: the contacts that a method supports, and a stepper that advances a scene
+// with contacts by means of an integrator. Each method has its own file; contact_methods.cpp is the table.
 #pragma once
 
 #include <memory>

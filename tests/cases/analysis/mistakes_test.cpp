@@ -207,7 +207,7 @@ bool is_taken(const std::string& name, std::size_t index, std::size_t each) {
   return wanted() == "all" || name.find(wanted()) != std::string::npos;
 }
 
-// Of the machine's own engines; a toy from outside, whose scheme no twin repeats.
+// For the machine's own engines, and a toy from outside, whose scheme no twin repeats.
 std::vector<std::string> engines_asked() {
   std::vector<std::string> names = {"ode"};
   if (const char* only = std::getenv("RIGOR_DIAGNOSE_ENGINE")) return {only};
@@ -293,9 +293,9 @@ BOOST_AUTO_TEST_CASE(a_mistake_alone_is_not_led_by_itself_with_another) {
   }
 }
 
-// A pair of which one is named is neither both named nor, for that, a wrong name. Four are too few to show a share of
-// 0.7: the short form fails where it would see so few, if the share were 0.7, less than once in twenty times; the full
-// form asks for the share itself.
+// If one of a pair is named, the answer is neither right nor wrong. Four pairs are too few to measure a share of 0.7.
+// The short form fails at a number that a share of 0.7 would give less than once in twenty times. The full form
+// requires the share itself.
 BOOST_AUTO_TEST_CASE(two_mistakes_at_once_are_both_named) {
   const char* seed = std::getenv("RIGOR_DIAGNOSE_SEED");
   std::mt19937 random(seed ? static_cast<unsigned>(std::atoi(seed)) : 1);

@@ -65,8 +65,8 @@ BOOST_AUTO_TEST_CASE(whole_values_are_rounded_and_each_once) {
   BOOST_TEST(axis.values == (Values{"1", "2", "3", "5", "7", "10"}));  // 1 1.47 2.15 3.16 4.64 6.81 10
 }
 
-// The same seed draws the same points, another seed other points, and the points fill the space. Of the first 256
-// points of a two-dimensional Sobol sequence, each of 16 × 16 boxes has one. After a shift each still has only a few.
+// The same seed draws the same points, another seed other points, and the points fill the space. The first 256 points
+// of a two-dimensional Sobol sequence put one into each of 16 × 16 boxes. After a shift each still has only a few.
 BOOST_AUTO_TEST_CASE(samples_fill_the_space_and_follow_from_the_seed) {
   const auto points = sample_points(256, 2, 7);
   BOOST_TEST((points == sample_points(256, 2, 7)));

@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(the_truth_is_asked_at_few_shifts) {
   }
 }
 
-// Of 500 samples, or 40 with joints, every second one is evaluated.
+// Every second of 500 samples, or of 40 with joints, is evaluated.
 BOOST_AUTO_TEST_CASE(of_many_samples_some_are_compared) {
   // Four or five shifts, by roundings.
   const auto is_few = [](double shifts) { return shifts == 4 || shifts == 5; };
@@ -246,7 +246,7 @@ BOOST_AUTO_TEST_CASE(of_many_samples_some_are_compared) {
   BOOST_TEST(is_few(shifts_tried(passing, 0.2, 0.05, 77, 38, true)));
 }
 
-// Samples with reversed velocities lead to a neighbour of the best shift. From there the truth itself leads on in
+// Samples with reversed velocities lead to a neighbour of the best shift. The truth itself leads on from there in
 // either direction.
 BOOST_AUTO_TEST_CASE(where_samples_mislead_the_truth_itself_is_followed) {
   const auto backwards = [](double t) {

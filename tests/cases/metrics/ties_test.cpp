@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(of_stops_as_far_off_the_first_is_named) {
   };
   BOOST_TEST(worst_of(0.75, 0.75, 1) == 0);
   BOOST_TEST(worst_of(1, 0.75, 0.75) == 2);
-  // Of equally long ones the last, as with std::minmax_element.
+  // The last of equally long ones, as with std::minmax_element.
   BOOST_TEST(worst_of(1.5, 1.5, 1) == 2);
 }
 

@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(a_slow_body_is_followed_as_far_as_a_step_goes) {
   BOOST_TEST(tube_of({slow}, {late}, 0.5, 8).measured.value == 1);
 }
 
-// Of bodies with equal errors the first is named.
+// The first of several bodies with equal errors is named.
 BOOST_AUTO_TEST_CASE(of_two_that_are_as_far_off_the_first_is_named) {
   const Motion rest =
                    [](double) {

@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(what_is_driven_without_a_truth_is_not_known_to_drift) {
 }
 
 BOOST_AUTO_TEST_CASE(a_bounded_oscillation_of_a_kept_energy_is_neither_drift_nor_gain) {
-  // By 40 % of it, three times in each tenth of the run.
+  // The change is 40 % of it, three times in each tenth of the run.
   const double omega = 2 * 3 * std::acos(-1);  // rad/s
   const auto speed = [=](double t) { return 1 + 0.2 * std::sin(omega * t); };
   BOOST_TEST(word_of(verdict_of_speed(speed).verdict) == "stable");

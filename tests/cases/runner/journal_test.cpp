@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(a_journal_cut_anywhere_or_spoilt_keeps_its_whole_records) {
   BOOST_TEST(Journal(file, "plan").found().size() == 1u);
 }
 
-// As on a full disk: data that do not fit are dropped, and the run continues.
+// Simulates a full disk: data that do not fit are dropped, and the run continues.
 BOOST_AUTO_TEST_CASE(a_journal_that_may_grow_no_further_keeps_what_was_whole) {
   const Folder folder;
   const std::string file = (folder.path / "journal").string();

@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(an_endless_loop_costs_its_limit_and_no_more) {
   BOOST_TEST(seconds < 10);  // far above the pool's tick of 50 ms, for a machine that is busy
 }
 
-// As on a busy machine, but not forever.
+// Slow, like a busy machine, but not forever.
 BOOST_AUTO_TEST_CASE(waiting_costs_no_limit_until_it_is_ten_times_that) {
   const auto sleeping = [](int ms) {
     return [ms](const Channel&) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); };

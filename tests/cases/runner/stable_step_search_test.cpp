@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(a_sweep_that_takes_more_than_half_of_what_is_left_is_not_be
   BOOST_TEST(cut_of(0.94) == "by bisection from 0.5 s up: a sweep would take too many steps");
 }
 
-// Of 0.4 million steps × bodies: the rest after the first run at 0.25 s, which does not count.
+// The budget is 0.4 million steps × bodies: the rest after the first run at 0.25 s, which does not count.
 BOOST_AUTO_TEST_CASE(a_step_takes_what_its_bodies_springs_joints_limits_and_loops_take) {
   const auto steps_left = [](int springs, int joints, bool has_limits) {
     Scene scene;

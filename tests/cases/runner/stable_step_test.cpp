@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(a_search_that_takes_too_much_says_where_it_was_cut) {
   BOOST_TEST(largest_stable_dt(test::ScriptedEngine(late), {}, scene, 30, 1).dt == 0.5);
 }
 
-// From the sixtieth step on it reports a failure: no step up to 0.5 s covers 30 s with so few.
+// It reports a failure from the sixtieth step on: no step up to 0.5 s covers 30 s with so few.
 BOOST_AUTO_TEST_CASE(a_step_at_which_the_method_fails_is_not_a_stable_one) {
   test::Script failing;
   failing.solver_warning = [](int step) { return std::string(step >= 60 ? "did not converge" : ""); };

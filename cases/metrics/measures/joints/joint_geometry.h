@@ -1,5 +1,5 @@
-// How far a joint's two ends are from what it holds, from the bodies' states and the scene alone: written apart from
-// the core's constraints on purpose, so that a mistake there cannot hide here.
+// The errors of a joint's two ends, from the bodies' states and the scene alone. Written apart from the core's
+// constraints on purpose, so that a mistake there cannot hide here.
 #pragma once
 
 #include "core/engine/body_table.h"

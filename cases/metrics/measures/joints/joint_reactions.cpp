@@ -126,7 +126,7 @@ void JointReactions::find_rows(BodyColumns bodies) {
   is_regular_ = solver_.factorise(rows_, inverse_mass_);
 }
 
-// The multipliers of the rows in use, as what each puts on its joint: in the place of bodies stand the joints, each of
+// The multipliers of the rows in use, as each row's effect on its joint. The joints take the place of bodies, each with
 // unit mass.
 std::vector<JointReaction> JointReactions::carried(const std::vector<double>& residuals) {
   std::vector<Row> of_joints(rows_.size());

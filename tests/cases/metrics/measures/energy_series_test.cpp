@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(what_is_driven_or_damped_is_held_to_the_truths_change_up_to
 }
 
 // Without a truth, or with a truth at rest, the scale is the scene's energy in play over the run or the case, whichever
-// is longer: a free fall of 2 kg at 10 m/s², 100 t² J.
+// is longer. For a free fall of 2 kg at 10 m/s² it is 100 t² J.
 BOOST_AUTO_TEST_CASE(the_scale_is_the_truths_or_what_is_in_play_over_the_longer_of_run_and_case) {
   Scene scene;
   scene.gravity = {0, 0, -10};

@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(of_many_cases_every_cell_keeps_its_values_and_leaves_out_it
   BOOST_TEST(told.at("cells").size() == full.at("cells").size());
   for (std::size_t i = 0; i < told.at("cells").size(); ++i) {
     const auto &brief = told.at("cells").at(i), &cell = full.at("cells").at(i);
-    // As text: a non-finite value, or a value that is no text, equals nothing.
+    // The value as text: a non-finite value, or a value that is no text, equals nothing.
     for (const char* key : {"case", "engine", "dt", "status", "reason", "trajectory"})
       BOOST_TEST(text_of(brief.at(key), -1) == text_of(cell.at(key), -1), key);
     auto verdict = cell.at("verdict");

@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(its_error_bounds_the_distance_from_every_closed_form) {
     BOOST_TEST_CONTEXT(c.id) {
       const double duration = c.scene.bodies.size() > 20 ? std::min(c.duration, kShort) : c.duration;
       const auto events = make_truth("events", c.scene, duration), form = make_truth(c.truth, c.scene, duration);
-      // What metrics ask for; but of a spring that swings once in the longest step, which the first of the solutions
+      // The times that metrics need. One spring swings once in the longest step, which the first of the solutions
       // cannot follow.
       BOOST_TEST(events->error(duration) < (c.id == "contact/sprung-ball-in-step" ? 1e-5 : 1e-6));
       constexpr int kInstants = 101;
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(its_velocities_are_those_of_its_path) {
   BOOST_TEST(compared > 50);
 }
 
-// Where the motion magnifies what the solutions differ by, it ends: a ball among pins forgets where it came from.
+// The truth ends where the motion magnifies the difference of the solutions: a ball among pins forgets its origin.
 BOOST_AUTO_TEST_CASE(its_horizon_ends_where_the_solutions_part) {
   Scene scene;
   scene.gravity = Vec3::Zero();
@@ -189,8 +189,8 @@ BOOST_AUTO_TEST_CASE(what_it_is_not_for_it_refuses_in_words) {
   BOOST_CHECK_EXCEPTION(make_truth("events", jointed, 1), InputError, test::says("two limits within half a turn"));
 }
 
-// A pendulum that strikes a plane of no friction where it hangs, against its limit there: a limit is a contact, too,
-// and nothing else of the two scenes is alike.
+// A pendulum that strikes a frictionless plane at its lowest point is compared with its limit there. A limit is a
+// contact, too; the two scenes share nothing else.
 BOOST_AUTO_TEST_CASE(a_limit_and_a_wall_at_one_place_are_one_motion) {
   Scene at_wall = ball_beside_wall(), at_limit = ball_beside_wall();
   at_limit.contact_default.restitution = at_wall.contact_default.restitution = 0.5;

@@ -1,4 +1,4 @@
-// Where friction stops bodies that slide in several directions: the distance of each, drawn at its place of rest. The
+// The distances at which friction stops bodies that slide in several directions, each drawn at its place of rest. The
 // friction of a cone is isotropic and gives an arc. A pyramid brakes harder along its diagonals and dents the arc.
 import { ink, legend } from "./charts.js";
 import { cellOf, metricOf } from "./data.js";

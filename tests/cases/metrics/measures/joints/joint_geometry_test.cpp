@@ -63,7 +63,7 @@ BodyTable gone_on(const BodyTable& from, double time) {
 
 BOOST_AUTO_TEST_SUITE(cases_metrics_measures_joints_joint_geometry)
 
-// From no gap at all, any violating velocity opens a gap at its rate.
+// Any violating velocity opens a gap at its rate, also from no gap at all.
 BOOST_AUTO_TEST_CASE(a_rate_is_that_at_which_the_gap_opens) {
   for (const Row& row : kJoints) {
     BOOST_TEST_CONTEXT(row.name) {

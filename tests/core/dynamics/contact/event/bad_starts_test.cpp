@@ -1,4 +1,4 @@
-// What `event` makes of bodies that lie in each other at the start, and of those that rest while others move.
+// Tests `event` with bodies that overlap at the start, and with bodies that rest while others move.
 #include "core/dynamics/model/energy.h"
 #include "tests/core/dynamics/contact/contact_runs.h"
 
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(a_body_without_room_is_named) {
   BOOST_TEST(run.solver_warning().find("no way was found to part all bodies") != std::string::npos);
 }
 
-// What rests is set aside, and has to be there again when it is struck.
+// A resting body is set aside, and must be there again when it is struck.
 BOOST_AUTO_TEST_CASE(what_rests_stays_to_the_last_bit_until_it_is_struck) {
   Body ball = solid("ball", Sphere{0.1}, {-1, 0, 0.1});
   ball.velocity = {1, 0, 0}, ball.angular_velocity = {0, 10, 0};

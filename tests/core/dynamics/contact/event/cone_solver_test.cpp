@@ -1,4 +1,4 @@
-// That the impulses of touching bodies obey the laws, and how near to them sweeps come.
+// The impulses of touching bodies satisfy the contact laws; measures how near sweeps come to them.
 #include "core/dynamics/contact/event/cone_solver.h"
 
 #include "core/dynamics/contact/event/contact_points.h"

@@ -1,5 +1,5 @@
-// A contact is followed by what touches, and not by where: a box that turns on the spot comes to stand with another
-// corner where each one stood.
+// A contact is identified by its features, not by its place. A box that rotates on the spot comes to stand with another
+// corner at the place of each one.
 #include "core/dynamics/contact/event/contact_points.h"
 
 #include "tests/core/dynamics/contact/contact_runs.h"

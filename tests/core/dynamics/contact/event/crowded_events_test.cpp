@@ -1,5 +1,5 @@
-// Where events crowd: what a run may spend on them is bounded, and what is taken in inelastic steps instead goes on to
-// obey the laws. And what slides along a curved way, which is where friction's direction has to be asked at each stage.
+// Crowded events: the cost of a run is bounded, and the inelastic steps that follow still satisfy the laws. Also tests
+// sliding along a curved path, for which the direction of friction is evaluated at each stage.
 #include <boost/test/data/test_case.hpp>
 #include <cmath>
 #include <numbers>
@@ -30,7 +30,8 @@ void fall(const Scene& scene, ContactRun& run, double t) {
   while (run.time() < t) {
     run.step(kStep);
     const double now = energy(scene, run.state());
-    if (!(now <= least + weight * 9.81 * kStep * kStep / 16)) BOOST_TEST(now <= least, "at " << run.time() << " s by " << now - least << " J");
+    if (!(now <= least + weight * 9.81 * kStep * kStep / 16))
+      BOOST_TEST(now <= least, "at " << run.time() << " s by " << now - least << " J");
     least = std::min(least, now);
   }
   BOOST_TEST(run.solver_warning() == "");

@@ -1,6 +1,6 @@
-// The closed forms that contact by events must meet. Where forces are constant between events, the method is exact with
-// an integrator of second order, so that the tolerances are those of rounding, of the end of a bounce sequence (1e-7
-// m/s) and of a stop (1e-9 m/s).
+// The closed forms that contact by events must meet. If forces are constant between events, the method is exact with an
+// integrator of second order. The tolerances are those of rounding, of the end of a bounce sequence (1e-7 m/s) and of a
+// stop (1e-9 m/s).
 #include <cmath>
 #include <numbers>
 
@@ -198,9 +198,9 @@ BOOST_AUTO_TEST_CASE(what_overlaps_at_the_start_is_moved_apart_without_velocity)
   BOOST_TEST(run.state().velocity(0).norm() < 1e-12);
 }
 
-// Two balls that graze each other by 0.1 mm of their 0.2 m, for a thousandth of a second in the middle of a step: apart
-// at both its ends, and where pieces of a ball's radius would have been looked at. By momentum, the parts of the
-// velocities along the line of centres are exchanged.
+// Two balls of 0.2 m that graze each other by 0.1 mm, for a thousandth of a second in the middle of a step. They are
+// apart at both its ends, and at sub-steps of a part of a ball's radius. The impact exchanges the parts of the
+// velocities along the line of centres.
 BOOST_AUTO_TEST_CASE(a_graze_inside_a_step_is_not_missed) {
   const double r = 0.1, offset = 0.1999, speed = 10, dt = 1.0 / 30;
   Scene scene;

@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(limits_agree_with_those_of_scenes_without_contact) {
   }
 }
 
-// What falls on a stop and what falls on a floor of the same restitution go side by side, to their rest.
+// A body that falls on a stop and one that falls on a floor of the same restitution move alike until they rest.
 BOOST_AUTO_TEST_CASE(a_sled_bounces_on_its_stop_as_a_ball_on_the_floor) {
   Scene scene =
       on_floor({solid("ball", Sphere{0.1}, {3, 0, 1.1}), solid("sled", Box{{0.2, 0.2, 0.2}}, {0, 0, 2.5})}, {0.5, 0});
@@ -234,8 +234,8 @@ BOOST_AUTO_TEST_CASE(a_doll_that_falls_keeps_its_joints_and_gains_nothing) {
   BOOST_TEST(joints.gap(now.bodies()) < 1e-12);
 }
 
-// The same motors as JointEvents has them, where nothing can touch: one that is strong enough, one that comes to its
-// speed and loses it as the arm goes up, one that never lifts the arm.
+// The motors of JointEvents's tests, in a scene without contact: one that is strong enough, one that reaches its speed
+// and loses it as the arm rises, one that never lifts the arm.
 BOOST_AUTO_TEST_CASE(motors_agree_with_those_of_scenes_without_contact) {
   for (const auto& [speed, most] : {std::pair(2.0, 20.0), std::pair(-1.0, 5.2), std::pair(3.0, 5.2)}) {
     const Scene smooth = lifted_arm(speed, most), scene = over_a_floor(smooth);

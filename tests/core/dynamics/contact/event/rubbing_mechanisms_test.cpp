@@ -112,8 +112,8 @@ double apart(const Fall& one, const Fall& other, double until) {
 
 BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_rubbing_mechanisms)
 
-// Each inner step is held to 1e-12 of the state, which impacts magnify; measured 1e-10 m at most. Where events crowd,
-// steps of first order follow.
+// Each inner step's tolerance is 1e-12 of the state, which impacts magnify; measured at most 1e-10 m. Crowded events
+// are followed by first-order steps.
 BOOST_AUTO_TEST_CASE(mechanisms_that_fall_and_rub_go_on_and_gain_nothing) {
   int rubbing = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -131,14 +131,14 @@ BOOST_AUTO_TEST_CASE(mechanisms_that_fall_and_rub_go_on_and_gain_nothing) {
   BOOST_TEST(rubbing >= 20);
 }
 
-// What joints hold and the floor rubs is taken by events where no contact method is named.
+// Jointed bodies with friction on a floor use events by default.
 BOOST_AUTO_TEST_CASE(events_are_what_rubbing_mechanisms_get_by_default) {
   const Scene scene = Maker(1).scene();
   BOOST_TEST(contact_method_for(scene).name == "event");
   BOOST_TEST(apart(fall(scene, 1.0 / 240), fall(scene, 1.0 / 240, "event"), kEnd) == 0.0);
 }
 
-// What turns at 100 rad/s would turn by three radians in a step of 1/30 s, in which rk4 loses all digits.
+// A body at 100 rad/s would rotate by three radians in a step of 1/30 s, in which rk4 loses all digits.
 BOOST_AUTO_TEST_CASE(a_fast_link_is_not_thrown_about_by_coarse_steps) {
   Scene scene = on_floor({solid("hub", Sphere{0.1}, {0, 0, 5}, 2), solid("link", Box{{0.3, 0.05, 0.05}}, {0.25, 0, 5})},
                          {0, 0.5});

@@ -1,4 +1,4 @@
-// That no impact of jointed bodies adds energy: what is taken back where Newton's restitution would, and no more.
+// No impact of jointed bodies adds energy: exactly the excess of Newton's restitution is taken back.
 #include "core/dynamics/contact/impulse/impact_energy.h"
 
 #include <boost/test/unit_test.hpp>
@@ -77,7 +77,8 @@ BOOST_AUTO_TEST_CASE(what_has_too_much_goes_back_towards_what_has_less_until_it_
     BOOST_TEST((share > 0 && share < 1));
     for (int i = 0; i < 2; ++i) BOOST_TEST((limited[i] - (without[i] + share * (with[i] - without[i]))).norm() < 1e-14);
   }
-  // What has no more than it may is left as it is; where even no restitution has too much, that is what is left.
+  // A body with no more energy than allowed stays unchanged. If even zero restitution gives too much, that result is
+  // used.
   std::vector<Vec6> same = with;
   limit_energy(system, pose.columns(), most, without, same);
   BOOST_TEST((same[0] == with[0] && same[1] == with[1]));
@@ -89,8 +90,8 @@ BOOST_AUTO_TEST_CASE(what_has_too_much_goes_back_towards_what_has_less_until_it_
   BOOST_TEST(twice_energy_of(system, pose.columns(), still) == 0);
 }
 
-// Perfectly elastic, with friction: whatever Newton's rule makes of the points together, the energy rises in no step by
-// more than what positions are taken back by, a slop of 1e-3 m of the weight at most.
+// Perfectly elastic, with friction. Whatever Newton's rule gives for the points together, the energy rises in no step
+// by more than position correction allows, a slop of 1e-3 m of the weight.
 BOOST_AUTO_TEST_CASE(no_impact_of_a_jointed_pair_adds_energy) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     const Scene scene = falling_pair(seed);

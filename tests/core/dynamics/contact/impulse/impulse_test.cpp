@@ -1,5 +1,5 @@
-// What contact by impulses promises: piles that stand, friction without a preferred direction, momenta kept, and
-// bounces as true as its sub-steps.
+// The properties of contact by impulses: piles that stand, friction without a preferred direction, conserved momenta,
+// and bounces as accurate as its sub-steps.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kG = 9.81;
 
-// By the judge's geometry, not by that which finds the contacts.
+// Uses the judge's geometry, which differs from the code that finds the contacts.
 double deepest(const Scene& scene, BodyColumns state) {
   double depth = 0;
   for_each_near_pair(scene, state, 0, [&](int, int, double gap) { depth = std::max(depth, -gap); });
@@ -192,7 +192,7 @@ BOOST_AUTO_TEST_CASE(a_rod_that_turns_by_half_a_turn_in_a_step_does_not_pass_thr
   const double expected = 2 * w * s / (1 / 0.5 + 1 / 3.0 + s * s / I) / 0.5;
   ContactRun run(scene, "impulse");
   run.step(dt);
-  // Where in its sub-step of 1/240 s, an eighth of a turn of the rod, the blow falls is told ahead from its start:
+  // The instant of the impact in its sub-step of 1/240 s, an eighth of a turn of the rod, is predicted from its start:
   // measured 0.9 %.
   BOOST_TEST(std::abs(run.state().velocity(1).norm() / expected - 1) < 0.02);
 }
@@ -201,7 +201,8 @@ BOOST_AUTO_TEST_CASE(a_box_that_comes_down_flat_stays_flat) {
   for (const double e : {0.0, 0.3}) {
     ContactRun run(on_floor({solid("box", Box{{1, 1, 1}}, {0, 0, 1})}, {e, 0.5}), "impulse");
     run.run(1.0 / 30, 60);
-    // What the order of the four corners leaves of three bounces: 2.1 mm measured. Taken only once each: 0.22 m.
+    // The effect of the order of the four corners over three bounces: 2.1 mm measured. Processed only once each: 0.22
+    // m.
     BOOST_TEST(angle_between(run.state().orientation(0), Quat::Identity()) < 1e-3, e);
     BOOST_TEST((run.state().position(0) - Vec3(0, 0, 0.5)).norm() < 5e-3, e << " " << run.state().position(0).x());
   }

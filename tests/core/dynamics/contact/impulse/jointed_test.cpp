@@ -84,9 +84,9 @@ const char* const kMethods[] = {"semi-implicit-euler", "velocity-verlet", "rk4"}
 
 BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_jointed)
 
-// sin(theta_n/2) = e^n sin(theta_0/2): each swing's top, to what is lost and won by an impact that takes place within a
-// sub-step of 1/480 s. The bob's speed there is 3.1 m/s: 6 mm of way, of which a wall that is met too early or late
-// takes the energy of, 2e-5 m of height, and first-order methods err by as much.
+// sin(theta_n/2) = e^n sin(theta_0/2) for each swing's top, up to the effect of an impact inside a sub-step of 1/480 s.
+// The bob's speed there is 3.1 m/s, 6 mm per sub-step. A wall that is met too early or late changes the energy by that,
+// 2e-5 m of height, and first-order methods have the same error.
 BOOST_AUTO_TEST_CASE(a_pendulum_leaves_a_wall_with_its_share_of_the_speed) {
   for (const char* method : kMethods) {
     const Scene scene = pendulum_at_wall(0.5);
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(a_chain_falls_on_the_ground_and_comes_to_rest) {
   }
 }
 
-// What lies still stays there: five seconds, to a tenth of a millimetre.
+// A resting body stays in place: five seconds, to a tenth of a millimetre.
 BOOST_AUTO_TEST_CASE(a_chain_that_lies_on_the_ground_stays_there) {
   const Scene scene = chain(20, 0.02);
   for (const char* method : kMethods) {
@@ -158,8 +158,8 @@ BOOST_AUTO_TEST_CASE(a_chain_that_lies_on_the_ground_stays_there) {
   }
 }
 
-// With the ground far below, limits and motors are rows of impulses: a block falls along its rail onto its stop, from
-// 1 m, bounces, and lies on it; a wheel comes to its speed against nothing.
+// With the ground far below, limits and motors are rows of impulses. A block falls along its rail onto its stop, from 1
+// m, bounces, and rests on it. A wheel reaches its speed without load.
 BOOST_AUTO_TEST_CASE(limits_and_motors_hold_beside_contacts) {
   for (const char* method : kMethods) {
     Scene scene;

@@ -95,8 +95,8 @@ BOOST_AUTO_TEST_CASE(a_bounce_is_met_within_its_sub_step) {
 BOOST_AUTO_TEST_CASE(an_uneven_box_in_a_closed_room_gains_no_energy) {
   for (const double friction : {0.0, 1.0}) {
     for (const char* integrator : kIntegrators) {
-      // Explicit parts of these schemes change the energy of a tumbling flight by themselves: each impact is held to
-      // what the energy was a step before, but for that.
+      // Explicit parts of these schemes change the energy of a tumbling flight. Each impact is compared with the energy
+      // one step before, without that change.
       Scene scene = elastic({solid("box", Box{{0.6, 1, 0.3}}, {0.1, 0.2, 0.3})}, friction);
       scene.bodies[0].velocity = {2, 1.3, -0.7}, scene.bodies[0].angular_velocity = {3, -2, 1};
       for (int axis = 0; axis < 3; ++axis) {
@@ -116,8 +116,8 @@ BOOST_AUTO_TEST_CASE(an_uneven_box_in_a_closed_room_gains_no_energy) {
   }
 }
 
-// A rod that makes half a turn in a step, wherever in a sub-step or an interval between contact updates it meets the
-// ball: at eighths of a turn it did not find it, or threw it aside by a normal that roundings chose.
+// A rod that makes half a turn in a step meets the ball at any place of a sub-step or of an interval between contact
+// updates. At eighths of a turn it missed the ball, or threw it aside along a normal that rounding chose.
 BOOST_AUTO_TEST_CASE(a_fast_rod_meets_a_ball_wherever_it_lies) {
   const double dt = 1.0 / 30, w = std::numbers::pi / dt, r = 0.05, away = 0.9, s = std::sqrt(away * away - 4 * r * r);
   for (int k = 12; k <= 168; k += 3) {
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(a_fast_rod_meets_a_ball_wherever_it_lies) {
     const double expected = 2 * w * s / (1 / 0.5 + 1 / 3.0 + s * s / scene.bodies[0].inertia(0, 0)) / 0.5;
     ContactRun run(scene, "impulse");
     run.step(dt);
-    // Where the blow falls is told by steps that no point can outrun, to 2 % of the inradius.
+    // Steps that no point can outrun locate the impact, to 2 % of the inradius.
     BOOST_TEST(std::abs(run.state().velocity(1).norm() / expected - 1) < 0.02, k << " degrees");
     BOOST_TEST(std::abs(run.state().velocity(1).z()) < 1e-9, k << " degrees");
   }
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(what_impulses_do_not_hold_is_named) {
   ContactRun run(scene, "impulse");
   run.run(1.0 / 30, 60);
   BOOST_TEST(run.solver_warning().find("overlap by") != std::string::npos, run.solver_warning());
-  // What overlaps at the start is parted as far as there is room: a box between two planes stays between them.
+  // Initial overlap is removed as far as there is room: a box between two planes stays between them.
   Scene narrow = on_floor({solid("box", Box{{1, 1, 1}}, {0, 0, 0.5})}, {0, 0.5});
   narrow.bodies.push_back(floor_at(-Vec3::UnitZ(), -0.8));
   ContactRun squeezed(narrow, "impulse");
