@@ -26,7 +26,7 @@ namespace {
 
 [[noreturn]] void refuse_heavy_top(const std::string& why) {
   throw InputError(
-      "the truth 'heavy-top' is for one symmetric body on a ball joint at its axis, or on a distance joint to its "
+      "the truth 'heavy-top' is for a symmetric body on a ball joint at its axis, or a distance joint to its "
       "centre: " +
       why);
 }
