@@ -38,7 +38,7 @@ EngineInfo DartEngine::info() const {
   return {.name = "dart",
           .version = DART_VERSION,
           .precision = "double",  // it is written for no other
-          .features = joined(joined(kDartContacts, kDartJoints), {"spring", "timed-force", "fixed-body", "restitution",
+          .features = joined(joined(kDartContacts, kDartJoints), {"contact-filter", "spring", "timed-force", "fixed-body", "restitution",
                                                                   "friction:none", "friction:coulomb"}),
           .methods = {by_solver("dantzig", "Dantzig's direct solver"),
                       by_solver("pgs", "projected Gauss-Seidel, 30 sweeps")}};

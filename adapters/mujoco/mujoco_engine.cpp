@@ -49,7 +49,7 @@ EngineInfo MujocoEngine::info() const {
           .precision = sizeof(mjtNum) == sizeof(double) ? "double" : "single",
           .features = joined(
               contacts_of_all_shapes(),
-              {"spring", "timed-force", "fixed-body", "friction:none", "friction:coulomb", "joint:ball",
+              {"contact-filter", "spring", "timed-force", "fixed-body", "friction:none", "friction:coulomb", "joint:ball",
                "joint:distance", "joint:fixed", "joint:hinge", "joint:slider", "joint:universal", "joint-spring",
                "joint-damper", "joint-limit", "joint-limit:beyond-half-turn", "joints-with-dampers", "motor:effort"}),
           .methods = {euler(), implicit(), rk4()}};

@@ -280,34 +280,47 @@ class Importer {
                               m_.tendon_lengthspring[k]});
   }
 
-  // Nobody controls it: what is left of force = gain * 0 + bias is a constant, a spring and a damper.
+  // The control that the drive has at the start. Nothing changes it later.
+  double control_of(int k) const {
+    const mjtNum* range = m_.actuator_ctrlrange + 2 * k;
+    const double control = start_.ctrl[k];
+    return m_.actuator_ctrllimited[k] ? std::clamp(control, double{range[0]}, double{range[1]}) : control;
+  }
+
+  // A drive of fixed control is a constant, a spring and a damper: force = gain * control + bias.
   void read_actuator(int k) {
     const std::string where = at("actuator", mjOBJ_ACTUATOR, k);
-    const mjtNum* bias = m_.actuator_biasprm + mjNBIAS * k;
-    const bool is_still = m_.actuator_biastype[k] == mjBIAS_NONE ||
-                          (m_.actuator_biastype[k] == mjBIAS_AFFINE && bias[0] == 0 && bias[1] == 0 && bias[2] == 0);
-    if (is_still) return leave_out(where, "it", "is a drive that nobody controls: it does nothing");
+    const mjtNum *bias = m_.actuator_biasprm + mjNBIAS * k, *gain = m_.actuator_gainprm + mjNGAIN * k;
+    const double control = control_of(k);
+    const bool has_bias = m_.actuator_biastype[k] != mjBIAS_NONE,
+               is_affine = !has_bias || m_.actuator_biastype[k] == mjBIAS_AFFINE,
+               is_plain = is_affine && m_.actuator_gaintype[k] == mjGAIN_FIXED && m_.actuator_dyntype[k] == mjDYN_NONE;
+    const double b0 = has_bias ? bias[0] : 0, b1 = has_bias ? bias[1] : 0, b2 = has_bias ? bias[2] : 0;
+    const bool is_driven = control != 0 && gain[0] != 0;
+    if (is_affine && !is_driven && b0 == 0 && b1 == 0 && b2 == 0)
+      return leave_out(where, "it", "its control is zero from start to end, so the drive does nothing");
     const bool is_of_joint = m_.actuator_trntype[k] == mjTRN_JOINT && row_of_joint_[m_.actuator_trnid[2 * k]] >= 0;
     const double gear = m_.actuator_gear[6 * k];
-    if (!is_of_joint || m_.actuator_biastype[k] != mjBIAS_AFFINE || m_.actuator_dyntype[k] != mjDYN_NONE ||
-        m_.actuator_forcelimited[k] || bias[1] > 0 || bias[2] > 0 || gear == 0)
-      return leave_out(where, "it", "is a drive whose law no spring, damper and motor of a scene makes");
+    if (!is_plain || !is_of_joint || m_.actuator_forcelimited[k] || b1 > 0 || b2 > 0 || gear == 0)
+      return leave_out(where, "it", "a scene has no drive that follows this law");
     const int joint = m_.actuator_trnid[2 * k], row = row_of_joint_[joint];
     Joint& driven = model_.joints[row].joint;
     if (!free_axis(driven)) return leave_out(where, "it", "drives a joint without an axis of its own");
-    // gear (bias0 + bias1 gear q + bias2 gear q'), q = x + qpos0: a second spring beside the joint's own.
-    const double stiffness = -bias[1] * gear * gear,
-                 rest = stiffness > 0 ? bias[0] / (-bias[1] * gear) - start_.qpos[m_.jnt_qposadr[joint]] : 0;
-    driven.damping += -bias[2] * gear * gear;
+    // gear (c + b1 gear q + b2 gear q') with c = gain * control + b0 and q = x + q(0): a second spring at the joint.
+    const double constant = gain[0] * control + b0, stiffness = -b1 * gear * gear,
+                 rest = stiffness > 0 ? constant / (-b1 * gear) - start_.qpos[m_.jnt_qposadr[joint]] : 0;
+    driven.damping += -b2 * gear * gear;
     if (stiffness > 0) {
       driven.rest = (driven.stiffness * driven.rest + stiffness * rest) / (driven.stiffness + stiffness);
       driven.stiffness += stiffness;
-    } else if (bias[0] != 0) {
+    } else if (constant != 0) {
       Motor motor;
-      motor.joint = row, motor.effort = bias[0] * gear;
+      motor.joint = row, motor.effort = constant * gear;
       model_.motors.push_back(motor);
     }
-    leave_out(where, "its control", "is zero: it is the spring and the damper that it then is");
+    leave_out(where, "its control",
+              fmt::format("stays {:g}, as at the start: the drive becomes {}", control,
+                          stiffness > 0 ? "a spring and a damper" : "a constant effort and a damper"));
   }
 
   std::string path_;

@@ -109,9 +109,6 @@ class Assembler {
   void add_part(const ShapeSource& source, std::size_t count, LinkInertial& inertial, std::vector<Body>& parts,
                 std::vector<ShapeSource>& sources) {
     const LinkShape& shape = *source.shape;
-    if (!touching_->can_be_touched(source.link, shape))
-      return model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
-                                 "is not centred on the mass, and there is nothing that could touch it");
     const auto share = take_share(inertial, shape.shape, shape.pose, 1.0 / static_cast<double>(count));
     if (!share)
       return model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
@@ -145,7 +142,6 @@ class Assembler {
   }
 
   void keep_source(ShapeSource source, int body) {
-    if (!touching_->can_be_touched(source.link, *source.shape)) return;
     source.body = body;
     scene_.bodies[body].collides = true;
     sources_.push_back(source);
@@ -156,7 +152,7 @@ class Assembler {
     for (const LinkShape& shape : link.shapes) {
       if (!touching_->can_be_touched(index, shape)) {
         model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
-                            "is held by the world, and there is nothing that could touch it");
+                            "is held by the world, and nothing that moves may touch it");
         continue;
       }
       Body body;

@@ -253,10 +253,4 @@ void take_to_start(LinkModel& model) {
   }
 }
 
-std::vector<int> depths(const LinkModel& model) {
-  std::vector<int> depth(model.links.size() + 1, 0);
-  walk(model, [&](int, int from, int to) { depth[to + 1] = depth[from + 1] + 1; });
-  return {depth.begin() + 1, depth.end()};
-}
-
 }  // namespace rigor

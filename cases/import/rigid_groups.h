@@ -18,7 +18,4 @@ RigidGroups rigid_groups(LinkModel& model);
 // beyond a limit becomes the limit, which is said.
 void take_to_start(LinkModel& model);
 
-// By link: how many joints it is away from the world or from the root of its tree.
-std::vector<int> depths(const LinkModel& model);
-
 }  // namespace rigor

@@ -23,7 +23,7 @@ class UrdfReader {
   LinkModel read() {
     if (root_.name() != "robot") root_.refuse("found this at the top; allowed: <robot>");
     model_.name = root_.find("name").value_or("robot");
-    model_.combine = least_of;
+    model_.combine = least_of, model_.keeps_overlaps_apart = true;
     model_.gravity = {0, 0, -kGravity};
     model_.left_out.add(root_.place(), "gravity",
                         fmt::format("the format states none; {} m/s² along -z are taken", kGravity));
@@ -65,6 +65,7 @@ class UrdfReader {
                   model_.left_out);
     for (const XmlElement& visual : element.children("visual")) check_mesh(visual);
     Link link{element.name_attribute(), element.place(), {}};
+    link.touches_own_model = true;  // the format says nothing else
     if (!links_.emplace(link.name, model_.links.size()).second) element.refuse("another link has this name, too");
     if (const auto inertial = element.child("inertial")) link.inertial = inertial_of(*inertial);
     for (const XmlElement& collision : element.children("collision")) read_collision(collision, link);

@@ -5,6 +5,7 @@
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 
@@ -60,11 +61,29 @@ const std::vector<TruthRow>& truths() {
   return table;
 }
 
+namespace {
+
+// Closed forms do not look at which pairs pass through each other; solved truths do.
+void refuse_pairs_apart(const std::string& kind, const Scene& scene) {
+  if (kind == "events" || kind == "reference") return;
+  const auto& pairs = scene.contact_pairs;
+  const auto apart = std::find_if(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
+    return !pair.law.collides && can_meet(scene.bodies[pair.a], scene.bodies[pair.b]);
+  });
+  if (apart == pairs.end()) return;
+  throw InputError(
+      fmt::format("the truth '{}' takes no pair with collides = false, and '{}' and '{}' are one; allowed: 'events', "
+                  "or 'reference' where nothing touches",
+                  kind, scene.body_name(apart->a), scene.body_name(apart->b)));
+}
+
+}  // namespace
+
 std::unique_ptr<Truth> make_truth(const std::string& kind, const Scene& scene, double duration) {
   if (kind == "none") return nullptr;
   std::vector<std::string> names = {"none"};
   for (const TruthRow& row : truths()) {
-    if (row.name == kind) return row.make(scene, duration);
+    if (row.name == kind) return refuse_pairs_apart(kind, scene), row.make(scene, duration);
     names.push_back(row.name);
   }
   throw InputError(

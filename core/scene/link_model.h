@@ -71,6 +71,7 @@ struct LinkModel {
   std::vector<Spring> springs;                  // a and b: links; points in their frames
   std::vector<Motor> motors;                    // joint: of `joints`
   std::vector<std::pair<int, int>> kept_apart;  // links that never touch, beside those that a joint holds together
+  bool keeps_overlaps_apart = false;            // the file does not say which links touch
   double (*combine)(double, double) = nullptr;  // of two surfaces' friction, and of their restitution
   LeftOut left_out;
 };

@@ -16,7 +16,7 @@ std::vector<std::string> known_features() {
   std::vector<std::string> words = {
       "spring",           "timed-force",       "fixed-body",           "restitution",         "friction:none",
       "friction:coulomb", "friction:infinite", "joint-spring",         "joint-damper",        "joint-limit",
-      "motor:effort",     "motor:speed",       "joints-with-contacts", "joints-with-dampers", "wrench"};
+      "motor:effort",     "motor:speed",       "contact-filter", "joints-with-contacts", "joints-with-dampers", "wrench"};
   for (const char* type : {"ball", "distance", "fixed", "hinge", "slider", "universal"})
     words.push_back(std::string("joint:") + type);
   for (const std::string& contact : contacts_of_all_shapes()) words.push_back(contact);
