@@ -75,8 +75,7 @@ class Exporter {
     add_motors();
     add_exclusions();
     for (const ContactPair& pair : scene_.contact_pairs) {
-      if (pair.law.collides)
-        leave_out(of_pair(pair), "has a friction of its own; that of the rest is written");
+      if (pair.law.collides) leave_out(of_pair(pair), "has a friction of its own; that of the rest is written");
     }
     if (scene_.contact_default.restitution > 0) leave_out("restitution", "MuJoCo has none");
     for (const TimedForce& force : scene_.forces)

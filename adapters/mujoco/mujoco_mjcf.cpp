@@ -15,7 +15,6 @@ namespace {
 std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 std::string text_of(const Quat& q) { return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z()); }
 
-
 std::string name_of(int body) { return fmt::format("b{}", body); }
 
 // MuJoCo's numbers of friction: sliding along two axes, spinning, rolling twice. Contacts of three rows look at the
@@ -106,9 +105,9 @@ class Writer {
   }
 
   bool is_kept_apart(int body) const {
-    return std::any_of(
-        scene_.contact_pairs.begin(), scene_.contact_pairs.end(),
-        [=](const ContactPair& pair) { return !pair.law.collides && (pair.a == body || pair.b == body); });
+    return std::any_of(scene_.contact_pairs.begin(), scene_.contact_pairs.end(), [=](const ContactPair& pair) {
+      return !pair.law.collides && (pair.a == body || pair.b == body);
+    });
   }
 
   void write_body(int index, int depth = 1) {

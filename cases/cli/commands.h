@@ -12,12 +12,17 @@ namespace rigor {
 
 enum ExitCode { kGood = 0, kGateFailed = 1, kBadInput = 2, kBroken = 3 };
 
+struct Example {
+  std::string call, does;
+};
+
 struct CommandRow {
   std::string name;
   std::string summary;
-  std::string words;  // what its plain words are, "" if it takes none
+  std::string words;  // the name of its plain words, as "CASE"; "" if it takes none
   std::string words_summary;
   std::vector<std::string> options;
+  std::vector<Example> examples;
   int (*run)(const CommandLine& line, const EngineTable& engines);  // returns an ExitCode
 };
 

@@ -74,6 +74,12 @@ void send_truth(const Truth& truth, const Scene& scene, const std::vector<double
   channel.send(rows);
 }
 
+std::string steps_of(const Case& definition) {
+  std::vector<std::string> texts;
+  for (const StepSize& step : definition.dt) texts.push_back(step.text);
+  return fmt::format("{} has {}", definition.id, fmt::join(texts, ", "));
+}
+
 // From the start to the end of the run in its coarsest steps.
 std::vector<double> times_of_run(const Case& definition) {
   double dt = 0;
@@ -86,7 +92,8 @@ std::vector<double> times_of_run(const Case& definition) {
 }  // namespace
 
 Case the_case(const CommandLine& line, const EngineTable& engines) {
-  if (line.words.empty()) throw InputError(fmt::format("rigor {}: which case? see rigor list cases", line.command));
+  if (line.words.empty())
+    throw InputError(fmt::format("rigor {}: takes one case; rigor list cases names them", line.command));
   std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
   if (cases.size() == 1) return cases.front();
   throw InputError(
@@ -96,12 +103,13 @@ Case the_case(const CommandLine& line, const EngineTable& engines) {
 int trace_command(const CommandLine& line, const EngineTable& engines) {
   Case definition = the_case(line, engines);
   if (line.engines.size() != 1) throw InputError("rigor trace: takes exactly one --engine; see rigor list engines");
-  if (line.dt.size() != 1) throw InputError("rigor trace: takes exactly one --dt");
+  const std::vector<StepSize> steps = line.dt.empty() ? definition.dt : line.dt;
+  if (steps.size() != 1) throw InputError("rigor trace: takes exactly one --dt; " + steps_of(definition));
   const TraceFormat& format = line.format.empty() ? trace_formats().front() : find_trace_format(line.format);
-  override_run(definition, {line.dt, line.duration});
+  override_run(definition, {steps, line.duration});
   const RunName run = parse_run_name(line.engines.front(), engines.infos());
   const Engine& engine = engines.find(run.engine);
-  const double dt = line.dt.front().seconds;
+  const double dt = steps.front().seconds;
   const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt);
   if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
   return print_from_child(run.text, line.limit, [&](const Channel& channel) {

@@ -97,7 +97,7 @@ class Assembler {
     for (const int i : members_[index]) {
       for (const LinkShape& shape : model_.links[i].shapes) {
         if (std::holds_alternative<Plane>(shape.shape)) {
-          model_.left_out.add(shape.where, "its plane", "moves, and a scene's planes do not");
+          model_.left_out.add(shape.where, "its plane", "would move, and a scene's planes do not: nothing touches it");
         } else {
           shapes.push_back({-1, i, &shape});
         }
@@ -112,10 +112,9 @@ class Assembler {
     const auto share = take_share(inertial, shape.shape, shape.pose, 1.0 / static_cast<double>(count));
     if (!share)
       return model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
-                                 "no part of the link's mass can be put there for a body of its own");
-    model_.left_out.add(
-        shape.where, "its " + shape_name(shape.shape),
-        fmt::format("is a body of its own, fixed to the link's, with {:g} kg of its mass", share->mass));
+                                 "a body there would need more of the link's inertia than it has: nothing touches it");
+    model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
+                        "changes no motion: becomes a body of its own, fixed to the link's, with a part of its mass");
     Body part;
     part.mass = share->mass, part.inertia = inertia_of(shape.shape, share->mass);
     part.position = shape.pose.position, part.orientation = shape.pose.orientation, part.shape = shape.shape;
@@ -152,7 +151,7 @@ class Assembler {
     for (const LinkShape& shape : link.shapes) {
       if (!touching_->can_be_touched(index, shape)) {
         model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
-                            "is held by the world, and nothing that moves may touch it");
+                            "changes no motion: stands still, and nothing that moves may touch it");
         continue;
       }
       Body body;
@@ -177,7 +176,7 @@ class Assembler {
       if (joint.a == RigidGroups::kNone || joint.b == RigidGroups::kNone) continue;  // which was said of its link
       if (joint.a == joint.b) {
         const bool is_all = std::holds_alternative<FixedJoint>(joint.type);
-        if (!is_all) model_.left_out.add(row.where, "the joint", "what it joins does not move");
+        if (!is_all) model_.left_out.add(row.where, "the joint", "changes no motion: both its links stand still");
         continue;
       }
       if (auto* distance = std::get_if<DistanceJoint>(&joint.type)) {

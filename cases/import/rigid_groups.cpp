@@ -124,12 +124,12 @@ void settle_massless(LinkModel& model, RigidGroups& groups) {
     }
     if (moving.size() > 1) continue;
     for (const int link : members[set]) {
-      model.left_out.add(model.links[link].where, "the link", "it has no mass, and nothing that has any hangs on it");
+      model.left_out.add(model.links[link].where, "the link", "changes no motion: it has no mass and carries none");
       groups.body[link] = RigidGroups::kNone;
     }
     for (const int k : moving) {
       is_gone[k] = true;
-      model.left_out.add(model.joints[k].where, "the joint", "what hangs on it has no mass");
+      model.left_out.add(model.joints[k].where, "the joint", "changes no motion: what it carries has no mass");
       const Joint& joint = model.joints[k].joint;
       for (const int end : {joint.a, joint.b}) {
         if (end != kWorld && groups.body[end] >= 0 && massless(end)) waiting.push_back(groups.body[end]);

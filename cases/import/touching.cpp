@@ -86,9 +86,9 @@ void keep_overlaps_apart(LinkModel& model, const std::vector<ShapeSource>& sourc
                          Touching::Pairs& apart) {
   for (const auto& pair : overlapping(sources, scene)) {
     if (!apart.insert(pair).second) continue;
-    model.left_out.add(sources[pair.first].shape->where, "touching",
-                       fmt::format("overlaps '{}' at the start: these two never touch",
-                                   scene.bodies[sources[pair.second].body].name));
+    model.left_out.add(
+        sources[pair.first].shape->where, "touching",
+        fmt::format("overlaps '{}' at the start: these two never touch", scene.bodies[sources[pair.second].body].name));
   }
 }
 

@@ -25,7 +25,8 @@ class Touching {
 
   // Whether anything that moves in the model may touch this shape.
   bool can_be_touched(int link, const LinkShape& shape) const;
-  // Every pair of sources that the file keeps apart, without pairs that stand still. Nothing if there are more than `most`.
+  // Every pair of sources that the file keeps apart, without pairs that stand still. Nothing if there are more than
+  // `most`.
   std::optional<Pairs> kept_apart(const std::vector<ShapeSource>& sources, std::size_t most) const;
 
  private:

@@ -203,7 +203,8 @@ bool XmlElement::check_word(const std::string& word, const std::string& place, c
     throw InputError(
         fmt::format("{}: <{}> is a macro of xacro; allowed: the file that `xacro` makes of it", place, word));
   if (word.starts_with("xmlns")) return true;
-  if (word.find(':') != std::string::npos) return left_out.add(place, what, "is of an extension of the format"), true;
+  if (word.find(':') != std::string::npos)
+    return left_out.add(place, what, "belongs to an extension of the format"), true;
   std::vector<std::string> all = words;
   for (const auto& row : known.left_out) all.push_back(row.first);
   const std::string meant = did_you_mean(word, all);

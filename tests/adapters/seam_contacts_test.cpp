@@ -96,7 +96,8 @@ BOOST_AUTO_TEST_CASE(a_pair_that_the_scene_keeps_apart_never_touches) {
   Scene scene;
   scene.gravity = {0, 0, -g};
   scene.bodies = {solid("left", Sphere{0.1}, {-0.5, 0, 10}), solid("right", Sphere{0.1}, {0.5, 0, 10}),
-                  solid("falls", Sphere{0.1}, {0, 2, 0.1}), solid("rests", Sphere{0.1}, {0, 4, 0.1}), ground({0, 0, 1})};
+                  solid("falls", Sphere{0.1}, {0, 2, 0.1}), solid("rests", Sphere{0.1}, {0, 4, 0.1}),
+                  ground({0, 0, 1})};
   scene.bodies[0].velocity = {v, 0, 0}, scene.bodies[1].velocity = {-v, 0, 0};
   scene.contact_pairs = {{1, 0, kApart}, {2, 4, kApart}};
   std::set<std::string> asked;

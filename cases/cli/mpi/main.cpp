@@ -31,7 +31,7 @@ int be_a_rank(int argc, char** argv) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     if (rank != 0) _exit(rigor::kBroken);  // whoever interrupts ends all
-    rigor::say("interrupted; no output was changed. What was computed is kept: --resume goes on from it");
+    rigor::say(rigor::interruption_text(argc, argv));
     MPI_Abort(MPI_COMM_WORLD, rigor::kBroken);
   }
   MPI_Finalize();
