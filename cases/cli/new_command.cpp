@@ -8,6 +8,7 @@
 
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/paste.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -81,7 +82,8 @@ int new_command(const CommandLine& line, const EngineTable&) {
   const int failure = errno;
   if (close(descriptor) != 0 || written != static_cast<ssize_t>(text.size()))
     throw std::runtime_error(fmt::format("{} was not written whole: {}", file, std::strerror(failure)));
-  say(fmt::format("{} is written; next: rigor run {} --engine ode --engine bullet --engine core:rk4", file, file));
+  say(fmt::format("{} is written; next: rigor run {} --engine ode --engine bullet --engine core:rk4", file,
+                  shell_word(file)));
   return kGood;
 }
 

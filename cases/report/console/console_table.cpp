@@ -325,7 +325,7 @@ std::string console_table(const Results& results) {
   return text + count_line(results);
 }
 
-std::string failures_text(const std::vector<Failure>& rows) {
+std::string failures_text(const std::vector<Failure>& rows, const std::string& diagnose) {
   if (rows.empty()) return "";
   std::string text = fmt::format("what fell short: {}\n", rows.size());
   for (const Failure& row : rows) {
@@ -340,10 +340,7 @@ std::string failures_text(const std::vector<Failure>& rows) {
     if (!row.where.empty()) line += fmt::format(" [{}]", row.where);
     text += "  " + wrapped(line, 4) + "\n";
   }
-  const auto of_run = std::find_if(rows.begin(), rows.end(), [](const Failure& row) { return !row.engine.empty(); });
-  if (of_run == rows.end()) return text;
-  return text + fmt::format("  which known mistake it looks like: rigor diagnose {} --engine '{}'\n", of_run->case_id,
-                            of_run->engine);
+  return diagnose.empty() ? text : text + "  to find a known mistake that explains it:\n  " + diagnose + "\n";
 }
 
 }  // namespace rigor
