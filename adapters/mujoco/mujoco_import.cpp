@@ -103,8 +103,8 @@ class Importer {
 
   BodyPose pose_of(int body) const { return body == 0 ? BodyPose() : model_.links[link_of(body)].pose; }
 
-  // The joints of a body together: none holds it to its parent, one is one of the scene's, and some that share an
-  // anchor are the universal or the ball joint that they make.
+  // A body without joints is fixed to its parent. One joint becomes a joint of the scene. Two or three hinges that
+  // share an anchor become a universal or a ball joint.
   void read_joints(int body) {
     const int count = m_.body_jntnum[body], first = m_.body_jntadr[body];
     LinkJoint row;
@@ -135,7 +135,7 @@ class Importer {
     return (pose_of(m_.jnt_bodyid[joint]).orientation * vector_at(m_.jnt_axis, joint)).normalized();
   }
 
-  // What acts on a joint's speed and no scene has.
+  // Names effects on a joint's speed that no scene has.
   void leave_out_losses(int joint) {
     const int type = m_.jnt_type[joint], dof = m_.jnt_dofadr[joint];
     const bool has_coordinate = type == mjJNT_HINGE || type == mjJNT_SLIDE;

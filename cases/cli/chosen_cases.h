@@ -10,8 +10,8 @@ namespace rigor {
 
 std::vector<Case> chosen_cases(const CommandLine& line, const Vocabulary& words);
 
-// The same with the line's steps and duration. A case of a family or folder that these do not fit is left out and named.
-// Throws InputError for a case that is itself named, and if none is left.
+// The same with the line's steps and duration. A case of a family or folder that these do not fit is left out and
+// named. Throws InputError for a case that is itself named, and if none is left.
 std::vector<Case> overridden_cases(const CommandLine& line, const Vocabulary& words);
 
 }  // namespace rigor

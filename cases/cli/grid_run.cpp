@@ -36,9 +36,8 @@ void expect_gates(const std::vector<Case>& cases) {
     if (definition.gates.empty()) without.push_back(definition.id);
   }
   if (without.size() == cases.size()) {
-    throw InputError(
-        fmt::format("rigor gate: there is no gate in {}, so there is nothing to judge; use rigor run",
-                    fmt::join(without, ", ")));
+    throw InputError(fmt::format("rigor gate: there is no gate in {}, so there is nothing to judge; use rigor run",
+                                 fmt::join(without, ", ")));
   }
   if (!without.empty()) say(fmt::format("no gate judges {}", fmt::join(without, ", ")));
 }

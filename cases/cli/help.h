@@ -1,4 +1,4 @@
-// What --help prints, from the table of commands.
+// Makes the text of --help from the table of commands.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@ namespace rigor {
 std::string help_text();
 std::string help_text(const CommandRow& row, const CLI::App& command);
 
-// What to try first, for a call without a command.
+// The answer to a call without a command: commands to try first.
 std::string first_steps();
 
 }  // namespace rigor

@@ -1,4 +1,4 @@
-// rigor list: every table, printed from itself.
+// rigor list: prints the tables of cases, engines, integrators, metrics and truths.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -115,8 +115,8 @@ int list_command(const CommandLine& line, const EngineTable& engines) {
   for (const Kind& kind : kKinds) names.push_back(kind.name);
   for (const std::string& word : line.words) {
     if (std::find(names.begin(), names.end(), word) == names.end()) {
-      throw InputError(
-          fmt::format("list: there are no '{}'{}; there are: {}", word, did_you_mean(word, names), listed(names)));
+      throw InputError(fmt::format("rigor list: there is no list '{}'{}; there are: {}", word,
+                                   did_you_mean(word, names), listed(names)));
     }
   }
   std::string text;

@@ -41,7 +41,7 @@ struct Options {
     if (takes(name)) command.add_flag(name, value, help);
   }
 
-  // What runs, and for how long.
+  // Options that choose runs.
   void add_runs() const {
     add_repeatable("--engine", line.engines, "an engine: NAME[:METHOD][,key=value...][@TRACK]", "E");
     add_repeatable("--plugin", line.plugins,
@@ -54,7 +54,7 @@ struct Options {
     add("--times", typed.times, "instants in s; default: every coarsest step of the run", "T,T...");
   }
 
-  // How a grid is run, and where the results go.
+  // Options of a grid and its results.
   void add_ways_to_run() const {
     add("--jobs", typed.jobs, "cells at once; default: one a core", "N");
     add("--out", line.out, "folder of the reports; default: out", "DIR");
@@ -64,7 +64,7 @@ struct Options {
     add_flag("--quick", line.quick, "check only gates whose cells are fast");
   }
 
-  // What a sweep or a tuning looks at.
+  // Options of sweeps and tunings.
   void add_searches() const {
     add_repeatable("--vary", line.vary,
                    "dt, duration, a method's option or a path below scene, and its values: 10,20,50 or 0.1..0.9:9 or "
@@ -77,7 +77,7 @@ struct Options {
                    "BOUND");
   }
 
-  // What else is read, and what is printed.
+  // Options of files and formats.
   void add_files() const {
     add("--factor", typed.factor, fmt::format("ignore errors that grow by less; default: {}", typed.factor), "F");
     add("--regression", line.regression, "print the values of this engine for adapters/ENGINE/regression.jsonl",

@@ -1,4 +1,4 @@
-// What goes to stdout and stderr. A reader that stops or is not there changes no exit code.
+// Writes to stdout and stderr. A reader that stops or is absent changes no exit code.
 #pragma once
 
 #include <string>

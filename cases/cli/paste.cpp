@@ -19,7 +19,8 @@ std::string shell_word(const std::string& text) {
 
 std::string same_sources(const CommandLine& line) {
   std::string options;
-  if (!line.suite_dir.empty() && line.suite_dir != default_suite_dir()) options += " --suite " + shell_word(line.suite_dir);
+  if (!line.suite_dir.empty() && line.suite_dir != default_suite_dir())
+    options += " --suite " + shell_word(line.suite_dir);
   for (const std::string& plugin : line.plugins) options += " --plugin " + shell_word(plugin);
   return options;
 }

@@ -11,7 +11,7 @@ namespace rigor {
 // null: processes of this machine. Throws Interrupted.
 int run_program(int argc, const char* const* argv, const Executor* executor = nullptr);
 
-// What to say after Interrupted. Names --resume only if the command takes it.
+// The message after Interrupted. Names --resume only if the command takes it.
 std::string interruption_text(int argc, const char* const* argv);
 
 }  // namespace rigor

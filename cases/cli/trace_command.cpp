@@ -1,5 +1,5 @@
-// rigor trace and rigor truth: one run in the format asked for, or the truth as CSV. Both work in a child process, for
-// an engine may crash and a truth may take too long.
+// rigor trace prints one run in a chosen format, rigor truth prints the truth as CSV. Both work in a child process,
+// because an engine may crash and a truth may take too long.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,10 +23,10 @@ namespace {
 
 constexpr std::size_t kChunk = 1 << 20;  // bytes of rows sent at a time
 
-// What a message begins with: whether it is a line for stderr, or data.
+// The first byte of a message: a line for stderr, or data.
 constexpr char kNote = '\x01', kData = '\x02';
 
-// Runs it in a child and prints what it sends. Returns the exit code.
+// Runs the work in a child and prints its messages. Returns the exit code.
 int print_from_child(const std::string& what, double limit, const std::function<void(const Channel&)>& work) {
   int code = kGood;
   const auto on_message = [](std::size_t, const std::string& message) {
@@ -57,8 +57,8 @@ void send_trajectory(const Simulation& run, const Scene& scene, int every, const
                              run.not_finite->time, scene.body_name(run.not_finite->body)));
   }
   if (!run.solver_warning.empty()) {
-    channel.send(fmt::format("{}from {:.6g} s on not what its method promises: {}", kNote, run.solver_warning_time,
-                             run.solver_warning));
+    channel.send(fmt::format("{}after {:.6g} s the solver no longer met its tolerance: {}", kNote,
+                             run.solver_warning_time, run.solver_warning));
   }
 }
 
@@ -80,7 +80,7 @@ std::string steps_of(const Case& definition) {
   return fmt::format("{} has {}", definition.id, fmt::join(texts, ", "));
 }
 
-// From the start to the end of the run in its coarsest steps.
+// The instants of the run in its coarsest steps.
 std::vector<double> times_of_run(const Case& definition) {
   double dt = 0;
   for (const StepSize& step : definition.dt) dt = std::max(dt, step.seconds);

@@ -13,7 +13,7 @@
 namespace rigor {
 namespace {
 
-// Where a shape's centre counts as the centre of mass: nanometres, which no file of a robot means.
+// A shape this near to the centre of mass counts as centred. No robot's file distinguishes nanometres.
 constexpr double kCentred = 1e-9;  // m
 
 class Assembler {
@@ -37,7 +37,7 @@ class Assembler {
   }
 
  private:
-  // "arm", and for more of it "arm/2", "arm/3".
+  // Returns "arm", then "arm/2", "arm/3".
   std::string free_name(const std::string& wanted) {
     std::string name = wanted == "world" ? "world/link" : wanted;
     for (int n = 2; !names_.insert(name).second; ++n) name = fmt::format("{}/{}", wanted, n);
@@ -85,7 +85,7 @@ class Assembler {
     return body;
   }
 
-  // Of the link and of what hangs on it without mass.
+  // Returns the shapes of the link and of links without mass that move with it.
   std::vector<ShapeSource> shapes_of(int index) {
     if (members_.empty()) {
       members_.resize(model_.links.size());
@@ -132,7 +132,7 @@ class Assembler {
     return body;
   }
 
-  // What a turn leaves by rounding off the diagonal is none.
+  // Removes the entries off the diagonal that are only rounding of a turn.
   static Mat3 cleaned(Mat3 inertia) {
     constexpr double kRounding = 1e-15;
     const double largest = inertia.cwiseAbs().maxCoeff();
@@ -194,7 +194,7 @@ class Assembler {
     }
   }
 
-  // A point in a link's frame, in that of its body.
+  // Takes a point from a link's frame to the frame of its body.
   Vec3 in_body(int link, const Vec3& point) const {
     const Vec3 in_W = link == kWorld ? point : (model_.links[link].pose * BodyPose{point}).position;
     const int body = body_of(link);

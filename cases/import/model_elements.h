@@ -1,4 +1,4 @@
-// What URDF and SDF share: turns by roll, pitch and yaw, inertias of six numbers, checks and reasons.
+// Shared by URDF and SDF: turns by roll, pitch and yaw, inertias of six numbers, checks and reasons.
 #pragma once
 
 #include "cases/import/xml.h"
@@ -20,7 +20,7 @@ Vec3 direction_of(const Vec3& axis, const XmlElement& element);
 
 double least_of(double a, double b);  // combines two surfaces into the friction and restitution of a pair
 
-// Why elements of nearly every file are not in a scene.
+// Reasons why elements of nearly every file are not in a scene.
 inline constexpr const char* kSensor = "changes no motion: is a sensor";
 inline constexpr const char* kController = "changes no motion: is for a controller";
 inline constexpr const char* kSaysNothing = "changes no motion";

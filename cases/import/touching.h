@@ -1,4 +1,4 @@
-// Which shapes of a model may touch each other. A scene lists the pairs that never do.
+// Finds the shapes of a model that may touch each other. A scene lists the pairs that never do.
 #pragma once
 
 #include <map>

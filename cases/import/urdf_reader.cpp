@@ -93,7 +93,7 @@ class UrdfReader {
     return {out};
   }
 
-  // A mesh is left out, but what it names is looked at: whoever reads it next may open it.
+  // A mesh is left out, but its path is checked, because the next reader may open it.
   void check_mesh(const XmlElement& of) {
     const auto geometry = of.child("geometry");
     const auto mesh = geometry ? geometry->child("mesh") : std::nullopt;
@@ -202,7 +202,7 @@ class UrdfReader {
                                 row.joint.lower, row.joint.upper));
   }
 
-  // From the root outwards; what is not reached hangs on itself.
+  // Places links from the root outwards. A link that is not reached belongs to a circle.
   void place_links() {
     std::vector<std::vector<std::size_t>> below(model_.links.size() + 1);
     std::vector<int> holder(model_.links.size(), -1);
@@ -237,7 +237,7 @@ class UrdfReader {
     for (std::size_t k = 0; k < rows_.size(); ++k) keep(rows_[k], types_[k]);
   }
 
-  // Without mass a root is what robots are bolted down by.
+  // Robots are bolted down by a root without mass.
   void place_root(Link& root) {
     root.is_static = root.name == "world" || root.inertial.empty();
     place_at(root, BodyPose());

@@ -1,5 +1,5 @@
-// XML as files of robots are written in it: every element knows its line, what is not asked for is named, and what has
-// no place in such a file (document types and with them entities, names given twice) is refused.
+// Reads the XML of robots' files. Each element knows its line. Words that nobody asks for are named. Document types,
+// and so entities, and attributes given twice are refused.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class XMLElement;
 
 namespace rigor {
 
-// What an element may hold. `left_out`: elements and attributes of the format that no scene can say, and why.
+// The words that an element may hold. `left_out`: words of the format that no scene can say, and why.
 struct XmlKnown {
   std::vector<std::string> attributes, elements;
   std::vector<std::pair<std::string, std::string>> left_out = {};
@@ -51,7 +51,7 @@ class XmlElement {
 
   std::vector<std::pair<std::string, std::string>> attributes() const;
 
-  // Names what is left out; refuses a word that is near one of the known, for it was meant to be one.
+  // Adds unknown words to left_out. Refuses one that is close to a known word.
   void check(const XmlKnown& known, LeftOut& left_out) const;
 
  private:

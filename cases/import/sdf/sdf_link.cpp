@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFrictionOfFormat = 1;
 
-// What a scene's bodies are anyway is not worth a word.
+// A flag that agrees with a scene's bodies needs no notice.
 struct Flag {
   const char* word;
   bool of_a_scene;

@@ -41,7 +41,7 @@ class SdfReader {
   }
 
  private:
-  // Poses and joints may name what comes further down in the file.
+  // Poses and joints may name elements further down in the file.
   struct Later {
     std::function<void(SdfReader&)> finish;
   };
@@ -132,7 +132,7 @@ class SdfReader {
     const std::string of_outer = outer.name.empty() ? "" : "__model__";
     frames_.add(scope.name, "__model__", sdf_pose(pose, model_.left_out), outer.name, base.empty() ? of_outer : base,
                 element);
-    // From outside a model goes by its name.
+    // Frames outside the model call it by its name.
     frames_.add(outer.name, name, BodyPose(), scope.name, "__model__", element);
     for (const XmlElement& link : element.children("link")) read_link(link, scope);
     for (const XmlElement& frame : element.children("frame")) read_frame(frame, scope.name);
@@ -188,7 +188,7 @@ class SdfReader {
     later_.push_back({[=, name = scope.name](SdfReader& reader) { reader.place_link(index, name, own, element); }});
   }
 
-  // The outermost model's name says nothing where it is the only one.
+  // Drops the name of the only outermost model.
   void shorten_names() {
     const auto shorten = [&](std::string& name) { name = name.substr(name.find("::") + 2); };
     for (Link& link : model_.links) shorten(link.name);
@@ -197,7 +197,7 @@ class SdfReader {
     }
   }
 
-  // From 1.7 on; before that `frame` meant nothing.
+  // relative_to exists from 1.7 on.
   std::string base_of(const std::optional<XmlElement>& pose, const std::string& otherwise) const {
     const std::string base = pose && version_ >= 7 ? pose->find("relative_to").value_or("") : "";
     return base.empty() ? otherwise : base;
