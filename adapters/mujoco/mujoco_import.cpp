@@ -108,7 +108,9 @@ class Importer {
   void read_joints(int body) {
     const int count = m_.body_jntnum[body], first = m_.body_jntadr[body];
     LinkJoint row;
-    row.joint.a = link_of(m_.body_parentid[body]), row.joint.b = link_of(body);
+    // MuJoCo lets a body touch a parent that is part of the world, and no other parent.
+    const int parent = m_.body_parentid[body];
+    row.joint.a = m_.body_weldid[parent] == 0 ? kWorld : link_of(parent), row.joint.b = link_of(body);
     row.where = count > 0 ? at("joint", mjOBJ_JOINT, first) : at("body", mjOBJ_BODY, body);
     if (count == 0 && m_.body_mocapid[body] >= 0) return;
     for (int k = first; k < first + count; ++k) leave_out_losses(k);

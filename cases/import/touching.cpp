@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "core/dynamics/collision/broad_phase.h"
 #include "core/dynamics/collision/narrow_phase.h"
@@ -101,17 +102,30 @@ Touching::Touching(const LinkModel& model, const std::vector<int>& body) : model
       if (bodies.size() < 2) bodies.insert(body[i]);
     }
   }
-  const auto keep_apart = [&](int a, int b) { apart_.insert(std::minmax({part_of(a), part_of(b)})); };
+  find_parts();
   for (const LinkJoint& row : model.joints) {
-    if (row.joint.a != kWorld) keep_apart(row.joint.a, row.joint.b);  // what hangs on the world may touch its floor
+    const int a = row.joint.a, b = row.joint.b;
+    if (a != kWorld && b != kWorld && part_[a] != part_[b]) joined_.insert(std::minmax({part_[a], part_[b]}));
   }
-  for (const auto& [a, b] : model.kept_apart) keep_apart(a, b);
 }
 
-int Touching::part_of(int link) const {
-  constexpr int kFirstStanding = -10;
-  if (link == kWorld) return kWorld;
-  return body_[link] == kWorld ? kFirstStanding - link : body_[link];
+// A part is named by one of its links.
+void Touching::find_parts() {
+  part_.resize(model_.links.size());
+  std::iota(part_.begin(), part_.end(), 0);
+  const auto first_of = [&](int link) {
+    while (part_[link] != link) link = part_[link] = part_[part_[link]];
+    return link;
+  };
+  const auto join = [&](int a, int b) { part_[first_of(a)] = first_of(b); };
+  for (int i = 0; i < static_cast<int>(part_.size()); ++i) {
+    if (body_[i] >= 0) join(i, body_[i]);
+  }
+  for (const LinkJoint& row : model_.joints) {
+    const bool are_links = row.joint.a != kWorld && row.joint.b != kWorld;
+    if (are_links && std::holds_alternative<FixedJoint>(row.joint.type)) join(row.joint.a, row.joint.b);
+  }
+  for (int i = 0; i < static_cast<int>(part_.size()); ++i) part_[i] = first_of(i);
 }
 
 Touching::Kind Touching::kind_of(int link, const LinkShape& shape) const {
@@ -135,13 +149,14 @@ bool Touching::can_be_touched(int link, const LinkShape& shape) const {
 }
 
 std::optional<Touching::Pairs> Touching::kept_apart(const std::vector<ShapeSource>& sources, std::size_t most) const {
-  std::map<int, std::vector<int>> of_part;
+  std::map<int, std::vector<int>> of_part, of_link;  // kWorld: all sources that stand still
   std::map<Kind, std::vector<int>> of_kind;
   const auto is_static = [&](int source) { return body_[sources[source].link] == kWorld; };
   for (int i = 0; i < static_cast<int>(sources.size()); ++i) {
-    of_part[part_of(sources[i].link)].push_back(i);
-    if (is_static(i)) of_part[kWorld].push_back(i);
-    of_kind[kind_of(sources[i].link, *sources[i].shape)].push_back(i);
+    const int link = sources[i].link;
+    of_part[part_[link]].push_back(i), of_link[link].push_back(i);
+    if (is_static(i)) of_link[kWorld].push_back(i);
+    of_kind[kind_of(link, *sources[i].shape)].push_back(i);
   }
   Pairs apart;
   const auto add = [&](const std::vector<int>& first, const std::vector<int>& second) {
@@ -153,9 +168,12 @@ std::optional<Touching::Pairs> Touching::kept_apart(const std::vector<ShapeSourc
       }
     }
   };
-  for (const auto& [part, own] : of_part) add(own, own);  // shapes of one rigid link
-  for (const auto& [a, b] : apart_) {
+  for (const auto& [part, own] : of_part) add(own, own);
+  for (const auto& [a, b] : joined_) {
     if (of_part.contains(a) && of_part.contains(b)) add(of_part[a], of_part[b]);
+  }
+  for (const auto& [a, b] : model_.kept_apart) {
+    if (of_link.contains(a) && of_link.contains(b)) add(of_link[a], of_link[b]);
   }
   for (auto a = of_kind.begin(); a != of_kind.end(); ++a) {
     for (auto b = a; b != of_kind.end() && apart.size() <= most; ++b) {

@@ -36,16 +36,15 @@ class Touching {
     unsigned type, affinity;
     auto operator<=>(const Kind&) const = default;
   };
-  int part_of(int link) const;
+  void find_parts();
   Kind kind_of(int link, const LinkShape& shape) const;
   static bool may_touch(const Kind& a, const Kind& b);
 
   const LinkModel& model_;
   const std::vector<int>& body_;
   std::map<Kind, std::set<int>> kinds_;  // with the first two bodies of each kind
-  // Parts that a joint connects, or that the file keeps apart. A part is a body or a link that stands still; kWorld
-  // stands for all links that stand still.
-  std::set<std::pair<int, int>> apart_;
+  std::vector<int> part_;                // by link; fixed joints make one part of many links
+  Pairs joined_;                         // parts that a joint connects
 };
 
 // Lists the pairs that never touch in the scene, and gives the others their friction and restitution.

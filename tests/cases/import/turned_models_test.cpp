@@ -167,4 +167,35 @@ BOOST_AUTO_TEST_CASE(one_direction_of_contype_and_conaffinity_is_enough) {
   }
 }
 
+// A mount between two links is part of the first one, so the second touches neither.
+BOOST_AUTO_TEST_CASE(links_on_fixed_joints_count_as_one_when_joints_keep_links_apart) {
+  const auto link = [](const std::string& name) {
+    return "<link name='" + name +
+           "'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
+           "<collision><geometry><sphere radius='0.1'/></geometry></collision></link>";
+  };
+  const auto joint = [](const std::string& type, const std::string& a, const std::string& b) {
+    return "<joint name='" + a + b + "' type='" + type + "'><parent link='" + a + "'/><child link='" + b +
+           "'/><origin xyz='1 0 0'/></joint>";
+  };
+  const Scene scene =
+      scene_of_text("r.urdf", "<robot name='r'>" + link("arm") + link("mount") + link("hand") + link("tool") +
+                                  joint("fixed", "arm", "mount") + joint("continuous", "mount", "hand") +
+                                  joint("continuous", "hand", "tool") + "</robot>");
+  BOOST_TEST(
+      (!may_touch(scene, "arm", "mount") && !may_touch(scene, "mount", "hand") && !may_touch(scene, "arm", "hand")));
+  BOOST_TEST(
+      (!may_touch(scene, "hand", "tool") && may_touch(scene, "arm", "tool") && may_touch(scene, "mount", "tool")));
+}
+
+// MuJoCo's own rule: a body touches a parent that is part of the world.
+BOOST_AUTO_TEST_CASE(a_mjcf_body_touches_a_parent_that_stands_still_and_no_other) {
+  const auto& missing = missing_engines();
+  if (std::any_of(missing.begin(), missing.end(), [](const auto& one) { return one.name == "mujoco"; })) return;
+  const Scene scene = scene_of_text("m.xml", R"(<mujoco><worldbody><body name="post"><geom name="post" size="0.1"/>
+    <body name="arm" pos="0 0 1"><joint axis="0 1 0"/><geom size="0.1"/>
+    <body name="hand" pos="0 0 1"><joint axis="0 1 0"/><geom size="0.1"/></body></body></body></worldbody></mujoco>)");
+  BOOST_TEST((may_touch(scene, "post", "arm") && may_touch(scene, "post", "hand") && !may_touch(scene, "arm", "hand")));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
