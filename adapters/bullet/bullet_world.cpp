@@ -70,9 +70,20 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
   if (matched_) match(scene, settings);
   rows_.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies) add_body(body, settings);
+  keep_apart(scene);
   joints_ = std::make_unique<bullet::Joints>(
       scene, [&](int body) -> btRigidBody& { return end_of_joint(body); }, matched_);
   joints_->enter(world_);
+}
+
+// Each body holds a list of bodies that it passes through; Bullet asks both.
+void BulletWorld::keep_apart(const Scene& scene) {
+  for (const ContactPair& pair : scene.contact_pairs) {
+    if (pair.law.collides || !can_meet(scene.bodies[pair.a], scene.bodies[pair.b])) continue;
+    btRigidBody &a = end_of_joint(pair.a), &b = end_of_joint(pair.b);
+    a.setIgnoreCollisionCheck(&b, true);
+    b.setIgnoreCollisionCheck(&a, true);
+  }
 }
 
 btRigidBody& BulletWorld::end_of_joint(int body) {

@@ -222,8 +222,9 @@ extern const ContactMethod kImpulseContact;
 const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
-    .features = joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none",
-                                                  "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
+    .features =
+        joined(contacts_of_all_shapes(), {"contact-filter", "friction:coulomb", "friction:infinite", "friction:none",
+                                          "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
     .options = {{.name = "substeps",
                  .meaning = "of contact=impulse in a step; default: at least 4, none longer than 1/480 s, or 1/960 s "
                             "in steps over 1/50 s and where masses differ by more than 30 to 1",

@@ -273,7 +273,8 @@ void Manifolds::add_pairs(std::size_t first_pair, std::size_t last_pair, BodyCol
     for (std::size_t i = 0; i < near; ++i) {
       const auto& pair = pairs[part.near[i]];
       const std::size_t first = part.constraints.size();
-      if (!colliders_[pair.first].fixed || !colliders_[pair.second].fixed) add_points_of(i, pair, state, dt, part);
+      const Collider &a = colliders_[pair.first], &b = colliders_[pair.second];
+      if (!(a.fixed && b.fixed) && laws_.may_touch(a.body, b.body)) add_points_of(i, pair, state, dt, part);
       if (part.constraints.size() > first) match_impulses(pair, first, part, old);
     }
   }
