@@ -69,8 +69,9 @@ double reach_along(const Vec3& direction, const Body& body) {
   return 0;
 }
 
-// Friction on a sphere or box that slides on a plane acts against the slip of the step before. The engine's own friction
-// acts against the present slip, so the body gets the difference as an impulse. The normal force is the weight's part.
+// Friction on a sphere or box that slides on a plane acts against the slip of the step before. The engine's own
+// friction acts against the present slip, so the body gets the difference as an impulse. The normal force is the
+// weight's part.
 void turn_friction_late(Moment& moment, std::size_t i, int ground, const Plane& plane) {
   constexpr double kTouching = 1e-3;  // m: deeper than engines let a body at rest sink, or float
   Body& body = moment.scene.bodies[i];
