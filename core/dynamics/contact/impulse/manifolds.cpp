@@ -22,7 +22,7 @@ constexpr double kSunk = 0.5;                // one of more is no contact any lo
 constexpr double kTurnsFar = 0.25;           // a surface that turns farther is followed on its way
 constexpr double kNearlyCoincident = 0.999;  // an overlap of so much of both radii may have no direction
 constexpr int kMostOfPair = 4;
-constexpr double kEqualScores = 1e-6;        // points that differ by less of their distance are equally good
+constexpr double kEqualScores = 1e-6;  // points that differ by less of their distance are equally good
 
 double smaller_inradius(const Collider& a, const Collider& b) { return std::min(a.inradius, b.inradius); }
 

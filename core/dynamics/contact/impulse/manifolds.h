@@ -104,7 +104,7 @@ class Manifolds {
   std::vector<Collider> colliders_;
   std::vector<Vec3> directions_;  // by collider, see ordering_directions()
   std::vector<int> rank_;         // by body: its collider
-  std::vector<Kind> kinds_;  // by collider
+  std::vector<Kind> kinds_;       // by collider
   ContactLaws laws_;
   BroadPhase broad_phase_;
   std::vector<Pose> poses_;

@@ -14,20 +14,19 @@ namespace {
 
 // In units of the scene's time sqrt(L/g), so that equal scenes in other units get equal sub-steps. A stack of n bodies
 // sags by n g h²/2.5 at its foot: with kLongestSubStep, by 2e-4 n of a body's half-length.
-constexpr double kLongestSubStep = 0.023, kShorterSubStep = 0.0115;
-// Bodies that weigh many times as much as others need the shorter ones: of boxes in a pyramid on sub-steps of 1/480 s, a
-// top of thirty or a hundred times the others' mass moves them by 5 mm at most, one of three hundred by up to 10 cm.
-constexpr double kUnevenMassRatio = 30;
-// A coarse step is chosen for the small number of steps, and leaves time for more work in each: kSubStepsOfCoarse
-// times the cube root of its length in units of the scene's time. That is a sub-step of 1/960 s for bodies of 20 cm in
-// steps of 1/30 s; a larger body sags more, but less in proportion to its size.
-constexpr double kCoarse = 0.1, kSubStepsOfCoarse = 44.6;
-constexpr double kContactUpdateInterval = 0.1;
+constexpr double kLongestSubStep = 0.023;
+// Bodies that weigh many times as much as others need shorter ones: of 1 m boxes in a pyramid on sub-steps of 1/480 s,
+// a top of thirty or a hundred times the others' mass moves them by 5 mm at most, one of three hundred by up to 10 cm.
+constexpr double kShorterSubStep = 0.0046, kUnevenMassRatio = 30;
 constexpr int kFewestSubSteps = 4;
+// A longer step is chosen for the small number of steps, and leaves time for more work in each.
+constexpr double kCoarse = 0.1, kLongestSubStepOfCoarse = 0.0115;
+constexpr int kFewestSubStepsOfCoarse = 32, kFewestUpdatesOfCoarse = 4;
+constexpr double kContactUpdateInterval = 0.1;
 
 constexpr double kDampingRatio = 10;              // zeta of the soft constraint
 constexpr double kContactHertzPerSubStep = 0.25;  // its frequency, of that of the sub-steps
-constexpr double kMaxPushSpeed = 2;               // of the scene's speed sqrt(g L)
+constexpr double kMaxPushSpeed = 2;               // of the scene's speed sqrt(g L); no bound where it has none
 // A gap of this share of the scene's length touches. A point that lands closes its gap to zero but for rounding, and
 // rounding must not decide whether the next sub-step takes it for closed.
 constexpr double kTouching = 1e-7;
@@ -64,12 +63,14 @@ bool SubSteps::takes_impacts_at_once(const Settings& settings) {
 int SubSteps::of(double dt) const {
   if (given_ > 0) return given_;
   const double length = dt / scales_.time;
-  const double fewest = length > kCoarse ? kSubStepsOfCoarse * std::cbrt(length) : 0;
-  return std::max(kFewestSubSteps, rounded_up(std::max(fewest, length / longest_sub_step_)));
+  if (length <= kCoarse) return std::max(kFewestSubSteps, rounded_up(length / longest_sub_step_));
+  return std::max(kFewestSubStepsOfCoarse, rounded_up(length / std::min(longest_sub_step_, kLongestSubStepOfCoarse)));
 }
 
 int SubSteps::contact_updates(double dt, int count) const {
-  return std::clamp(rounded_up(dt / (kContactUpdateInterval * scales_.time)), 1, count);
+  const double length = dt / scales_.time;
+  const int fewest = length <= kCoarse ? 1 : kFewestUpdatesOfCoarse;
+  return std::min(count, std::max(fewest, rounded_up(length / kContactUpdateInterval)));
 }
 
 // The soft constraint of frequency f and damping ratio zeta, omega = 2 pi f, integrated implicitly over h:
@@ -84,7 +85,7 @@ SolverParameters SubSteps::parameters(double h) const {
           .bias_rate = h_omega / (h * a1),
           .mass_scale = a2 / (1 + a2),
           .impulse_scale = 1 / (1 + a2),
-          .max_push_speed = kMaxPushSpeed * scales_.speed(),
+          .max_push_speed = std::isinf(scales_.time) ? scales_.time : kMaxPushSpeed * scales_.speed(),
           .touching = kTouching * scales_.length,
           .restitution_threshold = threshold,
           .tolerance = kImpactTolerance * threshold,
@@ -94,9 +95,10 @@ SolverParameters SubSteps::parameters(double h) const {
 SettingsInForce SubSteps::settings_in_force() const {
   const double longest = longest_sub_step_ * scales_.time, coarse = kCoarse * scales_.time;
   const std::string by_default =
-      std::isinf(scales_.time) ? fmt::format("{} a step", kFewestSubSteps)
-                               : fmt::format("at least {} a step, none longer than {:.3g} s; more in steps over {:.3g} s",
-                                             kFewestSubSteps, longest, coarse);
+      std::isinf(scales_.time)
+          ? fmt::format("{} a step", kFewestSubSteps)
+          : fmt::format("at least {} a step, none longer than {:.3g} s; more in steps over {:.3g} s", kFewestSubSteps,
+                        longest, coarse);
   return {{"contacts", std::isinf(scales_.time) ? "found once a step"
                                                 : fmt::format("found once a step and every {:.3g} s",
                                                               kContactUpdateInterval * scales_.time)},
