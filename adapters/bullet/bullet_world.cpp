@@ -70,9 +70,12 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
   if (matched_) match(scene, settings);
   rows_.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies) add_body(body, settings);
-  keep_apart(scene);
+  using Set = bullet::Joints::Set;
   joints_ = std::make_unique<bullet::Joints>(
-      scene, [&](int body) -> btRigidBody& { return end_of_joint(body); }, matched_);
+      scene, [&](int body) -> btRigidBody& { return end_of_joint(body); },
+      !matched_                   ? Set::as_shipped
+      : settings.method == "mlcp" ? Set::for_direct_solver
+                                  : Set::for_sweeps);
   joints_->enter(world_);
 }
 
@@ -154,7 +157,7 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
 
 void BulletWorld::step(double dt) {
   if (!loads_.empty()) add_loads(dt);
-  joints_->set_motors(clock_.time(), dt);
+  joints_->set_for_step(clock_.time(), dt);
   if (softness_ > 0) world_.getSolverInfo().m_globalCfm = softness_ * dt;
   // No sub-steps: with them Bullet would advance by multiples of 1/60 s for any dt.
   world_.stepSimulation(dt, 0);
