@@ -4,20 +4,60 @@
 
 #include <map>
 
-namespace rigor {
+#include "adapters/bullet/bullet_matched.h"
 
-std::vector<std::string> bullet_calls(const Settings& settings, const std::string& dt) {
+namespace rigor {
+namespace {
+
+void append(std::vector<std::string>& calls, const std::vector<std::string>& more) {
+  calls.insert(calls.end(), more.begin(), more.end());
+}
+
+// Of BulletMultibodyWorld: `body` is a btMultiBody, `world` a btMultiBodyDynamicsWorld.
+std::vector<std::string> multibody_calls(bool is_matched) {
+  std::vector<std::string> calls = {
+      "btMultiBodyConstraintSolver solver;",
+      "auto* world = new btMultiBodyDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration);",
+      "body->setCanSleep(false);"};
+  if (is_matched) {
+    append(calls, {"body->setLinearDamping(0);", "body->setAngularDamping(0);", "body->setMaxCoordinateVelocity(1e30);",
+                   "world->getSolverInfo().m_erp = 0;", "world->getSolverInfo().m_erp2 = 0;",
+                   "limit->setMaxAppliedImpulse(1e30);  // of each btMultiBodyJointLimitConstraint"});
+  }
+  return calls;
+}
+
+// What the matched track sets from the scene if the run does not.
+void add_matched_defaults(const Settings& settings, std::vector<std::string>& calls) {
+  if (!settings.options.contains("erp"))
+    calls.push_back(fmt::format("world->getSolverInfo().m_erp = {};  // in a scene with joints", bullet::kErp));
+  if (settings.method == "mlcp" && !settings.options.contains("cfm")) {
+    calls.push_back(
+        fmt::format("world->getSolverInfo().m_globalCfm = {} * dt / heaviest_mass;  // {} in a scene without joints",
+                    bullet::kJointSoftness, bullet::kContactSoftness));
+  }
+}
+
+// Of BulletWorld: `body` is a btRigidBody.
+std::vector<std::string> rigid_body_calls(const Settings& settings) {
   static const std::map<std::string, std::string> flags = {
       {"implicit-body", "BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY"},
       {"implicit-world", "BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD"},
       {"explicit", "BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT"},
       {"off", "0"}};
   std::vector<std::string> calls;
+  if (settings.method == "mlcp")
+    calls = {"btDantzigSolver dantzig;", "btMLCPSolver solver(&dantzig);", "world->setConstraintSolver(&solver);"};
   if (settings.track == Track::matched) {
-    calls = {"world->getSolverInfo().m_restitutionVelocityThreshold = 0;",
-             "world->getSolverInfo().m_splitImpulsePenetrationThreshold = 1e30;",
-             "world->getSolverInfo().m_maxGyroscopicForce = 1e30;", "body->setActivationState(DISABLE_DEACTIVATION);",
-             "body->setDamping(0, 0);"};
+    append(calls, {"world->getSolverInfo().m_restitutionVelocityThreshold = 0;",
+                   "world->getSolverInfo().m_splitImpulsePenetrationThreshold = 1e30;",
+                   "world->getSolverInfo().m_maxGyroscopicForce = 1e30;",
+                   "configuration.setPlaneConvexMultipointIterations(4, 4);",
+                   "body->setActivationState(DISABLE_DEACTIVATION);", "body->setDamping(0, 0);",
+                   "body->setContactProcessingThreshold(0);  // in a scene where bodies bounce",
+                   "body->setCcdMotionThreshold(inner_radius);  // in a scene where nothing bounces",
+                   "body->setCcdSweptSphereRadius(inner_radius);  // likewise"});
+    add_matched_defaults(settings, calls);
   }
   for (const auto& [option, value] : settings.options) {
     if (option == "iterations") calls.push_back(fmt::format("world->getSolverInfo().m_numIterations = {};", value));
@@ -27,6 +67,14 @@ std::vector<std::string> bullet_calls(const Settings& settings, const std::strin
       calls.push_back(fmt::format("world->getSolverInfo().m_splitImpulse = {};", value == "on" ? "true" : "false"));
     if (option == "gyroscopic") calls.push_back(fmt::format("body->setFlags({});", flags.at(value)));
   }
+  return calls;
+}
+
+}  // namespace
+
+std::vector<std::string> bullet_calls(const Settings& settings, const std::string& dt) {
+  std::vector<std::string> calls =
+      settings.method == "multibody" ? multibody_calls(settings.track == Track::matched) : rigid_body_calls(settings);
   calls.push_back(fmt::format("world->stepSimulation({}, 0);  // one step of it, and no substeps", dt));
   return calls;
 }

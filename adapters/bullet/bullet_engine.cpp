@@ -72,9 +72,9 @@ EngineInfo BulletEngine::info() const {
   return {.name = "bullet",
           .version = version(),
           .precision = sizeof(btScalar) == sizeof(double) ? "double" : "single",
-          .features = joined(
-              kJoints, joined(contacts_of_all_shapes(), {"spring", "timed-force", "fixed-body", "restitution",
-                                                         "friction:none", "friction:coulomb", "friction:infinite"})),
+          .features = joined(kJoints, joined(contacts_of_all_shapes(),
+                                             {"contact-filter", "spring", "timed-force", "fixed-body", "restitution",
+                                              "friction:none", "friction:coulomb", "friction:infinite"})),
           .methods = {sequential_impulse(), mlcp(), multibody()},
           .max_rotation_per_step = bullet::kLargestTurn};  // a faster body keeps its speed and turns too little
 }

@@ -50,7 +50,7 @@ struct Make {
   const Joint& joint;
   btRigidBody &a, &b;
   Vec3 center_b;  // m, in W
-  bool matched;
+  Joints::Set set;
 
   std::unique_ptr<btTypedConstraint> operator()(const BallJoint& ball) const {
     const btVector3 anchor = to_bullet(ball.anchor);
@@ -60,7 +60,9 @@ struct Make {
   std::unique_ptr<btTypedConstraint> operator()(const HingeJoint& hinge) const {
     const SharedFrame frame(a, b, hinge.anchor, frame_with_z(hinge.axis));
     auto constraint = std::make_unique<btHingeConstraint>(a, b, frame.in_a, frame.in_b, true);
-    if (matched) constraint->setUseFrameOffset(false);  // both bodies are held at their own anchors
+    // The two forms are the same equations. The one with "frame offset" converges in few sweeps; the other one is that
+    // of the direct solver's twin.
+    if (set == Joints::Set::for_direct_solver) constraint->setUseFrameOffset(false);
     if (joint.has_limits()) limit(*constraint);
     return constraint;
   }
@@ -90,6 +92,7 @@ struct Make {
   // return a share of the incoming speed.
   void limit(btHingeConstraint& hinge) const {
     const double pi = std::numbers::pi;
+    const bool matched = set != Joints::Set::as_shipped;
     set_limits(hinge, std::max(joint.lower, -pi), std::min(joint.upper, pi), joint.restitution, matched);
     if (matched) hinge.setParam(BT_CONSTRAINT_STOP_ERP, 0);
   }
@@ -118,14 +121,14 @@ void drive(btTypedConstraint& constraint, const Motor& motor, double share, doub
 
 }  // namespace
 
-Joints::Joints(const Scene& scene, const BodyOf& body_of, bool matched) : matched_(matched) {
-  for (const Joint& joint : scene.joints) add(scene, joint, body_of, matched);
+Joints::Joints(const Scene& scene, const BodyOf& body_of, Set set) : set_(set) {
+  for (const Joint& joint : scene.joints) add(scene, joint, body_of);
   std::copy_if(scene.motors.begin(), scene.motors.end(), std::back_inserter(motors_),
                [](const Motor& motor) { return motor.speed.has_value(); });
 }
 
-void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of, bool matched) {
-  const Make make{joint, body_of(joint.a), body_of(joint.b), scene.pose(joint.b).position, matched};
+void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of) {
+  const Make make{joint, body_of(joint.a), body_of(joint.b), scene.pose(joint.b).position, set_};
   constraints_.push_back(std::visit(make, joint.type));
   of_joint_.push_back(constraints_.back().get());
   const bool b_moves = joint.b != kWorld && !scene.bodies[static_cast<std::size_t>(joint.b)].fixed;
@@ -133,6 +136,7 @@ void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of, 
   const auto* slider = std::get_if<SliderJoint>(&joint.type);
   const bool is_beyond = joint.lower < -std::numbers::pi || joint.upper > std::numbers::pi;
   auto* hinge = dynamic_cast<btHingeConstraint*>(of_joint_.back());
+  if (hinge && joint.has_limits()) limited_.push_back(hinge);
   if (hinge && joint.has_limits() && is_beyond)
     winding_.push_back({hinge, joint.lower, joint.upper, joint.restitution});
   if (slider && joint.has_limits()) constraints_.push_back(limits_along(slider->axis, make));
@@ -167,12 +171,24 @@ void Joints::unwind() {
     const double angle = at.hinge->getHingeAngle();
     at.angle = angle + std::round((at.angle - angle) / kTurn) * kTurn;
     set_limits(*at.hinge, std::max(at.lower, at.angle - kReach), std::min(at.upper, at.angle + kReach), at.restitution,
-               matched_);
+               set_ != Set::as_shipped);
   }
 }
 
-void Joints::set_motors(double t, double dt) {
+// With "frame offset" a hinge on a static body lets go of the arm in a step in which it is at a limit, and all that the
+// arm carried is lost. Without it ten sweeps leave half of what a long arm carries, so that it is for such steps alone.
+void Joints::choose_frame_offsets() {
+  if (set_ != Set::for_sweeps) return;
+  for (btHingeConstraint* hinge : limited_) {
+    hinge->testLimit(hinge->getRigidBodyA().getCenterOfMassTransform(),
+                     hinge->getRigidBodyB().getCenterOfMassTransform());
+    hinge->setUseFrameOffset(hinge->getSolveLimit() == 0);
+  }
+}
+
+void Joints::set_for_step(double t, double dt) {
   unwind();
+  choose_frame_offsets();
   for (const Motor& motor : motors_) {
     btTypedConstraint& constraint = *of_joint_[static_cast<std::size_t>(motor.joint)];
     drive(constraint, motor, 0, dt);

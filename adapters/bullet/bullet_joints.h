@@ -29,14 +29,16 @@ class Joints {
   // The body with this index. For kWorld, and for a fixed body without its own, a body at the origin.
   using BodyOf = std::function<btRigidBody&(int)>;
 
+  // How the constraints are set: as shipped, or for sequential impulses or a direct solver of the matched track.
+  enum class Set { as_shipped, for_sweeps, for_direct_solver };
   // Bodies stand as the scene has them at t = 0, and outlive this.
-  Joints(const Scene& scene, const BodyOf& body_of, bool matched);
+  Joints(const Scene& scene, const BodyOf& body_of, Set set);
 
   // Takes part in the world from now on, which must end first.
   void enter(btDynamicsWorld& world);
-  // Sets the motors that keep a speed to what they may do over the step from t to t + dt, and the limits of hinges to
-  // those of the turn that these are in.
-  void set_motors(double t, double dt);
+  // Sets the motors that keep a speed to what they may do over the step from t to t + dt, the limits of hinges to
+  // those of the turn that these are in, and how hinges with limits hold their anchors in this step.
+  void set_for_step(double t, double dt);
 
   bool empty() const { return constraints_.empty(); }
   // Applies from the next step on, to joints without limits, because Bullet keeps a slider's limits in a second
@@ -45,12 +47,14 @@ class Joints {
   std::vector<ReportedReaction> reactions() const;
 
  private:
-  void add(const Scene& scene, const Joint& joint, const BodyOf& body_of, bool matched);
+  void add(const Scene& scene, const Joint& joint, const BodyOf& body_of);
 
   void unwind();
+  void choose_frame_offsets();
 
-  bool matched_;
-  struct Winding {  // a hinge with a limit beyond half a turn
+  Set set_;
+  std::vector<btHingeConstraint*> limited_;  // hinges with limits
+  struct Winding {                           // a hinge with a limit beyond half a turn
     btHingeConstraint* hinge;
     double lower, upper;  // rad
     double restitution;

@@ -70,9 +70,23 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
   if (matched_) match(scene, settings);
   rows_.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies) add_body(body, settings);
+  using Set = bullet::Joints::Set;
   joints_ = std::make_unique<bullet::Joints>(
-      scene, [&](int body) -> btRigidBody& { return end_of_joint(body); }, matched_);
+      scene, [&](int body) -> btRigidBody& { return end_of_joint(body); },
+      !matched_                   ? Set::as_shipped
+      : settings.method == "mlcp" ? Set::for_direct_solver
+                                  : Set::for_sweeps);
   joints_->enter(world_);
+}
+
+// Each body holds a list of bodies that it passes through; Bullet asks both.
+void BulletWorld::keep_apart(const Scene& scene) {
+  for (const ContactPair& pair : scene.contact_pairs) {
+    if (pair.law.collides || !can_meet(scene.bodies[pair.a], scene.bodies[pair.b])) continue;
+    btRigidBody &a = end_of_joint(pair.a), &b = end_of_joint(pair.b);
+    a.setIgnoreCollisionCheck(&b, true);
+    b.setIgnoreCollisionCheck(&a, true);
+  }
 }
 
 btRigidBody& BulletWorld::end_of_joint(int body) {
@@ -143,7 +157,7 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
 
 void BulletWorld::step(double dt) {
   if (!loads_.empty()) add_loads(dt);
-  joints_->set_motors(clock_.time(), dt);
+  joints_->set_for_step(clock_.time(), dt);
   if (softness_ > 0) world_.getSolverInfo().m_globalCfm = softness_ * dt;
   // No sub-steps: with them Bullet would advance by multiples of 1/60 s for any dt.
   world_.stepSimulation(dt, 0);

@@ -42,6 +42,7 @@ class BulletWorld : public World, public ReportsReactions {
 
   void apply(const Settings& settings);
   void match(const Scene& scene, const Settings& settings);
+  void keep_apart(const Scene& scene);
   btRigidBody& end_of_joint(int body);
   void look_for_fallback();
   void add_body(const Body& body, const Settings& settings);

@@ -36,6 +36,7 @@ class LawNumbers {
   explicit LawNumbers(const Scene& scene)
       : of_pairs_(scene), laws_{scene.contact_default}, of_(scene.bodies.size(), {0}) {
     for (const ContactPair& pair : scene.contact_pairs) {
+      if (!pair.law.collides) continue;
       const std::size_t number = number_of(pair.law);
       if (number == laws_.size()) laws_.push_back(pair.law);
       of_[pair.a].insert(number), of_[pair.b].insert(number);
@@ -49,7 +50,9 @@ class LawNumbers {
   const std::set<std::size_t>& of_body(std::size_t body) const { return of_[body]; }
   const ContactLaw& law(std::size_t number) const { return laws_[number]; }
   std::size_t of_pair(int a, int b) const { return number_of(of_pairs_.of(a, b)); }
-  std::size_t size() const { return laws_.size(); }
+  bool may_touch(int a, int b) const { return of_pairs_.may_touch(a, b); }
+  // Whether all pairs touch and by the same law.
+  bool are_all_alike() const { return laws_.size() == 1 && !of_pairs_.some_are_apart(); }
 
  private:
   std::size_t number_of(const ContactLaw& law) const {
@@ -73,10 +76,10 @@ class LawFilter : public ::dart::collision::BodyNodeCollisionFilter {
 
   bool ignoresCollision(const ::dart::collision::CollisionObject* one,
                         const ::dart::collision::CollisionObject* other) const override {
-    if (laws_.size() > 1) {
+    if (!laws_.are_all_alike()) {
       const auto [a, law_a] = shapes_.at(one->getShapeFrame());
       const auto [b, law_b] = shapes_.at(other->getShapeFrame());
-      if (a == b || law_a != law_b || laws_.of_pair(a, b) != law_a) return true;
+      if (a == b || law_a != law_b || !laws_.may_touch(a, b) || laws_.of_pair(a, b) != law_a) return true;
     }
     return BodyNodeCollisionFilter::ignoresCollision(one, other);
   }

@@ -64,8 +64,10 @@ class BrokenWorld : public World {
     world_->read(now);
     Scene scene = restarted(scene_, now.bodies(), clock_.time());
     int times = 1;
-    Moment moment{scene, scene_, dt, times, steps_, clock_.time()};
+    if (steps_ == 0) before_ = now.bodies();
+    Moment moment{scene, before_.columns(), scene_, dt, times, steps_, clock_.time()};
     fault_.step(moment);
+    before_ = now.bodies();
     world_ = engine_.load(scene, settings_);
     for (int i = 0; i < times; ++i) world_->step(dt);
   }
@@ -75,7 +77,7 @@ class BrokenWorld : public World {
   const Fault& fault_;
   Scene scene_;
   std::unique_ptr<World> world_;
-  BodyTable seen_;
+  BodyTable seen_, before_;  // as it is told; as it was before the last step
   Clock clock_;
   long steps_ = 0;
 };

@@ -52,6 +52,14 @@ std::function<void(MutableBodyColumns, const Scene&)> each_read(F change) {
   };
 }
 
+// An impulse [N s, in W] at a point of the body [m, in B].
+inline void push(Body& body, const Vec3& impulse, const Vec3& point_B) {
+  if (body.fixed) return;
+  const Mat3 R = matrix_of(body.orientation);
+  body.velocity += impulse / body.mass;
+  body.angular_velocity += R * body.inertia.inverse() * (R.transpose() * (R * point_B).cross(impulse));
+}
+
 inline Fault on_loading(const std::string& name, std::function<void(Scene&)> change) {
   Fault fault{name};
   fault.scene = std::move(change);

@@ -59,6 +59,47 @@ void friction_as_pyramid(Scene& scene) {
   scene.contact_pairs = pairs;
 }
 
+// m: from the body's centre to its farthest point along a unit direction; 0 for other shapes.
+double reach_along(const Vec3& direction, const Body& body) {
+  const Mat3 R = matrix_of(body.orientation);
+  if (!body.shape) return 0;
+  if (const auto* sphere = std::get_if<Sphere>(&*body.shape)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&*body.shape))
+    return 0.5 * (R.transpose() * direction).cwiseAbs().dot(box->size);
+  return 0;
+}
+
+// Friction on a sphere or box that slides on a plane acts against the slip of the step before. The engine's own
+// friction acts against the present slip, so the body gets the difference as an impulse. The normal force is the
+// weight's part.
+void turn_friction_late(Moment& moment, std::size_t i, int ground, const Plane& plane) {
+  constexpr double kTouching = 1e-3;  // m: deeper than engines let a body at rest sink, or float
+  Body& body = moment.scene.bodies[i];
+  const double height = plane.normal.dot(body.position) - plane.offset;
+  if (body.fixed || std::abs(height - reach_along(plane.normal, body)) > kTouching) return;
+  const double braking = moment.scene.contact_law(static_cast<int>(i), ground).friction *
+                         std::max(0.0, -moment.scene.gravity.dot(plane.normal)) * moment.dt;  // m/s in this step
+  const auto slip = [&](const Vec3& velocity, const Vec3& spin) {
+    const Vec3 all = velocity - height * spin.cross(plane.normal);
+    return Vec3(all - all.dot(plane.normal) * plane.normal);
+  };
+  const Vec3 now = slip(body.velocity, body.angular_velocity),
+             old = slip(moment.before.velocity(i), moment.before.angular_velocity(i));
+  constexpr double kGoesOn = 4;  // a sphere's slip shrinks by 3.5 times that speed; a slower one may stop in this step
+  if (std::min(now.norm(), old.norm()) < kGoesOn * braking) return;
+  const Vec3 point_B = body.orientation.conjugate() * (-height * plane.normal);
+  push(body, body.mass * braking * (now.normalized() - old.normalized()), point_B);
+}
+
+void friction_direction_late(Moment& moment) {
+  for (std::size_t ground = 0; ground < moment.scene.bodies.size(); ++ground) {
+    const auto& shape = moment.scene.bodies[ground].shape;
+    const auto* plane = shape ? std::get_if<Plane>(&*shape) : nullptr;
+    for (std::size_t i = 0; plane && i < moment.scene.bodies.size(); ++i)
+      turn_friction_late(moment, i, static_cast<int>(ground), *plane);
+  }
+}
+
 void shorten_capsule(Body& body) {
   if (!body.shape) return;
   if (auto* capsule = std::get_if<Capsule>(&*body.shape)) capsule->length *= 1e-3;
@@ -82,6 +123,7 @@ std::vector<Fault> contact_faults() {
       on_loading("a pair's own law ignored", [](Scene& s) { s.contact_pairs.clear(); }),
       on_loading("contact left out", each_body([](Body& b) { b.collides = false; })),
       on_loading("friction as a pyramid", friction_as_pyramid),
+      on_stepping("late-friction-direction", friction_direction_late),
       by_amount("contact offset by {} mm", 1,
                 [](double mm) { return on_loading("", each_body([=](Body& b) { grow(b, 1e-3 * mm); })); }),
       on_loading("contact 1 mm too deep", each_body([](Body& b) { grow(b, -1e-3); })),

@@ -10,9 +10,11 @@
 
 namespace rigor {
 
-// A step that is about to be taken. The fault may change the bodies' state, the loads, dt and how often it is taken.
+// A step that is about to be taken. The fault may change the bodies' state, the loads, dt and the number of times that
+// the step is taken.
 struct Moment {
   Scene& scene;           // the bodies as they are now; t = 0 is now
+  BodyColumns before;     // the bodies one step earlier; at the first step, as they are now
   const Scene& original;  // as it was loaded
   double& dt;             // s
   int& times;             // that the step is taken

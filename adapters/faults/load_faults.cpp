@@ -15,13 +15,6 @@ Vec3 speed_of_point(const Body& body, const Vec3& point_B) {
   return body.velocity + body.angular_velocity.cross(body.orientation * point_B);
 }
 
-void push(Body& body, const Vec3& impulse, const Vec3& point_B) {
-  if (body.fixed) return;
-  const Mat3 R = matrix_of(body.orientation);
-  body.velocity += impulse / body.mass;
-  body.angular_velocity += R * body.inertia.inverse() * (R.transpose() * (R * point_B).cross(impulse));
-}
-
 // A damper that brakes every motion of its end, and not only that along its line.
 void damp_all_ways(Moment& moment) {
   for (Spring& spring : moment.scene.springs) {

@@ -16,6 +16,17 @@ std::function<void(Moment&)> gyroscopic(double times) {
   });
 }
 
+// The engine turns the inertia into W once a step, and uses the result one step later. In the present body frame this
+// inertia is turned by the last step's rotation.
+void keep_old_inertia(Moment& moment) {
+  for (std::size_t i = 0; i < moment.scene.bodies.size(); ++i) {
+    Body& body = moment.scene.bodies[i];
+    if (body.fixed) continue;
+    const Mat3 turn = matrix_of(body.orientation).transpose() * matrix_of(moment.before.orientation(i));
+    body.inertia = (turn * body.inertia * turn.transpose()).eval();
+  }
+}
+
 void fall_asleep(Body& body, double) {
   if (body.velocity.norm() > 0.05 || body.angular_velocity.norm() > 0.05) return;
   body.velocity.setZero(), body.angular_velocity.setZero();
@@ -52,6 +63,7 @@ std::vector<Fault> step_faults() {
       on_stepping("gyroscopic term dropped", gyroscopic(-1)),
       on_stepping("sign of the gyroscopic term", gyroscopic(-2)),
       on_stepping("gyroscopic term doubled", gyroscopic(1)),
+      on_stepping("stale-inertia", keep_old_inertia),
   };
   for (Fault& fault : faults_of_step_size()) all.push_back(std::move(fault));
   const std::vector<Fault> of_state = {

@@ -8,6 +8,7 @@
 #include "adapters/mujoco/mujoco_model.h"
 #include "core/base/eigen_of.h"
 #include "core/base/error.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -72,13 +73,36 @@ class Exporter {
     add_springs();
     add_loops();
     add_motors();
-    for (const ContactPair& pair : scene_.contact_pairs)
-      leave_out(fmt::format("the contact of '{}' and '{}'", scene_.body_name(pair.a), scene_.body_name(pair.b)),
-                "has a friction of its own; that of the rest is written");
+    add_exclusions();
+    for (const ContactPair& pair : scene_.contact_pairs) {
+      if (pair.law.collides) leave_out(of_pair(pair), "has a friction of its own; that of the rest is written");
+    }
     if (scene_.contact_default.restitution > 0) leave_out("restitution", "MuJoCo has none");
     for (const TimedForce& force : scene_.forces)
       leave_out(fmt::format("a force on '{}'", scene_.body_name(force.body)), "MuJoCo's files have no timed forces");
     return std::move(out_);
+  }
+
+  std::string of_pair(const ContactPair& pair) const {
+    return fmt::format("the contact of '{}' and '{}'", scene_.body_name(pair.a), scene_.body_name(pair.b));
+  }
+  bool is_plane(int body) const {
+    return scene_.bodies[body].shape && std::holds_alternative<Plane>(*scene_.bodies[body].shape);
+  }
+
+  // An exclusion names two bodies. Planes are geoms of the world, so one cannot be excluded without the others.
+  void add_exclusions() {
+    std::string rows;
+    for (const ContactPair& pair : scene_.contact_pairs) {
+      if (pair.law.collides || !can_meet(scene_.bodies[pair.a], scene_.bodies[pair.b])) continue;
+      if (is_plane(pair.a) || is_plane(pair.b)) {
+        leave_out(of_pair(pair), "never touch, which MJCF cannot say of a plane: they collide");
+        continue;
+      }
+      rows += fmt::format("    <exclude body1=\"{}\" body2=\"{}\"/>\n", escaped(scene_.body_name(pair.a)),
+                          escaped(scene_.body_name(pair.b)));
+    }
+    if (!rows.empty()) add("  <contact>\n{}  </contact>\n", rows);
   }
 
   void add_fixed(int index) {

@@ -14,8 +14,8 @@
 namespace rigor {
 namespace {
 
-constexpr const char* kIsSeen = "is there to be seen";
-constexpr const char* kOfTwo = "of a joint of more than one axis a scene has neither limits nor springs nor dampers";
+constexpr const char* kIsSeen = "changes no motion: is only drawn";
+constexpr const char* kOfTwo = "a scene's joint of several axes has no limits, springs or dampers";
 
 double largest(double a, double b) { return std::max(a, b); }
 
@@ -77,10 +77,10 @@ class Importer {
     model_.gravity = vector_at(option.gravity, 0);
     leave_out_if((option.disableflags & ~kSwitchesTaken) != 0, path_, "<flag>", "switches off parts of one engine");
     leave_out_if(option.density != 0 || option.viscosity != 0, path_, "density and viscosity",
-                 "are of a medium, which a scene does not have");
-    leave_out_if(m_.nsensor > 0, path_, fmt::format("{} sensors", m_.nsensor), "measure and move nothing");
+                 "belong to a medium, which no scene has");
+    leave_out_if(m_.nsensor > 0, path_, fmt::format("{} sensors", m_.nsensor), "changes no motion: they only measure");
     leave_out_if(m_.npair > 0, path_, fmt::format("{} contact pairs", m_.npair),
-                 "have surfaces of their own; those of their geoms are taken");
+                 "have their own surfaces; those of their geoms are taken");
     leave_out_if(m_.nskin > 0, path_, fmt::format("{} skins", m_.nskin), kIsSeen);
   }
 
@@ -92,7 +92,7 @@ class Importer {
     link.angular_velocity = vector_at(velocity, 0), link.velocity = vector_at(velocity, 1);
     link.touches_own_model = true;
     link.is_static = m_.body_mocapid[body] >= 0;
-    leave_out_if(link.is_static, link.where, "its being mocap", "is moved by a program: it stays where it is");
+    leave_out_if(link.is_static, link.where, "its being mocap", "would be moved by a program: it stays where it is");
     if (m_.body_mass[body] > 0) {
       const BodyPose inertial{vector_at(m_.body_ipos, body), turn_at(m_.body_iquat, body)};
       link.inertial.push_back(
@@ -103,12 +103,14 @@ class Importer {
 
   BodyPose pose_of(int body) const { return body == 0 ? BodyPose() : model_.links[link_of(body)].pose; }
 
-  // The joints of a body together: none holds it to its parent, one is one of the scene's, and some that share an
-  // anchor are the universal or the ball joint that they make.
+  // A body without joints is fixed to its parent. One joint becomes a joint of the scene. Two or three hinges that
+  // share an anchor become a universal or a ball joint.
   void read_joints(int body) {
     const int count = m_.body_jntnum[body], first = m_.body_jntadr[body];
     LinkJoint row;
-    row.joint.a = link_of(m_.body_parentid[body]), row.joint.b = link_of(body);
+    // MuJoCo lets a body touch a parent that is part of the world, and no other parent.
+    const int parent = m_.body_parentid[body];
+    row.joint.a = m_.body_weldid[parent] == 0 ? kWorld : link_of(parent), row.joint.b = link_of(body);
     row.where = count > 0 ? at("joint", mjOBJ_JOINT, first) : at("body", mjOBJ_BODY, body);
     if (count == 0 && m_.body_mocapid[body] >= 0) return;
     for (int k = first; k < first + count; ++k) leave_out_losses(k);
@@ -118,9 +120,8 @@ class Importer {
       if (m_.jnt_type[first] == mjJNT_FREE) return;
       read_only_joint(first, row);
     } else if (!read_several(first, count, row)) {
-      return leave_out(
-          row.where, fmt::format("it and {} more of its body", count - 1),
-          "a scene has one joint between two bodies, and no kind of it is these together: the body is free");
+      return leave_out(row.where, fmt::format("it and {} more of its body", count - 1),
+                       "no joint of a scene equals these together: the body is free");
     }
     if (count > 0) row.joint.name = name_of(mjOBJ_JOINT, first, "");
     row_of_joint_.resize(static_cast<std::size_t>(m_.njnt), -1);
@@ -136,15 +137,14 @@ class Importer {
     return (pose_of(m_.jnt_bodyid[joint]).orientation * vector_at(m_.jnt_axis, joint)).normalized();
   }
 
-  // What acts on a joint's speed and no scene has.
+  // Names effects on a joint's speed that no scene has.
   void leave_out_losses(int joint) {
     const int type = m_.jnt_type[joint], dof = m_.jnt_dofadr[joint];
     const bool has_coordinate = type == mjJNT_HINGE || type == mjJNT_SLIDE;
     const std::string where = at("joint", mjOBJ_JOINT, joint);
-    leave_out_if(m_.dof_armature[dof] != 0, where, "armature",
-                 "is the inertia of a drive's rotor, which a scene does not have");
+    leave_out_if(m_.dof_armature[dof] != 0, where, "armature", "is the inertia of a rotor, which no scene has");
     leave_out_if(m_.dof_frictionloss[dof] != 0, where, "frictionloss",
-                 "is dry friction in a joint, which a scene does not have");
+                 "is dry friction, which no joint of a scene has");
     if (!has_coordinate) leave_out_springs(joint);
   }
 
@@ -210,9 +210,8 @@ class Importer {
         break;
       }
       default:
-        return leave_out(
-            where, "its shape",
-            "is a cylinder, an ellipsoid, a mesh or a height field, which a scene does not have: nothing touches it");
+        return leave_out(where, "its shape",
+                         "is a cylinder, an ellipsoid, a mesh or a height field: nothing touches it");
     }
     leave_out_if(m_.geom_priority[geom] != 0, where, "priority",
                  "chooses whose surface counts; the greater friction is taken");
@@ -227,7 +226,7 @@ class Importer {
 
   void read_equality(int k) {
     const std::string where = at("equality", mjOBJ_EQUALITY, k);
-    if (!m_.eq_active[k]) return leave_out(where, "it", "is not active");
+    if (!m_.eq_active[k]) return leave_out(where, "it", "changes no motion: is not active");
     LinkJoint row;
     row.where = where, row.joint.name = name_of(mjOBJ_EQUALITY, k, "");
     row.joint.a = link_of(m_.eq_obj2id[k]), row.joint.b = link_of(m_.eq_obj1id[k]);
@@ -246,9 +245,9 @@ class Importer {
       const Ends ends = ends_of(m_.eq_obj1id[k]);
       row.joint.a = ends.a, row.joint.b = ends.b, row.joint.type = DistanceJoint{ends.point_a, ends.point_b};
     } else {
-      return leave_out(where, "it", "couples joints or tendons, which a scene does not");
+      return leave_out(where, "it", "couples joints or tendons, which no scene does");
     }
-    leave_out(where, "its softness", "is of one engine: in a scene joints do not give way");
+    leave_out(where, "its softness", "belongs to one engine: a scene's joints are hard");
     model_.joints.push_back(std::move(row));
   }
 
@@ -270,8 +269,8 @@ class Importer {
   void read_tendon(int k) {
     const std::string where = at("tendon", mjOBJ_TENDON, k);
     leave_out_if(m_.tendon_frictionloss[k] != 0, where, "frictionloss",
-                 "is dry friction, which a scene's springs do not have");
-    leave_out_if(m_.tendon_limited[k], where, "range", "bounds a length, which a scene does not");
+                 "is dry friction, which no spring of a scene has");
+    leave_out_if(m_.tendon_limited[k], where, "range", "bounds a length, which no scene does");
     if (m_.tendon_stiffness[k] == 0 && m_.tendon_damping[k] == 0) return;
     if (!is_straight(k))
       return leave_out(where, "its spring and damper", "a scene's springs are straight, from one point to another");
@@ -280,34 +279,47 @@ class Importer {
                               m_.tendon_lengthspring[k]});
   }
 
-  // Nobody controls it: what is left of force = gain * 0 + bias is a constant, a spring and a damper.
+  // The control that the drive has at the start. Nothing changes it later.
+  double control_of(int k) const {
+    const mjtNum* range = m_.actuator_ctrlrange + 2 * k;
+    const double control = start_.ctrl[k];
+    return m_.actuator_ctrllimited[k] ? std::clamp(control, double{range[0]}, double{range[1]}) : control;
+  }
+
+  // A drive of fixed control is a constant, a spring and a damper: force = gain * control + bias.
   void read_actuator(int k) {
     const std::string where = at("actuator", mjOBJ_ACTUATOR, k);
-    const mjtNum* bias = m_.actuator_biasprm + mjNBIAS * k;
-    const bool is_still = m_.actuator_biastype[k] == mjBIAS_NONE ||
-                          (m_.actuator_biastype[k] == mjBIAS_AFFINE && bias[0] == 0 && bias[1] == 0 && bias[2] == 0);
-    if (is_still) return leave_out(where, "it", "is a drive that nobody controls: it does nothing");
+    const mjtNum *bias = m_.actuator_biasprm + mjNBIAS * k, *gain = m_.actuator_gainprm + mjNGAIN * k;
+    const double control = control_of(k);
+    const bool has_bias = m_.actuator_biastype[k] != mjBIAS_NONE,
+               is_affine = !has_bias || m_.actuator_biastype[k] == mjBIAS_AFFINE,
+               is_plain = is_affine && m_.actuator_gaintype[k] == mjGAIN_FIXED && m_.actuator_dyntype[k] == mjDYN_NONE;
+    const double b0 = has_bias ? bias[0] : 0, b1 = has_bias ? bias[1] : 0, b2 = has_bias ? bias[2] : 0;
+    const bool is_driven = control != 0 && gain[0] != 0;
+    if (is_affine && !is_driven && b0 == 0 && b1 == 0 && b2 == 0)
+      return leave_out(where, "it", "its control is zero from start to end: the drive does nothing");
     const bool is_of_joint = m_.actuator_trntype[k] == mjTRN_JOINT && row_of_joint_[m_.actuator_trnid[2 * k]] >= 0;
     const double gear = m_.actuator_gear[6 * k];
-    if (!is_of_joint || m_.actuator_biastype[k] != mjBIAS_AFFINE || m_.actuator_dyntype[k] != mjDYN_NONE ||
-        m_.actuator_forcelimited[k] || bias[1] > 0 || bias[2] > 0 || gear == 0)
-      return leave_out(where, "it", "is a drive whose law no spring, damper and motor of a scene makes");
+    if (!is_plain || !is_of_joint || m_.actuator_forcelimited[k] || b1 > 0 || b2 > 0 || gear == 0)
+      return leave_out(where, "it", "a scene has no drive that follows this law");
     const int joint = m_.actuator_trnid[2 * k], row = row_of_joint_[joint];
     Joint& driven = model_.joints[row].joint;
     if (!free_axis(driven)) return leave_out(where, "it", "drives a joint without an axis of its own");
-    // gear (bias0 + bias1 gear q + bias2 gear q'), q = x + qpos0: a second spring beside the joint's own.
-    const double stiffness = -bias[1] * gear * gear,
-                 rest = stiffness > 0 ? bias[0] / (-bias[1] * gear) - start_.qpos[m_.jnt_qposadr[joint]] : 0;
-    driven.damping += -bias[2] * gear * gear;
+    // gear (c + b1 gear q + b2 gear q') with c = gain * control + b0 and q = x + q(0): a second spring at the joint.
+    const double constant = gain[0] * control + b0, stiffness = -b1 * gear * gear,
+                 rest = stiffness > 0 ? constant / (-b1 * gear) - start_.qpos[m_.jnt_qposadr[joint]] : 0;
+    driven.damping += -b2 * gear * gear;
     if (stiffness > 0) {
       driven.rest = (driven.stiffness * driven.rest + stiffness * rest) / (driven.stiffness + stiffness);
       driven.stiffness += stiffness;
-    } else if (bias[0] != 0) {
+    } else if (constant != 0) {
       Motor motor;
-      motor.joint = row, motor.effort = bias[0] * gear;
+      motor.joint = row, motor.effort = constant * gear;
       model_.motors.push_back(motor);
     }
-    leave_out(where, "its control", "is zero: it is the spring and the damper that it then is");
+    leave_out(where, "its control",
+              fmt::format("stays {:g}, as at the start: the drive becomes {}", control,
+                          stiffness > 0 ? "a spring and a damper" : "a constant effort and a damper"));
   }
 
   std::string path_;
@@ -325,10 +337,9 @@ LinkModel read_with_mujoco(const std::string& path, const std::string& keyframe)
   const mujoco_library::Data start = mujoco_start(*model, path, keyframe);
   LinkModel read = Importer(path, *model, *start).read();
   if (model->nkey > 0 && keyframe.empty())
-    read.left_out.add(
-        path, fmt::format("{} keyframes", model->nkey),
-        fmt::format("are states to begin from; the model's own is taken. To import another: --keyframe {}",
-                    keyframes_of(*model).front()));
+    read.left_out.add(path, fmt::format("{} keyframes", model->nkey),
+                      fmt::format("are other starts; the model's own is taken. rigor import --keyframe {} takes one",
+                                  keyframes_of(*model).front()));
   if (const std::string warnings = mujoco_library::take_warnings(); !warnings.empty())
     read.left_out.add(path, "MuJoCo's warning", warnings);
   return read;

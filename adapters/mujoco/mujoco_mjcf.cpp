@@ -7,6 +7,7 @@
 
 #include "core/engine/engine_failure.h"
 #include "core/engine/option_values.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -95,11 +96,18 @@ class Writer {
   void write_fixed(int index) {
     const Body& body = scene_.bodies[index];
     const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
-    if (is_plane) write_geom(index);  // it is given in W
+    // A plane is given in W. An exclusion names bodies, so a plane that is kept apart belongs to its own body.
+    if (is_plane && !is_kept_apart(index)) write_geom(index);
     add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index), text_of(body.position), text_of(body.orientation));
-    if (!is_plane) write_geom(index);
+    if (!is_plane || is_kept_apart(index)) write_geom(index);
     write_sites(index);
     add("</body>\n");
+  }
+
+  bool is_kept_apart(int body) const {
+    return std::any_of(scene_.contact_pairs.begin(), scene_.contact_pairs.end(), [=](const ContactPair& pair) {
+      return !pair.law.collides && (pair.a == body || pair.b == body);
+    });
   }
 
   void write_body(int index, int depth = 1) {
@@ -131,8 +139,10 @@ class Writer {
   void write_geom(int index) {
     const Body& body = scene_.bodies[index];
     if (!body.collides) return;
-    add(R"(<geom name="g{}" {} {}/>)", index, std::visit(GeomOf{}, *body.shape),
-        friction_of(scene_.contact_default, false));
+    Shape shape = *body.shape;
+    auto* plane = std::get_if<Plane>(&shape);
+    if (plane && is_kept_apart(index)) plane->offset -= plane->normal.dot(body.position);  // in the body's frame
+    add(R"(<geom name="g{}" {} {}/>)", index, std::visit(GeomOf{}, shape), friction_of(scene_.contact_default, false));
   }
 
   // The points of springs and distance joints.
@@ -254,7 +264,11 @@ class Writer {
     add("<contact>\n");
     for (const ContactPair& pair : scene_.contact_pairs) {
       const Body &a = scene_.bodies[pair.a], &b = scene_.bodies[pair.b];
-      if (!a.collides || !b.collides || (a.fixed && b.fixed)) continue;
+      if (!can_meet(a, b)) continue;
+      if (!pair.law.collides) {
+        add("<exclude body1=\"{}\" body2=\"{}\"/>\n", name_of(pair.a), name_of(pair.b));
+        continue;
+      }
       add("<pair geom1=\"g{}\" geom2=\"g{}\" {}/>\n", pair.a, pair.b, friction_of(pair.law, true));
     }
     add("</contact>\n");

@@ -26,7 +26,10 @@ void take_switches(mjModel& model) {
     std::fill_n(model.jnt_stiffness, model.njnt, 0), std::fill_n(model.dof_damping, model.nv, 0);
     std::fill_n(model.tendon_stiffness, model.ntendon, 0), std::fill_n(model.tendon_damping, model.ntendon, 0);
   }
-  if (is_off(mjDSBL_ACTUATION)) std::fill_n(model.actuator_biastype, model.nu, static_cast<int>(mjBIAS_NONE));
+  if (is_off(mjDSBL_ACTUATION)) {
+    std::fill_n(model.actuator_biastype, model.nu, static_cast<int>(mjBIAS_NONE));
+    std::fill_n(model.actuator_gainprm, mjNGAIN * model.nu, 0);
+  }
 }
 
 std::vector<std::string> keyframes_of(const mjModel& model) {

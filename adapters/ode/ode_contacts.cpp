@@ -56,12 +56,13 @@ void OdeWorld::find_contacts() {
 void OdeWorld::touch(void* self, dGeomID a, dGeomID b) { static_cast<OdeWorld*>(self)->add_contacts(a, b); }
 
 void OdeWorld::add_contacts(dGeomID a, dGeomID b) {
-  dContact found[kMaxContacts];
-  const int count = dCollide(a, b, kMaxContacts, &found[0].geom, sizeof(dContact));
-  if (count == 0) return;
   const auto index_of = [](dGeomID geom) {
     return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom)));
   };
+  if (!laws_.may_touch(index_of(a), index_of(b))) return;
+  dContact found[kMaxContacts];
+  const int count = dCollide(a, b, kMaxContacts, &found[0].geom, sizeof(dContact));
+  if (count == 0) return;
   dSurfaceParameters surface = surface_of(laws_.of(index_of(a), index_of(b)));
   if (contact_erp_ != dWorldGetERP(world_)) {  // which is then the joints' alone
     surface.mode |= dContactSoftERP;

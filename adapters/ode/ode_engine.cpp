@@ -65,8 +65,8 @@ EngineInfo OdeEngine::info() const {
           .version = dODE_VERSION,
           .precision = dCheckConfiguration("ODE_double_precision") ? "double" : "single",
           .features = joined(joined(contacts_of_all_shapes(), joints_of_all_kinds()),
-                             {"spring", "timed-force", "fixed-body", "restitution", "friction:none", "friction:coulomb",
-                              "friction:infinite"}),
+                             {"contact-filter", "spring", "timed-force", "fixed-body", "restitution", "friction:none",
+                              "friction:coulomb", "friction:infinite"}),
           .methods = {by_size(), worldstep(), quickstep()}};
 }
 

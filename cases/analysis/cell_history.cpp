@@ -12,11 +12,12 @@
 namespace rigor {
 namespace {
 
-constexpr double kSameBits = 1.001;  // four digits are kept of an error, which is the same in each run of one program
-constexpr double kNoise = 1e-12;     // what is smaller is rounding
+constexpr double kSameBits = 1.001;    // a history keeps four digits of an error
+constexpr double kNoise = 1e-12;       // smaller errors are rounding
+constexpr double kNoiseOfCost = 0.01;  // the smallest relative noise of a measured time that counts as real
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// The metric that the last entry has, the one that says most first.
+// The most telling metric of the last entry that has this cell.
 std::string metric_of(const std::vector<HistoryEntry>& history, const std::string& key) {
   for (auto entry = history.rbegin(); entry != history.rend(); ++entry) {
     const auto cell = entry->cells.find(key);
@@ -31,7 +32,7 @@ std::string metric_of(const std::vector<HistoryEntry>& history, const std::strin
   return "";
 }
 
-// Errors repeat bit for bit, so that each change of theirs is one of the program.
+// Errors repeat bit for bit, so each change of an error is a change of the program.
 std::vector<std::size_t> changes_of_errors(const std::vector<double>& values) {
   std::vector<std::size_t> changes;
   double before = kNone;
@@ -45,14 +46,14 @@ std::vector<std::size_t> changes_of_errors(const std::vector<double>& values) {
   return changes;
 }
 
-// Costs are measured, on the machine of the last entry alone; what there is beyond their noise Pettitt's test says.
+// Costs are measured and have noise. The test takes logarithms, so a change counts as a ratio.
 std::vector<std::size_t> changes_of_costs(const std::vector<double>& values) {
-  std::vector<double> there;
+  std::vector<double> logarithms;
   std::vector<std::size_t> index, changes;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isnan(values[i])) there.push_back(values[i]), index.push_back(i);
+    if (values[i] > 0) logarithms.push_back(std::log(values[i])), index.push_back(i);
   }
-  for (const std::size_t change : change_points(there)) changes.push_back(index[change]);
+  for (const std::size_t change : change_points(logarithms, kNoiseOfCost)) changes.push_back(index[change]);
   return changes;
 }
 

@@ -1,4 +1,4 @@
-// How a cell moved along a history: its error and its cost, and where they changed their level.
+// The error and the cost of a cell from entry to entry of a history, and the entries where their level changes.
 #pragma once
 
 #include <string>
@@ -9,29 +9,30 @@
 namespace rigor {
 
 struct CellSeries {
-  std::vector<double> values;        // of each entry of the history; not a number where it has none
-  std::vector<std::size_t> changes;  // entries with which a new level begins
+  std::vector<double> values;        // one per entry of the history; NaN if the entry has none
+  std::vector<std::size_t> changes;  // the first entry of each new level
 };
 
 struct CellHistory {
-  std::string name, metric;  // case, engine and dt; the metric that says most of those it has
-  CellSeries error, cost;    // an error repeats bit for bit, so any change counts; a cost's has to be beyond its noise
+  std::string name, metric;  // case, engine and dt; the metric that is followed
+  CellSeries error, cost;    // any change of an error counts; a change of cost must exceed its noise
+                             // (change_point.h). Costs of machines other than the last entry's are left out.
   std::string status_change;
   bool has_changed() const { return !error.changes.empty() || !cost.changes.empty() || !status_change.empty(); }
 };
 
-// Of all cells whose names have one of `words` in them, or of all; by name.
+// The cells whose names contain one of `words`, sorted by name; all cells if there are no words.
 std::vector<CellHistory> cell_histories(const std::vector<HistoryEntry>& history,
                                         const std::vector<std::string>& words);
 
-// The levels, as medians, before and after a change.
+// The median levels before and after a change.
 struct LevelChange {
   double before, after;
   std::size_t entry;
 };
 LevelChange level_change(const CellSeries& series, std::size_t which);
 
-// Of values that are numbers; not a number of none.
+// Ignores NaN; NaN if nothing is left.
 double median_of(std::vector<double> values);
 
 }  // namespace rigor

@@ -1,4 +1,4 @@
-// Where a series changes its level, beyond what its own noise makes.
+// Finds where a series changes its level by more than its noise explains.
 #pragma once
 
 #include <cstddef>
@@ -6,17 +6,22 @@
 
 namespace rigor {
 
-// Pettitt's test (A. N. Pettitt, Applied Statistics 28 (1979) 126): U_t = sum over i <= t < j of sign(x_j - x_i); the
-// change is where |U_t| is largest, K, and as large by chance with the probability 2 exp(-6 K²/(T³ + T²)) at most. It
-// asks for ranks alone, so that a single outlier is no change. `index`: of the first value of the new level.
-struct ChangePoint {
-  std::size_t index = 0;
-  double chance = 1;
-};
-ChangePoint most_likely_change(const std::vector<double>& values);
+// The shortest level. A change therefore needs six values, three before it and three after it.
+inline constexpr std::size_t kShortestLevel = 3;
 
-// All of them at this chance of error each: where one is found, the series is parted there and both parts asked again.
-inline constexpr double kChance = 0.01;
-std::vector<std::size_t> change_points(const std::vector<double>& values, double chance = kChance);
+// Returns the index of the first value of each new level, in order.
+//
+// A split of the series is a change if the difference of the means of its two parts is large beside the noise times
+// sqrt(1/n1 + 1/n2), for n1 values before the split and n2 after it. Each mean leaves out the one value that favours
+// the change most, so a single outlier makes no change. There are two measures of the noise, each with its own
+// threshold:
+// - the pooled standard deviation within both parts, as in Student's t. It needs the fewest values.
+// - the median of |x[i+1] - x[i]|, which further changes hardly enlarge. It finds steps that are taken back.
+// If a split passes, the series is divided there and both parts are tested again.
+//
+// The thresholds hold for noise with an autocorrelation of up to 0.5 from one value to the next: a series of noise
+// alone shows a change with a probability of at most 1 %. White noise shows one in less than 0.1 %.
+// `least_noise`: a smaller noise is treated as this one, in the unit of the values.
+std::vector<std::size_t> change_points(const std::vector<double>& values, double least_noise = 0);
 
 }  // namespace rigor

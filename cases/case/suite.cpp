@@ -97,6 +97,13 @@ class Suite {
     std::sort(ids_.begin(), ids_.end());
   }
 
+  // Without the folder no word can name a case, so the folder is at fault and not the word.
+  void expect_folder() const {
+    std::error_code error;
+    if (!fs::is_directory(dir_, error))
+      throw InputError(fmt::format("--suite: there is no folder '{}'", dir_.string()));
+  }
+
   const std::vector<std::string>& ids() const { return ids_; }
   Found found(const std::string& id) const { return {id, (dir_ / (id + kExtension)).string()}; }
 
@@ -170,6 +177,7 @@ std::vector<Found> find_on_disk(const std::string& word, const Suite& suite) {
       throw InputError(fmt::format("{}: states the gates of the cases beside it and is none itself", word));
     return {suite.found_at(word)};
   }
+  suite.expect_folder();
   throw InputError(fmt::format("there is no case, family, file or folder '{}'{}; 'rigor list cases' names the cases",
                                word, did_you_mean(word, suite.words())));
 }
@@ -197,7 +205,8 @@ std::vector<Case> select_cases(const std::vector<std::string>& words, const std:
   for (const std::string& word : words) {
     for (Found& found : find_cases(word, suite)) selected.push_back(std::move(found));
   }
-  if (selected.empty()) throw InputError(fmt::format("{}: there is no case in the suite's folder", suite_dir));
+  if (selected.empty()) suite.expect_folder();
+  if (selected.empty()) throw InputError(fmt::format("--suite: there is no case in the folder '{}'", suite_dir));
 
   std::vector<Case> cases;
   std::set<std::string> seen;  // by file, however it was named

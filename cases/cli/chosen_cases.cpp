@@ -1,5 +1,7 @@
 #include "cases/cli/chosen_cases.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "cases/case/suite.h"
@@ -9,13 +11,26 @@
 #include "core/base/error.h"
 
 namespace rigor {
+namespace {
+
+void say_how_imported(const Case& definition) {
+  const std::string& file = definition.id;
+  const std::string falling = falls_freely(definition.scene);
+  if (!falling.empty())
+    say(fmt::format("{}: there is no ground, so '{}' falls freely; rigor import prints a case file to add one", file,
+                    falling));
+  const std::vector<std::string> losses = losses_of(definition.text);
+  if (losses.empty()) return;
+  say(fmt::format("{}: physics left out or assumed (rigor import lists each place):", file));
+  for (const std::string& loss : losses) say("  " + loss);
+}
+
+}  // namespace
 
 std::vector<Case> chosen_cases(const CommandLine& line, const Vocabulary& words) {
   std::vector<Case> cases = select_cases(line.words, line.suite_dir, words);
   for (const Case& definition : cases) {
-    if (!is_model_file(definition.id)) continue;
-    if (!leads(line)) continue;
-    for (const std::string& sentence : left_out_of(definition.text)) say(harmless("left out: " + sentence));
+    if (is_model_file(definition.id) && leads(line)) say_how_imported(definition);
   }
   return cases;
 }

@@ -1,4 +1,4 @@
-// The cases that a command line names; of what was imported on the way it is said what was left out.
+// The cases that a command line names. Losses of an import are reported on the way.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 namespace rigor {
 
 std::vector<Case> chosen_cases(const CommandLine& line, const Vocabulary& words);
-// With the line's steps and duration. A case of the suite or a folder that these do not suit is left out and named;
-// InputError for one that is named itself, and where none is left.
+
+// The same with the line's steps and duration. A case of a family or folder that these do not fit is left out and
+// named. Throws InputError for a case that is itself named, and if none is left.
 std::vector<Case> overridden_cases(const CommandLine& line, const Vocabulary& words);
 
 }  // namespace rigor

@@ -1,4 +1,4 @@
-// What was asked for on the command line. Words are checked by the command that uses them.
+// The values of a command line. Each command checks its own words.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct CommandLine {
   int jobs = 1;
   int every = 1;
   double limit = 120;  // s
-  double factor = 0;  // by which an error has to grow to be worse
+  double factor = 0;   // by which an error has to grow to be worse
   std::string out = "out";
   std::string suite_dir;
   std::string adapters_dir;          // of the known deviations
@@ -42,10 +42,10 @@ struct CommandLine {
   std::string printed;                 // --help or --version: what to print instead of doing anything
 };
 
-// Whether this process plans, judges and writes, or works for one that does.
+// Whether this process plans, judges and writes. Otherwise it works for one that does.
 inline bool leads(const CommandLine& line) { return line.executor == nullptr || line.executor->leads(); }
 
-// Throws InputError, with the near match of a word that is not known. `jobs`: without --jobs; 0: one a core.
+// Throws InputError with the nearest match of an unknown word. `jobs` is the default of --jobs; 0 means one a core.
 CommandLine parse_command_line(int argc, const char* const* argv, int jobs = 0);
 
 }  // namespace rigor

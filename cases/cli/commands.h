@@ -1,4 +1,4 @@
-// The table of commands: `rigor --help` and the near matches of a mistyped one are made from it.
+// The table of commands. `rigor --help`, completions and near matches are made from it.
 #pragma once
 
 #include <string>
@@ -12,12 +12,17 @@ namespace rigor {
 
 enum ExitCode { kGood = 0, kGateFailed = 1, kBadInput = 2, kBroken = 3 };
 
+struct Example {
+  std::string call, does;
+};
+
 struct CommandRow {
   std::string name;
   std::string summary;
-  std::string words;  // what its plain words are, "" if it takes none
+  std::string words;  // the name of its plain words, as "CASE"; "" if it takes none
   std::string words_summary;
   std::vector<std::string> options;
+  std::vector<Example> examples;
   int (*run)(const CommandLine& line, const EngineTable& engines);  // returns an ExitCode
 };
 
@@ -43,13 +48,13 @@ int settle_command(const CommandLine& line, const EngineTable& engines);
 int conform_command(const CommandLine& line, const EngineTable& engines);
 int diagnose_command(const CommandLine& line, const EngineTable& engines);
 
-// The run that --engine names, else the one engine of --plugin, else the one from outside. Throws InputError.
+// Returns the run that --engine names, else the only engine of --plugin or from outside. Throws InputError.
 RunName run_asked_for(const CommandLine& line, const EngineTable& engines);
 
-// What mistake the run's error looks like, on the cases that are named or else on Rigor's own choice.
+// Finds the mistake that explains the run's error, on the named cases or else on Rigor's own choice.
 MistakeReport diagnosed(const CommandLine& line, const EngineTable& engines, const RunName& run);
 
-// The one case that the words of `trace` and `truth` name.
+// Returns the one case that the words of a command name. Throws InputError.
 Case the_case(const CommandLine& line, const EngineTable& engines);
 
 }  // namespace rigor

@@ -1,4 +1,4 @@
-// rigor compare and rigor baseline: what changed between two results, and the short form of one to keep.
+// rigor compare lists what changed between two results. rigor baseline prints the short form of one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,10 +27,8 @@ void check_engine(const std::string& name) {
 
 int compare_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 2) {
-    throw InputError(
-        fmt::format("rigor compare: takes two files, OLD and NEW, and found {}; each is a results.json or a "
-                    "baseline",
-                    line.words.size()));
+    throw InputError(fmt::format(
+        "rigor compare: takes two files, OLD and NEW (a results.json or a baseline), and found {}", line.words.size()));
   }
   const Baseline before = read_baseline(line.words[0]), after = read_baseline(line.words[1]);
   const Changes changes = changes_between(before, after, line.factor);

@@ -1,11 +1,15 @@
-// rigor completion: what a shell completes, and the manual's page, made from the table of commands and their --help.
+// rigor completion: completions for shells and the manual page, from the table of commands and their --help.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
+#include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/report/json/machine.h"
+#include "cases/report/scene/scene_formats.h"
+#include "cases/report/trace/trace_formats.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
@@ -18,25 +22,68 @@ std::vector<std::string> options_of(const CommandRow& row) {
   return options;
 }
 
-std::string bash(const EngineTable& engines) {
-  std::vector<std::string> names, engine_names;
-  for (const CommandRow& row : commands()) names.push_back(row.name);
-  for (const EngineInfo& engine : engines.infos()) {
-    engine_names.push_back(engine.name);
-    for (const MethodInfo& method : engine.methods) engine_names.push_back(engine.name + "\\\\:" + method.name);
+template <typename Rows>
+std::vector<std::string> names_of(const Rows& rows) {
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.push_back(row.name);
+  return names;
+}
+
+// Ids and families of Rigor's own suite.
+std::vector<std::string> case_words() {
+  std::set<std::string> words;
+  for (const std::string& id : suite_ids(default_suite_dir())) {
+    words.insert(id);
+    for (auto slash = id.find('/'); slash != std::string::npos; slash = id.find('/', slash + 1))
+      words.insert(id.substr(0, slash));
   }
+  return {words.begin(), words.end()};
+}
+
+std::vector<std::string> engine_words(const EngineTable& engines, const std::string& colon) {
+  std::vector<std::string> words;
+  for (const EngineInfo& engine : engines.infos()) {
+    words.push_back(engine.name);
+    for (const MethodInfo& method : engine.methods) words.push_back(engine.name + colon + method.name);
+  }
+  return words;
+}
+
+// What a command's plain words may be, beside files.
+std::vector<std::string> plain_words(const CommandRow& row) {
+  if (row.words == "CASE") return case_words();
+  if (row.name == "history") return {"add", "show"};
+  if (row.name == "completion") return {"bash", "man", "zsh"};
+  if (row.name == "list") return {"cases", "engines", "integrators", "metrics", "truths"};
+  return {};
+}
+
+// The values of --format; empty for a command without it.
+std::vector<std::string> formats_of(const CommandRow& row) {
+  const bool takes = std::find(row.options.begin(), row.options.end(), "--format") != row.options.end();
+  if (!takes) return {};
+  return row.name == "export" ? names_of(scene_formats()) : names_of(trace_formats());
+}
+
+std::string bash(const EngineTable& engines) {
   std::string text = fmt::format(
       "# rigor completion bash > /usr/share/bash-completion/completions/rigor\n_rigor() {{\n"
-      "  local word=${{COMP_WORDS[COMP_CWORD]}} words=\"\"\n"
-      "  if [ \"$COMP_CWORD\" = 1 ]; then words=\"{} --help --version\"; else\n    case ${{COMP_WORDS[1]}} in\n",
-      fmt::join(names, " "));
-  for (const CommandRow& row : commands())
-    text += fmt::format("      {}) words=\"{}\" ;;\n", row.name, fmt::join(options_of(row), " "));
+      "  local word=${{COMP_WORDS[COMP_CWORD]}} words=\"\" formats=\"\"\n"
+      "  local cases=\"{}\"\n"
+      "  if [ \"$COMP_CWORD\" = 1 ]; then words=\"{} help version --help --version\"; else\n    case "
+      "${{COMP_WORDS[1]}} in\n",
+      fmt::join(case_words(), " "), fmt::join(names_of(commands()), " "));
+  for (const CommandRow& row : commands()) {
+    const std::string plain = row.words == "CASE" ? "$cases" : fmt::format("{}", fmt::join(plain_words(row), " "));
+    text += fmt::format("      {}) words=\"{} {}\" formats=\"{}\" ;;\n", row.name, fmt::join(options_of(row), " "),
+                        plain, fmt::join(formats_of(row), " "));
+  }
   return text + fmt::format(
-                    "    esac\n  fi\n  [ \"${{COMP_WORDS[COMP_CWORD-1]}}\" = --engine ] && words=\"{}\"\n"
+                    "    esac\n  fi\n  case ${{COMP_WORDS[COMP_CWORD-1]}} in\n    --engine) words=\"{}\" ;;\n"
+                    "    --format) words=$formats ;;\n  esac\n"
                     "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n}}\n"
                     "complete -o default -F _rigor rigor\n",
-                    fmt::join(engine_names, " "));
+                    fmt::join(engine_words(engines, "\\\\:"), " "));
 }
 
 // A quote ends a word of zsh, and a colon its name.
@@ -45,13 +92,25 @@ std::string zsh_word(std::string text) {
   return text;
 }
 
-std::string zsh(const EngineTable&) {
+std::string zsh(const EngineTable& engines) {
   std::string text =
-      "#compdef rigor\n# rigor completion zsh > a folder of $fpath, as _rigor\nlocal -a names\nnames=(\n";
+      "#compdef rigor\n# rigor completion zsh > a folder of $fpath, as _rigor\nlocal -a names cases\nnames=(\n";
   for (const CommandRow& row : commands()) text += fmt::format("  '{}:{}'\n", row.name, zsh_word(row.summary));
-  text += ")\nif (( CURRENT == 2 )); then _describe command names; return; fi\ncase $words[2] in\n";
-  for (const CommandRow& row : commands())
-    text += fmt::format("  {}) [[ $PREFIX == -* ]] && compadd -- {} ;;\n", row.name, fmt::join(options_of(row), " "));
+  text += fmt::format(")\ncases=({})\n", fmt::join(case_words(), " "));
+  text += "if (( CURRENT == 2 )); then _describe command names; return; fi\n";
+  text += fmt::format("if [[ $words[CURRENT-1] == --engine ]]; then compadd -- {}; return; fi\ncase $words[2] in\n",
+                      fmt::join(engine_words(engines, ":"), " "));
+  for (const CommandRow& row : commands()) {
+    text += fmt::format("  {})", row.name);
+    if (const auto formats = formats_of(row); !formats.empty())
+      text +=
+          fmt::format(" [[ $words[CURRENT-1] == --format ]] && {{ compadd -- {}; return; }};", fmt::join(formats, " "));
+    text += fmt::format(" [[ $PREFIX == -* ]] && compadd -- {}", fmt::join(options_of(row), " "));
+    const auto plain = plain_words(row);
+    if (!plain.empty())
+      text += row.words == "CASE" ? " || compadd -a cases" : fmt::format(" || compadd -- {}", fmt::join(plain, " "));
+    text += " ;;\n";
+  }
   return text + "esac\n[[ $PREFIX == -* ]] || _files\n";
 }
 
@@ -67,18 +126,24 @@ std::string roff(const std::string& text) {
 
 std::string manual(const EngineTable&) {
   std::string text = fmt::format(
-      ".TH RIGOR 1 \"\" \"rigor {}\"\n.SH NAME\nrigor \\- says how right a rigid\\-body simulator is\n"
+      ".TH RIGOR 1 \"\" \"rigor {}\"\n.SH NAME\nrigor \\- measure how accurate rigid\\-body simulators are\n"
       ".SH SYNOPSIS\n.B rigor\n.I COMMAND\n[words] [options]\n.SH COMMANDS\n",
       this_machine().program_version);
   for (const CommandRow& row : commands()) {
     const char* words[] = {"rigor", row.name.c_str(), "--help"};
     text += fmt::format(".SS {}\n.nf\n{}.fi\n", row.name, roff(parse_command_line(3, words).printed));
   }
+  text += ".SH EXAMPLES\n";
+  for (const CommandRow& row : commands()) {
+    for (const Example& example : row.examples)
+      text += fmt::format(".TP\n.B {}\n{}\n", roff(example.call), roff(example.does));
+  }
   return text +
          ".SH \"EXIT STATUS\"\n0 good; 1 a gate failed or a result got worse; 2 bad usage or bad input; 3 an engine or "
          "Rigor itself failed.\n"
-         ".SH ENVIRONMENT\n.B RIGOR_HOME\nthe folder of suite/ and adapters/, in place of those installed or built "
-         "with.\n";
+         ".SH ENVIRONMENT\n.TP\n.B RIGOR_HOME\nthe folder of suite/ and adapters/, in place of Rigor's own.\n"
+         ".TP\n.B RIGOR_PLUGINS\nengines from outside, separated by colons; see --plugin.\n"
+         ".TP\n.B COLUMNS\nthe width of tables, 60 to 100.\n";
 }
 
 struct Completion {
@@ -90,8 +155,7 @@ const std::vector<Completion> kCompletions = {{"bash", bash}, {"man", manual}, {
 }  // namespace
 
 int completion_command(const CommandLine& line, const EngineTable& engines) {
-  std::vector<std::string> names;
-  for (const Completion& kind : kCompletions) names.push_back(kind.name);
+  const std::vector<std::string> names = names_of(kCompletions);
   const std::string word = line.words.size() == 1 ? line.words.front() : "";
   for (const Completion& kind : kCompletions) {
     if (kind.name == word) return print(kind.text(engines)), kGood;

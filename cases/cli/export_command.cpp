@@ -1,4 +1,4 @@
-// rigor export: a case's scene in the format of another program.
+// rigor export: prints a case's scene in the format of another program.
 #include <fmt/format.h>
 
 #include "cases/cli/commands.h"
@@ -9,7 +9,7 @@
 namespace rigor {
 
 int export_command(const CommandLine& line, const EngineTable& engines) {
-  if (line.format.empty()) throw InputError("rigor export: takes --format mjcf or --format sdf");
+  if (line.format.empty()) throw InputError("rigor export: which format? Give --format mjcf or --format sdf");
   const SceneFormat& format = find_scene_format(line.format);
   LeftOut left_out;
   const std::string text = format.text(the_case(line, engines).scene, left_out);

@@ -11,6 +11,7 @@
 #include "cases/case/selection.h"
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/output.h"
+#include "cases/cli/paste.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/gates/failures.h"
 #include "cases/gates/quick.h"
@@ -25,29 +26,24 @@
 namespace rigor {
 namespace {
 
-// A gate wants what its gates judge, and no more than that unless engines or steps are named.
+// Without named engines or steps, `gate` runs only cells that a gate judges.
 bool is_gate(const CommandLine& line) { return line.command == "gate"; }
 
-// What no gate judges must not look like what passed.
+// A case without a gate must not look like one that passed.
 void expect_gates(const std::vector<Case>& cases) {
   std::vector<std::string> without;
   for (const Case& definition : cases) {
     if (definition.gates.empty()) without.push_back(definition.id);
   }
   if (without.size() == cases.size()) {
-    throw InputError(
-        fmt::format("rigor gate: no gate stands in {}, so there is nothing to judge; rigor run simulates "
-                    "without judging",
-                    fmt::join(without, ", ")));
+    throw InputError(fmt::format("rigor gate: there is no gate in {}, so there is nothing to judge; use rigor run",
+                                 fmt::join(without, ", ")));
   }
   if (!without.empty()) say(fmt::format("no gate judges {}", fmt::join(without, ", ")));
 }
 
-// Of a gate over another duration than the cases' own, in s.
 void tell_of_duration(double duration) {
-  say(fmt::format(
-      "limits hold for the cases' own durations, and are held here against {} s; no value is recorded for such runs",
-      duration));
+  say(fmt::format("the gates' limits are made for the cases' own durations, and are held here against {} s", duration));
 }
 
 std::vector<RunName> without_those_on_request(std::vector<RunName> runs) {
@@ -55,7 +51,7 @@ std::vector<RunName> without_those_on_request(std::vector<RunName> runs) {
   return runs;
 }
 
-// A line of a run's table.
+// A line below the table that names engines which run only if they are named.
 std::string left_out_text(const GridRun& run) {
   const std::string names = left_out_by_default(run.line, run.engines.infos());
   return names.empty() ? "" : fmt::format("on request (--engine NAME): {}\n", names);
@@ -68,15 +64,15 @@ Results planned(const CommandLine& line, const EngineTable& engines, const std::
   if (is_gate(line)) expect_gates(cases);
   if (is_gate(line) && line.duration) tell_of_duration(*line.duration);
   const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
-  // Who names engines wants these and no others.
+  // Named engines run alone.
   const auto of_gates = line.engines.empty() ? without_those_on_request(runs_of_gates(cases, runs, engines.infos()))
                                              : std::vector<RunName>();
   const Scope scope{!is_gate(line), is_gate(line) && line.engines.empty() && line.dt.empty()};
   return plan_grid(cases, runs, engines, scope, of_gates);
 }
 
-// Each report by itself, then all that could be written into place. Returns what could not, a sentence each; then the
-// folder keeps what was computed, for another run to go on from.
+// Writes each report by itself, then moves all that could be written into place. Returns a sentence for each that could
+// not. The folder then keeps the results, so that --resume continues from them.
 std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& folder) {
   std::vector<std::string> faults, trajectories;
   for (const ReportRow& report : reports()) {
@@ -88,7 +84,7 @@ std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& fo
   }
   if (!faults.empty()) folder.keep();
   if (faults.size() == reports().size()) {
-    faults.push_back("no report was written, so no output was changed; --resume goes on from what was computed");
+    faults.push_back("no report was written, so no output was changed; --resume continues the run");
     return faults;
   }
   for (const CaseResult& result : grid.cases) {
@@ -101,8 +97,7 @@ std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& fo
   return faults;
 }
 
-// A cell that crashed or ran out of time. The search for a stable step may take longer than it is given, which leaves a
-// gap in the table and says nothing against an engine; a crash in it does.
+// Whether a cell crashed or ran out of time. A search for the stable step may run out of time, but must not crash.
 bool something_broke(const Results& grid) {
   return std::any_of(grid.cases.begin(), grid.cases.end(), [](const CaseResult& result) {
     return std::any_of(
@@ -113,7 +108,7 @@ bool something_broke(const Results& grid) {
   });
 }
 
-// On a GitHub runner: annotations on stdout, where it looks for them, and the job's summary.
+// On a GitHub runner, prints annotations on stdout and appends to the job's summary.
 void tell_the_runner(const Results& grid, const std::vector<Failure>& rows) {
   const char *is_one = std::getenv("GITHUB_ACTIONS"), *summary = std::getenv("GITHUB_STEP_SUMMARY");
   if (is_one && std::string(is_one) == "true") print_table(annotations(rows) + warnings(grid));
@@ -124,7 +119,7 @@ void tell_the_runner(const Results& grid, const std::vector<Failure>& rows) {
   if (!file) say(fmt::format("the job's summary could not be written to '{}'", summary));
 }
 
-// Of the whole suite each gate of a family has to meet something; of a part of it, another part may be meant.
+// In a run of the whole suite, each gate of a family must have a cell that it judges.
 std::vector<Failure> unmet_of_whole_suite(const CommandLine& line, const Results& grid) {
   std::vector<Failure> rows;
   if (!line.words.empty() || !line.engines.empty() || !line.dt.empty() || line.quick) return rows;
@@ -134,11 +129,20 @@ std::vector<Failure> unmet_of_whole_suite(const CommandLine& line, const Results
   return rows;
 }
 
+// The command that diagnoses the first failure of a run. Empty if there is none.
+std::string diagnose_text(const CommandLine& line, const std::vector<Failure>& rows) {
+  const auto of_run = std::find_if(rows.begin(), rows.end(), [](const Failure& row) { return !row.engine.empty(); });
+  if (of_run == rows.end()) return "";
+  return fmt::format("rigor diagnose {} --engine {}{}", shell_word(of_run->case_id), shell_word(of_run->engine),
+                     same_sources(line));
+}
+
 int answer_of_gate(const GridRun& run, int ending) {
   std::vector<Failure> rows = failures(run.grid);
   const std::vector<Failure> unmet = unmet_of_whole_suite(run.line, run.grid);
   rows.insert(rows.end(), unmet.begin(), unmet.end());
-  print_table(console_table(run.grid) + left_out_text(run) + gate_summary(run.grid) + failures_text(rows));
+  print_table(console_table(run.grid) + left_out_text(run) + gate_summary(run.grid) +
+              failures_text(rows, diagnose_text(run.line, rows)));
   tell_the_runner(run.grid, rows);
   return ending == kGood && !(all_gates_hold(run.grid) && unmet.empty()) ? int{kGateFailed} : ending;
 }
@@ -207,8 +211,8 @@ std::vector<std::string> report_files() {
   return names;
 }
 
-// A gate of other runs or steps than were named is none of their business; but where no gate judged anything at all,
-// nothing held.
+// Gates of other runs or steps than those named are not checked. If then no gate judged anything, all are checked, so
+// that the gate fails.
 void judge(GridRun& run) {
   const auto check = [&](Asked asked) {
     for (CaseResult& result : run.grid.cases) {

@@ -1,4 +1,6 @@
-// rigor import: a robot's file as a case file on stdout, and on stderr what it says that a scene cannot.
+// rigor import: prints a robot's file as a case file; stderr lists what a scene cannot say.
+#include <fmt/format.h>
+
 #include "cases/case/case_reader.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
@@ -9,12 +11,17 @@
 namespace rigor {
 
 int import_command(const CommandLine& line, const EngineTable& engines) {
-  if (line.words.size() != 1) throw InputError("rigor import: takes one file, URDF, SDF or MJCF");
+  if (line.words.size() != 1)
+    throw InputError(fmt::format("rigor import: takes one file (URDF, SDF or MJCF), and found {}", line.words.size()));
   const std::string& path = line.words.front();
   const Import made = import_model(path, line.keyframe);
-  // What is printed is what `rigor run` reads.
-  read_case_text(made.case_text, path, path, vocabulary_of(engines.infos()));
-  for (const std::string& sentence : made.left_out) say(harmless("left out: " + sentence));
+  // The printed text must be a case file that `rigor run` reads.
+  const Case definition = read_case_text(made.case_text, path, path, vocabulary_of(engines.infos()));
+  const std::string falling = falls_freely(definition.scene);
+  if (!falling.empty()) say(fmt::format("{}: there is no ground, so '{}' falls freely", path, falling));
+  if (!made.losses.empty()) say(fmt::format("{}: {} kinds of physics left out or assumed:", path, made.losses.size()));
+  for (const std::string& loss : made.losses) say("  " + loss);
+  for (const std::string& sentence : made.left_out) say("left out: " + sentence);
   print(made.case_text);
   return kGood;
 }

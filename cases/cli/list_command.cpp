@@ -1,4 +1,4 @@
-// rigor list: every table, printed from itself.
+// rigor list: prints the tables of cases, engines, integrators, metrics and truths.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "cases/cli/output.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/metrics/metric.h"
+#include "cases/report/console/layout.h"
 #include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
@@ -99,7 +100,11 @@ std::string table(const Rows& rows) {
   std::size_t width = 0;
   for (const auto& [name, text] : rows) width = std::max(width, name.size());
   std::string out;
-  for (const auto& [name, text] : rows) out += "  " + name + std::string(width + 2 - name.size(), ' ') + text + "\n";
+  // Lines stay whole in a pipe, where other programs read them.
+  const bool is_wrapped = terminal_width().has_value();
+  for (const auto& [name, text] : rows)
+    out +=
+        "  " + name + std::string(width + 2 - name.size(), ' ') + (is_wrapped ? wrapped(text, width + 4) : text) + "\n";
   return out;
 }
 
@@ -110,8 +115,8 @@ int list_command(const CommandLine& line, const EngineTable& engines) {
   for (const Kind& kind : kKinds) names.push_back(kind.name);
   for (const std::string& word : line.words) {
     if (std::find(names.begin(), names.end(), word) == names.end()) {
-      throw InputError(
-          fmt::format("list: there are no '{}'{}; there are: {}", word, did_you_mean(word, names), listed(names)));
+      throw InputError(fmt::format("rigor list: there is no list '{}'{}; there are: {}", word,
+                                   did_you_mean(word, names), listed(names)));
     }
   }
   std::string text;

@@ -1,4 +1,4 @@
-// rigor merge: of the parts that --shard made, the whole, judged and written as one run or sweep would have.
+// rigor merge: joins the parts that --shard made, judges them and writes the reports of one run or sweep.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -79,8 +79,7 @@ void gather_trajectories(const Merged& merged, const OutputFolder& folder) {
 
 int merge_command(const CommandLine& line, const EngineTable& engines) {
   if (line.words.empty())
-    throw InputError(
-        "rigor merge: takes the folders of all parts that 'rigor run --shard K/N --out DIR' wrote, or gate, or sweep");
+    throw InputError("rigor merge: takes the folders of all parts, as 'rigor run --shard K/N --out DIR' wrote them");
   std::vector<Part> parts;
   for (const std::string& word : line.words) parts.push_back(read_part(word));
   check_same_grid(parts);

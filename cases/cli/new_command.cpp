@@ -1,4 +1,4 @@
-// rigor new: a case file that runs, with what each line is for.
+// rigor new: writes a case file that runs, with a comment on each line.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -8,6 +8,7 @@
 
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/paste.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -56,7 +57,7 @@ because = "why this bound: what was measured or derived, and the margin"
 
 std::string file_of(const std::string& name) { return name.ends_with(".toml") ? name : name + ".toml"; }
 
-// The last part of a path, without its ending.
+// Returns the last part of a path without its ending.
 std::string title_of(const std::string& file) {
   const std::string last = file.substr(file.rfind('/') + 1);
   return last.substr(0, last.size() - std::strlen(".toml"));
@@ -73,7 +74,7 @@ int new_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 1) throw InputError("rigor new: takes one name, as my-case, for the file my-case.toml");
   const std::string file = file_of(line.words.front()), title = title_of(file);
   check_name(title);
-  // What is there is never written over.
+  // Never overwrites a file.
   const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) throw InputError(fmt::format("rigor new: {}: {}; give another name", file, std::strerror(errno)));
   const std::string text = fmt::format(kCase, title);
@@ -81,7 +82,8 @@ int new_command(const CommandLine& line, const EngineTable&) {
   const int failure = errno;
   if (close(descriptor) != 0 || written != static_cast<ssize_t>(text.size()))
     throw std::runtime_error(fmt::format("{} was not written whole: {}", file, std::strerror(failure)));
-  say(fmt::format("{} is written; next: rigor run {} --engine ode --engine bullet --engine core:rk4", file, file));
+  say(fmt::format("{} is written; next: rigor run {} --engine ode --engine bullet --engine core:rk4", file,
+                  shell_word(file)));
   return kGood;
 }
 

@@ -1,4 +1,4 @@
-// rigor open: the report of the last run in the browser, by the desktop's own xdg-open.
+// rigor open: shows the report of the last run in the browser, by the desktop's xdg-open.
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -16,7 +16,7 @@ extern char** environ;
 namespace rigor {
 namespace {
 
-// Empty where it did, else why not.
+// Returns why the browser did not open; empty if it did.
 std::string why_not_shown(const std::string& file) {
   std::string program = "xdg-open", argument = file;
   const std::array<char*, 3> words = {program.data(), argument.data(), nullptr};
@@ -24,7 +24,7 @@ std::string why_not_shown(const std::string& file) {
   if (const int error = posix_spawnp(&child, program.c_str(), nullptr, nullptr, words.data(), environ))
     return fmt::format("xdg-open cannot be started: {}", std::strerror(error));
   int status = 0;
-  if (waitpid(child, &status, 0) != child) return "xdg-open went away";
+  if (waitpid(child, &status, 0) != child) return "xdg-open was lost";
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
   return "xdg-open found no browser";
 }
@@ -36,10 +36,10 @@ int open_command(const CommandLine& line, const EngineTable&) {
   const std::filesystem::path file = std::filesystem::absolute(std::filesystem::path(line.out) / "report.html", error);
   if (error || !std::filesystem::is_regular_file(file, error))
     throw InputError(
-        fmt::format("rigor open: there is no {}; 'rigor run' makes it, or --out says where it is", file.string()));
+        fmt::format("rigor open: there is no {}; 'rigor run' writes it, and --out names its folder", file.string()));
   const std::string why = why_not_shown(file.string());
   if (why.empty()) return kGood;
-  say(fmt::format("{}; the report is one file, to be opened in any browser: {}", why, file.string()));
+  say(fmt::format("{}; open this file in a browser: {}", why, file.string()));
   return kBroken;
 }
 

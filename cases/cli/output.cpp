@@ -1,8 +1,10 @@
 #include "cases/cli/output.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,7 +13,7 @@
 namespace rigor {
 namespace {
 
-// Bytes of the UTF-8 character that begins at `at`, 0 where none does.
+// The length in bytes of the UTF-8 character at `at`; 0 if none begins there.
 std::size_t length_of_character(const std::string& text, std::size_t at) {
   const unsigned char first = text[at];
   const std::size_t length = first < 0x80   ? 1
@@ -27,10 +29,17 @@ std::size_t length_of_character(const std::string& text, std::size_t at) {
   return length;
 }
 
-// C0 and DEL, and C1, of which some terminals obey the single bytes too: those are no UTF-8.
+// C0, DEL and C1. Some terminals also obey single bytes of C1, which are no UTF-8.
 bool is_control(const std::string& text, std::size_t at) {
   const unsigned char first = text[at];
   return first < 0x20 || first == 0x7f || (first == 0xc2 && static_cast<unsigned char>(text[at + 1]) < 0xa0);
+}
+
+// "\x1b" for an escape, "\xc2\x9b" for a control character of two bytes.
+std::string escaped(const std::string& character) {
+  std::string text;
+  for (const char byte : character) text += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+  return text;
 }
 
 }  // namespace
@@ -46,9 +55,10 @@ std::string harmless(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = length_of_character(text, at);
-    const bool is_good = length > 0 && (text[at] == '\n' || !is_control(text, at));
-    out += is_good ? text.substr(at, length) : " ";
-    at += length > 0 ? length : 1;
+    const std::string character = text.substr(at, std::max<std::size_t>(length, 1));
+    const bool is_good = length > 0 && (character == "\n" || !is_control(text, at));
+    out += is_good ? character : character == "\t" ? "\\t" : escaped(character);
+    at += character.size();
   }
   return out;
 }

@@ -1,26 +1,25 @@
-// What goes to stdout and stderr. Whoever reads it may stop reading or not be there at all: that is no fault, and no
-// exit code hangs on it.
+// Writes to stdout and stderr. A reader that stops or is absent changes no exit code.
 #pragma once
 
 #include <string>
 
 namespace rigor {
 
-// Opens /dev/null on those of descriptors 0 to 2 that are closed, or the next file or pipe to be opened would be taken
-// for a standard stream. Throws std::runtime_error if that cannot be done.
+// Opens /dev/null on descriptors 0 to 2 that are closed. Otherwise the next file or pipe would become a standard
+// stream. Throws std::runtime_error if that fails.
 void take_standard_streams();
 
-// The text with each character that a terminal would obey, new lines apart, turned into a blank.
+// The text with each character that a terminal would obey as an escape, "\x1b". New lines stay.
 std::string harmless(const std::string& text);
 
-// Data on stdout: as it is, unless stdout is a terminal. Throws std::runtime_error if it cannot be written, for another
-// reason than that nobody reads it.
+// Prints data on stdout, unchanged unless stdout is a terminal. Throws std::runtime_error if it cannot be written,
+// except when nobody reads it.
 void print(const std::string& text);
 
-// For people to read, wherever it goes.
+// Prints text for people to read.
 inline void print_table(const std::string& text) { print(harmless(text)); }
 
-// A line on stderr, "rigor: " before it. Never throws: there is nowhere left to say it.
+// Prints a line on stderr that begins with "rigor: ". Never throws.
 void say(const std::string& line);
 
 }  // namespace rigor

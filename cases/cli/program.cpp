@@ -10,11 +10,12 @@
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "core/base/error.h"
+#include "core/base/json_words.h"
 
 namespace rigor {
 namespace {
 
-// Those of the program and, for a command that takes them, those from outside.
+// The built-in engines, and those from outside if the command takes them.
 EngineTable engines_for(const CommandRow& row, const CommandLine& line) {
   EngineTable table = built_in_engines();
   if (std::find(row.options.begin(), row.options.end(), "--plugin") == row.options.end()) return table;
@@ -27,7 +28,7 @@ EngineTable engines_for(const CommandRow& row, const CommandLine& line) {
 }
 
 int answer(int argc, const char* const* argv, const Executor* executor) {
-  // Of several processes each is one job already.
+  // Each of several processes is one job already.
   CommandLine line = parse_command_line(argc, argv, executor ? 1 : 0);
   line.executor = executor;
   for (const CommandRow& row : commands()) {
@@ -38,7 +39,7 @@ int answer(int argc, const char* const* argv, const Executor* executor) {
   return print_table(line.printed), kGood;
 }
 
-// Of several processes only one speaks.
+// Only one of several processes speaks.
 int refuse(const std::string& why, ExitCode code, const Executor* executor) {
   if (executor && !executor->leads()) {
     executor->stay_out(why);
@@ -51,7 +52,7 @@ int refuse(const std::string& why, ExitCode code, const Executor* executor) {
 }  // namespace
 
 int run_program(int argc, const char* const* argv, const Executor* executor) {
-  // Such a write then fails with a reason, which is said.
+  // A write then fails with a reason, which is reported.
   std::signal(SIGPIPE, SIG_IGN), std::signal(SIGXFSZ, SIG_IGN);
   try {
     take_standard_streams();
@@ -59,11 +60,21 @@ int run_program(int argc, const char* const* argv, const Executor* executor) {
   } catch (const InputError& error) {
     return refuse(error.what(), kBadInput, executor);
   } catch (const std::exception& error) {
-    return refuse(error.what(), kBroken, executor);
+    return refuse(in_words(error), kBroken, executor);
   } catch (const Dismissed&) {
     executor->stay_out("");
     return kGood;
   }
+}
+
+std::string interruption_text(int argc, const char* const* argv) {
+  const std::string name = argc > 1 ? argv[1] : "";
+  const auto takes_resume = [&](const CommandRow& row) {
+    return row.name == name && std::find(row.options.begin(), row.options.end(), "--resume") != row.options.end();
+  };
+  const bool can_resume = std::any_of(commands().begin(), commands().end(), takes_resume);
+  return can_resume ? "interrupted; no output was changed. The same command with --resume continues the run"
+                    : "interrupted; no output was changed";
 }
 
 }  // namespace rigor

@@ -1,4 +1,4 @@
-// rigor run and rigor gate: the grid, its reports, its exit code; or one shard of it, for `rigor merge`.
+// rigor run and rigor gate: run a grid, write its reports and return its exit code. Or run one shard for `rigor merge`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ int run_whole(const CommandLine& line, const EngineTable& engines) {
   return answer(run, is_whole);
 }
 
-// How many there are of its own, and what they came to.
+// The number of cells of this shard, and their results.
 std::string summary_of(const CommandLine& line, const Results& share) {
   std::map<std::string, int> counts;
   int all = 0;
@@ -57,12 +57,11 @@ std::string summary_of(const CommandLine& line, const Results& share) {
     }
   }
   std::string text = fmt::format("shard {} of {}: {} cells", line.shard.index, line.shard.count, all);
-  // Before its gates are judged, which takes all parts, `pass` says no more than that it ran.
+  // Gates are judged with all parts. Before that a cell that passes has only run.
   for (const auto& [word, count] : counts) text += fmt::format(", {} {}", count, word == "pass" ? "ran" : word);
-  return text + fmt::format(
-                    "\nThis is a part and no result: 'rigor merge DIR... --out DIR' makes the whole of all {} "
-                    "parts and judges it.\n",
-                    line.shard.count);
+  return text +
+         fmt::format("\nThis is one part of the result. To join and judge all {} parts: rigor merge DIR... --out DIR\n",
+                     line.shard.count);
 }
 
 int run_shard(const CommandLine& line, const EngineTable& engines) {

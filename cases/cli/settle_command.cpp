@@ -1,6 +1,6 @@
-// rigor settle: the file with the nearest initial state that its joints allow. Poses are always allowed, for anchors
-// and axes are those at t = 0: it is velocities that may break a joint, and the nearest are those that differ least in
-// the metric of the masses.
+// rigor settle: prints the file with the nearest initial state that its joints allow. Poses are always allowed, because
+// anchors and axes are given at t = 0. Velocities may break a joint; the nearest differ least in the metric of the
+// masses.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,13 +18,13 @@
 namespace rigor {
 namespace {
 
-// Only bodies that some joint moves change, and by no rounding where they already do as the joints allow.
+// Changes only bodies with joints, and nothing if no joint is broken.
 void settle(Scene& scene) {
   const auto breaks = [&](const Joint& joint) { return !why_rates_break(scene, joint).empty(); };
   if (std::none_of(scene.joints.begin(), scene.joints.end(), breaks)) return;
   BodyTable state(scene.bodies.size());
   set_initial_state(scene, state.columns());
-  Scene at_rest = scene;  // what velocities that break joints would do next means nothing
+  Scene at_rest = scene;  // velocities that break joints would only disturb
   for (Body& body : at_rest.bodies) body.velocity = body.angular_velocity = Vec3::Zero();
   const System system(at_rest);
   Joints joints(at_rest, system);
@@ -40,13 +40,14 @@ void settle(Scene& scene) {
 }  // namespace
 
 int settle_command(const CommandLine& line, const EngineTable&) {
-  if (line.words.size() != 1) throw InputError("rigor settle: takes one file");
+  if (line.words.size() != 1)
+    throw InputError(fmt::format("rigor settle: takes one file, and found {}", line.words.size()));
   const TomlFile file = TomlFile::read(line.words.front());
   const TomlValue value = file.root(case_keys()).at("scene");
   Scene scene = read_scene(value, InitialVelocities::as_given);
   settle(scene);
   const std::string text = with_velocities(file, value, scene);
-  // What could not be written (the copies of an array) must not look as if it had been.
+  // Velocities of the copies of an array cannot be written. Reading the text again finds that.
   try {
     const TomlFile settled = TomlFile::parse(text, line.words.front());
     read_scene(settled.root(case_keys()).at("scene"));

@@ -1,5 +1,5 @@
-// rigor trace and rigor truth: one run in the format asked for, or the truth as CSV. Both work in a child process, for
-// an engine may crash and a truth may take too long.
+// rigor trace prints one run in a chosen format, rigor truth prints the truth as CSV. Both work in a child process,
+// because an engine may crash and a truth may take too long.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,10 +23,10 @@ namespace {
 
 constexpr std::size_t kChunk = 1 << 20;  // bytes of rows sent at a time
 
-// What a message begins with: whether it is a line for stderr, or data.
+// The first byte of a message: a line for stderr, or data.
 constexpr char kNote = '\x01', kData = '\x02';
 
-// Runs it in a child and prints what it sends. Returns the exit code.
+// Runs the work in a child and prints its messages. Returns the exit code.
 int print_from_child(const std::string& what, double limit, const std::function<void(const Channel&)>& work) {
   int code = kGood;
   const auto on_message = [](std::size_t, const std::string& message) {
@@ -57,8 +57,8 @@ void send_trajectory(const Simulation& run, const Scene& scene, int every, const
                              run.not_finite->time, scene.body_name(run.not_finite->body)));
   }
   if (!run.solver_warning.empty()) {
-    channel.send(fmt::format("{}from {:.6g} s on not what its method promises: {}", kNote, run.solver_warning_time,
-                             run.solver_warning));
+    channel.send(fmt::format("{}after {:.6g} s the solver no longer met its tolerance: {}", kNote,
+                             run.solver_warning_time, run.solver_warning));
   }
 }
 
@@ -74,7 +74,13 @@ void send_truth(const Truth& truth, const Scene& scene, const std::vector<double
   channel.send(rows);
 }
 
-// From the start to the end of the run in its coarsest steps.
+std::string steps_of(const Case& definition) {
+  std::vector<std::string> texts;
+  for (const StepSize& step : definition.dt) texts.push_back(step.text);
+  return fmt::format("{} has {}", definition.id, fmt::join(texts, ", "));
+}
+
+// The instants of the run in its coarsest steps.
 std::vector<double> times_of_run(const Case& definition) {
   double dt = 0;
   for (const StepSize& step : definition.dt) dt = std::max(dt, step.seconds);
@@ -86,7 +92,8 @@ std::vector<double> times_of_run(const Case& definition) {
 }  // namespace
 
 Case the_case(const CommandLine& line, const EngineTable& engines) {
-  if (line.words.empty()) throw InputError(fmt::format("rigor {}: which case? see rigor list cases", line.command));
+  if (line.words.empty())
+    throw InputError(fmt::format("rigor {}: takes one case; rigor list cases names them", line.command));
   std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
   if (cases.size() == 1) return cases.front();
   throw InputError(
@@ -96,12 +103,13 @@ Case the_case(const CommandLine& line, const EngineTable& engines) {
 int trace_command(const CommandLine& line, const EngineTable& engines) {
   Case definition = the_case(line, engines);
   if (line.engines.size() != 1) throw InputError("rigor trace: takes exactly one --engine; see rigor list engines");
-  if (line.dt.size() != 1) throw InputError("rigor trace: takes exactly one --dt");
+  const std::vector<StepSize> steps = line.dt.empty() ? definition.dt : line.dt;
+  if (steps.size() != 1) throw InputError("rigor trace: takes exactly one --dt; " + steps_of(definition));
   const TraceFormat& format = line.format.empty() ? trace_formats().front() : find_trace_format(line.format);
-  override_run(definition, {line.dt, line.duration});
+  override_run(definition, {steps, line.duration});
   const RunName run = parse_run_name(line.engines.front(), engines.infos());
   const Engine& engine = engines.find(run.engine);
-  const double dt = line.dt.front().seconds;
+  const double dt = steps.front().seconds;
   const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt);
   if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
   return print_from_child(run.text, line.limit, [&](const Channel& channel) {

@@ -11,6 +11,7 @@
 #include "cases/results/input_file.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
+#include "core/base/json_words.h"
 #include "core/base/near_match.h"
 
 namespace rigor {
@@ -157,7 +158,7 @@ RegressionText regression_text(const std::string& results_path, const std::strin
       out.text += line.dump() + "\n";
     }
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: is no results.json of this version: {}", results_path, error.what()));
+    throw InputError(fmt::format("{}: is no results.json of this version: {}", results_path, in_words(error)));
   }
   if (out.text.empty())
     throw InputError(fmt::format("{}: no regression there found a value of '{}'", results_path, engine));

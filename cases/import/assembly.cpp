@@ -13,7 +13,7 @@
 namespace rigor {
 namespace {
 
-// Where a shape's centre counts as the centre of mass: nanometres, which no file of a robot means.
+// A shape this near to the centre of mass counts as centred. No robot's file distinguishes nanometres.
 constexpr double kCentred = 1e-9;  // m
 
 class Assembler {
@@ -37,7 +37,7 @@ class Assembler {
   }
 
  private:
-  // "arm", and for more of it "arm/2", "arm/3".
+  // Returns "arm", then "arm/2", "arm/3".
   std::string free_name(const std::string& wanted) {
     std::string name = wanted == "world" ? "world/link" : wanted;
     for (int n = 2; !names_.insert(name).second; ++n) name = fmt::format("{}/{}", wanted, n);
@@ -85,7 +85,7 @@ class Assembler {
     return body;
   }
 
-  // Of the link and of what hangs on it without mass.
+  // Returns the shapes of the link and of links without mass that move with it.
   std::vector<ShapeSource> shapes_of(int index) {
     if (members_.empty()) {
       members_.resize(model_.links.size());
@@ -97,7 +97,7 @@ class Assembler {
     for (const int i : members_[index]) {
       for (const LinkShape& shape : model_.links[i].shapes) {
         if (std::holds_alternative<Plane>(shape.shape)) {
-          model_.left_out.add(shape.where, "its plane", "moves, and a scene's planes do not");
+          model_.left_out.add(shape.where, "its plane", "would move, and a scene's planes do not: nothing touches it");
         } else {
           shapes.push_back({-1, i, &shape});
         }
@@ -109,16 +109,12 @@ class Assembler {
   void add_part(const ShapeSource& source, std::size_t count, LinkInertial& inertial, std::vector<Body>& parts,
                 std::vector<ShapeSource>& sources) {
     const LinkShape& shape = *source.shape;
-    if (!touching_->can_be_touched(source.link, shape))
-      return model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
-                                 "is not centred on the mass, and there is nothing that could touch it");
     const auto share = take_share(inertial, shape.shape, shape.pose, 1.0 / static_cast<double>(count));
     if (!share)
       return model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
-                                 "no part of the link's mass can be put there for a body of its own");
-    model_.left_out.add(
-        shape.where, "its " + shape_name(shape.shape),
-        fmt::format("is a body of its own, fixed to the link's, with {:g} kg of its mass", share->mass));
+                                 "a body there would need more of the link's inertia than it has: nothing touches it");
+    model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
+                        "changes no motion: becomes a body of its own, fixed to the link's, with a part of its mass");
     Body part;
     part.mass = share->mass, part.inertia = inertia_of(shape.shape, share->mass);
     part.position = shape.pose.position, part.orientation = shape.pose.orientation, part.shape = shape.shape;
@@ -136,7 +132,7 @@ class Assembler {
     return body;
   }
 
-  // What a turn leaves by rounding off the diagonal is none.
+  // Removes the entries off the diagonal that are only rounding of a turn.
   static Mat3 cleaned(Mat3 inertia) {
     constexpr double kRounding = 1e-15;
     const double largest = inertia.cwiseAbs().maxCoeff();
@@ -145,7 +141,6 @@ class Assembler {
   }
 
   void keep_source(ShapeSource source, int body) {
-    if (!touching_->can_be_touched(source.link, *source.shape)) return;
     source.body = body;
     scene_.bodies[body].collides = true;
     sources_.push_back(source);
@@ -156,7 +151,7 @@ class Assembler {
     for (const LinkShape& shape : link.shapes) {
       if (!touching_->can_be_touched(index, shape)) {
         model_.left_out.add(shape.where, "its " + shape_name(shape.shape),
-                            "is held by the world, and there is nothing that could touch it");
+                            "changes no motion: stands still, and nothing that moves may touch it");
         continue;
       }
       Body body;
@@ -181,7 +176,7 @@ class Assembler {
       if (joint.a == RigidGroups::kNone || joint.b == RigidGroups::kNone) continue;  // which was said of its link
       if (joint.a == joint.b) {
         const bool is_all = std::holds_alternative<FixedJoint>(joint.type);
-        if (!is_all) model_.left_out.add(row.where, "the joint", "what it joins does not move");
+        if (!is_all) model_.left_out.add(row.where, "the joint", "changes no motion: both its links stand still");
         continue;
       }
       if (auto* distance = std::get_if<DistanceJoint>(&joint.type)) {
@@ -199,7 +194,7 @@ class Assembler {
     }
   }
 
-  // A point in a link's frame, in that of its body.
+  // Takes a point from a link's frame to the frame of its body.
   Vec3 in_body(int link, const Vec3& point) const {
     const Vec3 in_W = link == kWorld ? point : (model_.links[link].pose * BodyPose{point}).position;
     const int body = body_of(link);

@@ -5,7 +5,7 @@
 namespace rigor {
 namespace {
 
-// The inertia of a mass at `offset` about the origin, beyond its inertia about itself (Steiner).
+// The inertia of a point mass at `offset` about the origin (Steiner).
 Mat3 steiner(double mass, const Vec3& offset) {
   return mass * (offset.squaredNorm() * Mat3::Identity() - offset * offset.transpose());
 }
@@ -20,7 +20,7 @@ LinkInertial rest_of(const LinkInertial& whole, double part, const Shape& shape,
   return {mass, whole.pose * BodyPose{centre, Quat::Identity()}, (inertia + inertia.transpose()) / 2};
 }
 
-// Not only allowed, but no needle or plate that only rounding keeps so: each moment is a hundredth short of the limit.
+// Whether matter can have this inertia, with a margin of a hundredth against rounding.
 bool can_be(const Mat3& inertia) {
   const double trace = inertia.trace();
   return why_no_inertia(inertia - 0.005 * trace * Mat3::Identity()).empty();

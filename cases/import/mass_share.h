@@ -1,4 +1,4 @@
-// A rigid body as two: a part that a given shape of even density makes, and the rest.
+// Splits a rigid body in two: a part of even density in a given shape, and the rest.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@ struct MassShare {
   LinkInertial rest;  // about its own centre of mass; in the axes of the whole
 };
 
-// The largest part, a power of two and at most `most` of the whole, whose rest still is a body that matter can make;
-// none if there is no such part down to a thousandth.
+// Takes the largest part whose rest is still a body that matter can make. Parts are powers of two, at most `most` of
+// the whole. Returns nothing if even a thousandth is too much.
 std::optional<MassShare> take_share(const LinkInertial& whole, const Shape& shape, const BodyPose& at, double most);
 
 }  // namespace rigor

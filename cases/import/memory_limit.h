@@ -1,4 +1,4 @@
-// Work on files that nobody vouches for, in bounded memory.
+// Limits the memory of work on untrusted files.
 #pragma once
 
 #include <sys/resource.h>
@@ -16,7 +16,7 @@ namespace rigor {
 // A sanitizer's own maps are terabytes.
 inline constexpr bool kMemoryIsCounted = !kHasAddressSanitizer && !kHasThreadSanitizer;
 
-// While it lives no more than `most` bytes can be had beside those that the process has.
+// Limits the process to `most` bytes beyond its present use, until it is destroyed.
 class MemoryLimit {
  public:
   explicit MemoryLimit(std::size_t most) {

@@ -1,5 +1,4 @@
-// What URDF and SDF have in common: turns by roll, pitch and yaw, moments of inertia as six attributes' worth of
-// numbers.
+// Shared by URDF and SDF: turns by roll, pitch and yaw, inertias of six numbers, checks and reasons.
 #pragma once
 
 #include "cases/import/xml.h"
@@ -11,7 +10,7 @@ Quat turn_of(double roll, double pitch, double yaw);
 
 Mat3 symmetric(double xx, double yy, double zz, double xy, double xz, double yz);
 
-// Refuses, at its element, what no body can have.
+// Each refuses a value that no body can have, and names its element.
 void check_mass(double mass, const XmlElement& element);
 void check_inertia(const Mat3& inertia, const XmlElement& element);
 double positive(double value, const char* what, const XmlElement& element);
@@ -19,13 +18,17 @@ double not_negative(double value, const char* what, const XmlElement& element);
 Vec3 vector_of(const std::vector<double>& numbers);  // three; zero if there are none
 Vec3 direction_of(const Vec3& axis, const XmlElement& element);
 
-double least_of(double a, double b);  // how two surfaces make a pair's friction and restitution
+double least_of(double a, double b);  // combines two surfaces into the friction and restitution of a pair
 
-// Why what stands beside a link or joint in nearly every file is not in a scene.
-inline constexpr const char* kIsSeen = "is there to be seen; a scene shows the shapes that collide";
-inline constexpr const char* kBoundsADrive = "bounds a drive, and the joint has none";
-inline constexpr const char* kDryFriction = "is dry friction in a joint, which a scene does not have";
-inline constexpr const char* kMesh = "is a mesh, which a scene does not have: nothing touches it";
-inline constexpr const char* kCylinder = "is a cylinder, which a scene does not have: nothing touches it";
+// Reasons why elements of nearly every file are not in a scene.
+inline constexpr const char* kSensor = "changes no motion: is a sensor";
+inline constexpr const char* kController = "changes no motion: is for a controller";
+inline constexpr const char* kSaysNothing = "changes no motion";
+inline constexpr const char* kOfASolver = "changes no motion: is a setting of one solver";
+inline constexpr const char* kIsSeen = "changes no motion: is only drawn";
+inline constexpr const char* kBoundsADrive = "changes no motion: bounds a drive, and the joint has none";
+inline constexpr const char* kDryFriction = "is dry friction, which no joint of a scene has";
+inline constexpr const char* kMesh = "is a mesh, which no scene has: nothing touches it";
+inline constexpr const char* kCylinder = "is a cylinder, which no scene has: nothing touches it";
 
 }  // namespace rigor

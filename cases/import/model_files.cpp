@@ -24,7 +24,7 @@ fs::path folder_of(const std::string& model) {
   return fs::weakly_canonical(folder.empty() ? "." : folder, error);
 }
 
-// The files that MuJoCo opens are named by `file`, or by one of the six faces of a texture.
+// MuJoCo opens the paths in `file` and in the six faces of a texture.
 bool names_a_file(const std::string& attribute) { return attribute.starts_with("file"); }
 bool names_a_folder(const std::string& attribute) {
   return attribute == "meshdir" || attribute == "texturedir" || attribute == "assetdir";
@@ -42,7 +42,7 @@ class MjcfFiles {
     collect(file);
   }
 
-  // Once every folder that a file may be in is known.
+  // Runs when all folders that may hold a file are known.
   void check_assets() const {
     for (const auto& [where, element, path] : assets_) {
       for (const std::string& folder : folders_) check(where, element, folder.empty() ? path : folder + "/" + path);

@@ -1,4 +1,4 @@
-// The files that a model may name: those in its own folder and below, after links are resolved.
+// A model may name files in its own folder and below. Symbolic links are followed before the check.
 #pragma once
 
 #include <string>
@@ -11,8 +11,7 @@ namespace rigor {
 // "model://", names no path of this machine and is never looked up.
 void check_stays_in_folder(const std::string& path, const XmlElement& element, const std::string& model);
 
-// The same of every file that MuJoCo would read for the model, those that it includes among them; and that they are not
-// larger than a model may be.
+// Does the same for every file that MuJoCo would read for the model, included files too. Also checks their size.
 void check_files_of_mjcf(const XmlFile& model);
 
 }  // namespace rigor

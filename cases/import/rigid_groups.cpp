@@ -11,7 +11,7 @@
 namespace rigor {
 namespace {
 
-// Sets of links, 0 that of the world; a set goes by its least member, so that the world keeps its own.
+// Sets of links. A set is named by its least member, so that the world keeps set 0.
 class Sets {
  public:
   explicit Sets(std::size_t links) : of_(links + 1) { std::iota(of_.begin(), of_.end(), 0); }
@@ -31,7 +31,7 @@ class Sets {
 
 bool is_fixed(const LinkJoint& row) { return std::holds_alternative<FixedJoint>(row.joint.type); }
 
-// By link + 1: the joints at it.
+// Returns the joints at each link, by link + 1.
 std::vector<std::vector<int>> joints_at(const LinkModel& model) {
   std::vector<std::vector<int>> at(model.links.size() + 1);
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
@@ -41,8 +41,8 @@ std::vector<std::vector<int>> joints_at(const LinkModel& model) {
   return at;
 }
 
-// Each link that joints connect with the world, with what is static or, without these, with the root of its tree:
-// `see(joint, from, to)` in an order in which `from` was seen before.
+// Visits each link that joints connect with the world, with a static link or else with the root of its tree. Calls
+// `see(joint, from, to)` after it has visited `from`.
 void walk(const LinkModel& model, const std::function<void(int joint, int from, int to)>& see) {
   const auto at = joints_at(model);
   std::vector<bool> seen(model.links.size() + 1, false);
@@ -75,7 +75,7 @@ void walk(const LinkModel& model, const std::function<void(int joint, int from, 
   for (int i = 0; i < count; ++i) walk_from(i);
 }
 
-// What the world holds, through fixed joints.
+// Marks links that fixed joints hold to the world as static.
 void hold_by_world(LinkModel& model) {
   const auto at = joints_at(model);
   std::vector<int> waiting = {kWorld};
@@ -94,7 +94,7 @@ void hold_by_world(LinkModel& model) {
   }
 }
 
-// A set of links without mass: with what it hangs on, or left out, or nothing that could be simulated.
+// A set of links without mass is left out at the end of a tree, and refused between moving links.
 void settle_massless(LinkModel& model, RigidGroups& groups) {
   const auto massless = [&](int link) {
     return groups.body[link] != kWorld && groups.body[link] != RigidGroups::kNone &&
@@ -124,12 +124,12 @@ void settle_massless(LinkModel& model, RigidGroups& groups) {
     }
     if (moving.size() > 1) continue;
     for (const int link : members[set]) {
-      model.left_out.add(model.links[link].where, "the link", "it has no mass, and nothing that has any hangs on it");
+      model.left_out.add(model.links[link].where, "the link", "changes no motion: it has no mass and carries none");
       groups.body[link] = RigidGroups::kNone;
     }
     for (const int k : moving) {
       is_gone[k] = true;
-      model.left_out.add(model.joints[k].where, "the joint", "what hangs on it has no mass");
+      model.left_out.add(model.joints[k].where, "the joint", "changes no motion: what it carries has no mass");
       const Joint& joint = model.joints[k].joint;
       for (const int end : {joint.a, joint.b}) {
         if (end != kWorld && groups.body[end] >= 0 && massless(end)) waiting.push_back(groups.body[end]);
@@ -158,7 +158,7 @@ BodyPose turned_about(const Vec3& anchor, const Vec3& axis, double angle) {
   return {anchor - turn * anchor, turn};
 }
 
-// What a joint at its start has moved what hangs on its b by, at the zero of all joints before it.
+// The motion of the joint's b at its start, with all joints before it at zero.
 BodyPose motion_at_start(const LinkJoint& row) {
   if (const auto* hinge = std::get_if<HingeJoint>(&row.joint.type))
     return turned_about(hinge->anchor, hinge->axis, row.start);
@@ -251,12 +251,6 @@ void take_to_start(LinkModel& model) {
     move(by[row.joint.a + 1], row.joint);
     row.joint.lower -= row.start, row.joint.upper -= row.start, row.joint.rest -= row.start, row.start = 0;
   }
-}
-
-std::vector<int> depths(const LinkModel& model) {
-  std::vector<int> depth(model.links.size() + 1, 0);
-  walk(model, [&](int, int from, int to) { depth[to + 1] = depth[from + 1] + 1; });
-  return {depth.begin() + 1, depth.end()};
 }
 
 }  // namespace rigor

@@ -1,5 +1,4 @@
-// Which links move as one: what the world holds, and links without mass, which are but frames of the link that a fixed
-// joint holds them to.
+// Finds links that move as one: links that the world holds, and links without mass on a fixed joint.
 #pragma once
 
 #include "core/scene/link_model.h"
@@ -11,14 +10,11 @@ struct RigidGroups {
   std::vector<int> body;            // by link: the link with the mass that it moves with, kWorld, or kNone
 };
 
-// What has no mass and hangs on nothing that has is left out, and named; what would move without mass is refused.
+// Leaves out links without mass that carry none, and names them. Throws InputError if a link without mass would move.
 RigidGroups rigid_groups(LinkModel& model);
 
-// Takes every joint to its `start`, with all that it carries; limits, rests and starts are from there on. A start
-// beyond a limit becomes the limit, which is said.
+// Takes every joint to its `start`, with all that it carries. Limits and rests then count from there. A start beyond a
+// limit becomes the limit, and model.left_out names it.
 void take_to_start(LinkModel& model);
-
-// By link: how many joints it is away from the world or from the root of its tree.
-std::vector<int> depths(const LinkModel& model);
 
 }  // namespace rigor

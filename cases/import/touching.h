@@ -1,7 +1,8 @@
-// Which shapes of a model may touch which, and what a scene, in which all that collide may touch, makes of it.
+// Finds the shapes of a model that may touch each other. A scene lists the pairs that never do.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -9,15 +10,24 @@
 
 namespace rigor {
 
+// A body of the scene, and the shape that it was made of.
+struct ShapeSource {
+  int body = -1, link = -1;
+  const LinkShape* shape = nullptr;
+};
+
 class Touching {
  public:
-  // `body`: of RigidGroups.
+  using Pairs = std::set<std::pair<int, int>>;  // of sources, the smaller index first
+
+  // `body`: see RigidGroups.
   Touching(const LinkModel& model, const std::vector<int>& body);
 
-  // Whether anything in the model may touch the shape.
+  // Whether anything that moves in the model may touch this shape.
   bool can_be_touched(int link, const LinkShape& shape) const;
-  // Whether the file lets two shapes touch, of which one is part of a moving link.
-  bool may_touch(int link_a, const LinkShape& a, int link_b, const LinkShape& b) const;
+  // Every pair of sources that the file keeps apart, without pairs that stand still. Nothing if there are more than
+  // `most`.
+  std::optional<Pairs> kept_apart(const std::vector<ShapeSource>& sources, std::size_t most) const;
 
  private:
   struct Kind {
@@ -26,23 +36,18 @@ class Touching {
     unsigned type, affinity;
     auto operator<=>(const Kind&) const = default;
   };
+  void find_parts();
   Kind kind_of(int link, const LinkShape& shape) const;
   static bool may_touch(const Kind& a, const Kind& b);
 
   const LinkModel& model_;
   const std::vector<int>& body_;
-  std::map<Kind, std::set<int>> kinds_;  // and the first two bodies that have it
-  std::set<std::pair<int, int>> apart_;  // bodies that a joint holds together, or that the file keeps apart
+  std::map<Kind, std::set<int>> kinds_;  // with the first two bodies of each kind
+  std::vector<int> part_;                // by link; fixed joints make one part of many links
+  Pairs joined_;                         // parts that a joint connects
 };
 
-// A body of the scene that a shape was made of.
-struct ShapeSource {
-  int body = -1, link = -1;
-  const LinkShape* shape = nullptr;
-};
-
-// Ends the part in contact of bodies that overlap at t = 0 with what the file keeps them apart from, as few as will do
-// and those next to the root first; says which. Then gives each pair of the others its friction and restitution.
+// Lists the pairs that never touch in the scene, and gives the others their friction and restitution.
 void settle_contacts(LinkModel& model, const Touching& touching, const std::vector<ShapeSource>& sources, Scene& scene);
 
 }  // namespace rigor

@@ -23,18 +23,18 @@ class UrdfReader {
   LinkModel read() {
     if (root_.name() != "robot") root_.refuse("found this at the top; allowed: <robot>");
     model_.name = root_.find("name").value_or("robot");
-    model_.combine = least_of;
+    model_.combine = least_of, model_.keeps_overlaps_apart = true;
     model_.gravity = {0, 0, -kGravity};
     model_.left_out.add(root_.place(), "gravity",
-                        fmt::format("the format states none; {} m/s² along -z are taken", kGravity));
+                        fmt::format("the format states none: {} m/s² along -z are assumed", kGravity));
     root_.check({{"name", "version"},
                  {"link", "joint"},
                  {{"material", kIsSeen},
-                  {"transmission", "is about a drive, and a scene's motors are given as efforts or speeds"},
-                  {"gazebo", "is for Gazebo alone"},
-                  {"ros2_control", "is for a controller"},
-                  {"sensor", "is a sensor"},
-                  {"mujoco", "is for MuJoCo alone"}}},
+                  {"transmission", "changes no motion: describes a drive that nothing controls"},
+                  {"gazebo", "is read by Gazebo alone"},
+                  {"ros2_control", kController},
+                  {"sensor", kSensor},
+                  {"mujoco", "is read by MuJoCo alone"}}},
                 model_.left_out);
     for (const XmlElement& element : root_.children("link")) read_link(element);
     if (model_.links.empty()) root_.refuse("there is no <link>");
@@ -59,12 +59,12 @@ class UrdfReader {
   }
 
   void read_link(const XmlElement& element) {
-    element.check({{"name"},
-                   {"inertial", "collision"},
-                   {{"visual", kIsSeen}, {"type", "says nothing of motion"}, {"sensor", "is a sensor"}}},
-                  model_.left_out);
+    element.check(
+        {{"name"}, {"inertial", "collision"}, {{"visual", kIsSeen}, {"type", kSaysNothing}, {"sensor", kSensor}}},
+        model_.left_out);
     for (const XmlElement& visual : element.children("visual")) check_mesh(visual);
     Link link{element.name_attribute(), element.place(), {}};
+    link.touches_own_model = true;  // the format says nothing else
     if (!links_.emplace(link.name, model_.links.size()).second) element.refuse("another link has this name, too");
     if (const auto inertial = element.child("inertial")) link.inertial = inertial_of(*inertial);
     for (const XmlElement& collision : element.children("collision")) read_collision(collision, link);
@@ -75,7 +75,8 @@ class UrdfReader {
     element.check({{}, {"origin", "mass", "inertia"}}, model_.left_out);
     const XmlElement mass = element.only("mass"), inertia = element.only("inertia");
     mass.check({{"value"}, {}}, model_.left_out);
-    constexpr const char* kOtherHalf = "is of the other half of a symmetric matrix: ixy, ixz and iyz are taken";
+    constexpr const char* kOtherHalf =
+        "changes no motion: repeats a half of a symmetric matrix; ixy, ixz and iyz are taken";
     inertia.check({{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"},
                    {},
                    {{"iyx", kOtherHalf}, {"izx", kOtherHalf}, {"izy", kOtherHalf}}},
@@ -92,7 +93,7 @@ class UrdfReader {
     return {out};
   }
 
-  // A mesh is left out, but what it names is looked at: whoever reads it next may open it.
+  // A mesh is left out, but its path is checked, because the next reader may open it.
   void check_mesh(const XmlElement& of) {
     const auto geometry = of.child("geometry");
     const auto mesh = geometry ? geometry->child("mesh") : std::nullopt;
@@ -100,10 +101,11 @@ class UrdfReader {
   }
 
   void read_collision(const XmlElement& element, Link& link) {
-    element.check({{"name"},
-                   {"origin", "geometry"},
-                   {{"verbose", "says nothing of motion"}, {"contact_coefficients", "is not of the format any more"}}},
-                  model_.left_out);
+    element.check(
+        {{"name"},
+         {"origin", "geometry"},
+         {{"verbose", kSaysNothing}, {"contact_coefficients", "changes no motion: is not of the format any more"}}},
+        model_.left_out);
     check_mesh(element);
     const XmlElement geometry = element.only("geometry");
     geometry.check({{}, {"box", "sphere", "capsule"}, {{"cylinder", kCylinder}, {"mesh", kMesh}}}, model_.left_out);
@@ -149,10 +151,10 @@ class UrdfReader {
   void read_joint(const XmlElement& element) {
     element.check({{"name", "type"},
                    {"origin", "parent", "child", "axis", "limit", "dynamics"},
-                   {{"mimic", "couples two joints, which a scene does not: each moves by itself"},
-                    {"calibration", "is for a controller"},
-                    {"safety_controller", "is for a controller"},
-                    {"hardwareInterface", "is for a controller"}}},
+                   {{"mimic", "couples two joints, which no scene does: each moves by itself"},
+                    {"calibration", kController},
+                    {"safety_controller", kController},
+                    {"hardwareInterface", kController}}},
                   model_.left_out);
     LinkJoint row;
     row.where = element.place();
@@ -160,7 +162,7 @@ class UrdfReader {
     if (!joints_.insert(row.joint.name).second) element.refuse("another joint has this name, too");
     row.joint.a = link_of(element, "parent"), row.joint.b = link_of(element, "child");
     if (row.joint.a == row.joint.b) element.refuse("holds a link to itself");
-    if (row.joint.b == kWorld) element.refuse("the world hangs on nothing; allowed: as the parent");
+    if (row.joint.b == kWorld) element.refuse("the world cannot be the child; allowed: the parent");
     const std::string type = element.at("type");
     if (std::find(kJointTypes.begin(), kJointTypes.end(), type) == kJointTypes.end())
       element.refuse(
@@ -200,7 +202,7 @@ class UrdfReader {
                                 row.joint.lower, row.joint.upper));
   }
 
-  // From the root outwards; what is not reached hangs on itself.
+  // Places links from the root outwards. A link that is not reached belongs to a circle.
   void place_links() {
     std::vector<std::vector<std::size_t>> below(model_.links.size() + 1);
     std::vector<int> holder(model_.links.size(), -1);
@@ -235,15 +237,14 @@ class UrdfReader {
     for (std::size_t k = 0; k < rows_.size(); ++k) keep(rows_[k], types_[k]);
   }
 
-  // Without mass a root is what robots are bolted down by.
+  // Robots are bolted down by a root without mass.
   void place_root(Link& root) {
     root.is_static = root.name == "world" || root.inertial.empty();
     place_at(root, BodyPose());
     if (root.is_static) return;
     model_.left_out.add(
         root.where, "a base",
-        "the root has mass, and nothing holds it to the world: it is free. A link without mass, or called 'world', "
-        "to which a fixed joint holds it would hold it down");
+        "the root has mass and no joint to the world: it is free. A fixed joint to a link 'world' would hold it");
   }
 
   void place_at(Link& link, const BodyPose& pose) {
@@ -263,8 +264,7 @@ class UrdfReader {
   void keep(const LinkJoint& row, const std::string& type) {
     if (type == "floating") return;  // which is what a body is without a joint
     if (type == "planar")
-      return model_.left_out.add(row.where, "its planar type",
-                                 "a scene has no such joint: the two links are not held together");
+      return model_.left_out.add(row.where, "its planar type", "no scene has this joint: the two links come apart");
     model_.joints.push_back(row);
   }
 

@@ -1,5 +1,5 @@
-// URDF (wiki.ros.org/urdf/XML): a tree of links, each placed by its joint. Conventions of the format: z is up, roll
-// pitch yaw are about fixed axes, an axis is in the joint's frame, which is the child's.
+// Reads URDF (wiki.ros.org/urdf/XML): a tree of links, each placed by its joint. In this format z is up, and roll,
+// pitch and yaw turn about fixed axes. An axis is given in the joint's frame, which is the child's.
 #pragma once
 
 #include "cases/import/xml.h"

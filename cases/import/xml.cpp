@@ -23,7 +23,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kWhite) - first + 1);
 }
 
-// "XML_ERROR_MISMATCHED_ELEMENT" in words.
+// Turns "XML_ERROR_MISMATCHED_ELEMENT" into words.
 std::string error_in_words(std::string name) {
   for (const char* start : {"XML_ERROR_", "XML_"}) {
     if (name.starts_with(start)) name = name.substr(std::string(start).size());
@@ -33,8 +33,7 @@ std::string error_in_words(std::string name) {
   return name;
 }
 
-// Bytes that are no UTF-8 would make a case file that cannot be read; the library does not look. Returns the line of
-// the first such one, or 0.
+// Returns the line of the first byte that is no UTF-8, or 0. The library does not check, and no case file may hold one.
 long line_of_bad_utf8(const std::string& text) {
   long line = 1;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -114,7 +113,7 @@ double XmlElement::one_number(const std::string& text, const std::string& what) 
   double value = 0;
   const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
   const bool is_whole = end == word.data() + word.size() && error == std::errc();
-  // from_chars refuses what is too small for a double as well, which is 0.
+  // from_chars also refuses numbers too small for a double; they count as 0.
   if (error == std::errc::result_out_of_range && std::abs(std::strtod(word.c_str(), nullptr)) < 1) return 0;
   if (!is_whole || !std::isfinite(value)) refuse(fmt::format("{}: found '{}'; allowed: a finite number", what, word));
   return value;
@@ -195,7 +194,7 @@ std::vector<std::pair<std::string, std::string>> XmlElement::attributes() const 
   return all;
 }
 
-// `place`: of the attribute or element itself. False if nothing is known of it.
+// `place` is that of the attribute or element. Returns false for an unknown word.
 bool XmlElement::check_word(const std::string& word, const std::string& place, const std::string& what,
                             const std::vector<std::string>& words, const XmlKnown& known, LeftOut& left_out) const {
   if (const std::string* why = why_left_out(known, word)) return left_out.add(place, what, *why), true;
@@ -203,7 +202,8 @@ bool XmlElement::check_word(const std::string& word, const std::string& place, c
     throw InputError(
         fmt::format("{}: <{}> is a macro of xacro; allowed: the file that `xacro` makes of it", place, word));
   if (word.starts_with("xmlns")) return true;
-  if (word.find(':') != std::string::npos) return left_out.add(place, what, "is of an extension of the format"), true;
+  if (word.find(':') != std::string::npos)
+    return left_out.add(place, what, "belongs to an extension of the format"), true;
   std::vector<std::string> all = words;
   for (const auto& row : known.left_out) all.push_back(row.first);
   const std::string meant = did_you_mean(word, all);
@@ -220,7 +220,7 @@ void XmlElement::check(const XmlKnown& known, LeftOut& left_out) const {
     if (!is_one_of(known.attributes, word))
       check_word(word, place(), "attribute '" + word + "'", known.attributes, known, left_out);
   }
-  std::string unknown;  // the last element of which nothing is known: a million of them are not looked for one by one
+  std::string unknown;  // the last unknown element: a million of the same need no search each
   for (const XmlElement& child : children()) {
     const std::string word = child.name();
     if (is_one_of(known.elements, word)) continue;

@@ -1,5 +1,5 @@
-// XML of robot files. Every element knows its line, and unused parts are reported. Document types and thereby entities,
-// and duplicate names, are refused.
+// Reads the XML of robots' files. Each element knows its line. Words that nobody asks for are named. Document types,
+// and so entities, and attributes given twice are refused.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class XMLElement;
 
 namespace rigor {
 
-// What an element may hold. `left_out`: elements and attributes of the format that no scene can say, and why.
+// The words that an element may hold. `left_out`: words of the format that no scene can say, and why.
 struct XmlKnown {
   std::vector<std::string> attributes, elements;
   std::vector<std::pair<std::string, std::string>> left_out = {};
@@ -51,7 +51,7 @@ class XmlElement {
 
   std::vector<std::pair<std::string, std::string>> attributes() const;
 
-  // Reports unknown words as left out. Refuses a word that is near a known one, because it is probably a mistake.
+  // Adds unknown words to left_out. Refuses one that is close to a known word.
   void check(const XmlKnown& known, LeftOut& left_out) const;
 
  private:

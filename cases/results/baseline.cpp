@@ -14,6 +14,7 @@
 #include "cases/results/results.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
+#include "core/base/json_words.h"
 
 namespace rigor {
 namespace {
@@ -195,7 +196,7 @@ Baseline from_baseline(const std::string& text) {
     } catch (const InputError& error) {
       throw InputError(fmt::format("line {}: {}", count, error.what()));
     } catch (const Json::exception& error) {
-      throw InputError(fmt::format("line {}: is no line of a baseline: {}", count, error.what()));
+      throw InputError(fmt::format("line {}: is no line of a baseline: {}", count, in_words(error)));
     }
   }
   return out;
@@ -240,7 +241,7 @@ Baseline read_baseline(const std::string& path) {
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path, error.what()));
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: neither a results.json nor a baseline: {}", path, error.what()));
+    throw InputError(fmt::format("{}: neither a results.json nor a baseline: {}", path, in_words(error)));
   }
 }
 

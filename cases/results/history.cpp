@@ -16,6 +16,7 @@
 #include "cases/results/results.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
+#include "core/base/json_words.h"
 
 namespace rigor {
 namespace {
@@ -96,7 +97,7 @@ HistoryEntry history_entry(const std::string& results_file, const std::string& c
       if (std::isfinite(cost)) entry.cells.at(key_of(cell)).cost = finite_to_four(cost);
     }
   } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: is no whole results.json: {}", results_file, error.what()));
+    throw InputError(fmt::format("{}: is no whole results.json: {}", results_file, in_words(error)));
   }
   return entry;
 }
@@ -125,7 +126,7 @@ std::vector<HistoryEntry> read_history(const std::string& file) {
     try {
       entries.push_back(entry_from(parse_json(line)));
     } catch (const std::exception& error) {
-      throw InputError(fmt::format("{}: line {}: is no line of a history: {}", file, number, error.what()));
+      throw InputError(fmt::format("{}: line {}: is no line of a history: {}", file, number, in_words(error)));
     }
   }
   return entries;

@@ -54,10 +54,20 @@ void drain(Descriptor& from, std::string& into) {
   }
 }
 
+// The parent's handlers are not for the child. What the parent was told to ignore, the child ignores too.
+void drop_handlers() {
+  for (int signal = 1; signal < NSIG; ++signal) {
+    const bool stops = signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGQUIT;
+    struct sigaction now {};
+    if (stops && sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;
+    std::signal(signal, SIG_DFL);
+  }
+}
+
 [[noreturn]] void be_the_child(const Job& job, const Pipe& messages, const Pipe& words, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);                                           // it died before the line above
-  for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);  // the parent's handlers are not for it
+  if (getppid() != parent) _exit(1);  // it died before the line above
+  drop_handlers();
   std::signal(SIGXFSZ, SIG_IGN);  // but a file that grows too large is a write that fails
   // What a run frees it takes again: given back to the kernel between, a tenth of a cell's time is page faults.
   constexpr int kLargestKept = 32 << 20;  // bytes; the most that glibc allows
@@ -74,8 +84,11 @@ void drain(Descriptor& from, std::string& into) {
     channel.send_frame('i', error.what());
   } catch (const std::exception& error) {
     channel.send_frame('e', error.what());
+  } catch (const Interrupted& interruption) {  // a child that itself waits for children
+    std::signal(interruption.signal, SIG_DFL);
+    std::raise(interruption.signal);
   } catch (...) {
-    channel.send_frame('e', "an exception that is no std::exception");
+    channel.send_frame('e', "an exception of an unknown type");
   }
   _exit(0);
 }

@@ -1,20 +1,26 @@
 #include "core/scene/contact_laws.h"
 
-#include <algorithm>
-
 namespace rigor {
 
 ContactLaws::ContactLaws(const Scene& scene) : default_(scene.contact_default) {
-  // The first row of a pair holds, as in Scene::contact_law: emplace leaves what is there.
-  for (const ContactPair& pair : scene.contact_pairs) laws_.emplace(key(pair.a, pair.b), pair.law);
+  // The first row of a pair holds, as in Scene::contact_law: emplace keeps what is there.
+  for (const ContactPair& pair : scene.contact_pairs) {
+    laws_.emplace(key(pair.a, pair.b), pair.law);
+    some_are_apart_ |= !pair.law.collides;
+  }
 }
 
+bool can_meet(const Body& a, const Body& b) { return a.collides && b.collides && !(a.fixed && b.fixed); }
+
 bool anything_can_touch(const Scene& scene) {
-  const auto& bodies = scene.bodies;
-  const auto colliding = std::count_if(bodies.begin(), bodies.end(), [](const Body& b) { return b.collides; });
-  const bool some_can_move =
-      std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.collides && !b.fixed; });
-  return colliding >= 2 && some_can_move;
+  std::size_t moving = 0, standing = 0, apart = 0;
+  for (const Body& body : scene.bodies) {
+    if (body.collides) ++(body.fixed ? standing : moving);
+  }
+  if (moving == 0) return false;
+  for (const ContactPair& pair : scene.contact_pairs)
+    apart += !pair.law.collides && can_meet(scene.bodies[pair.a], scene.bodies[pair.b]);
+  return moving * (moving - 1) / 2 + moving * standing > apart;
 }
 
 }  // namespace rigor

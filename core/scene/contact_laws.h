@@ -1,4 +1,4 @@
-// The scene's contact law of each pair of bodies, found in constant time however many pairs have a row of their own.
+// The contact law of each pair of bodies, found in constant time.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,10 @@ class ContactLaws {
     return found == laws_.end() ? default_ : found->second;
   }
 
+  // False for a pair that the scene keeps apart. Does not look at shapes.
+  bool may_touch(int a, int b) const { return !some_are_apart_ || of(a, b).collides; }
+  bool some_are_apart() const { return some_are_apart_; }
+
  private:
   static std::uint64_t key(int a, int b) {
     const auto low = static_cast<std::uint32_t>(a < b ? a : b), high = static_cast<std::uint32_t>(a < b ? b : a);
@@ -26,9 +30,13 @@ class ContactLaws {
 
   ContactLaw default_;
   std::unordered_map<std::uint64_t, ContactLaw> laws_;
+  bool some_are_apart_ = false;
 };
 
-// Whether any two bodies of the scene can touch: if not, an adapter need not look for contacts.
+// Whether both bodies collide and at least one of them moves. Does not look at the law of the pair.
+bool can_meet(const Body& a, const Body& b);
+
+// Whether any two bodies of the scene can touch. If not, an adapter need not look for contacts.
 bool anything_can_touch(const Scene& scene);
 
 }  // namespace rigor

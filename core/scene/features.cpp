@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/scene/contact_laws.h"
+
 namespace rigor {
 namespace {
 
@@ -28,46 +30,77 @@ std::string friction_feature(double friction) {
   return friction == kInfiniteFriction ? "friction:infinite" : "friction:coulomb";
 }
 
-bool may_touch(const Body& a, const Body& b) { return a.collides && b.collides && !(a.fixed && b.fixed); }
-
 void add_contact_law(const ContactLaw& law, const std::string& because, NeedList& needs) {
   needs.add(friction_feature(law.friction), because);
   if (law.restitution > 0) needs.add("restitution", because);
 }
 
-// Bodies are grouped by shape and by whether they can move, so that ten thousand of them cost no pairwise search.
-// Returns whether any may touch.
-bool add_contacts(const Scene& scene, NeedList& needs) {
-  std::map<std::pair<std::string, bool>, std::vector<int>> groups;
-  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.collides) groups[{shape_name(*body.shape), body.fixed}].push_back(i);
+// The word of a body's shape, and whether the body is fixed.
+using Kind = std::pair<std::string, bool>;
+Kind kind_of(const Body& body) { return {shape_name(*body.shape), body.fixed}; }
+
+std::pair<Kind, Kind> kinds_of(const Body& a, const Body& b) { return std::minmax({kind_of(a), kind_of(b)}); }
+
+// By kinds: the number of pairs that could meet and that the scene keeps apart.
+std::map<std::pair<Kind, Kind>, std::size_t> pairs_apart(const Scene& scene) {
+  std::map<std::pair<Kind, Kind>, std::size_t> apart;
+  for (const ContactPair& pair : scene.contact_pairs) {
+    const Body &a = scene.bodies[pair.a], &b = scene.bodies[pair.b];
+    if (!pair.law.collides && can_meet(a, b)) ++apart[kinds_of(a, b)];
   }
-  bool some_pair_has_the_default = false;
+  return apart;
+}
+
+// The first pair of the two groups that may touch; at least one does.
+std::pair<int, int> first_pair(const std::vector<int>& first, const std::vector<int>& second, const ContactLaws& laws) {
+  for (const int a : first) {
+    for (const int b : second) {
+      if (a != b && laws.may_touch(a, b)) return {a, b};
+    }
+  }
+  return {first.front(), second.front()};
+}
+
+// Groups bodies by shape and by whether they can move, so that ten thousand bodies need no pairwise search.
+// Returns whether any two bodies may touch.
+bool add_contacts(const Scene& scene, NeedList& needs) {
+  std::map<Kind, std::vector<int>> groups;
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    if (scene.bodies[i].collides) groups[kind_of(scene.bodies[i])].push_back(i);
+  }
+  const ContactLaws laws(scene);
+  const auto apart = pairs_apart(scene);
+  std::size_t pairs_that_touch = 0;
   std::string because;
   for (auto first = groups.begin(); first != groups.end(); ++first) {
     for (auto second = first; second != groups.end(); ++second) {
-      if (first == second && first->second.size() < 2) continue;
-      const int a = first->second.front(), b = first == second ? first->second[1] : second->second.front();
-      if (!may_touch(scene.bodies[a], scene.bodies[b])) continue;
+      if (first->first.second && second->first.second) continue;  // both are fixed
+      const std::size_t one = first->second.size(), other = second->second.size();
+      const auto kept = apart.find({first->first, second->first});
+      const std::size_t all = first == second ? one * (one - 1) / 2 : one * other;
+      const std::size_t touching = all - (kept == apart.end() ? 0 : kept->second);
+      if (touching == 0) continue;
+      const auto [a, b] = first_pair(first->second, second->second, laws);
       because = fmt::format("bodies '{}' and '{}' may touch", scene.bodies[a].name, scene.bodies[b].name);
       needs.add(contact_feature(first->first.first, second->first.first), because);
-      some_pair_has_the_default = true;
+      pairs_that_touch += touching;
     }
   }
-  if (!some_pair_has_the_default) return false;
+  if (pairs_that_touch == 0) return false;
 
   std::size_t laws_given = 0;
   for (const ContactPair& pair : scene.contact_pairs) {
-    if (!may_touch(scene.bodies[pair.a], scene.bodies[pair.b])) continue;
+    if (!can_meet(scene.bodies[pair.a], scene.bodies[pair.b])) continue;
+    const std::string of_pair =
+        fmt::format("the contact of '{}' and '{}'", scene.body_name(pair.a), scene.body_name(pair.b));
+    if (!pair.law.collides) {
+      needs.add("contact-filter", of_pair + ", which never touch,");
+      continue;
+    }
     ++laws_given;
-    add_contact_law(
-        pair.law, fmt::format("the contact of '{}' and '{}'", scene.body_name(pair.a), scene.body_name(pair.b)), needs);
+    add_contact_law(pair.law, of_pair, needs);
   }
-  std::size_t moving = 0, standing = 0;
-  for (const auto& [key, members] : groups) (key.second ? standing : moving) += members.size();
-  if (laws_given < moving * (moving - 1) / 2 + moving * standing)
-    add_contact_law(scene.contact_default, because, needs);
+  if (laws_given < pairs_that_touch) add_contact_law(scene.contact_default, because, needs);
   return true;
 }
 

@@ -28,6 +28,16 @@ std::vector<std::string> LeftOut::sentences() const {
   return all;
 }
 
+std::vector<std::string> LeftOut::losses() const {
+  std::vector<std::string> all;
+  for (const Kind& kind : kinds_) {
+    if (kind.why.starts_with(kNoMotion)) continue;
+    const std::string times = kind.count == 1 ? "" : fmt::format("{} times, first at ", kind.count);
+    all.push_back(fmt::format("{}: {} ({}{})", kind.what, kind.why, times, kind.places.front()));
+  }
+  return all;
+}
+
 BodyPose operator*(const BodyPose& a, const BodyPose& b) {
   return {a.position + a.orientation * b.position, (a.orientation * b.orientation).normalized()};
 }

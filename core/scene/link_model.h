@@ -12,15 +12,20 @@
 
 namespace rigor {
 
-// The elements of a file that no scene can say. A kind is what was left out and why; beyond the first places of a kind
-// its others are counted.
+// Begins the reason of an element whose loss changes no motion.
+inline constexpr const char* kNoMotion = "changes no motion";
+
+// The elements of a file that no scene can say. A kind is what was left out and why. Places of a kind beyond the first
+// few are counted.
 class LeftOut {
  public:
   static constexpr std::size_t kPlaces = 20, kMostKinds = 1000;
 
   // `where`: "file:line: link 'arm'". Throws InputError beyond kMostKinds.
   void add(const std::string& where, const std::string& what, const std::string& why);
-  std::vector<std::string> sentences() const;  // in the order in which the kinds were met
+  std::vector<std::string> sentences() const;  // by kind, in the order in which kinds were met
+  // One sentence for each kind that changes motion, with its count and first place.
+  std::vector<std::string> losses() const;
 
  private:
   struct Kind {
@@ -71,6 +76,7 @@ struct LinkModel {
   std::vector<Spring> springs;                  // a and b: links; points in their frames
   std::vector<Motor> motors;                    // joint: of `joints`
   std::vector<std::pair<int, int>> kept_apart;  // links that never touch, beside those that a joint holds together
+  bool keeps_overlaps_apart = false;            // the file does not say which links touch
   double (*combine)(double, double) = nullptr;  // of two surfaces' friction, and of their restitution
   LeftOut left_out;
 };

@@ -109,11 +109,14 @@ struct Motor {
   double until = std::numeric_limits<double>::infinity();  // s
 };
 
-// Values of a pair of bodies, for engines combine per-body values by different rules.
+// Values of a pair of bodies, because engines combine per-body values by different rules.
 struct ContactLaw {
   double restitution = 0;  // normal speed after over before, 0..1
   double friction = 0;     // Coulomb's coefficient, >= 0, may be kInfiniteFriction
+  bool collides = true;    // false: the two bodies pass through each other
 };
+// Of two bodies that pass through each other.
+inline constexpr ContactLaw kApart = {0, 0, false};
 struct ContactPair {
   int a, b;
   ContactLaw law;

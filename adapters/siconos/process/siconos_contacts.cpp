@@ -58,7 +58,7 @@ void Contacts::updateInteractions(SP::Simulation simulation) {
     boxes_[n] = aabb_of(colliders_[n].shape, pose_of(bodies_.state(), colliders_[n].body), reach(colliders_[n].body));
   for (const auto& [first, second] : broad_phase_.overlaps(boxes_)) {
     const Collider &a = colliders_[static_cast<std::size_t>(first)], &b = colliders_[static_cast<std::size_t>(second)];
-    if (a.fixed && b.fixed) continue;
+    if ((a.fixed && b.fixed) || !laws_.may_touch(a.body, b.body)) continue;
     a.fixed ? meet(b, a, *simulation) : meet(a, b, *simulation);
   }
   for (auto it = kept_.begin(); it != kept_.end();) {

@@ -13,10 +13,10 @@ namespace {
 
 // The words of features.h, and what plug-ins may say beside them.
 std::vector<std::string> known_features() {
-  std::vector<std::string> words = {
-      "spring",           "timed-force",       "fixed-body",           "restitution",         "friction:none",
-      "friction:coulomb", "friction:infinite", "joint-spring",         "joint-damper",        "joint-limit",
-      "motor:effort",     "motor:speed",       "joints-with-contacts", "joints-with-dampers", "wrench"};
+  std::vector<std::string> words = {"spring",         "timed-force",          "fixed-body",          "restitution",
+                                    "friction:none",  "friction:coulomb",     "friction:infinite",   "joint-spring",
+                                    "joint-damper",   "joint-limit",          "motor:effort",        "motor:speed",
+                                    "contact-filter", "joints-with-contacts", "joints-with-dampers", "wrench"};
   for (const char* type : {"ball", "distance", "fixed", "hinge", "slider", "universal"})
     words.push_back(std::string("joint:") + type);
   for (const std::string& contact : contacts_of_all_shapes()) words.push_back(contact);

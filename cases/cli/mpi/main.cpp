@@ -1,5 +1,5 @@
-// rigor-mpi: rigor with its grids and sweeps shared among the ranks of an MPI run. What MPI starts is a guard, which
-// speaks where the rank itself no longer can.
+// rigor-mpi: rigor with its grids and sweeps shared among the ranks of an MPI run. MPI starts a guard, which reports
+// the end of a rank that cannot report it itself.
 #include <fmt/format.h>
 #include <mpi.h>
 #include <sys/prctl.h>
@@ -31,14 +31,14 @@ int be_a_rank(int argc, char** argv) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     if (rank != 0) _exit(rigor::kBroken);  // whoever interrupts ends all
-    rigor::say("interrupted; no output was changed. What was computed is kept: --resume goes on from it");
+    rigor::say(rigor::interruption_text(argc, argv));
     MPI_Abort(MPI_COMM_WORLD, rigor::kBroken);
   }
   MPI_Finalize();
   return code;
 }
 
-// Passes signals on to the rank, and answers as it does.
+// Passes signals on to the rank, and exits as the rank does.
 int guard(pid_t rank) {
   guarded = rank;
   for (const int number : {SIGINT, SIGTERM, SIGHUP})
@@ -52,8 +52,8 @@ int guard(pid_t rank) {
     return rigor::kBroken;  // by an MPI that ends all ranks, for what another one has said
   const char* name = sigabbrev_np(WTERMSIG(status));
   rigor::say(
-      fmt::format("a rank was killed by SIG{}; no output was changed. What was computed is kept: the same "
-                  "command with --resume goes on from it, on any number of ranks",
+      fmt::format("a rank was killed by SIG{}; no output was changed. "
+                  "The same command with --resume continues the run, on any number of ranks",
                   name ? name : "?"));
   return rigor::kBroken;
 }

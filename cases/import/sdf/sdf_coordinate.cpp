@@ -17,7 +17,7 @@ void leave_out_sdf_coordinate(const XmlElement& axis, LeftOut& left_out) {
   for (const char* word : {"limit", "dynamics"}) {
     if (axis.child(word))
       left_out.add(axis.place(), fmt::format("<{}>", word),
-                   "of two axes a scene's joint has neither limits nor springs nor dampers");
+                   "a scene's joint of two axes has no limits, springs or dampers");
   }
 }
 
@@ -27,8 +27,8 @@ void read_sdf_coordinate(const XmlElement& axis, const std::string& type, Joint&
                   {"lower", "upper"},
                   {{"effort", kBoundsADrive},
                    {"velocity", kBoundsADrive},
-                   {"stiffness", "is how soft a limit is, which in a scene is hard"},
-                   {"dissipation", "is how soft a limit is, which in a scene is hard"}}},
+                   {"stiffness", "makes a limit soft; a scene's limits are hard"},
+                   {"dissipation", "makes a limit soft; a scene's limits are hard"}}},
                  left_out);
     const auto bound = [&](const char* word, double otherwise) {
       const auto found = limit->child(word);

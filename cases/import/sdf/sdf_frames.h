@@ -1,5 +1,5 @@
-// The frames of an SDF file: each is named in its model, and placed relative to another one by a pose. Names of inner
-// models' frames are "inner::frame"; `__model__` is a model's own frame.
+// The frames of an SDF file. Each has a name in its model and a pose relative to another frame. A frame of an inner
+// model is called "inner::frame", and the model's own frame `__model__`.
 #pragma once
 
 #include <map>
@@ -17,9 +17,9 @@ class SdfFrames {
   void attach(const std::string& scope, const std::string& name, const std::string& to);  // a frame to what carries it
   bool has(const std::string& scope, const std::string& name) const { return frames_.contains(scope + name); }
 
-  // In W. Throws InputError for a frame that is not there and for those that are placed relative to themselves.
+  // Returns the pose in W. Throws InputError for an unknown frame and for frames placed in a circle.
   BodyPose pose(const std::string& scope, const std::string& name, const XmlElement& asked_by);
-  // What a frame is attached to in the end; itself if it is attached to nothing.
+  // Follows attachments to the last frame. Returns the frame itself if it is attached to nothing.
   std::string carrier(const std::string& scope, const std::string& name, const XmlElement& asked_by) const;
 
  private:

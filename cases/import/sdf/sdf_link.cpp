@@ -14,19 +14,17 @@ namespace rigor {
 namespace {
 
 constexpr double kFrictionOfFormat = 1;
-constexpr const char* kSaysNothing = "says nothing of motion";
-constexpr const char* kOfASolver = "is a setting of one solver";
 
-// What a scene's bodies are anyway is not worth a word.
+// A flag that agrees with a scene's bodies needs no notice.
 struct Flag {
   const char* word;
   bool of_a_scene;
   const char* why;
 };
-constexpr Flag kFlags[] = {{"gravity", true, "says that this link is not drawn by gravity, which in a scene all are"},
-                           {"kinematic", false, "says that this link is not moved by forces, which in a scene all are"},
-                           {"self_collide", false, "is read of models alone"},
-                           {"enable_wind", false, "is wind, which a scene does not have"}};
+constexpr Flag kFlags[] = {{"gravity", true, "switches gravity off for this link; in a scene it acts on all"},
+                           {"kinematic", false, "says that no force moves this link; in a scene forces move all"},
+                           {"self_collide", false, "changes no motion: is read of models alone"},
+                           {"enable_wind", false, "is wind, which no scene has"}};
 
 class SdfLinkReader {
  public:
@@ -40,12 +38,12 @@ class SdfLinkReader {
                     {"light", kIsSeen},
                     {"projector", kIsSeen},
                     {"particle_emitter", kIsSeen},
-                    {"sensor", "is a sensor"},
+                    {"sensor", kSensor},
                     {"audio_source", kSaysNothing},
                     {"audio_sink", kSaysNothing},
                     {"battery", kSaysNothing},
-                    {"plugin", "is a program"},
-                    {"velocity_decay", "is damping by the world, which a scene does not have"},
+                    {"plugin", "is a program, which is not run"},
+                    {"velocity_decay", "is damping by the world, which no scene has"},
                     {"must_be_base_link", kSaysNothing}}};
     for (const auto& [word, of_a_scene, why] : kFlags) {
       const auto flag = element_.child(word);
@@ -67,15 +65,15 @@ class SdfLinkReader {
   LinkInertial inertial() {
     const auto inertial = element_.child("inertial");
     if (!inertial) {
-      left_out_.add(element_.place(), "its inertia",
-                    "there is no <inertial>, which is 1 kg and 1 kg m² in this format");
+      left_out_.add(element_.place(), "its inertia", "there is no <inertial>: the format's 1 kg and 1 kg m² are taken");
       return {1, {}, Mat3::Identity()};
     }
     if (inertial->find("auto").value_or("false") != "false")
-      inertial->refuse("is to be worked out from shapes; allowed: numbers");
+      inertial->refuse("auto: the inertia would be computed from shapes; allowed: numbers");
     inertial->check({{"auto"},
                      {"mass", "inertia", "pose"},
-                     {{"density", "is for an inertia that is worked out"}, {"fluid_added_mass", "is of a fluid"}}},
+                     {{"density", "changes no motion: is for an inertia that is computed"},
+                      {"fluid_added_mass", "is the mass of a fluid, which no scene has"}}},
                     left_out_);
     const auto mass = inertial->child("mass"), inertia = inertial->child("inertia");
     LinkInertial out{mass ? mass->number_of_text() : 1, sdf_pose(inertial->child("pose"), left_out_), Mat3::Identity()};
@@ -103,7 +101,7 @@ class SdfLinkReader {
                    {"geometry", "pose", "surface"},
                    {{"laser_retro", kSaysNothing},
                     {"max_contacts", kOfASolver},
-                    {"density", "is for an inertia that is worked out"}}},
+                    {"density", "changes no motion: is for an inertia that is computed"}}},
                   left_out_);
     if (!names_.insert(element.name_attribute()).second)
       element.refuse("another collision of this link has this name, too");
@@ -113,11 +111,11 @@ class SdfLinkReader {
                     {"box", "sphere", "capsule", "plane", "empty"},
                     {{"cylinder", kCylinder},
                      {"mesh", kMesh},
-                     {"cone", "is a cone, which a scene does not have: nothing touches it"},
-                     {"ellipsoid", "is an ellipsoid, which a scene does not have: nothing touches it"},
-                     {"heightmap", "is a height map, which a scene does not have: nothing touches it"},
-                     {"polyline", "is a prism, which a scene does not have: nothing touches it"},
-                     {"image", "is an image, which a scene does not have: nothing touches it"}}},
+                     {"cone", "is a cone, which no scene has: nothing touches it"},
+                     {"ellipsoid", "is an ellipsoid, which no scene has: nothing touches it"},
+                     {"heightmap", "is a height map, which no scene has: nothing touches it"},
+                     {"polyline", "is a prism, which no scene has: nothing touches it"},
+                     {"image", "is an image, which no scene has: nothing touches it"}}},
                    left_out_);
     const auto shape = shape_of(geometry);
     if (!shape) return;
@@ -168,14 +166,14 @@ class SdfLinkReader {
     if (!friction) return law;
     friction->check({{},
                      {"ode"},
-                     {{"bullet", "is of one engine; that of <ode> is taken"},
-                      {"torsional", "is friction against spinning, which a scene does not have"}}},
+                     {{"bullet", "belongs to one engine; <ode> is taken"},
+                      {"torsional", "is friction against spinning, which no scene has"}}},
                     left_out_);
     const auto ode = friction->child("ode");
     if (!ode) return law;
     ode->check({{},
                 {"mu", "mu2"},
-                {{"fdir1", "is a direction of friction, which in a scene is the same in all"},
+                {{"fdir1", "is a direction of friction; in a scene all are the same"},
                  {"slip1", kOfASolver},
                  {"slip2", kOfASolver}}},
                left_out_);

@@ -5,7 +5,7 @@
 
 namespace rigor {
 
-// A <pose>: x y z roll pitch yaw, or as its attributes say. The caller must check its reference frame.
+// A <pose>: x y z roll pitch yaw, or as its attributes say. The caller resolves relative_to.
 BodyPose sdf_pose(const std::optional<XmlElement>& pose, LeftOut& left_out);
 
 // Poses are in the link's frame, as is a plane's. `file`: for paths of meshes.

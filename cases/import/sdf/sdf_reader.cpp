@@ -23,8 +23,8 @@ constexpr double kSdfGravity = 9.8;  // m/s², along -z: the format's own defaul
 constexpr int kDeepest = 16;         // models in models and files in files
 const std::vector<std::string> kSdfJointTypes = {"revolute",  "continuous", "prismatic", "ball",   "universal",
                                                  "revolute2", "fixed",      "screw",     "gearbox"};
-constexpr const char* kOfWorld = "is of the world around, of which a scene knows gravity alone";
-constexpr const char* kProgram = "is a program";
+constexpr const char* kOfWorld = "describes the world around; a scene has gravity alone";
+constexpr const char* kProgram = "is a program, which is not run";
 
 class SdfReader {
  public:
@@ -41,7 +41,7 @@ class SdfReader {
   }
 
  private:
-  // Poses and joints may name what comes further down in the file.
+  // Poses and joints may name elements further down in the file.
   struct Later {
     std::function<void(SdfReader&)> finish;
   };
@@ -81,20 +81,20 @@ class SdfReader {
   void read_world(const XmlElement& world) {
     world.check({{"name"},
                  {"gravity", "model", "include", "joint", "frame"},
-                 {{"physics", "is how an engine steps; a case says its own steps"},
+                 {{"physics", "changes no motion: sets an engine's steps, and a case sets its own"},
                   {"light", kIsSeen},
                   {"scene", kIsSeen},
                   {"gui", kIsSeen},
                   {"road", kIsSeen},
                   {"plugin", kProgram},
                   {"actor", "moves by a script"},
-                  {"state", "is a state in the middle of a run; the models' own poses are taken"},
+                  {"state", "is a state during a run; the models' own poses are taken"},
                   {"atmosphere", kOfWorld},
                   {"wind", kOfWorld},
                   {"magnetic_field", kOfWorld},
                   {"spherical_coordinates", kOfWorld},
                   {"audio", kOfWorld},
-                  {"population", "is models drawn by lot"}}},
+                  {"population", "draws models by lot; none is taken"}}},
                 model_.left_out);
     model_.name = world.find("name").value_or("world");
     if (const auto gravity = world.child("gravity")) model_.gravity = vector_of(gravity->numbers_of_text(3));
@@ -111,8 +111,8 @@ class SdfReader {
     element.check({{"name", "canonical_link"},
                    {"link", "joint", "frame", "model", "include", "pose", "static", "self_collide"},
                    {{"plugin", kProgram},
-                    {"gripper", "is for a controller"},
-                    {"allow_auto_disable", "says that bodies may sleep, which they never do here"},
+                    {"gripper", kController},
+                    {"allow_auto_disable", "changes no motion: lets bodies sleep, and none sleeps here"},
                     {"enable_wind", kOfWorld}}},
                   model_.left_out);
     if (element.find("placement_frame"))
@@ -132,7 +132,7 @@ class SdfReader {
     const std::string of_outer = outer.name.empty() ? "" : "__model__";
     frames_.add(scope.name, "__model__", sdf_pose(pose, model_.left_out), outer.name, base.empty() ? of_outer : base,
                 element);
-    // From outside a model goes by its name.
+    // Frames outside the model call it by its name.
     frames_.add(outer.name, name, BodyPose(), scope.name, "__model__", element);
     for (const XmlElement& link : element.children("link")) read_link(link, scope);
     for (const XmlElement& frame : element.children("frame")) read_frame(frame, scope.name);
@@ -188,7 +188,7 @@ class SdfReader {
     later_.push_back({[=, name = scope.name](SdfReader& reader) { reader.place_link(index, name, own, element); }});
   }
 
-  // The outermost model's name says nothing where it is the only one.
+  // Drops the name of the only outermost model.
   void shorten_names() {
     const auto shorten = [&](std::string& name) { name = name.substr(name.find("::") + 2); };
     for (Link& link : model_.links) shorten(link.name);
@@ -197,7 +197,7 @@ class SdfReader {
     }
   }
 
-  // From 1.7 on; before that `frame` meant nothing.
+  // relative_to exists from 1.7 on.
   std::string base_of(const std::optional<XmlElement>& pose, const std::string& otherwise) const {
     const std::string base = pose && version_ >= 7 ? pose->find("relative_to").value_or("") : "";
     return base.empty() ? otherwise : base;
@@ -228,12 +228,12 @@ class SdfReader {
   void read_joint(const XmlElement& element, const std::string& scope) {
     element.check({{"name", "type"},
                    {"parent", "child", "pose", "axis", "axis2"},
-                   {{"physics", "is a setting of one solver"},
-                    {"sensor", "is a sensor"},
-                    {"gearbox_ratio", "is of a joint that a scene does not have"},
-                    {"gearbox_reference_body", "is of a joint that a scene does not have"},
-                    {"thread_pitch", "is of a joint that a scene does not have"},
-                    {"screw_thread_pitch", "is of a joint that a scene does not have"}}},
+                   {{"physics", kOfASolver},
+                    {"sensor", kSensor},
+                    {"gearbox_ratio", "belongs to a joint that no scene has"},
+                    {"gearbox_reference_body", "belongs to a joint that no scene has"},
+                    {"thread_pitch", "belongs to a joint that no scene has"},
+                    {"screw_thread_pitch", "belongs to a joint that no scene has"}}},
                   model_.left_out);
     const std::string type = element.at("type");
     if (std::find(kSdfJointTypes.begin(), kSdfJointTypes.end(), type) == kSdfJointTypes.end())
@@ -284,11 +284,11 @@ class SdfReader {
     row.joint.name = scope + name;
     row.joint.a = link_of(element.only("parent"), scope), row.joint.b = link_of(element.only("child"), scope);
     if (row.joint.a == row.joint.b) element.refuse("holds a link to itself");
-    if (row.joint.b == kWorld) element.refuse("the world hangs on nothing; allowed: as the parent");
+    if (row.joint.b == kWorld) element.refuse("the world cannot be the child; allowed: the parent");
     const Vec3 anchor = frames_.pose(scope, name, element).position;
     if (type == "screw" || type == "gearbox")
       return model_.left_out.add(row.where, fmt::format("its type {}", type),
-                                 "a scene has no such joint: the two links are not held together");
+                                 "no scene has this joint: the two links come apart");
     if (type == "fixed") row.joint.type = FixedJoint{};
     if (type == "ball") row.joint.type = BallJoint{anchor};
     if (type == "universal" || type == "revolute2") {

@@ -9,6 +9,7 @@
 #include "cases/metrics/measures/shape_gap.h"
 #include "core/dynamics/model/energy.h"
 #include "core/dynamics/model/system.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -66,7 +67,8 @@ std::vector<double> lowest_hanging(const Scene& scene) {
 }
 
 // m/s: the most that gravity can add to the speed of a body that falls no lower than `hanging`.
-double gained_by_gravity(const Scene& scene, const Body& body, double hanging, double duration) {
+double gained_by_gravity(const Scene& scene, int index, const ContactLaws& laws, double hanging, double duration) {
+  const Body& body = scene.bodies[index];
   const double g = scene.gravity.norm();
   if (g == 0) return 0;
   const double free =
@@ -75,7 +77,8 @@ double gained_by_gravity(const Scene& scene, const Body& body, double hanging, d
   double least = free, lowest = std::numeric_limits<double>::infinity();
   bool has_plane = false;
   for (const Body& support : scene.bodies) {
-    if (!support.collides || !support.fixed) continue;
+    const int other = static_cast<int>(&support - scene.bodies.data());
+    if (!support.collides || !support.fixed || !laws.may_touch(index, other)) continue;
     if (const auto* plane = std::get_if<Plane>(&*support.shape)) {
       has_plane = true;
       least = std::min(least, gained_over(*plane, body, scene.gravity, duration));
@@ -108,10 +111,11 @@ double energy_in_play(const Scene& scene, double duration) {
   set_initial_state(scene, start.columns());
   double sum = stored_in_springs(scene, start.columns());
   const std::vector<double> hanging = lowest_hanging(scene);
+  const ContactLaws laws(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.fixed) continue;
-    double gained = gained_by_gravity(scene, body, hanging[i], duration);
+    double gained = gained_by_gravity(scene, static_cast<int>(i), laws, hanging[i], duration);
     for (const TimedForce& force : scene.forces) {
       if (force.body == static_cast<int>(i)) gained += acting_time(force, duration) * force.force.norm() / body.mass;
     }

@@ -79,8 +79,9 @@ bool contact_may_lose(const Scene& scene) {
   if (!anything_can_touch(scene)) return false;
   const auto loses = [](const ContactLaw& law) { return law.restitution < 1 || law.friction > 0; };
   const auto& pairs = scene.contact_pairs;
-  return loses(scene.contact_default) ||
-         std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return loses(pair.law); });
+  return loses(scene.contact_default) || std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
+           return pair.law.collides && loses(pair.law);
+         });
 }
 
 bool is_driven(const Scene& scene) { return !scene.forces.empty() || !scene.motors.empty(); }

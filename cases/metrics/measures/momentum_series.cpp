@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cases/metrics/measures/measuring.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -32,13 +33,16 @@ std::string why_held_from_outside(const Scene& scene) {
   for (const Joint& joint : scene.joints) {
     if (const std::string why = held(joint, "joint"); !why.empty()) return why;
   }
-  const auto collides = [&](bool fixed) {
-    return std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                        [=](const Body& body) { return body.collides && body.fixed == fixed; });
-  };
-  const auto moving = collides(false), fixed = collides(true);
-  if (moving == scene.bodies.end() || fixed == scene.bodies.end()) return "";
-  return fmt::format("'{}' may touch '{}', which is fixed", moving->name, fixed->name);
+  const ContactLaws laws(scene);
+  const int count = static_cast<int>(scene.bodies.size());
+  for (int i = 0; i < count; ++i) {
+    if (!scene.bodies[i].collides || scene.bodies[i].fixed) continue;
+    for (int k = 0; k < count; ++k) {
+      if (scene.bodies[k].collides && scene.bodies[k].fixed && laws.may_touch(i, k))
+        return fmt::format("'{}' may touch '{}', which is fixed", scene.bodies[i].name, scene.bodies[k].name);
+    }
+  }
+  return "";
 }
 
 double acting_time(const TimedForce& force, double t) {

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/contact_laws.h"
+
 namespace rigor {
 namespace {
 
@@ -156,9 +158,10 @@ void for_each_near_pair(const Scene& scene, BodyColumns bodies, double reach,
     extents.push_back({x - radius - reach, x + radius, i});
   }
   std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) { return a.low < b.low; });
+  const ContactLaws laws(scene);
   const auto look = [&](int a, int b) {
     const Body &one = scene.bodies[a], &other = scene.bodies[b];
-    if (one.fixed && other.fixed) return;
+    if ((one.fixed && other.fixed) || !laws.may_touch(a, b)) return;
     const double gap = shape_gap(*one.shape, pose_of(bodies, a), *other.shape, pose_of(bodies, b));
     if (gap < reach) visit(a, b, gap);
   };

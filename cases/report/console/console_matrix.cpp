@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cases/report/console/layout.h"
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/report/wording/wording.h"
@@ -13,12 +14,7 @@
 namespace rigor {
 namespace {
 
-constexpr std::size_t kCaseColumn = 23, kMatrixColumn = 11;  // 100 characters in all
-
-// In characters, of which one is several bytes of UTF-8.
-std::size_t width_of(const std::string& text) {
-  return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
-}
+constexpr std::size_t kCaseColumn = 23, kMatrixColumn = 11;  // 100 characters with seven columns
 
 std::string right_aligned(const std::string& text, std::size_t width) {
   return std::string(width - std::min(width, width_of(text)), ' ') + text;
@@ -149,18 +145,22 @@ std::vector<std::size_t> runs_to_show(const Results& results) {
 
 std::string console_matrix(const Results& results) {
   const std::vector<std::size_t> runs = runs_to_show(results);
-  const std::size_t panels = (runs.size() + kMostMatrixColumns - 1) / kMostMatrixColumns,
-                    columns = (runs.size() + panels - 1) / panels;
+  const std::size_t most =
+                        std::clamp((console_width() - kCaseColumn) / kMatrixColumn, std::size_t{1}, kMostMatrixColumns),
+                    panels = (runs.size() + most - 1) / most, columns = (runs.size() + panels - 1) / panels;
   std::string text =
       wrapped(fmt::format("dt = {} s, or what stands behind a case: the largest error of the position "
                           "[m]; of the orientation [rad] where nothing moves away; of the energy [%] "
                           "where there is no truth; in brackets, of a truth that the run's own code makes.",
                           headline_dt(results).text),
               0) +
-      "\n" + "✓ stable  ≈ drifting  ∩ overlapping  ↑ gaining energy  ↓ collapsed  ✕ blown up at that time, or\n" +
-      "gate failed  ◆ known deviation  ◇ unexpected pass  – unsupported  ◐ stable, in part at a lower\n"
-      "order  ! invalid, crashed or out of time\n" +
-      "position error in sizes of the case: ░ from 1e-3  ▒ 1e-2  ▓ 1e-1  █ 1\n";
+      "\n" +
+      wrapped(
+          "✓ stable  ≈ drifting  ∩ overlapping  ↑ gaining energy  ↓ collapsed  ✕ blown up at that time, or gate "
+          "failed  ◆ known deviation  ◇ unexpected pass  – unsupported  ◐ stable, in part at a lower order  "
+          "! invalid, crashed or out of time",
+          0) +
+      "\n" + wrapped("position error in sizes of the case: ░ from 1e-3  ▒ 1e-2  ▓ 1e-1  █ 1", 0) + "\n";
   for (std::size_t first = 0; first < runs.size(); first += columns) {
     const auto begin = runs.begin() + static_cast<long>(first),
                end = runs.begin() + static_cast<long>(std::min(first + columns, runs.size()));

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cases/report/console/console_matrix.h"
+#include "cases/report/console/layout.h"
 #include "cases/report/wording/comparison.h"
 #include "cases/report/wording/explained_error.h"
 #include "cases/report/wording/explanation.h"
@@ -50,11 +51,21 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
   return cell.reduced_order ? word + " ◐" : word;  // a warning below says from when on
 }
 
-// The first column of a table; a long name gets a separate line.
+// Rows of six numbers behind a name need this width. Below it a name gets a line of its own.
+constexpr std::size_t kWideTable = 100;
+bool is_narrow() { return console_width() < kWideTable; }
+
+// The first column of a table. A long name gets a line of its own.
 std::string engine_column(const std::string& name) {
   constexpr std::size_t kColumn = 24;
+  if (is_narrow()) return "  " + wrapped(name, 2) + "\n ";
   if (name.size() <= kColumn) return fmt::format("  {:<24}", name);
-  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");  // a separate line
+  return fmt::format("  {}\n  {:<24}", wrapped(name, 2), "");
+}
+
+std::string without_blanks_at_end(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
 }
 
 std::string explained_text(const std::vector<ExplainedRow>& rows) {
@@ -64,24 +75,30 @@ std::string explained_text(const std::vector<ExplainedRow>& rows) {
   lines.insert(lines.end(), rows.begin(), rows.end());
   std::string text;
   for (const ExplainedRow& row : lines) {
-    text += fmt::format("{} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {:>9}\n", engine_column(row.engine), row.total,
-                        row.by_scheme, row.unexplained, row.rotation, row.rotation_by_scheme, row.rotation_unexplained,
-                        row.until);
+    const std::string numbers =
+        fmt::format(" {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}", row.total, row.by_scheme, row.unexplained, row.rotation,
+                    row.rotation_by_scheme, row.rotation_unexplained);
+    text += is_narrow() ? fmt::format("  {}\n {}\n", wrapped(row.engine + ": " + row.until, 2), numbers)
+                        : fmt::format("{}{}  {:>9}\n", engine_column(row.engine), numbers, row.until);
   }
   return text;
 }
 
 std::string table_line(const RowText& row) {
-  std::string line =
-      fmt::format("{} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}  {}", engine_column(row.engine), row.first_second, row.whole,
-                  row.orientation, row.energy, row.energy_synchronised, row.stable_dt, row.verdict);
-  line.erase(line.find_last_not_of(' ') + 1);
-  return line + "\n";
+  const std::string numbers = fmt::format(" {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}", row.first_second, row.whole,
+                                          row.orientation, row.energy, row.energy_synchronised, row.stable_dt);
+  if (!is_narrow())
+    return without_blanks_at_end(fmt::format("{}{}  {}", engine_column(row.engine), numbers, row.verdict));
+  const std::string name = row.verdict.empty() ? row.engine : row.engine + ": " + row.verdict;
+  return without_blanks_at_end(engine_column(name) + numbers);
 }
 
-// The verdict replaces the numbers of the whole run if there are none.
+// A run that blew up has no numbers of the whole run. Its verdict takes their place.
 std::string blown_up_line(const RowText& row) {
   constexpr std::size_t kFourColumns = 34;
+  if (is_narrow())
+    return fmt::format("{} {:>8} {:>35} {:>8}\n", engine_column(row.engine + ": " + row.verdict), row.first_second, "",
+                       row.stable_dt);
   return fmt::format("{} {:>8}  {:<34} {:>8}\n", engine_column(row.engine), row.first_second,
                      shortened(row.verdict, kFourColumns), row.stable_dt);
 }
@@ -95,6 +112,7 @@ std::string header(const StepSize& dt) {
 std::string row_line(const RowText& row) {
   if (row.is_blown_up) return blown_up_line(row);
   if (row.has_numbers) return table_line(row);
+  if (is_narrow()) return "  " + wrapped(row.engine + ": " + row.verdict, 4) + "\n";
   return engine_column(row.engine) + " " + wrapped(row.verdict, 27) + "\n";
 }
 
@@ -307,7 +325,7 @@ std::string console_table(const Results& results) {
   return text + count_line(results);
 }
 
-std::string failures_text(const std::vector<Failure>& rows) {
+std::string failures_text(const std::vector<Failure>& rows, const std::string& diagnose) {
   if (rows.empty()) return "";
   std::string text = fmt::format("what fell short: {}\n", rows.size());
   for (const Failure& row : rows) {
@@ -322,10 +340,7 @@ std::string failures_text(const std::vector<Failure>& rows) {
     if (!row.where.empty()) line += fmt::format(" [{}]", row.where);
     text += "  " + wrapped(line, 4) + "\n";
   }
-  const auto of_run = std::find_if(rows.begin(), rows.end(), [](const Failure& row) { return !row.engine.empty(); });
-  if (of_run == rows.end()) return text;
-  return text + fmt::format("  which known mistake it looks like: rigor diagnose {} --engine '{}'\n", of_run->case_id,
-                            of_run->engine);
+  return diagnose.empty() ? text : text + "  to find a known mistake that explains it:\n  " + diagnose + "\n";
 }
 
 }  // namespace rigor

@@ -12,8 +12,8 @@ namespace rigor {
 
 std::string console_table(const Results& results);
 
-// The failures, one paragraph each, worst first.
-std::string failures_text(const std::vector<Failure>& rows);
+// What fell short, a paragraph each, worst things first.
+std::string failures_text(const std::vector<Failure>& rows, const std::string& diagnose);
 
 // How many gates held, failed and were not checked.
 std::string gate_summary(const Results& results);

@@ -80,7 +80,7 @@ std::string history_table(const std::vector<HistoryEntry>& history, const std::v
   std::string head = fmt::format("{} entries, from {} ({}) to {} ({}); costs on {}\n", history.size(),
                                  history.front().commit, history.front().date.substr(0, 10), history.back().commit,
                                  history.back().date.substr(0, 10), history.back().machine);
-  head += "* a change: of an error, which repeats bit for bit, any; of a cost one beyond its noise (Pettitt's test)\n";
+  head += "* a change: of an error, which repeats bit for bit, any; of a cost one beyond its noise\n";
   return head + text + fmt::format("{} cells shown, {} without a change\n", shown, unchanged);
 }
 

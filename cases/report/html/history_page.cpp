@@ -107,7 +107,7 @@ std::string history_page(const std::vector<HistoryEntry>& history, const std::ve
       "{}.</p>\n"
       "<p class=\"faint\">A red mark begins a new level: of an error, which repeats bit for bit, any change; of a "
       "cost, one "
-      "beyond its noise by Pettitt's test. Scales are logarithmic.</p>\n",
+      "beyond its noise. Scales are logarithmic.</p>\n",
       history.size(), escaped(history.front().commit), history.front().date.substr(0, 10),
       escaped(history.back().commit), history.back().date.substr(0, 10), changed, cells.size(),
       escaped(history.back().machine));

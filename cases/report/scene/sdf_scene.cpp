@@ -170,9 +170,15 @@ class SdfWriter {
                 "SDF has no motors");
     for (const TimedForce& force : scene_.forces)
       leave_out(fmt::format("a force on '{}'", scene_.body_name(force.body)), "it", "SDF has no timed forces");
-    for (const ContactPair& pair : scene_.contact_pairs)
-      leave_out(fmt::format("the contact of '{}' and '{}'", scene_.body_name(pair.a), scene_.body_name(pair.b)),
-                "its values", "SDF has surfaces and no pairs; those of the rest are written");
+    for (const ContactPair& pair : scene_.contact_pairs) {
+      const auto of_pair =
+          fmt::format("the contact of '{}' and '{}'", scene_.body_name(pair.a), scene_.body_name(pair.b));
+      if (pair.law.collides) {
+        leave_out(of_pair, "its values", "SDF has surfaces and no pairs; those of the rest are written");
+      } else {
+        leave_out(of_pair, "that they never touch", "SDF says so of a whole model, not of a pair: they collide");
+      }
+    }
   }
 
   static constexpr const char* kModel = "bodies";

@@ -12,20 +12,6 @@ std::string listed_names(const std::vector<std::string>& names, std::size_t most
   return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
 }
 
-std::string wrapped(const std::string& text, std::size_t indent) {
-  constexpr std::size_t kWidth = 100;
-  const std::size_t width = kWidth - indent;
-  std::string out, rest = text;
-  while (rest.size() > width) {
-    std::size_t at = rest.rfind(' ', width);
-    if (at == std::string::npos || at == 0) at = rest.find(' ', width);
-    if (at == std::string::npos) break;
-    out += rest.substr(0, at) + "\n" + std::string(indent, ' ');
-    rest.erase(0, at + 1);
-  }
-  return out + rest;
-}
-
 std::string shortened(std::string text, std::size_t width) {
   if (text.size() <= width) return text;
   text.resize(width - 2);

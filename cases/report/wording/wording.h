@@ -14,10 +14,6 @@ std::string rounded(double value);
 // At most `width` bytes, cut between characters.
 std::string shortened(std::string text, std::size_t width);
 
-// Broken at spaces to a table's width; each line stands behind `indent` columns, the first behind whatever of that
-// width the caller has written already.
-std::string wrapped(const std::string& text, std::size_t indent);
-
 // Names in a sentence, the first few of them.
 std::string listed_names(const std::vector<std::string>& names, std::size_t most);
 

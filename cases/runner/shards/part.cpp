@@ -13,6 +13,7 @@
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
+#include "core/base/json_words.h"
 
 namespace rigor {
 namespace {
@@ -129,7 +130,7 @@ class Merge {
         add(part, answer);
       } catch (const std::exception& error) {
         throw InputError(fmt::format("{}: is damaged: an answer of '{}' cannot be read: {}", part.folder,
-                                     id_of(part, answer), error.what()));
+                                     id_of(part, answer), in_words(error)));
       }
     }
     grid_.wall_seconds += part.title.wall_seconds;

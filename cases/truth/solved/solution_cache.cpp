@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "core/base/content_hash.h"
+#include "core/scene/contact_laws.h"
 #include "solver_fingerprints.h"
 
 namespace rigor {
@@ -247,10 +248,12 @@ std::string events_content(const Scene& scene, double duration, const std::strin
     content.add(body.shape->index());
     std::visit([&](const auto& shape) { add_shape(content, shape); }, *body.shape);
   }
-  for (std::size_t a = 0; a < scene.bodies.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      const ContactLaw law = scene.contact_law(static_cast<int>(a), static_cast<int>(b));
-      content.add(law.restitution), content.add(law.friction);
+  constexpr double kNoContact = -1;  // no restitution has this value
+  const ContactLaws laws(scene);
+  for (int a = 0; a < static_cast<int>(scene.bodies.size()); ++a) {
+    for (int b = 0; b < a; ++b) {
+      const ContactLaw& law = laws.of(a, b);
+      content.add(law.collides ? law.restitution : kNoContact), content.add(law.friction);
     }
   }
   return content.bytes();

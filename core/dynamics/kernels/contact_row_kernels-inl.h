@@ -228,12 +228,13 @@ std::size_t prepare_bias(const RowGroup* first, std::size_t begin, std::size_t e
         const T gap = row.get(kInitialGap) + row.normal_velocity(change, n);
         const T approach = T{} - row.normal_velocity(pair, n);
         row.put(kGap, gap), row.put(kApproachSpeed, approach);
-        const T push = broadcast(T(), parameters.bias_rate) * gap, fastest = broadcast(T(), -parameters.max_push_speed);
+        const T push = broadcast(T(), parameters.bias_rate) * gap, fastest = broadcast(T(), -parameters.max_push_speed),
+                touching = broadcast(T(), parameters.touching);
         // Speculative: the gap closes by h (theta u' + (1 - theta) u), of which only the velocity after, u', can be
         // chosen.
         const T closing = broadcast(T(), 1 / (parameters.h * parameters.theta)) * gap -
                           broadcast(T(), (1 - parameters.theta) / parameters.theta) * approach;
-        row.put(kBias, if_at_most(T{}, gap, closing, if_at_most(push, fastest, fastest, push)));
+        row.put(kBias, if_at_most(gap, touching, if_at_most(push, fastest, fastest, push), closing));
       });
     }
     for (std::int32_t point = 0; point < group.points; ++point) {
@@ -282,8 +283,9 @@ template <class Row, class T>
 RIGOR_INLINE bool solve_row_with_bias(Row row, PairLanes<T>& pair, const SolverParameters& parameters, T& change) {
   const V3<T> n = row.get3(kNormal);
   const T gap = row.get(kGap), old = row.get(kImpulse), mass = row.get(kNormalMass);
-  const T mass_scale = if_at_most(T{}, gap, broadcast(T(), 1), broadcast(T(), parameters.mass_scale));
-  const T impulse_scale = if_at_most(T{}, gap, T{}, broadcast(T(), parameters.impulse_scale));
+  const T touching = broadcast(T(), parameters.touching);
+  const T mass_scale = if_at_most(gap, touching, broadcast(T(), parameters.mass_scale), broadcast(T(), 1));
+  const T impulse_scale = if_at_most(gap, touching, broadcast(T(), parameters.impulse_scale), T{});
   const T delta = T{} - mass_scale * ((row.normal_velocity(pair, n) + row.get(kBias)) * mass) - impulse_scale * old;
   const T p_n = at_least_zero(old + delta);
   change = T{};

@@ -86,6 +86,7 @@ struct SolverParameters {
   double theta;                                 // x' = x + h (theta u' + (1 - theta) u) over a sub-step
   double bias_rate, mass_scale, impulse_scale;  // of the soft constraint: 1/s, 1, 1
   double max_push_speed;                        // m/s, at which overlapping bodies are pushed apart
+  double touching;                              // m: a point with no larger gap is a soft constraint
   double restitution_threshold;                 // m/s: a slower approach is no impact
   double tolerance;                             // m/s: impacts are solved until they change by less, in at most
   int max_sweeps;                               // so many sweeps

@@ -117,7 +117,7 @@ Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool che
   refuse_if(fault_of(joint, scene), row);
   if (!check_velocities) return joint;
   if (const std::string why = why_rates_break(scene, joint); !why.empty())
-    row.refuse(why + "; `rigor settle` prints the file with velocities that do not");
+    row.refuse(why + "; `rigor settle FILE` prints the file with velocities that keep it");
   return joint;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "core/scene/contact_laws.h"
 #include "core/scene/toml/body_index.h"
 #include "core/scene/toml/body_reader.h"
 #include "core/scene/toml/joint_reader.h"
@@ -31,7 +32,9 @@ class SceneReader {
     if (const auto law = table.find("contact_default")) {
       scene_.contact_default = read_law(law->table({"restitution", "friction"}), {});
     }
-    for (const TableReader& row : rows(table, "contact", {"a", "b", "restitution", "friction"})) add_contact(row);
+    for (const TableReader& row : rows(table, "contact", {"a", "b", "restitution", "friction", "collides"}))
+      add_contact(row);
+    if (const auto flag = table.find("self_contact"); flag && !flag->flag()) keep_joined_bodies_apart();
     for (const TableReader& row : rows(table, "force", kForceKeys)) scene_.forces.push_back(read_force(row));
     return std::move(scene_);
   }
@@ -114,13 +117,28 @@ class SceneReader {
 
   void add_contact(const TableReader& row) {
     const int a = index_.body(row.at("a")), b = index_.body(row.at("b"));
-    const ContactPair pair{a, b, read_law(row, scene_.contact_default)};
+    ContactPair pair{a, b, read_law(row, scene_.contact_default)};
+    if (const auto collides = row.find("collides"); collides && !collides->flag()) {
+      for (const char* key : {"restitution", "friction"}) {
+        if (row.find(key)) row.at(key).refuse("the pair never touches, for collides is false; allowed: one of the two");
+      }
+      pair.law = kApart;
+    }
     refuse_if(fault_of(pair, scene_), row);
     if (!pairs_seen_.insert(std::minmax({a, b})).second) {
       row.refuse(fmt::format("the contact of '{}' and '{}' is given twice; allowed: once, in either order",
                              shown(scene_.body_name(a)), shown(scene_.body_name(b))));
     }
     scene_.contact_pairs.push_back(pair);
+  }
+
+  // A row of [[scene.contact]] comes first: it says more about its pair than self_contact does.
+  void keep_joined_bodies_apart() {
+    for (const Joint& joint : scene_.joints) {
+      if (joint.a == kWorld || joint.b == kWorld || !can_meet(scene_.bodies[joint.a], scene_.bodies[joint.b])) continue;
+      if (pairs_seen_.insert(std::minmax({joint.a, joint.b})).second)
+        scene_.contact_pairs.push_back({joint.a, joint.b, kApart});
+    }
   }
 
   TimedForce read_force(const TableReader& row) const {
@@ -146,7 +164,7 @@ class SceneReader {
 
 const std::vector<std::string>& scene_keys() {
   static const Keys keys = {"gravity", "body",    "array",           "spring", "joint",
-                            "motor",   "contact", "contact_default", "force"};
+                            "motor",   "contact", "contact_default", "force",  "self_contact"};
   return keys;
 }
 

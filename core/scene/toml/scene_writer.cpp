@@ -1,9 +1,13 @@
 #include "core/scene/toml/scene_writer.h"
-#include "core/base/json.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+
+#include "core/base/json.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -101,7 +105,11 @@ Json row_of(const ContactLaw& law) {
 
 Json row_of(const ContactPair& pair, const Scene& scene) {
   Json row = {{"a", scene.body_name(pair.a)}, {"b", scene.body_name(pair.b)}};
-  row.update(row_of(pair.law));
+  if (pair.law.collides) {
+    row.update(row_of(pair.law));
+  } else {
+    row["collides"] = false;
+  }
   return row;
 }
 
@@ -130,6 +138,33 @@ Json tree_of(const Scene& scene) {
   return tree;
 }
 
+// Bodies that share a joint, in ascending order, where they could meet.
+std::set<std::pair<int, int>> joined_pairs(const Scene& scene) {
+  std::set<std::pair<int, int>> joined;
+  for (const Joint& joint : scene.joints) {
+    const bool are_bodies = joint.a != kWorld && joint.b != kWorld;
+    if (are_bodies && can_meet(scene.bodies[joint.a], scene.bodies[joint.b]))
+      joined.insert(std::minmax({joint.a, joint.b}));
+  }
+  return joined;
+}
+
+// Writes `self_contact = false` in place of the rows that it stands for. Only if every joined pair has such a row.
+void shorten_contacts(Json& tree, const Scene& scene) {
+  const auto joined = joined_pairs(scene);
+  const auto stands = [&](const ContactPair& pair) {
+    return !pair.law.collides && joined.contains(std::minmax({pair.a, pair.b}));
+  };
+  const auto& pairs = scene.contact_pairs;
+  const auto count = static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), stands));
+  if (joined.empty() || count < joined.size()) return;
+  tree.erase("contact");
+  for (const ContactPair& pair : pairs) {
+    if (!stands(pair)) tree["contact"].push_back(row_of(pair, scene));
+  }
+  tree["self_contact"] = false;
+}
+
 // Numbers, texts, flags and lists of JSON are TOML as they stand; only its objects are not.
 std::string toml_of(const Json& value) {
   if (!value.is_object()) return value.dump();
@@ -145,7 +180,8 @@ std::string scene_json(const Scene& scene) { return tree_of(scene).dump(); }
 
 std::string scene_toml(const Scene& scene) {
   std::string values = "[scene]\n", tables;
-  const Json tree = tree_of(scene);
+  Json tree = tree_of(scene);
+  shorten_contacts(tree, scene);
   for (const auto& [key, value] : tree.items()) {
     const bool is_table = value.is_array() && value.front().is_object();
     if (!is_table) values += fmt::format("{} = {}\n", key, toml_of(value));

@@ -84,6 +84,34 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_exported_starts_and_moves_there_as_it_does_h
   }
 }
 
+// A motor, a servo, and a servo whose control its range cuts off, as their keyframe controls them.
+const std::string kControlled = R"(<mujoco><compiler angle="radian" autolimits="false"/><worldbody>
+  <body name="a" pos="0 0 1"><joint name="ja" axis="0 1 0"/><inertial pos="0.3 0 0" mass="2" diaginertia="0.2 0.25 0.1"/></body>
+  <body name="b" pos="0 1 1"><joint name="jb" axis="0 1 0" damping="0.1"/><inertial pos="0.3 0 0" mass="1" diaginertia="0.1 0.12 0.05"/></body>
+  <body name="c" pos="0 2 1"><joint name="jc" type="slide" axis="1 0 0"/><inertial pos="0.1 0 0" mass="3" diaginertia="0.1 0.2 0.15"/></body>
+  </worldbody>
+  <actuator><motor name="push" joint="ja" gear="3"/><position name="servo" joint="jb" kp="12" gear="0.5"/>
+    <position name="cut" joint="jc" kp="7" ctrllimited="true" ctrlrange="-0.1 0.1"/></actuator>
+  <keyframe><key name="held" qpos="0.1 -0.2 0.05" ctrl="0.4 0.9 2"/></keyframe></mujoco>)";
+
+BOOST_AUTO_TEST_CASE(a_keyframe_s_control_drives_the_scene_as_it_drives_mujoco) {
+  const Folder folder;
+  const std::string path = folder.write("m.xml", kControlled);
+  const Import made = import_model(path, "held");
+  for (const char* part : {"actuator 'push': its control: stays 0.4", "actuator 'servo': its control: stays 0.9",
+                           "actuator 'cut': its control: stays 0.1"})
+    BOOST_TEST(some_has(made.left_out, part), part);
+  const Scene scene = read_case_text(made.case_text, path, path, words()).scene;
+  BOOST_TEST_REQUIRE(scene.motors.size() == 1u);
+  BOOST_TEST(std::abs(scene.motors[0].effort - 1.2) < 1e-15);  // gain 1 × control 0.4 × gear 3
+  Own own(path);
+  mj_resetDataKeyframe(own.model.get(), own.data.get(), 0);
+  mj_forward(own.model.get(), own.data.get());
+  check_alike("m.xml", apart_after(own, "mujoco", scene, 1));
+  // The model's own state has no control, and the notice says so.
+  BOOST_TEST(some_has(import_model(path).left_out, "actuator 'push': it: its control is zero from start to end"));
+}
+
 const std::string kBent = R"(<mujoco><compiler angle="radian" autolimits="false"/><worldbody>
   <body name="upper" pos="0 0 2"><joint name="shoulder" axis="0 1 0" range="-1 2" limited="true" stiffness="3"/>
     <inertial pos="0.1 0 -0.5" mass="2" fullinertia="0.2 0.25 0.1 0.01 0 0"/>
@@ -158,7 +186,7 @@ BOOST_AUTO_TEST_CASE(what_it_says_and_a_scene_does_not_is_named) {
     <geom name="c" type="cylinder" size="0.1 0.2"/></body></worldbody><actuator><motor name="m" joint="j"/></actuator></mujoco>)";
   const auto left_out = left_out_of_model("m.xml", text);
   for (const char* part : {"joint 'j': armature", "joint 'j': frictionloss", "geom 'c': its shape: is a cylinder",
-                           "actuator 'm': it: is a drive"})
+                           "actuator 'm': it: its control is zero"})
     BOOST_TEST(some_has(left_out, part), part);
   const Joint joint = joint_named(scene_of_text("m.xml", text), "j");
   BOOST_TEST((joint.lower == -0.5 && joint.upper == 0.7));

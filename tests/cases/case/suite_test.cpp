@@ -96,9 +96,12 @@ BOOST_AUTO_TEST_CASE(a_folder_or_file_without_a_case_is_refused) {
   BOOST_TEST(refusal(empty) == empty + ": there is no case, no .toml file, in this folder");
   BOOST_TEST(refusal(notes) == notes + ": is not a .toml file, nor one of a robot: .urdf, .sdf, .mjcf, .xml");
   BOOST_TEST(refusal_of([&] { select_cases({}, empty, test::words()); }) ==
-             empty + ": there is no case in the suite's folder");
+             "--suite: there is no case in the folder '" + empty + "'");
   BOOST_TEST(refusal_of([&] { select_cases({}, empty + "/none", test::words()); }) ==
-             empty + "/none: there is no case in the suite's folder");
+             "--suite: there is no folder '" + empty + "/none'");
+  // The folder is at fault, and not the word.
+  BOOST_TEST(refusal_of([&] { select_cases({"springs/two"}, empty + "/none", test::words()); }) ==
+             "--suite: there is no folder '" + empty + "/none'");
 }
 
 BOOST_AUTO_TEST_CASE(a_file_can_be_given_where_there_is_no_suite) {

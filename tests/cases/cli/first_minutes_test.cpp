@@ -93,10 +93,86 @@ BOOST_AUTO_TEST_CASE(completions_and_the_manual_know_every_command_and_option) {
       "bash -c 'cd " + folder.path.string() +
       " && . ./rigor.bash && COMP_WORDS=(rigor swe) COMP_CWORD=1 && _rigor && "
       "[ \"${COMPREPLY[*]}\" = sweep ] && COMP_WORDS=(rigor merge --su) COMP_CWORD=2 && _rigor && "
-      "[ \"${COMPREPLY[*]}\" = --suite ]'";
+      "[ \"${COMPREPLY[*]}\" = --suite ] && COMP_WORDS=(rigor run springs/fixed-s) COMP_CWORD=2 && _rigor && "
+      "[ \"${COMPREPLY[*]}\" = springs/fixed-spring ] && COMP_WORDS=(rigor trace --format g) COMP_CWORD=3 && _rigor && "
+      "[ \"${COMPREPLY[*]}\" = gltf ] && COMP_WORDS=(rigor export --format m) COMP_CWORD=3 && _rigor && "
+      "[ \"${COMPREPLY[*]}\" = mjcf ]'";
   BOOST_TEST(std::system(asked.c_str()) == 0);
   BOOST_TEST(run({"completion"}).code == 2);
   BOOST_TEST(run({"completion", "bsh"}).err.find("did you mean 'bash'") != std::string::npos);
+}
+
+// A page is the same for every user, so it names no folder of the machine that built it.
+BOOST_AUTO_TEST_CASE(help_and_the_manual_have_examples_and_no_path_of_the_build) {
+  const std::string man = run({"completion", "man"}).out;
+  BOOST_TEST(man.find(".SH EXAMPLES\n") != std::string::npos);
+  BOOST_TEST(man.find(RIGOR_SOURCE_DIR) == std::string::npos);
+  for (const CommandRow& row : commands()) {
+    const Answer help = run({row.name, "--help"});
+    BOOST_TEST(help.out.find("Examples:\n  rigor " + row.name) != std::string::npos, help.out);
+    BOOST_TEST(run({row.name, "-h"}).out == help.out);
+    BOOST_TEST(run({"help", row.name}).out == help.out);
+    for (const std::string& option : row.options) BOOST_TEST(help.out.find("  " + option) != std::string::npos, option);
+  }
+  BOOST_TEST(run({"help"}).out == run({"--help"}).out);
+  BOOST_TEST(run({"-h"}).out == run({"--help"}).out);
+  BOOST_TEST(run({"version"}).out == run({"--version"}).out);
+  const Answer wrong = run({"help", "rnu"});
+  BOOST_TEST((wrong.code == 2 && wrong.err.find("did you mean 'run'?") != std::string::npos), wrong.err);
+}
+
+BOOST_AUTO_TEST_CASE(examples_name_options_and_cases_that_there_are) {
+  for (const CommandRow& row : commands()) {
+    BOOST_TEST(row.examples.size() >= 1u, row.name);
+    for (const Example& example : row.examples) {
+      BOOST_TEST(example.call.starts_with("rigor " + row.name), example.call);
+      std::istringstream words(example.call);
+      for (std::string word; words >> word;) {
+        if (word.starts_with("--"))
+          BOOST_TEST(std::count(row.options.begin(), row.options.end(), word) == 1, example.call);
+        const bool is_case =
+            word.starts_with("springs/") || word.starts_with("joints/") || word.starts_with("ballistic/");
+        if (is_case)
+          BOOST_TEST(std::filesystem::exists(RIGOR_SOURCE_DIR "/cases/suite/" + word + ".toml"), example.call);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_home_does_not_stop_the_help) {
+  const Variable set((folder.path / "nowhere").string());
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"}, {"run", "--help"}, {"--version"}})
+    BOOST_TEST(run(words).code == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_trace_takes_the_only_step_of_its_case) {
+  folder.write("thrown.toml", kThrown);
+  const Answer answer = run({"trace", "thrown.toml", "--engine", "core:rk4"});
+  BOOST_TEST(answer.code == 0, answer.err);
+  BOOST_TEST(answer.out == run({"trace", "thrown.toml", "--engine", "core:rk4", "--dt", "1/10"}).out);
+}
+
+BOOST_AUTO_TEST_CASE(a_folder_of_cases_that_is_not_there_is_named_and_not_the_case) {
+  const Answer answer = run({"run", "springs/fixed-spring", "--suite", "/nonexist"});
+  BOOST_TEST(answer.code == 2);
+  BOOST_TEST(answer.err == "rigor: --suite: there is no folder '/nonexist'\n", answer.err);
+}
+
+BOOST_AUTO_TEST_CASE(a_file_that_is_no_json_is_refused_in_words_of_our_own) {
+  folder.write("broken.json", "{\"a\": nonsense}");
+  folder.write("other.json", "{\"a\": 1}");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"compare", "broken.json", "broken.json"},
+                                                {"baseline", "broken.json", "--regression", "ode"},
+                                                {"baseline", "other.json"},
+                                                {"history", "add", "broken.json"}}) {
+    const Answer answer = run(words);
+    BOOST_TEST(answer.code == 2);
+    BOOST_TEST(answer.err.find("json.exception") == std::string::npos, answer.err);
+  }
+  const std::string err = run({"compare", "broken.json", "broken.json"}).err;
+  BOOST_TEST(err.find("broken.json: neither a results.json nor a baseline: line 1, column 8: is not JSON") !=
+                 std::string::npos,
+             err);
 }
 
 BOOST_AUTO_TEST_CASE(its_files_are_where_the_variable_says_or_it_says_that_they_are_not) {

@@ -127,6 +127,35 @@ BOOST_AUTO_TEST_CASE(a_killed_run_leaves_the_old_outputs_and_no_child) {
   }
 }
 
+// As a script's `trap "" INT` or nohup does it: what the leader of a group was told to ignore, its children ignore too.
+BOOST_AUTO_TEST_CASE(a_signal_that_the_program_was_told_to_ignore_stops_no_cell) {
+  for (const int signal : {SIGINT, SIGHUP, SIGTERM}) {
+    const pid_t pid = start({"run", "stone", "--engine", "core:rk4", "--dt", "1e-6", "--out", out},
+                            [&] { ::signal(signal, SIG_IGN); });
+    const fs::path growing = fs::path(out) / ".rigor-partial";
+    for (int i = 0; i < 500 && !fs::exists(growing); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (int i = 0; i < 5; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      kill(-pid, signal);  // the group of the program and its children
+    }
+    BOOST_TEST(wait_for(pid).code == 0);
+    for (const auto& cell : cells()) BOOST_TEST(cell.at("status") == "pass");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupted_command_offers_to_resume_only_if_it_can) {
+  for (const bool can : {true, false}) {
+    std::vector<std::string> words = {can ? "run" : "trace", "stone", "--engine", "core:rk4", "--dt", "1e-8"};
+    if (can) words.insert(words.end(), {"--out", out});
+    const pid_t pid = start(words);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    kill(pid, SIGINT);
+    const Answer answer = wait_for(pid);
+    BOOST_TEST(answer.code == -SIGINT);
+    BOOST_TEST((answer.err.find("--resume") != std::string::npos) == can, answer.err);
+  }
+}
+
 // A longer run over a shorter one's outputs, killed at about the instant at which its own appear.
 BOOST_AUTO_TEST_CASE(a_run_killed_while_it_publishes_goes_on_to_its_own_trajectories) {
   const auto words = [&](const std::string& duration) -> std::vector<std::string> {

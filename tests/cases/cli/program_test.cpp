@@ -114,9 +114,9 @@ BOOST_AUTO_TEST_CASE(bad_words_and_numbers_are_answered_on_stderr_with_exit_2_an
       {{"run", "stone", "--out", file + "/below"}, "cannot be written"},
       {{"list", "engine"}, "did you mean 'engines'"},
       {{"list", "--jobs", "2"}, "no option '--jobs'"},
-      {{"trace"}, "which case"},
+      {{"trace"}, "takes one case"},
       {{"trace", "stone"}, "--engine"},
-      {{"trace", "stone", "--engine", "ode"}, "--dt"},
+      {{"trace", "stone", "--engine", "ode"}, "takes exactly one --dt; air/stone has 1/10, 1/20"},
       {{"trace", "stone", "--engine", "ode", "--dt", "1/10", "--every", "0"}, "--every"},
       {{"trace", "air", "--engine", "ode", "--dt", "1/10"}, "one case"},
       {{"truth", "stone", "--times", "1,x"}, "--times"},
@@ -376,7 +376,24 @@ BOOST_AUTO_TEST_CASE(what_a_terminal_would_obey_is_not_printed) {
     const Answer answer = run(words);
     BOOST_TEST(answer.code == 2);
     BOOST_TEST(answer.err.find_first_of("\x1b\x07\x7f\x9b") == std::string::npos, answer.err);
+    BOOST_TEST(answer.err.find("a\\x1b[31m\\x07\\x9b\\xc2\\x9b\\x7f b") != std::string::npos, answer.err);
   }
+}
+
+BOOST_AUTO_TEST_CASE(tables_are_as_wide_as_the_terminal) {
+  ::setenv("COLUMNS", "60", 1);
+  const Answer ran = run({"run", "stone", "--engine", "core:rk4", "--out", out}), listed = run({"list"}),
+               help = run({"run", "--help"});
+  ::unsetenv("COLUMNS");
+  for (const Answer& answer : {ran, help}) {
+    for (const std::string& line : lines_of(answer.out)) {
+      const bool is_one_word = line.find(' ', line.find_first_not_of(' ')) == std::string::npos;
+      const bool is_example = line.starts_with("  rigor ");
+      BOOST_TEST((line.size() <= 60 || is_one_word || is_example), line);
+    }
+  }
+  for (const std::string& line : lines_of(listed.out))
+    BOOST_TEST(line.size() <= 110u, line);  // a long name, then its text
 }
 
 BOOST_AUTO_TEST_CASE(one_run_and_one_step_are_run_once_however_they_are_written) {

@@ -167,9 +167,42 @@ BOOST_AUTO_TEST_CASE(the_program_imports_runs_and_refuses) {
   const Answer trace = run({"trace", "arm.urdf", "--engine", "core:rk4", "--dt", "1/10", "--duration", "0.5"});
   BOOST_TEST(trace.code == 0, trace.err);
   BOOST_TEST(trace.err.find("<mimic>") != std::string::npos, trace.err);
+  // A run names each kind of physics that is lost once, before anything else. The arm is held, so no ground is missed.
+  const Answer short_run =
+      run({"run", "arm.urdf", "--engine", "core:rk4", "--dt", "1/30", "--duration", "0.5", "--out", "out"});
+  BOOST_TEST(short_run.err.starts_with("rigor: arm.urdf: physics left out or assumed"), short_run.err);
   BOOST_TEST(run({"import"}).code == 2);
   BOOST_TEST(run({"import", "none.urdf"}).code == 2);
   BOOST_TEST(run({"run", "none.urdf"}).code == 2);
+}
+
+// Four legs and a trunk on a plane that is added to the case file. Without it the first line says that nothing is there
+// to land on.
+BOOST_AUTO_TEST_CASE(a_robot_falls_onto_the_ground_and_not_through_it) {
+  const std::string model = RIGOR_SOURCE_DIR "/tests/cases/import/models/quadruped.urdf";
+  const Answer in_the_air =
+      run({"run", model, "--engine", "core", "--dt", "1/30", "--duration", "0.1", "--out", "out"});
+  BOOST_TEST(in_the_air.code == 0, in_the_air.err);
+  BOOST_TEST(in_the_air.err.starts_with("rigor: " + model + ": there is no ground, so 'trunk' falls freely"),
+             in_the_air.err);
+  std::string text = run({"import", model}).out;
+  const double ground = -0.45;  // m, below the feet
+  text.insert(text.find("\n[run]"),
+              "\n[[scene.body]]\nname = \"ground\"\nshape = { type = \"plane\", normal = [0, 0, 1], "
+              "offset = -0.45 }\n");
+  folder.write("on_ground.toml", text);
+  for (const char* engine : {"core:velocity-verlet", "ode", "bullet"}) {
+    if (!is_built(std::string(engine).substr(0, std::string(engine).find(':')))) continue;
+    const Answer trace = run({"trace", "on_ground.toml", "--engine", engine, "--dt", "1/240", "--duration", "1"});
+    BOOST_TEST(trace.code == 0, trace.err);
+    const std::size_t last = trace.out.rfind("\n1,trunk,");
+    BOOST_TEST_REQUIRE(last != std::string::npos, engine << ": " << trace.err);
+    std::istringstream row(trace.out.substr(last + 9));
+    std::string x, y, z;
+    std::getline(row, x, ','), std::getline(row, y, ','), std::getline(row, z, ',');
+    // Half the trunk's height above the ground if it lies, and no higher than it began.
+    BOOST_TEST((std::stod(z) > ground + 0.04 && std::stod(z) < 0.1), engine << ": " << z);
+  }
 }
 
 // In a process that may have a gigabyte in all.

@@ -116,11 +116,89 @@ BOOST_AUTO_TEST_CASE(an_arm_of_six_joints_is_held_by_its_base_and_ends_in_frames
 
 BOOST_AUTO_TEST_CASE(a_quadruped_is_free_and_has_thirteen_bodies) {
   const Scene scene = scene_of_file(kModels + "quadruped.urdf");
-  BOOST_TEST(scene.bodies.size() == 13u);
-  BOOST_TEST(scene.joints.size() == 12u);
+  // Shapes off the centre of mass are bodies of their own, called "calf/2".
+  const auto is_link = [](const Body& body) { return body.name.find('/') == std::string::npos; };
+  BOOST_TEST(std::count_if(scene.bodies.begin(), scene.bodies.end(), is_link) == 13);
+  const auto is_hinge = [](const Joint& joint) { return std::holds_alternative<HingeJoint>(joint.type); };
+  BOOST_TEST(std::count_if(scene.joints.begin(), scene.joints.end(), is_hinge) == 12);
   const auto left_out = import_model(kModels + "quadruped.urdf").left_out;
   BOOST_TEST(some_has(left_out, "it is free"));
   BOOST_TEST(some_has(left_out, "joint 'FR_calf_joint': its position 0: is beyond its limits: it starts at -0.916298"));
+}
+
+BOOST_AUTO_TEST_CASE(every_shape_of_a_robot_collides_and_no_two_links_of_a_joint_do) {
+  const Scene scene = scene_of_file(kModels + "quadruped.urdf");
+  int shapes = 0;
+  for (const Body& body : scene.bodies) {
+    if (body.shape) ++shapes;
+    BOOST_TEST(body.collides == body.shape.has_value(), body.name);
+  }
+  BOOST_TEST(shapes == 17);  // a trunk, and on each leg a hip, a thigh, a calf and a foot
+  for (const Joint& joint : scene.joints) {
+    if (joint.a == kWorld || joint.b == kWorld) continue;
+    const Body &a = scene.bodies[joint.a], &b = scene.bodies[joint.b];
+    if (a.collides && b.collides) BOOST_TEST(!scene.contact_law(joint.a, joint.b).collides, a.name << " " << b.name);
+  }
+  const auto index = [&](const std::string& name) {
+    return static_cast<int>(&body_named(scene, name) - scene.bodies.data());
+  };
+  // Legs may touch each other.
+  BOOST_TEST(scene.contact_law(index("FR_hip"), index("FL_hip")).collides);
+}
+
+// A link of another model, or a plane that is added later, meets all shapes. Links of one model never touch each other.
+BOOST_AUTO_TEST_CASE(links_of_an_sdf_model_touch_each_other_only_if_it_says_so) {
+  const auto model = [](const std::string& flag) {
+    std::string text = "<model name='m'>" + flag;
+    for (const char* x : {"0", "5"})
+      text += std::string("<link name='l") + x + "'><pose>" + x + " 0 1 0 0 0</pose>" + kBoxInertial +
+              "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link>";
+    return sdf_of(text + "</model>");
+  };
+  for (const auto& [flag, touches] : {std::pair{"", false}, {"<self_collide>1</self_collide>", true}}) {
+    const Scene scene = scene_of_text("m.sdf", model(flag));
+    BOOST_TEST((scene.bodies[0].collides && scene.bodies[1].collides));
+    BOOST_TEST(scene.contact_law(0, 1).collides == touches);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(losses_are_one_sentence_a_kind_and_hold_only_physics) {
+  const std::string
+      mesh = "<collision><geometry><mesh filename='a.stl'/></geometry></collision>",
+      inertial = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
+  const Folder folder;
+  folder.write("a.stl", "");
+  const Import made = import_model(folder.write(
+      "r.urdf", "<robot name='r'><link name='a'>" + inertial + mesh + "<visual/></link>\n<link name='b'>" + inertial +
+                    mesh +
+                    "</link><joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>"));
+  BOOST_TEST(some_has(made.losses, "<mesh>: is a mesh, which no scene has: nothing touches it (2 times, first at "));
+  BOOST_TEST(!some_has(made.losses, "visual"));
+  BOOST_TEST(some_has(made.left_out, "<visual>: changes no motion"));
+  BOOST_TEST(losses_of(made.case_text) == made.losses, boost::test_tools::per_element());
+  BOOST_TEST(losses_of("# physics\ntitle = 'x'").empty());
+}
+
+BOOST_AUTO_TEST_CASE(what_falls_without_end_is_found) {
+  Scene scene;
+  scene.gravity = {0, 0, -9.81};
+  scene.bodies.resize(3);
+  scene.bodies[0].name = "a", scene.bodies[1].name = "b", scene.bodies[2].name = "c";
+  BOOST_TEST(falls_freely(scene) == "a");
+  scene.joints = {{1, 2, FixedJoint{}}, {0, 1, BallJoint{Vec3::Zero()}}, {kWorld, 2, BallJoint{Vec3::Zero()}}};
+  BOOST_TEST(falls_freely(scene) == "");
+  scene.joints.pop_back();
+  scene.springs = {{0, kWorld}};
+  BOOST_TEST(falls_freely(scene) == "");
+  scene.springs.clear();
+  scene.bodies[2].fixed = true;
+  BOOST_TEST(falls_freely(scene) == "");
+  scene.joints.clear();
+  BOOST_TEST(falls_freely(scene) == "a");
+  scene.bodies[2].collides = true;  // a ground
+  BOOST_TEST(falls_freely(scene) == "");
+  scene.bodies[2].collides = false, scene.gravity.setZero();
+  BOOST_TEST(falls_freely(scene) == "");
 }
 
 BOOST_AUTO_TEST_CASE(sdf_and_urdf_of_the_same_pendulum_are_the_same_scene) {
@@ -189,8 +267,8 @@ BOOST_AUTO_TEST_CASE(shapes_touch_a_floor_where_they_are_and_the_whole_keeps_its
   BOOST_TEST((scene.contact_default.friction == 1.0 && with_half > 0));
 }
 
-// A chain of boxes that reach into each other, as links of robots do: on the floor every second one touches.
-BOOST_AUTO_TEST_CASE(links_that_overlap_and_the_file_keeps_apart_do_not_collide_and_it_is_said) {
+// A chain of boxes that reach into each other, as links of robots do: all land on the floor, and none on another.
+BOOST_AUTO_TEST_CASE(links_that_overlap_collide_with_the_floor_and_not_with_each_other) {
   std::string links;
   for (int k = 0; k < 3; ++k) {
     links += "<link name='l" + std::to_string(k) + "'><pose>" + std::to_string(0.3 * k) + " 0 1 0 0 0</pose>" +
@@ -207,12 +285,35 @@ BOOST_AUTO_TEST_CASE(links_that_overlap_and_the_file_keeps_apart_do_not_collide_
       "<model name='chain'>" +
       links + "</model>");
   const Scene scene = scene_of_text("w.sdf", text);
-  BOOST_TEST(body_named(scene, "chain::l0").collides);
-  BOOST_TEST(!body_named(scene, "chain::l1").collides);
-  BOOST_TEST(body_named(scene, "chain::l2").collides);
-  const auto left_out = left_out_of_model("w.sdf", text);
-  BOOST_TEST(some_has(left_out, "collision of link 'l1': touching: it overlaps 'chain::l2'"));
-  BOOST_TEST(some_has(left_out, "links of one model too"));
+  BOOST_TEST_REQUIRE(scene.bodies.size() == 4u);
+  int floor = 0;
+  while (!scene.bodies[floor].fixed) ++floor;
+  for (int a = 0; a < 4; ++a) {
+    BOOST_TEST(scene.bodies[a].collides);
+    for (int b = 0; b < a; ++b) BOOST_TEST(scene.contact_law(a, b).collides == (a == floor || b == floor));
+  }
+}
+
+// The file does not say that the shin may not touch the trunk. They overlap from the start, so they never do.
+BOOST_AUTO_TEST_CASE(links_of_a_urdf_that_overlap_at_the_start_never_touch_and_it_is_named) {
+  const auto link = [](const std::string& name) {
+    return "<link name='" + name +
+           "'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
+           "<collision><geometry><sphere radius='0.1'/></geometry></collision></link>";
+  };
+  const auto joint = [](const std::string& name, const std::string& a, const std::string& b, const std::string& x) {
+    return "<joint name='" + name + "' type='continuous'><parent link='" + a + "'/><child link='" + b +
+           "'/><origin xyz='" + x + " 0 0'/></joint>";
+  };
+  const std::string text = "<robot name='r'>" + link("trunk") + link("thigh") + link("shin") + link("foot") +
+                           joint("a", "trunk", "thigh", "0.08") + joint("b", "thigh", "shin", "0.08") +
+                           joint("c", "shin", "foot", "0.3") + "</robot>";
+  const Scene scene = scene_of_text("r.urdf", text);
+  BOOST_TEST(!scene.contact_law(0, 2).collides);
+  BOOST_TEST(
+      (!scene.contact_law(0, 1).collides && scene.contact_law(0, 3).collides && scene.contact_law(1, 3).collides));
+  BOOST_TEST(
+      some_has(left_out_of_model("r.urdf", text), "touching: overlaps 'shin' at the start: these two never touch"));
 }
 
 BOOST_AUTO_TEST_CASE(sdf_takes_universal_ball_and_spring_and_models_in_models) {

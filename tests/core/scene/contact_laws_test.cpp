@@ -32,4 +32,17 @@ BOOST_AUTO_TEST_CASE(two_bodies_can_touch_if_both_collide_and_one_can_move) {
   BOOST_TEST(!anything_can_touch(scene));
 }
 
+BOOST_AUTO_TEST_CASE(a_pair_that_never_touches_is_found_in_either_order_and_counts_as_no_contact) {
+  Scene scene;
+  scene.bodies.resize(3);
+  for (Body& body : scene.bodies) body.collides = true;
+  scene.bodies[2].fixed = true;
+  scene.contact_pairs = {{1, 0, kApart}, {0, 2, kApart}};
+  const ContactLaws laws(scene);
+  BOOST_TEST((laws.some_are_apart() && !laws.may_touch(0, 1) && !laws.may_touch(2, 0) && laws.may_touch(1, 2)));
+  BOOST_TEST(anything_can_touch(scene));
+  scene.contact_pairs.push_back({1, 2, kApart});
+  BOOST_TEST(!anything_can_touch(scene));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

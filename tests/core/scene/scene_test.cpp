@@ -56,6 +56,18 @@ BOOST_AUTO_TEST_CASE(a_pair_s_law_does_not_depend_on_the_order_and_falls_back_on
   BOOST_TEST(scene.contact_law(3, 4).friction == 0.2);
 }
 
+BOOST_AUTO_TEST_CASE(pairs_that_never_touch_ask_for_a_filter_and_for_no_contact) {
+  Scene scene;
+  scene.bodies = {test::on_its_own("a", Sphere{1}, 1, Vec3::Zero()),
+                  test::on_its_own("b", Box{{1, 1, 1}}, 1, Vec3::Zero()), test::plane()};
+  scene.contact_pairs = {{0, 1, kApart}};
+  const auto some = features_of(scene);
+  BOOST_TEST((some.contains("contact-filter") && some.contains("contact:plane-sphere") &&
+              !some.contains("contact:box-sphere")));
+  scene.contact_pairs = {{0, 1, kApart}, {0, 2, kApart}, {1, 2, kApart}};
+  BOOST_TEST((features_of(scene) == std::set<std::string>{}));  // nothing touches, so nothing has to be filtered
+}
+
 BOOST_AUTO_TEST_CASE(a_scene_asks_for_what_it_uses_and_no_more) {
   BOOST_TEST((features_of(test::tumbling_body()) == std::set<std::string>{}));
   BOOST_TEST((features_of(test::fixed_spring()) == std::set<std::string>{"spring"}));

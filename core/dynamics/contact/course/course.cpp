@@ -86,6 +86,7 @@ class CourseContact : public Contact {
 
   // n points from b to a.
   void bounce(const Side& a, const Side& b, const Vec3& n, MutableBodyColumns state) const {
+    if (!laws_.may_touch(a.body, b.body)) return;
     const Vec3 u = point_velocity(a, state) - point_velocity(b, state);
     const double speed = n.dot(u);
     if (speed >= 0) return;
@@ -153,7 +154,7 @@ extern const ContactMethod kCourseContact;
 const ContactMethod kCourseContact = {
     .name = "course",
     .summary = "the course's impulse: spheres on planes and on each other, restitution, infinite friction",
-    .features = {"contact:plane-sphere", "contact:sphere-sphere", "friction:infinite", "restitution"},
+    .features = {"contact-filter", "contact:plane-sphere", "contact:sphere-sphere", "friction:infinite", "restitution"},
     .make = make_contact_stepper<CourseStepper>,
 };
 

@@ -43,7 +43,8 @@ const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns st
 const std::vector<std::pair<int, int>>& ContactPoints::overlapping_boxes() {
   pairs_.clear();
   for (const auto& pair : broad_phase_.overlaps(boxes_)) {
-    if (!(colliders_[pair.first].fixed && colliders_[pair.second].fixed)) pairs_.push_back(pair);
+    const Collider &a = colliders_[pair.first], &b = colliders_[pair.second];
+    if (!(a.fixed && b.fixed) && laws_.may_touch(a.body, b.body)) pairs_.push_back(pair);
   }
   return pairs_;
 }

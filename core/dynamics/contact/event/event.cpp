@@ -342,8 +342,9 @@ extern const ContactMethod kEventContact;
 const ContactMethod kEventContact = {
     .name = "event",
     .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
-    .features = joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none",
-                                                  "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
+    .features =
+        joined(contacts_of_all_shapes(), {"contact-filter", "friction:coulomb", "friction:infinite", "friction:none",
+                                          "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
     .options = {{"restitution-threshold", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1},
                 {"patience",
                  "times of what it may spend on events by default; more than 1: invalid where they crowd",

@@ -52,6 +52,8 @@ void clear_rows(const RowGroup& group) {
     std::fill_n(&at(block, kNormal, 0), kRowsPerBlock, 1.0);
     std::fill_n(&at(block, kNormalMass, 0), kRowsPerBlock, 1.0);
     std::fill_n(&at(block, kInitialGap, 0), kRowsPerBlock, ContactRowLayout::kNoPoint);
+    // No impulse, however the bodies of the pair move: else its changes would keep sweeps going.
+    std::fill_n(&at(block, kBias, 0), kRowsPerBlock, ContactRowLayout::kNoPoint);
   }
 }
 

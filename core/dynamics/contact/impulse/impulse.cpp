@@ -61,7 +61,7 @@ class ImpulseStepper : public ContactStepper {
 
   void step(MutableBodyColumns state, double t, double dt) override {
     if (!(dt > 0)) return integrator_->step(state, t, dt);
-    const int count = sub_steps_.of(dt), updates = std::min(count, rounded_up(dt / kContactUpdateInterval));
+    const int count = sub_steps_.of(dt), updates = sub_steps_.contact_updates(dt, count);
     const double h = dt / count;
     for (int update = 0, k = 0; update < updates; ++update) {
       const int end = (update + 1) * count / updates;
@@ -222,11 +222,12 @@ extern const ContactMethod kImpulseContact;
 const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
-    .features = joined(contacts_of_all_shapes(), {"friction:coulomb", "friction:infinite", "friction:none",
-                                                  "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
+    .features =
+        joined(contacts_of_all_shapes(), {"contact-filter", "friction:coulomb", "friction:infinite", "friction:none",
+                                          "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
     .options = {{.name = "substeps",
-                 .meaning = "of contact=impulse in a step; default: at least 4, none longer than 1/480 s, or 1/960 s "
-                            "in steps over 1/50 s and where masses differ by more than 30 to 1",
+                 .meaning = "of contact=impulse in a step; default: at least 4, and as many more as the step is long "
+                            "against the time in which the scene's bodies fall by their size",
                  .min = 1,
                  .max = 10000,
                  .whole = true},

@@ -23,7 +23,7 @@ class JointedImpulseStepper : public ContactStepper {
 
   void step(MutableBodyColumns state, double t, double dt) override {
     if (!(dt > 0)) return integrator_->step(state, t, dt);
-    const int count = sub_steps_.of(dt), updates = std::min(count, rounded_up(dt / kContactUpdateInterval));
+    const int count = sub_steps_.of(dt), updates = sub_steps_.contact_updates(dt, count);
     const double h = dt / count;
     for (int update = 0, k = 0; update < updates; ++update) {
       const int end = (update + 1) * count / updates;

@@ -73,7 +73,9 @@ class JointedRows {
   void solve_normal(Row& row, double impulse);
   void solve_friction(Row& row);
   // Whether it rests or overlaps; what comes fast must not, even if it is there already.
-  bool is_soft(const Row& row) const { return row.gap <= 0 && row.approach <= parameters_.restitution_threshold; }
+  bool is_soft(const Row& row) const {
+    return row.gap <= parameters_.touching && row.approach <= parameters_.restitution_threshold;
+  }
   double bias_of(const Row& row) const;
   void solve_biased(Row& row);
   void solve_motors();

@@ -22,6 +22,7 @@ constexpr double kSunk = 0.5;                // one of more is no contact any lo
 constexpr double kTurnsFar = 0.25;           // a surface that turns farther is followed on its way
 constexpr double kNearlyCoincident = 0.999;  // an overlap of so much of both radii may have no direction
 constexpr int kMostOfPair = 4;
+constexpr double kEqualScores = 1e-6;  // points that differ by less of their distance are equally good
 
 double smaller_inradius(const Collider& a, const Collider& b) { return std::min(a.inradius, b.inradius); }
 
@@ -59,21 +60,23 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
   return (inner.low.array() >= outer.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
 }
 
-std::pair<int, int> pair_of(const ContactConstraint& point) { return {point.a, point.b}; }
-
 // Four points hold a face as well as eight: the deepest, the one furthest from it, and the two furthest to either side
-// of the line between these.
-void reduce_to_four(Manifold& points) {
+// of the line between these. Of points that are equal but for rounding the one furthest along `direction` is taken.
+void reduce_to_four(Manifold& points, const Vec3& direction) {
   if (points.size() <= kMostOfPair) return;
-  const auto take = [&](int at, const auto& score) {
+  const Vec3 origin = points[0].point;
+  const auto take = [&](int at, const auto& score_of) {
+    const auto score = [&](const ManifoldPoint& p) {
+      return score_of(p) + kEqualScores * direction.dot(p.point - origin);
+    };
     const auto best = std::max_element(points.begin() + at, points.end(),
                                        [&](const auto& p, const auto& q) { return score(p) < score(q); });
     std::swap(points[at], *best);
   };
   take(0, [](const ManifoldPoint& p) { return -p.gap; });
   const ManifoldPoint first = points[0];
-  take(1, [&](const ManifoldPoint& p) { return (p.point - first.point).squaredNorm(); });
-  const Vec3 side = first.normal.cross(points[1].point - first.point);
+  take(1, [&](const ManifoldPoint& p) { return (p.point - first.point).norm(); });
+  const Vec3 side = first.normal.cross(points[1].point - first.point).normalized();
   take(2, [&](const ManifoldPoint& p) { return side.dot(p.point - first.point); });
   take(3, [&](const ManifoldPoint& p) { return -side.dot(p.point - first.point); });
   points.keep(kMostOfPair);
@@ -147,7 +150,13 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
     if (point.gap < margin + turning + dt * std::max(0.0, -point.normal.dot(v))) manifold[kept++] = point;
   }
   manifold.keep(kept);
-  reduce_to_four(manifold);
+  if (manifold.size() > 1) {
+    const Collider& owner = std::isfinite(a.inradius) ? a : b;
+    const auto place = static_cast<std::size_t>(&owner - colliders_.data());
+    const Vec3 direction = poses_[place].R * directions_[place];
+    reduce_to_four(manifold, direction);
+    sort_along(direction, manifold);
+  }
   for (const ManifoldPoint& point : manifold) watch(a, b, point.gap, part);
   const ContactLaw& law = laws_.of(a.body, b.body);
   for (const ManifoldPoint& point : manifold) {
@@ -218,15 +227,15 @@ void Manifolds::watch(const Collider& a, const Collider& b, double gap, Part& pa
 
 // Gives a pair's constraints, which start at `first`, the impulses of its old ones, which start at `old` or later.
 void Manifolds::match_impulses(const std::pair<int, int>& at, std::size_t first, Part& part, std::size_t& old) const {
-  const auto before = [](const ContactConstraint& x, const std::pair<int, int>& y) { return pair_of(x) < y; };
-  const std::pair<int, int> pair = pair_of(part.constraints[first]);
+  const auto before = [&](const ContactConstraint& x, const std::pair<int, int>& y) { return ranks_of(x) < y; };
+  const std::pair<int, int> pair = ranks_of(part.constraints[first]);
   if (first == 0) {
     const auto begin = std::lower_bound(old_constraints_.begin(), old_constraints_.end(), pair, before);
     old = static_cast<std::size_t>(begin - old_constraints_.begin());
   }
   while (old < old_constraints_.size() && before(old_constraints_[old], pair)) ++old;
   std::size_t end = old;
-  while (end < old_constraints_.size() && pair_of(old_constraints_[end]) == pair) ++end;
+  while (end < old_constraints_.size() && ranks_of(old_constraints_[end]) == pair) ++end;
   const double radius = kMatchRadius * smaller_inradius(colliders_[at.first], colliders_[at.second]);
   unsigned taken = 0;
   for (std::size_t i = first; i < part.constraints.size() && end > old; ++i) {
@@ -273,7 +282,8 @@ void Manifolds::add_pairs(std::size_t first_pair, std::size_t last_pair, BodyCol
     for (std::size_t i = 0; i < near; ++i) {
       const auto& pair = pairs[part.near[i]];
       const std::size_t first = part.constraints.size();
-      if (!colliders_[pair.first].fixed || !colliders_[pair.second].fixed) add_points_of(i, pair, state, dt, part);
+      const Collider &a = colliders_[pair.first], &b = colliders_[pair.second];
+      if (!(a.fixed && b.fixed) && laws_.may_touch(a.body, b.body)) add_points_of(i, pair, state, dt, part);
       if (part.constraints.size() > first) match_impulses(pair, first, part, old);
     }
   }

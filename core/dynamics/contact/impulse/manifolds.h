@@ -10,6 +10,7 @@
 
 #include "core/base/thread_pool.h"
 #include "core/dynamics/collision/broad_phase.h"
+#include "core/dynamics/contact/impulse/canonical_order.h"
 #include "core/dynamics/kernels/contact_kernels.h"
 #include "core/scene/contact_laws.h"
 
@@ -35,13 +36,17 @@ class Manifolds {
   Manifolds(const Scene& scene, ThreadPool& threads)
       : threads_(threads),
         parts_(threads.members()),
-        colliders_(colliders_of(scene)),
+        colliders_(in_canonical_order(scene, colliders_of(scene))),
+        directions_(ordering_directions(scene, colliders_)),
         laws_(scene),
         poses_(colliders_.size(), {Vec3::Zero(), Mat3::Identity()}),
         boxes_(colliders_.size()),
         places_(colliders_.size()),
         has_left_(colliders_.size()),
         overlaps_at_start_(scene.bodies.size()) {
+    rank_.resize(scene.bodies.size());
+    for (std::size_t i = 0; i < colliders_.size(); ++i)
+      rank_[static_cast<std::size_t>(colliders_[i].body)] = static_cast<int>(i);
     for (const Body& body : scene.bodies) names_.push_back(body.name);
     for (const Collider& collider : colliders_) kinds_.push_back(kind_of(collider.shape));
   }
@@ -88,13 +93,18 @@ class Manifolds {
   void add_points_of(std::size_t i, const std::pair<int, int>& pair, BodyColumns state, double dt, Part& part);
   bool is_parted_from_start(const Collider& a, const Collider& b, double gap) const;
   void watch(const Collider& a, const Collider& b, double gap, Part& part);
+  std::pair<int, int> ranks_of(const ContactConstraint& point) const {
+    return {rank_[static_cast<std::size_t>(point.a)], rank_[static_cast<std::size_t>(point.b)]};
+  }
   void match_impulses(const std::pair<int, int>& pair, std::size_t first, Part& part, std::size_t& old) const;
   void join(std::size_t thread);
 
   ThreadPool& threads_;
   std::vector<Part> parts_;  // by thread
   std::vector<Collider> colliders_;
-  std::vector<Kind> kinds_;  // by collider
+  std::vector<Vec3> directions_;  // by collider, see ordering_directions()
+  std::vector<int> rank_;         // by body: its collider
+  std::vector<Kind> kinds_;       // by collider
   ContactLaws laws_;
   BroadPhase broad_phase_;
   std::vector<Pose> poses_;

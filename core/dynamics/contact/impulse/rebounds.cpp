@@ -112,7 +112,7 @@ void Rebounds::add_resting() {
       const Row& row = rows_[i];
       const auto a = static_cast<std::size_t>(row.a.body), b = static_cast<std::size_t>(row.b.body);
       const bool is_reached = is_new_[a] || is_new_[b];
-      if (is_taken[i] || row.hit != kNever || row.get(kGap) > 0 || !is_reached) continue;
+      if (is_taken[i] || row.hit != kNever || row.get(kGap) > touching_ || !is_reached) continue;
       if (row.get(kRestitution) > 0 && !simultaneous_) continue;
       const double instant = std::max(last_[a], last_[b]), wanted = std::min(0.0, -approach_at(row, instant));
       add(row, instant, wanted, wanted);
@@ -215,7 +215,7 @@ void Rebounds::update_biases(const SolverParameters& parameters) {
   for (Row& row : rows_) {
     const bool is_changed =
         is_changed_[static_cast<std::size_t>(row.a.body)] || is_changed_[static_cast<std::size_t>(row.b.body)];
-    if (!is_changed || row.get(kGap) <= 0) continue;
+    if (!is_changed || row.get(kGap) <= parameters.touching) continue;
     row.at(kBias) = gap_at(row, h_) / (parameters.h * parameters.theta) - along(row, now_);
   }
 }
@@ -223,6 +223,7 @@ void Rebounds::update_biases(const SolverParameters& parameters) {
 void Rebounds::resolve(const std::vector<RowGroup>& groups, const SolverParameters& parameters,
                        MutableBodyColumns state) {
   h_ = parameters.h, motion_time_ = (1.5 - parameters.theta) * h_, threshold_ = parameters.restitution_threshold;
+  touching_ = parameters.touching;
   state_ = state;
   load(state, free_);
   now_ = free_;

@@ -66,6 +66,7 @@ class Rebounds {
   const System& system_;
   bool simultaneous_;
   double h_ = 0, motion_time_ = 0, threshold_ = 0;  // s; s: the instant that velocities belong to; m/s
+  double touching_ = 0;                             // m, see SolverParameters
   // By body.
   std::vector<BodyTwist> start_, free_, now_;  // before the sub-step; after it without impacts, and with those so far
   std::vector<BodyTwist> delay_;               // m, rad: the sum of each impact's change of motion times its instant

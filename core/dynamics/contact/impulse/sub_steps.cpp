@@ -12,17 +12,24 @@
 namespace rigor {
 namespace {
 
-// So short that what a spring as stiff as a sub-step allows gives way under ten bodies is a fraction of a millimetre.
-// Steps longer than kCoarse are chosen for their small number, and leave time for more work in each; and bodies that
-// weigh many times as much as others need it: of boxes in a pyramid on sub-steps of 1/480 s, a top of thirty or a
-// hundred times the others' mass moves them by 5 mm at most, one of three hundred by up to 10 cm.
-constexpr double kCoarse = 1.0 / 50, kLongestSubStep = 1.0 / 480, kShorterSubStep = 1.0 / 960;  // s
-constexpr double kUnevenMassRatio = 30;
+// In units of the scene's time sqrt(L/g), so that equal scenes in other units get equal sub-steps. A stack of n bodies
+// sags by n g h²/2.5 at its foot: with kLongestSubStep, by 2e-4 n of a body's half-length.
+constexpr double kLongestSubStep = 0.023;
+// Bodies that weigh many times as much as others need shorter ones: of 1 m boxes in a pyramid on sub-steps of 1/480 s,
+// a top of thirty or a hundred times the others' mass moves them by 5 mm at most, one of three hundred by up to 10 cm.
+constexpr double kShorterSubStep = 0.0046, kUnevenMassRatio = 30;
 constexpr int kFewestSubSteps = 4;
+// A longer step is chosen for the small number of steps, and leaves time for more work in each.
+constexpr double kCoarse = 0.1, kLongestSubStepOfCoarse = 0.0115;
+constexpr int kFewestSubStepsOfCoarse = 32, kFewestUpdatesOfCoarse = 4;
+constexpr double kContactUpdateInterval = 0.1;
 
 constexpr double kDampingRatio = 10;              // zeta of the soft constraint
 constexpr double kContactHertzPerSubStep = 0.25;  // its frequency, of that of the sub-steps
-constexpr double kMaxPushSpeed = 3;               // m/s
+constexpr double kMaxPushSpeed = 2;               // of the scene's speed sqrt(g L); no bound where it has none
+// A gap of this share of the scene's length touches. A point that lands closes its gap to zero but for rounding, and
+// rounding must not decide whether the next sub-step takes it for closed.
+constexpr double kTouching = 1e-7;
 
 // What comes together faster than gravity brings it in so many sub-steps is an impact.
 constexpr double kSubStepsOfFall = 4;
@@ -44,6 +51,7 @@ int rounded_up(double count) { return static_cast<int>(std::ceil(count - 1e-9));
 // A semi-implicit method moves by the velocity after the sub-step, the others by the mean of both.
 SubSteps::SubSteps(const Scene& scene, const ContactParts& parts)
     : given_(static_cast<int>(number_option(parts.settings, "substeps", 0))),
+      scales_(scales_of(scene)),
       longest_sub_step_(has_uneven_masses(scene) ? kShorterSubStep : kLongestSubStep),
       gravity_(scene.gravity.norm()),
       theta_(parts.integrator.leapfrog_stagger > 0 ? 1 : 0.5) {}
@@ -54,7 +62,15 @@ bool SubSteps::takes_impacts_at_once(const Settings& settings) {
 
 int SubSteps::of(double dt) const {
   if (given_ > 0) return given_;
-  return std::max(kFewestSubSteps, rounded_up(dt / (dt > kCoarse ? kShorterSubStep : longest_sub_step_)));
+  const double length = dt / scales_.time;
+  if (length <= kCoarse) return std::max(kFewestSubSteps, rounded_up(length / longest_sub_step_));
+  return std::max(kFewestSubStepsOfCoarse, rounded_up(length / std::min(longest_sub_step_, kLongestSubStepOfCoarse)));
+}
+
+int SubSteps::contact_updates(double dt, int count) const {
+  const double length = dt / scales_.time;
+  const int fewest = length <= kCoarse ? 1 : kFewestUpdatesOfCoarse;
+  return std::min(count, std::max(fewest, rounded_up(length / kContactUpdateInterval)));
 }
 
 // The soft constraint of frequency f and damping ratio zeta, omega = 2 pi f, integrated implicitly over h:
@@ -69,18 +85,24 @@ SolverParameters SubSteps::parameters(double h) const {
           .bias_rate = h_omega / (h * a1),
           .mass_scale = a2 / (1 + a2),
           .impulse_scale = 1 / (1 + a2),
-          .max_push_speed = kMaxPushSpeed,
+          .max_push_speed = std::isinf(scales_.time) ? scales_.time : kMaxPushSpeed * scales_.speed(),
+          .touching = kTouching * scales_.length,
           .restitution_threshold = threshold,
           .tolerance = kImpactTolerance * threshold,
           .max_sweeps = kMaxImpactSweeps};
 }
 
 SettingsInForce SubSteps::settings_in_force() const {
-  return {{"contacts", fmt::format("found once a step and every 1/{:.0f} s", 1 / kContactUpdateInterval)},
-          {"sub-steps",
-           given_ > 0 ? fmt::format("{} a step", given_)
-                      : fmt::format("at least {} a step, none longer than 1/{:.0f} s (1/{:.0f} s in steps over 1/50 s)",
-                                    kFewestSubSteps, 1 / longest_sub_step_, 1 / kShorterSubStep)}};
+  const double longest = longest_sub_step_ * scales_.time, coarse = kCoarse * scales_.time;
+  const std::string by_default =
+      std::isinf(scales_.time)
+          ? fmt::format("{} a step", kFewestSubSteps)
+          : fmt::format("at least {} a step, none longer than {:.3g} s; more in steps over {:.3g} s", kFewestSubSteps,
+                        longest, coarse);
+  return {{"contacts", std::isinf(scales_.time) ? "found once a step"
+                                                : fmt::format("found once a step and every {:.3g} s",
+                                                              kContactUpdateInterval * scales_.time)},
+          {"sub-steps", given_ > 0 ? fmt::format("{} a step", given_) : by_default}};
 }
 
 }  // namespace rigor

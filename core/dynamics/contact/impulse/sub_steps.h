@@ -2,12 +2,10 @@
 #pragma once
 
 #include "core/dynamics/contact/contact_method.h"
+#include "core/dynamics/contact/impulse/scene_scales.h"
 #include "core/dynamics/kernels/contact_rows.h"
 
 namespace rigor {
-
-// Contacts keep their normals for so long.
-inline constexpr double kContactUpdateInterval = 1.0 / 120;  // s
 
 // What is a whole number but for rounding is not made one more.
 int rounded_up(double count);
@@ -19,13 +17,16 @@ class SubSteps {
   // See the option `impacts`.
   static bool takes_impacts_at_once(const Settings& settings);
   int of(double dt) const;
+  // In how many of them [at most `count`] contacts are found anew; between these they keep their normals.
+  int contact_updates(double dt, int count) const;
   // For sub-steps of h [s].
   SolverParameters parameters(double h) const;
   SettingsInForce settings_in_force() const;
 
  private:
-  int given_;                // 0: as dt asks
-  double longest_sub_step_;  // s
+  int given_;  // 0: as dt asks
+  SceneScales scales_;
+  double longest_sub_step_;  // in units of the scene's time
   double gravity_, theta_;   // m/s²; see SolverParameters
 };
 

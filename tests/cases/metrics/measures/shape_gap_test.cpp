@@ -127,6 +127,21 @@ BOOST_AUTO_TEST_CASE(crossed_edges_have_a_gap_of_their_own) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_pair_that_the_scene_keeps_apart_is_not_looked_at) {
+  Scene scene;
+  scene.bodies = {test::on_its_own("a", Sphere{1}, 1, Vec3::Zero()), test::on_its_own("b", Sphere{1}, 1, Vec3::Zero())};
+  BodyTable table(2);
+  const auto pairs = [&] {
+    int count = 0;
+    for_each_near_pair(scene, table.columns(), 0, [&](int, int, double) { ++count; });
+    return count;
+  };
+  for (int i = 0; i < 2; ++i) table.columns().set_body(i, {});
+  BOOST_TEST(pairs() == 1);
+  scene.contact_pairs = {{0, 1, kApart}};
+  BOOST_TEST(pairs() == 0);
+}
+
 BOOST_AUTO_TEST_CASE(every_pair_in_reach_is_found_once) {
   Scene scene;
   BodyTable table(61);

@@ -1,8 +1,11 @@
 #include "cases/report/console/console_table.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cstdlib>
+#include <set>
 #include <sstream>
 
+#include "cases/report/console/layout.h"
 #include "tests/cases/report/sample_results.h"
 
 using namespace rigor;
@@ -75,8 +78,30 @@ BOOST_AUTO_TEST_CASE(every_line_fits_a_hundred_columns) {
   results.cases.front().definition.title = reason;
   results.cases.front().definition.gates.resize(1);
   results.cases.front().gates.push_back({0, "good", "1/10", GateAnswer::failed, reason});
-  std::istringstream lines(console_table(results));
-  for (std::string line; std::getline(lines, line);) BOOST_TEST(line.size() <= 100u, line);
+  for (const std::size_t width : {100u, 60u}) {
+    setenv("COLUMNS", std::to_string(width).c_str(), 1);
+    std::istringstream lines(console_table(results));
+    unsetenv("COLUMNS");
+    for (std::string line; std::getline(lines, line);) BOOST_TEST(width_of(line) <= width, line);
+  }
+}
+
+// Nothing is lost: a name and its verdict get a line of their own above the six numbers.
+BOOST_AUTO_TEST_CASE(a_narrow_terminal_gets_the_same_words) {
+  const Results results = sample_results();
+  const auto words = [&](const char* columns) {
+    setenv("COLUMNS", columns, 1);
+    std::istringstream text(console_table(results));
+    unsetenv("COLUMNS");
+    std::multiset<std::string> all;
+    for (std::string word; text >> word;) {
+      std::erase(word, ':');  // stands between a name and its verdict where the table is narrow
+      if (!word.empty()) all.insert(word);
+    }
+    return all;
+  };
+  BOOST_TEST((words("60") == words("100")));
+  BOOST_TEST((words("not a number") == words("100")));
 }
 
 BOOST_AUTO_TEST_CASE(many_cases_stand_in_a_matrix_of_a_hundred_columns) {

@@ -98,7 +98,13 @@ const std::vector<Refusal> kBadRelations = {
      {"found -1", "or inf"}},
     {"[[scene.contact]]\na = 'ball'\nb = 'ground'\nbounce = 1",
      "12:1: scene.contact.bounce: unknown key",
-     {"allowed: a, b, restitution, friction"}},
+     {"allowed: a, b, restitution, friction, collides"}},
+    {"[[scene.contact]]\na = 'ball'\nb = 'ground'\ncollides = false\nfriction = 1",
+     "13:12: scene.contact.friction: ",
+     {"the pair never touches", "allowed: one of the two"}},
+    {"[[scene.contact]]\na = 'ball'\nb = 'ground'\ncolides = false",
+     "12:1: scene.contact.colides: unknown key",
+     {"'collides'"}},
     {"[[scene.contact]]\na = 'ball'\nb = 'world'", "11:5: scene.contact.b: ", {"'world', which is no body"}},
     {"[[scene.contact]]\na = 'ball'\nb = 'groud'", "11:5: scene.contact.b: there is no body 'groud'", {"'ground'"}},
     {"[[scene.contact]]\na = 'ball'\nb = 'ball'", "11:5: scene.contact.b: ", {"cannot touch itself"}},
@@ -214,6 +220,42 @@ friction = 0.5)");
   BOOST_TEST(scene.contact_law(0, 1).restitution == 1);
   BOOST_TEST(scene.contact_law(0, 1).friction == kInfiniteFriction);
   BOOST_TEST(scene.contact_law(0, 2).friction == 0.5);
+}
+
+BOOST_AUTO_TEST_CASE(a_pair_may_be_kept_from_touching) {
+  const Scene scene = scene_of(kBodies + R"(
+[[scene.contact]]
+a = "ball"
+b = "ground"
+collides = false
+[[scene.contact]]
+a = "ball"
+b = "cube"
+collides = true
+friction = 0.5)");
+  BOOST_TEST(!scene.contact_law(2, 1).collides);
+  BOOST_TEST((scene.contact_law(0, 1).collides && scene.contact_law(0, 1).friction == 0.5));
+  BOOST_TEST(scene.contact_law(0, 2).collides);
+}
+
+// Three boxes in a row, joined one to the next: a row of [[scene.contact]] says more than self_contact does.
+BOOST_AUTO_TEST_CASE(without_self_contact_joined_bodies_never_touch) {
+  std::string text;
+  for (const char* name : {"a", "b", "c"})
+    text += std::string("[[scene.body]]\nname = '") + name + "'\nmass = 1\nshape = {type = 'sphere', radius = 1}\n";
+  text += "[[scene.joint]]\ntype = 'ball'\na = 'a'\nb = 'b'\nanchor = [0, 0, 0]\n";
+  text += "[[scene.joint]]\ntype = 'ball'\na = 'c'\nb = 'b'\nanchor = [0, 0, 0]\n";
+  text += "[[scene.joint]]\ntype = 'ball'\na = 'world'\nb = 'b'\nanchor = [0, 0, 0]\n";
+  const auto collide = [&](const std::string& head) {
+    const Scene scene = scene_of(head + text);
+    return std::vector<bool>{scene.contact_law(0, 1).collides, scene.contact_law(1, 2).collides,
+                             scene.contact_law(0, 2).collides};
+  };
+  BOOST_TEST((collide("[scene]\n") == std::vector<bool>{true, true, true}));
+  BOOST_TEST((collide("[scene]\nself_contact = true\n") == std::vector<bool>{true, true, true}));
+  BOOST_TEST((collide("[scene]\nself_contact = false\n") == std::vector<bool>{false, false, true}));
+  text += "[[scene.contact]]\na = 'b'\nb = 'a'\nfriction = 0.5\n";
+  BOOST_TEST((collide("[scene]\nself_contact = false\n") == std::vector<bool>{true, false, true}));
 }
 
 BOOST_AUTO_TEST_CASE(forces_are_read_and_last_for_ever_unless_told) {

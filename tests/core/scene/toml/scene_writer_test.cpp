@@ -42,7 +42,7 @@ class Fields {
   void add(int number) { all_.push_back(std::to_string(number)); }
   void add(bool flag) { all_.emplace_back(flag ? "yes" : "no"); }
   void add(const Vec3& v) { add(v.x()), add(v.y()), add(v.z()); }
-  void add(const ContactLaw& law) { add(law.restitution), add(law.friction); }
+  void add(const ContactLaw& law) { add(law.restitution), add(law.friction), add(law.collides); }
   void add(const Body& body) {
     add(body.name), add(body.mass), add(body.position), add(body.orientation.vec()), add(body.orientation.w());
     add(body.velocity), add(body.angular_velocity), add(body.collides), add(body.fixed);
@@ -195,6 +195,39 @@ BOOST_AUTO_TEST_CASE(nothing_that_a_scene_can_say_is_lost) {
     const Scene read = read_scene(again.root({"scene"}).at("scene"), InitialVelocities::as_given);
     BOOST_TEST(Fields(read).all() == fields, boost::test_tools::per_element());
   }
+}
+
+// Joined bodies come as one line of TOML; an engine from outside gets a row for each pair.
+BOOST_AUTO_TEST_CASE(pairs_that_never_touch_are_read_back) {
+  Scene scene = scene_of(R"(
+[scene]
+self_contact = false
+[[scene.body]]
+name = "a"
+mass = 1
+shape = { type = "sphere", radius = 1 }
+[[scene.body]]
+name = "b"
+mass = 1
+shape = { type = "sphere", radius = 1 }
+[[scene.body]]
+name = "floor"
+shape = { type = "plane", normal = [0, 0, 1], offset = -3 }
+[[scene.joint]]
+type = "ball"
+a = "a"
+b = "b"
+anchor = [0, 0, 0]
+)");
+  BOOST_TEST_REQUIRE(scene.contact_pairs.size() == 1u);
+  check_is_read_back(scene);
+  BOOST_TEST(scene_toml(scene).find("self_contact = false") != std::string::npos);
+  BOOST_TEST(scene_toml(scene).find("[[scene.contact]]") == std::string::npos);
+  BOOST_TEST(scene_json(scene).find(R"("collides":false)") != std::string::npos);
+  scene.contact_pairs = {{1, 2, kApart}};  // not the joined pair
+  check_is_read_back(scene);
+  BOOST_TEST(scene_toml(scene).find("self_contact") == std::string::npos);
+  BOOST_TEST(scene_toml(scene).find("[[scene.contact]]") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(defaults_are_written_out) {

@@ -1,0 +1,17 @@
+// Makes the text of --help from the table of commands.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "cases/cli/commands.h"
+
+namespace rigor {
+
+std::string help_text();
+std::string help_text(const CommandRow& row, const CLI::App& command);
+
+// The answer to a call without a command: commands to try first.
+std::string first_steps();
+
+}  // namespace rigor
