@@ -262,7 +262,7 @@ class UrdfReader {
   }
 
   void keep(const LinkJoint& row, const std::string& type) {
-    if (type == "floating") return;  // which is what a body is without a joint
+    if (type == "floating") return;  // the default of a body without a joint
     if (type == "planar")
       return model_.left_out.add(row.where, "its planar type", "no scene has this joint: the two links come apart");
     model_.joints.push_back(row);

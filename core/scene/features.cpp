@@ -111,7 +111,7 @@ void add_joint(const Scene& scene, std::size_t k, NeedList& needs) {
   if (joint.stiffness > 0) needs.add("joint-spring", because);
   if (joint.damping > 0) needs.add("joint-damper", because);
   if (joint.has_limits()) needs.add("joint-limit", because);
-  // What counts a hinge's angle from -pi to pi never comes to such a limit.
+  // A joint whose angle counts from -pi to pi never reaches such a limit.
   const bool beyond = (std::isfinite(joint.lower) && joint.lower < -std::numbers::pi) ||
                       (std::isfinite(joint.upper) && joint.upper > std::numbers::pi);
   if (beyond && std::holds_alternative<HingeJoint>(joint.type)) needs.add("joint-limit:beyond-half-turn", because);

@@ -1,5 +1,6 @@
-// What a scene needs of an engine, and what an engine declares. Compared before a scene is loaded, so that what an
-// engine cannot express ends as `unsupported`, with the reason, and is never approximated in silence.
+// The features that a scene needs of an engine, and those that an engine declares. They are compared before a scene is
+// loaded. A scene that an engine cannot express ends as `unsupported`, with the reason, and is never approximated
+// silently.
 #pragma once
 
 #include <set>

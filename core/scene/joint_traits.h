@@ -3,7 +3,7 @@
 //   "joint-loop"              joints that close a loop, through bodies or through the world
 //   "speed-motor-with-limits" a joint that has limits and a motor that keeps a speed
 //   "two-speeds-at-once"      a joint with two motors that keep speeds in the same time
-// An engine that has the parts has these too, unless a method says that it lacks them (MethodInfo::lacks).
+// An engine with all parts has these features, too, unless a method lists them in MethodInfo::lacks.
 #pragma once
 
 #include <vector>

@@ -44,7 +44,7 @@ struct LinkInertial {
 };
 
 struct LinkShape {
-  Shape shape;                      // a plane as the scene has it, in W: `pose` is of no meaning
+  Shape shape;                      // a plane as in the scene, in W: `pose` is not used
   BodyPose pose;                    // in W
   ContactLaw surface;               // of this shape; LinkModel::combine makes a pair's
   unsigned type = 1, affinity = 1;  // two shapes may touch if a bit of one's type is in the other's affinity

@@ -1,5 +1,5 @@
-// A scene: what is simulated, as plain data, independent of any engine. SI units; world frame W, body frame B with its
-// origin at the centre of mass. The reader (scene_reader.h) has checked every value before an engine sees it.
+// A scene as plain data, independent of any engine. SI units; world frame W, body frame B with its origin at the centre
+// of mass. The reader (scene_reader.h) has checked every value before an engine sees it.
 #pragma once
 
 #include <limits>
@@ -45,8 +45,8 @@ struct Body {
   bool fixed = false;     // static; a plane always is
 };
 
-// A straight spring and damper between two points: the force on b's point is -(k (d - d0) + c d') along the line from
-// a's point to b's, the opposite acts on a.
+// A straight spring and damper between two points. The force on b's point is -(k (d - d0) + c d') along the line from
+// a's point to b's; a gets the opposite force.
 struct Spring {
   int a = kWorld, b = kWorld;   // body index or kWorld
   Vec3 point_a = Vec3::Zero();  // m, in a's frame

@@ -1,5 +1,5 @@
-// A scene in a world turned about its origin: the same motion, seen from elsewhere. What moves otherwise in it is
-// either a scheme that prefers a direction or rounding.
+// A scene in a world rotated about its origin: the same motion in other coordinates. A difference of the motion comes
+// from a scheme that prefers a direction, or from rounding.
 #pragma once
 
 #include "core/scene/scene.h"

@@ -134,8 +134,8 @@ std::string why_no_inertia(const Mat3& inertia) {
   const std::string found =
       fmt::format("its principal moments are {:.6g}, {:.6g} and {:.6g} kg m²", moments[0], moments[1], moments[2]);
   if (!(moments[0] > kRounding * largest)) return found + ", and each must be greater than 0";
-  // A flat body's largest moment is the sum of the others. Written with six digits, each is off by at most 5e-6 of
-  // itself, so that the three miss the sum by at most 1e-5 of the largest.
+  // A flat body's largest moment is the sum of the others. Written with six digits, each has an error of at most 5e-6
+  // of itself, so the sum's error is at most 1e-5 of the largest.
   constexpr double kWrittenDigits = 1e-5;
   if (largest - moments[1] > moments[0] + kWrittenDigits * largest)
     return found + ", and none may be greater than the sum of the other two";

@@ -1,5 +1,5 @@
-// What no scene can have, whoever made it: a file, an importer, a search over its values. A reader adds the line and
-// the column.
+// Conditions that every scene must meet, from a file, an importer, or a search over its values. A reader adds the line
+// and the column.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace rigor {
 
-// What is wrong with a row, and which of its keys, as the case file calls it, says so; "" for the row as a whole.
+// The fault of a row, and its key as the case file names it; "" for the row as a whole.
 struct SceneFault {
   std::string key, what;
 };
@@ -18,7 +18,7 @@ struct SceneFault {
 // None where all is well. Bodies and joints that a row refers to must be there already.
 std::optional<SceneFault> fault_of(const Body& body);
 std::optional<SceneFault> fault_of_name(const std::string& body);
-// Of the two ends of a spring or joint, `what`: at least one must be able to move.
+// For the two ends of a spring or joint, `what`: at least one must be able to move.
 std::optional<SceneFault> fault_of_ends(int a, int b, const char* what, const Scene& scene);
 std::optional<SceneFault> fault_of(const Spring& spring, const Scene& scene);
 std::optional<SceneFault> fault_of(const Joint& joint, const Scene& scene);  // initial velocities that break it aside

@@ -48,7 +48,7 @@ class SdfReader {
 
   struct Scope {
     std::string name;  // "outer::inner::"
-    int model;         // which one its links are of
+    int model;         // the model that owns its links
     bool is_static, touches_itself;
     int depth;
   };
@@ -104,7 +104,7 @@ class SdfReader {
     for (const XmlElement& joint : world.children("joint")) read_joint(joint, "");
   }
 
-  // `outer`: where the model stands; its links are of the outer model if there is one.
+  // `outer`: the model's parent; its links belong to the outer model if there is one.
   void read_model(const XmlElement& element, const Scope& outer, const std::string& rename,
                   const std::optional<XmlElement>& pose_of_include = {}) {
     if (outer.depth > kDeepest) element.refuse(fmt::format("models in models go deeper than {}", kDeepest));

@@ -35,7 +35,7 @@ struct ContactParts {
   const OrientationUpdate* orientation;  // see StepperParts
   Settings settings;
   Joints* joints = nullptr;      // null where nothing holds the bodies together
-  JointStops* motors = nullptr;  // of given speed, for a method that has none of its own; null where there are none
+  JointStops* motors = nullptr;  // of given speed, for a method without its own; null without motors
 };
 
 struct ContactMethod {
@@ -48,8 +48,8 @@ struct ContactMethod {
 
 const std::vector<ContactMethod>& contact_methods();
 const ContactMethod& contact_method(const std::string& name);  // the name must be there
-// What a run that names no method gets: `event`, right whatever the step, where at most so many bodies that move
-// collide; else the first of the table that expresses the scene, or the first of all where none does.
+// The default method of a run: `event`, which is correct at any step, if at most this many moving bodies collide.
+// Otherwise the first of the table that supports the scene, or the first of all if none does.
 inline constexpr int kFewCollidingBodies = 8;
 bool has_few_colliding_bodies(const Scene& scene);
 const ContactMethod& contact_method_for(const Scene& scene);

@@ -31,7 +31,7 @@ const ContactMethod& contact_method_for(const Scene& scene) {
   for (const ContactMethod& method : contact_methods()) of_all.insert(method.features.begin(), method.features.end());
   const std::vector<Need> needs = needs_of(scene);
   const auto expresses = [&](const ContactMethod& method) {
-    // What no method has is not contact's to express.
+    // Features that no method has do not concern contact.
     return std::all_of(needs.begin(), needs.end(), [&](const Need& need) {
       return method.features.contains(need.feature) || !of_all.contains(need.feature);
     });

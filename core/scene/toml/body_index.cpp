@@ -20,7 +20,7 @@ int read_count(double number, const TomlValue& value) {
 
 Vec3 read_spacing(const TomlValue& value) { return value.is_array() ? value.vector() : Vec3::Constant(value.number()); }
 
-// Evenly from -1 to 1. Made by hand: what the standard's distributions draw differs from library to library.
+// Uniform from -1 to 1. Written by hand, because the standard's distributions differ between libraries.
 double draw(std::mt19937_64& engine) { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; }
 
 std::string some_of(const std::vector<std::string>& names) {

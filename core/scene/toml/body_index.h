@@ -39,8 +39,8 @@ Vec3 offset_of(const BodyArray& array, const std::array<int, 3>& at);
 // The two ends of one spring or joint: of a row on an array one for each copy.
 struct Ends {
   int a = kWorld, b = kWorld;
-  Vec3 offset = Vec3::Zero();  // m, of the copy from the first: what is given in W moves by it
-  std::string copy = "";       // what a joint's name ends with, "-3"
+  Vec3 offset = Vec3::Zero();  // m, from the first body to this copy: positions in W are moved by it
+  std::string copy = "";       // the end of a joint's name, "-3"
 };
 
 class BodyIndex {

@@ -10,7 +10,7 @@ class TableReader;
 // The keys that body_reader.cpp reads, in the order in which messages list them.
 const std::vector<std::string>& body_keys();
 
-// Throws InputError for a value that no body can have. That its name is unique is the scene's to check.
+// Throws InputError for a value that no body can have. The scene checks that its name is unique.
 Body read_body(const TableReader& row);
 
 }  // namespace rigor

@@ -10,8 +10,8 @@ namespace rigor {
 const Keys& joint_keys();
 const Keys& motor_keys();
 
-// Throws InputError for what no joint can be, given its ends, which the scene has checked. `check_velocities`: also for
-// initial velocities that break it.
+// Throws InputError for values that no joint can have, given its ends, which the scene has checked. `check_velocities`:
+// also for initial velocities that violate it.
 Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool check_velocities);
 
 // The joint is one of the scene's, by name.

@@ -22,8 +22,8 @@ bool begins_key(char c) {
   return is_bare || c == '"' || c == '\'';
 }
 
-// Goes through a text as the library does, up to the first thing that is malformed: there the library stops, and
-// whatever is said of the rest is still an error.
+// Scans a text as the library does, up to the first malformed part. The library stops there, and reports an error
+// whatever follows.
 class Scan {
  public:
   explicit Scan(std::string_view text) : text_(text) {

@@ -1,11 +1,10 @@
-// Finds in a text what the TOML library (toml++ 3.3) must not be given, so that it is refused before it gets there:
-// - a dotted key of so many parts, a.a.a.a..., that the library, which walks the nested tables that it makes of one
-//   recursively, would run out of stack: it refuses values nested deeper than TOML_MAX_NESTED_VALUES by itself, but as
-//   Debian ships it a key of 100,000 parts ends the process;
-// - a table's header that begins with no key, as "[ #": the library takes for granted that one follows;
-// - a character beyond ASCII where it looks for white space, outside of strings and comments or behind a line's end
-//   that a string escapes: its table of white space has no answer for many of them. TOML allows none but in the last
-//   place.
+// Finds texts that the TOML library (toml++ 3.3) cannot handle, so that they are refused first:
+// - a dotted key with very many parts, a.a.a.a.... The library walks the nested tables of the key recursively and would
+//   exhaust the stack. It refuses values nested deeper than TOML_MAX_NESTED_VALUES itself, but Debian's build crashes
+//   on a key of 100,000 parts;
+// - a table header without a key, as "[ #": the library assumes that one follows;
+// - a character beyond ASCII where it expects white space, outside of strings and comments, or after a line's end that
+//   a string escapes. Its table of white space has no entry for many of them. TOML allows them only in the last place.
 #pragma once
 
 #include <optional>

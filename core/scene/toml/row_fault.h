@@ -1,4 +1,4 @@
-// What no scene can have (validate.h), said where the row stands that has it.
+// Reports faults of a scene (validate.h) at the place of their rows.
 #pragma once
 
 #include <optional>

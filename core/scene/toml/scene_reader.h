@@ -1,4 +1,4 @@
-// [scene] of a case file: bodies and arrays of them, springs, joints, motors, contacts and forces.
+// Reads [scene] of a case file: bodies and arrays of them, springs, joints, motors, contacts and forces.
 #pragma once
 
 #include "core/scene/scene.h"

@@ -1,5 +1,6 @@
-// Writes a scene as the reader takes it, every default written out and arrays expanded: what is read back is the same
-// scene, bit for bit. Infinity is left out where that means it, as in `until`, and is the word "infinite" in friction.
+// Writes a scene in the reader's form, with every default written out and arrays expanded. Reading it gives the same
+// scene, bit for bit. Infinity is left out where that means infinity, as in `until`, and is the word "infinite" in
+// friction.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// A checked view of a TOML file. Every value knows its key and its place, and each way of reading it says what is
-// allowed; whatever else is found throws InputError: "file:line:column: key: found ...; allowed: ...". The views point
-// into the TomlFile they come from and live no longer than it. Included by readers only.
+// A checked view of a TOML file. Every value knows its key and its place, and each read function states the allowed
+// values. Anything else throws InputError: "file:line:column: key: found ...; allowed: ...". The views point into their
+// TomlFile and must not outlive it. Included by readers only.
 #pragma once
 
 #include <memory>
@@ -73,7 +73,7 @@ class TableReader {
   // The key must be among those allowed.
   std::optional<TomlValue> find(std::string_view key) const;
   TomlValue at(std::string_view key) const;  // throws if it is missing
-  // Leaves only some of the keys allowed, now that it is known what the table describes: "a sphere".
+  // Restricts the allowed keys, after the type of the table is known: "a sphere".
   void narrow(Keys allowed, const std::string& what);
 
   const TomlValue& self() const { return self_; }

@@ -24,7 +24,7 @@ Vec3 as_read(const TableReader& row, std::string_view key) {
   return value ? value->vector() : Vec3::Zero();
 }
 
-// In the place of what is there; else behind the name, which every body has.
+// Replaces an existing value, or is inserted after the name, which every body has.
 void add_edit(const TableReader& row, const std::string& key, const Vec3& wanted, const std::string& text,
               std::vector<VelocityEdit>& edits) {
   if (as_read(row, key) == wanted) return;

@@ -100,7 +100,7 @@ void ContactRowLayout::colour_pairs(const std::vector<ContactConstraint>& constr
   }
 }
 
-// The first colour that no other pair of a moving one of these bodies has.
+// The first colour that no other pair with a moving body of these has.
 std::size_t ContactRowLayout::colour_of(int a, int b) {
   Colours of_fixed_a, of_fixed_b;
   Colours& of_a = system_.bodies[a].fixed ? of_fixed_a : colours_of_[a];

@@ -1,7 +1,7 @@
 // Contact constraints as rows of the vector kernels (kernels/contact_rows.h). Pairs of bodies that share no moving body
-// are independent, so that up to eight of them are solved at once, and threads share them, with the same result. So
-// pairs are given colours: each, in their order, the first that no other pair of its moving bodies has. The pairs of
-// one colour lie side by side, and sequential impulses take one colour after another.
+// are independent. Up to eight of them are solved at once, and threads share them, with the same result. For this,
+// pairs get colours: each pair, in order, gets the first colour that no other pair of its moving bodies has. The pairs
+// of one colour are contiguous, and sequential impulses process one colour after another.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace rigor {
 
 // Rows that nothing acts on.
 void clear_rows(const RowGroup& group);
-// Gives the groups their blocks of these rows, of which there will be enough.
+// Gives the groups their blocks of these rows; the rows suffice for all.
 void place_rows(std::vector<RowGroup>& groups, AlignedDoubles& rows);
 
 class ContactRowLayout {
@@ -45,7 +45,7 @@ class ContactRowLayout {
   Share share(std::size_t colour, std::size_t thread) const;
   const std::vector<RowGroup>& groups() const { return groups_; }
   bool has_restitution() const { return has_restitution_; }
-  // Of constraints that overlap deeply, in the order of groups.
+  // Deeply overlapping constraints, in the order of groups.
   const std::vector<RowPlace>& deep_rows() const { return deep_rows_; }
 
  private:

@@ -20,8 +20,8 @@ inline TangentMass tangent_mass_of(double tt, double ss, double ts) {
   return {ss * over, tt * over, -ts * over, 1 / (0.5 * (tt + ss) + std::hypot(apart, ts))};
 }
 
-// The next impulse, from the last one and the slip that it leaves: sticking if that is within the disc, else against
-// the slip, which only a step with one mass for all directions converges to.
+// The next impulse, from the last one and its remaining slip: the sticking one if it is within the disc, else one
+// against the slip. The latter converges only with one mass for all directions.
 inline Vec2 onto_disc(const Vec2& impulse, const Vec2& slip, const TangentMass& mass, double radius) {
   const Vec2 stick = impulse - mass.times(slip);
   if (stick.norm() <= radius) return stick;

@@ -1,6 +1,6 @@
-// No impact adds energy. Newton's restitution at several points of a mechanism, or with friction, may (Kane's paradox):
-// then the velocities go only so far from those without restitution to those with it, (1 - s) V + s V', that the
-// kinetic energy is what it was before the impacts.
+// No impact adds energy. Newton's restitution can add it at several points of a mechanism, or with friction (Kane's
+// paradox). The velocities then move only part of the way from those without restitution to those with it, (1 - s) V +
+// s V', so that the kinetic energy equals that before the impacts.
 #pragma once
 
 #include <vector>

@@ -54,8 +54,8 @@ void sweep(std::vector<Impact>& impacts, double Impact::*wanted, std::vector<Bod
   }
 }
 
-// What the impulses do on the points, half of it before and half of it after: the change of kinetic energy [J]. For
-// impulses between `from` and those that are there, whose velocities lie between as well.
+// The work of the impulses on the points, half before and half after: the change of kinetic energy [J]. It applies to
+// impulses between `from` and the present ones, whose velocities also lie between.
 struct Work {
   const std::vector<Impact>& impacts;
   const std::vector<Vec3>&from, &velocities_from, &velocities;

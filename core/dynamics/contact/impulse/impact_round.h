@@ -1,7 +1,7 @@
-// Impacts of one instant, solved together: u_n' >= the wanted velocity, p_n >= 0 (one of them an equation), and
-// Coulomb's friction, by Gauss-Seidel. No impact adds energy: where restitution would, at several points of a body or
-// with friction (Kane's paradox), the impulses go only so far from those without it to those with it that none is
-// added.
+// Simultaneous impacts, solved together by Gauss-Seidel: u_n' >= the wanted velocity, p_n >= 0 (one of them an
+// equation), and Coulomb's friction. No impact adds energy. Restitution can add it at several points of a body or with
+// friction (Kane's paradox). The impulses then move only part of the way from those without restitution to those with
+// it.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct BodyTwist {
   Vec3 v = Vec3::Zero(), w = Vec3::Zero();  // in W
 };
 
-// One end of a contact point: what unit impulses along the normal and the two tangents make of its body's motion.
+// One end of a contact point: the motion of its body by unit impulses along the normal and the two tangents.
 struct ImpactEnd {
   int body;
   double inverse_mass;  // 1/kg
@@ -30,13 +30,13 @@ struct Impact {
   double friction;
   double wanted;          // m/s, of the normal velocity, with restitution, and
   double wanted_without;  // without
-  Vec3 shift;             // m/s, what the velocity at the instant is more than that of the motions
+  Vec3 shift;             // m/s, the velocity at the instant minus that of the motions
   double mass = 0;        // kg, along the normal
   TangentMass tangent_mass = {};
   Vec3 before = Vec3::Zero(), impulse = Vec3::Zero();  // m/s, N s, along the directions
 };
 
-// Of the points of `a` against those of `b`.
+// The difference of the points of `a` and `b`.
 Vec3 relative_velocity(const ImpactEnd& a, const ImpactEnd& b, const std::vector<BodyTwist>& motions);
 
 // Sets the effective masses.

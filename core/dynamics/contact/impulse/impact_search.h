@@ -1,4 +1,4 @@
-// Which rows meet in a sub-step, faster than gravity brings them together.
+// Finds the rows that meet in a sub-step, faster than gravity alone would bring them together.
 #pragma once
 
 #include <vector>

@@ -4,11 +4,11 @@
 // applied (warm start); then each constraint in turn gets, with its relative velocity u and inverse effective masses k,
 //   p_n <- max(0, p_n - mass_scale (u_n + bias) / k_n - impulse_scale p_n),
 //   p_t <- onto the disc of radius mu p_n (p_t - u_t / k_t),
-// where the bias lets a gap close within h, or pushes an overlap out as a damped spring of contact_hertz does; the
-// positions are integrated with that; then the constraints are relaxed, which is the same without bias, so that what
-// pushed bodies out leaves them no speed. Where bodies bounce, what comes together fast has had its impacts before,
-// each at its own instant of the sub-step (rebounds.h). The row arithmetic is in kernels/contact_row_kernels-inl.h,
-// several rows at a time.
+// where the bias lets a gap close within h, or pushes an overlap out like a damped spring of contact_hertz. The
+// positions are integrated with these velocities. Then the constraints are relaxed, which is the same without bias, so
+// that pushed bodies keep no speed. Where bodies bounce, fast contacts have had their impacts before, each at its own
+// instant of the sub-step (rebounds.h). kernels/contact_row_kernels-inl.h has the row arithmetic, several rows at a
+// time.
 #include <algorithm>
 
 #include "core/dynamics/contact/contact_method.h"
@@ -31,7 +31,7 @@ std::shared_ptr<ThreadPool> threads_for(const BodyConstants& bodies) {
   return is_worth ? bodies.thread_pool() : std::make_shared<ThreadPool>(1);
 }
 
-// What integrate_corrections() does to the orientations of an integrator that keeps matrices.
+// As integrate_corrections(), for the orientations of an integrator that keeps matrices.
 void turn_matrices(const Bodies& bodies, const AlignedDoubles& velocities, double h, MutableBodyColumns state) {
   for (std::size_t i = bodies.begin; i < bodies.end; ++i) {
     const Vec3 w = Eigen::Map<const Vec3>(velocities.data() + kRecord * i + 3);
@@ -126,8 +126,8 @@ class ImpulseStepper : public ContactStepper {
     if (are_rebounds) rebounds_.resolve(rows_.groups(), parameters_, state);
   }
 
-  // A thread's share of what the impulses do. Between two updates of the contacts an impulse always does the same to
-  // its bodies, so that the last sub-step's need not be applied again one by one.
+  // A thread's share of the effects of impulses. Between two contact updates an impulse always has the same effect on
+  // its bodies, so those of the last sub-step are not applied again one by one.
   void solve_sub_step(MutableBodyColumns state, bool is_first, std::size_t thread) {
     const Bodies bodies = share_of_bodies(thread);
     if (is_first) {
@@ -162,8 +162,8 @@ class ImpulseStepper : public ContactStepper {
     });
   }
 
-  // What comes down flat must not be set turning by which of its corners is taken first: impacts are solved until they
-  // agree.
+  // A body that lands flat must not begin to rotate because of the order of its corners. Impacts are therefore solved
+  // until they agree.
   void solve_with_bias(std::size_t thread) {
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
@@ -171,7 +171,7 @@ class ImpulseStepper : public ContactStepper {
     impacts_.solve(contact_kernels().sweep_with_bias, solver_bodies(), parameters_, thread);
   }
 
-  // The integrator has moved the bodies; what the impulses changed of the velocities moves them further.
+  // The integrator has moved the bodies; the velocity changes by the impulses move them further.
   void integrate_corrections(const Bodies& bodies, MutableBodyColumns state) {
     const double h = parameters_.theta * parameters_.h;
     if (state.has_rotation()) turn_matrices(bodies, velocities_, h, state);
@@ -179,7 +179,7 @@ class ImpulseStepper : public ContactStepper {
                                             displacements_.data());
   }
 
-  // What is pushed out of a deep overlap must not keep what one pass leaves of that push.
+  // A body that is pushed out of a deep overlap must not keep the residual push of one pass.
   void relax(std::size_t thread) {
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().relax(groups, count, solver_bodies());
@@ -206,7 +206,7 @@ class ImpulseStepper : public ContactStepper {
   Rebounds rebounds_;
   SolverParameters parameters_{};
   AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies
-  AlignedDoubles pushes_;  // what the impulses of the last sub-step have changed the velocities by
+  AlignedDoubles pushes_;  // the velocity changes by the impulses of the last sub-step
   Columns positions_;      // the state's poses when contacts were last updated
   std::unique_ptr<Stepper> integrator_;
 };

@@ -61,7 +61,7 @@ class JointedImpulseStepper : public ContactStepper {
     joints_.project(state);
   }
 
-  // The integrator has moved the bodies; what the impulses changed of the velocities moves them further.
+  // The integrator has moved the bodies; the velocity changes by the impulses move them further.
   void integrate_corrections(MutableBodyColumns state) {
     const double h = parameters_.theta * parameters_.h;
     for (std::size_t i = 0; i < state.size(); ++i) {

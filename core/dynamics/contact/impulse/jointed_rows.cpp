@@ -79,7 +79,7 @@ JointedRows::Row JointedRows::contact_row(BodyColumns state, const ContactConstr
   return row;
 }
 
-// Of x for a lower limit and a motor, of -x for an upper one.
+// The row of x for a lower limit and a motor, of -x for an upper limit.
 JointedRows::Row JointedRows::coordinate_row(const JointCoordinate& coordinate, const JointCoordinate::Value& at,
                                              double sign, double restitution) const {
   Row row{.body = {coordinate.a(), coordinate.b()}, .directions = 1};
@@ -89,7 +89,7 @@ JointedRows::Row JointedRows::coordinate_row(const JointCoordinate& coordinate, 
   return row;
 }
 
-// With what the joints leave of the row's impulses, of which those on one body alone are the ends.
+// With the part of the row's impulses that the joints allow; `ends` are those on one body alone.
 void JointedRows::add(Row row) {
   row.first_response = responses_.size();
   const std::vector<int> bodies = through_joints_.moved_by(row.body[0], row.body[1]);
@@ -113,7 +113,7 @@ void JointedRows::find_masses(Row& row) const {
     }
     return sum;
   };
-  // What the joints do not let move at all takes no impulse.
+  // A row along which the joints allow no motion gets no impulse.
   const auto inverse = [](double k, double scale) { return k > 1e-12 * scale ? 1 / k : 0; };
   const auto scale = [&](int d) {
     double sum = 0;

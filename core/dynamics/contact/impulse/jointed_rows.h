@@ -1,7 +1,7 @@
-// Contact constraints, limits of joints and motors of given speed as rows of sequential impulses, for bodies that
-// joints hold together. An impulse of a row acts through the joints: with V the velocities and W = (1 - M⁻¹ Jᵀ S⁻¹ J)
-// M⁻¹ the inverse masses that they leave, it changes V by W rowᵀ p, of all bodies that are connected to the row's two.
-// So the velocities obey the joints after each single impulse, and a row's effective mass is that of the mechanism.
+// Contact constraints, limits of joints and motors of given speed as rows of sequential impulses, for jointed bodies.
+// An impulse of a row acts through the joints. V are the velocities and W = (1 - M⁻¹ Jᵀ S⁻¹ J) M⁻¹ the inverse masses
+// that the joints leave. The impulse changes V by W rowᵀ p, for all bodies that are connected to the row's two. The
+// velocities thus satisfy the joints after each single impulse, and a row's effective mass is that of the mechanism.
 #pragma once
 
 #include <vector>
@@ -72,7 +72,7 @@ class JointedRows {
   void apply(const Row& row, int direction, double impulse);
   void solve_normal(Row& row, double impulse);
   void solve_friction(Row& row);
-  // Whether it rests or overlaps; what comes fast must not, even if it is there already.
+  // Whether it rests or overlaps; a fast contact does not count, even if it is closed.
   bool is_soft(const Row& row) const {
     return row.gap <= parameters_.touching && row.approach <= parameters_.restitution_threshold;
   }

@@ -12,7 +12,7 @@ namespace rigor {
 namespace {
 
 // In inradii of the body, or of the smaller of two.
-constexpr double kFatMargin = 0.1;           // by so much its fat box is wider than itself,
+constexpr double kFatMargin = 0.1;           // the margin by which its fat box is larger than the body,
 constexpr double kStepsAhead = 20;           // and by its displacement in so many steps,
 constexpr double kFarthest = 1.5;            // but not by more than this
 constexpr double kSpeculativeMargin = 0.02;  // points closer than this are kept even if they do not approach
@@ -26,7 +26,7 @@ constexpr double kEqualScores = 1e-6;  // points that differ by less of their di
 
 double smaller_inradius(const Collider& a, const Collider& b) { return std::min(a.inradius, b.inradius); }
 
-// How far its turning within dt can take a body's surface; what is round shows none of it.
+// The largest distance by which its rotation within dt can move a body's surface; zero for a round body.
 double rotational_displacement(const Collider& collider, BodyColumns state, double dt) {
   if (collider.fixed || std::holds_alternative<Sphere>(collider.shape)) return 0;
   return std::min(1.0, dt * state.angular_velocity(collider.body).norm()) * collider.bounding_radius;
@@ -61,7 +61,7 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
 }
 
 // Four points hold a face as well as eight: the deepest, the one furthest from it, and the two furthest to either side
-// of the line between these. Of points that are equal but for rounding the one furthest along `direction` is taken.
+// of the line between these. Of points that are equal up to rounding the one furthest along `direction` is chosen.
 void reduce_to_four(Manifold& points, const Vec3& direction) {
   if (points.size() <= kMostOfPair) return;
   const Vec3 origin = points[0].point;
@@ -115,8 +115,7 @@ void Manifolds::update_pairs(BodyColumns state, double dt) {
   if (!moved_.empty()) pairs_ = &broad_phase_.overlaps(fat_boxes_, moved_, &threads_);
 }
 
-// Whether two bodies stay apart within dt: one and a plane, or two by their boxes. Written so that what is not a number
-// does not.
+// Whether two bodies stay apart within dt: one and a plane, or two by their boxes. Written so that NaN returns false.
 bool Manifolds::stay_apart(int a, int b) const {
   if (const auto* plane = std::get_if<Plane>(&colliders_[a].shape))
     return plane->normal.dot(poses_[b].p) - plane->offset > places_[b].reach;
@@ -134,7 +133,7 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
   const Vec3 v = motion_a.v - motion_b.v;
   motion_a.pose.p += aside_of(a, motion_a.pose.p, b, motion_b.pose.p);
   collide(a.shape, motion_a.pose, b.shape, motion_b.pose, manifold);
-  // What comes fast touches elsewhere, and along another normal, than where it is nearest now.
+  // A fast body touches at another place, and along another normal, than those of its present nearest point.
   const bool turns_far = turning > kTurnsFar * smaller_inradius(a, b);
   const double speed = rotational_speed(a, state) + rotational_speed(b, state);
   const double ahead = turns_far ? time_of_turning_impact(a, b, motion_a, motion_b, speed, margin, dt)
@@ -168,7 +167,7 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
   }
 }
 
-// What add_pair() does, where a turn shows nothing and a line from centre to centre all.
+// As add_pair(), for pairs in which rotation has no effect and the line between the centres determines everything.
 void Manifolds::add_balls(int at_a, int at_b, const BallContacts& contacts, std::size_t k, Part& part) {
   if (!(contacts.excess[k] < 0)) return;
   const Vec3 normal(contacts.normal[0][k], contacts.normal[1][k], contacts.normal[2][k]);
@@ -213,7 +212,7 @@ bool Manifolds::is_parted_from_start(const Collider& a, const Collider& b, doubl
   return gap < -kDeep * smaller_inradius(a, b) && (was_inside(a) || was_inside(b));
 }
 
-// What overlaps from the start is parted; nothing else may come to lie in each other.
+// Overlap of the start is removed; no other bodies may come to overlap deeply.
 void Manifolds::watch(const Collider& a, const Collider& b, double gap, Part& part) {
   const double size = smaller_inradius(a, b);
   if (is_first_ && gap < -kDeep * size) overlaps_at_start_[a.body] = overlaps_at_start_[b.body] = 1;
@@ -303,7 +302,7 @@ void Manifolds::join(std::size_t thread) {
             constraints_.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-// What overlaps at the start is noted while pairs are gone through, by one thread.
+// Overlap of the start is noted while one thread goes through the pairs.
 std::vector<ContactConstraint>& Manifolds::find(BodyColumns state, double dt) {
   update_pairs(state, dt);
   old_constraints_.swap(constraints_);

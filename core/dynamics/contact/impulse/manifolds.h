@@ -1,7 +1,6 @@
 // The contact constraints of many bodies from one update to the next, for the method `impulse`: pairs that may meet
 // until then (speculative contacts), the points of each, and the impulses of those that persist. A body's pairs are
-// searched for anew only when it has left its fat box, in which it was searched for last; a pile at rest needs no
-// search.
+// searched again only after it has left the fat box of its last search. A pile at rest needs no search.
 #pragma once
 
 #include <array>
@@ -53,7 +52,7 @@ class Manifolds {
 
   // The constraints for the next dt, sorted by pair, with the impulses of those that persist from the last update.
   std::vector<ContactConstraint>& find(BodyColumns state, double dt);
-  // Of bodies that have come to lie in each other; empty if none have.
+  // Two bodies that have come to overlap deeply; empty if there are none.
   std::string failure() const;
 
  private:
@@ -64,7 +63,7 @@ class Manifolds {
                                                   : Kind::other;
   }
   static constexpr std::size_t kBatch = 256;  // pairs that are looked at together
-  // What one thread finds: the constraints of some of the pairs, in their order.
+  // The results of one thread: the constraints of some of the pairs, in their order.
   struct Part {
     Manifold manifold;
     std::array<std::int32_t, kBatch> near;  // of a batch of pairs, those that are
@@ -89,7 +88,7 @@ class Manifolds {
   void add_ball_on_plane(double dt, int ball, int plane, Part& part);
   void add_round(const Collider& a, const Collider& b, const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b,
                  double gap, Part& part);
-  // Of the i-th near pair of a batch.
+  // The points of the i-th near pair of a batch.
   void add_points_of(std::size_t i, const std::pair<int, int>& pair, BodyColumns state, double dt, Part& part);
   bool is_parted_from_start(const Collider& a, const Collider& b, double gap) const;
   void watch(const Collider& a, const Collider& b, double gap, Part& part);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kSameInstant = 1e-6;  // of a sub-step
-// Of the fastest approach: where there is no gravity to say what is an impact, one that no-one sees.
+// As a share of the fastest approach: without gravity as a scale, a slower impact is invisible.
 constexpr double kLeastImpact = 1e-7;
 
 }  // namespace
@@ -79,7 +79,7 @@ Rebounds::Row Rebounds::row_of(const RowGroup& group, std::size_t point, std::si
   return row;
 }
 
-// Of the rows whose bodies the last round has changed, or of all; and the next of each body.
+// For the rows whose bodies the last round has changed, or for all rows; and the next of each body.
 void Rebounds::find_hits(bool all) {
   std::fill(next_.begin(), next_.end(), kNever);
   for (Row& row : rows_) {
@@ -103,7 +103,7 @@ void Rebounds::choose() {
   if (!impacts_.empty()) add_resting();
 }
 
-// What touches a body of the round, and what touches that, and so on, must not be pushed into each other.
+// Contacts of a round's bodies, and their contacts in turn, must not be pushed into each other.
 void Rebounds::add_resting() {
   std::vector<char> is_taken(rows_.size(), 0);
   for (bool is_more = true; is_more;) {
@@ -139,7 +139,7 @@ void Rebounds::add(const Row& row, double instant, double wanted, double wanted_
   impacts_.push_back(impact);
 }
 
-// By the inertia as the body lies at the instant.
+// Uses the inertia in the body's orientation at the instant.
 void Rebounds::set_response(ImpactEnd& end, const Impact& impact) const {
   const auto i = static_cast<std::size_t>(end.body);
   const Inertia& body = system_.bodies[i];
@@ -188,8 +188,8 @@ void Rebounds::move(MutableBodyColumns state) {
   }
 }
 
-// What bodies turn within the sub-step after an impact is known to its square only, and may add energy of that order:
-// the share s of the changes of motion at which it does not. c + 2 b s + a s² = 0, twice the energy that is added.
+// The rotation within the sub-step after an impact is known only to second order, and may add energy of that order. s
+// is the share of the changes of motion at which it does not: c + 2 b s + a s² = 0, twice the added energy.
 double Rebounds::share_without_gain(BodyColumns moved, const std::vector<Vec3>& momentum) const {
   double a = 0, b = 0, c = 0, scale = 0;
   for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -210,7 +210,7 @@ double Rebounds::share_without_gain(BodyColumns moved, const std::vector<Vec3>& 
   return std::clamp((std::sqrt(std::max(0.0, b * b - a * c)) - b) / a, 0.0, 1.0);
 }
 
-// As prepare_bias() has it, but from the gap and the velocity at the sub-step's end.
+// As prepare_bias(), but from the gap and the velocity at the sub-step's end.
 void Rebounds::update_biases(const SolverParameters& parameters) {
   for (Row& row : rows_) {
     const bool is_changed =

@@ -1,11 +1,11 @@
 // Impacts of bodies that bounce, each at its own instant within a sub-step over which the integrator has moved the
-// bodies freely. By that motion, and by the impacts so far, the gap of a point closes as
+// bodies freely. With that motion, and the impacts so far, the gap of a point closes as
 //   g(t) = g_0 - b t - a t²/2;
-// at its root the velocities change by Newton's and Coulomb's laws (impact_round.h), and at the sub-step's end the
-// bodies lie where the changed velocities take them from there. Impacts are taken in rounds: those that come first for
-// both of their bodies, then what these push into their neighbours, and so on, so that a row of balls passes a blow
-// on; points without restitution that touch are solved with the round that reaches them. Or, `simultaneous`, all that
-// touch are, whatever their restitution (Moreau's law).
+// At its root the velocities change by Newton's and Coulomb's laws (impact_round.h). At the sub-step's end the bodies
+// are where the changed velocities take them. Impacts are processed in rounds: those that come first for both of their
+// bodies, then the neighbours that these push, and so on. A row of balls thus passes an impact on. Touching points
+// without restitution are solved with the round that reaches them. With `simultaneous` all touching points are solved
+// together, with any restitution (Moreau's law).
 #pragma once
 
 #include <vector>
@@ -18,16 +18,16 @@ namespace rigor {
 
 class Rebounds {
  public:
-  // Of impacts of one body within a sub-step; what is left of them is taken without rebound.
+  // The number of impacts of one body within a sub-step; further ones have no rebound.
   static constexpr int kMostRounds = 200;
 
   Rebounds(const System& system, bool simultaneous);
 
-  // Of several impacts at once.
+  // For several simultaneous impacts.
   const char* law() const { return simultaneous_ ? "simultaneous (Moreau)" : "one after another"; }
   // The state before the integrator moves it.
   void begin(BodyColumns state);
-  // The state after that, and the rows of the sub-step with their gaps: changes the state by the impacts, and the
+  // `state` is that after the sub-step, `rows` are its rows with their gaps. Changes the state by the impacts, and the
   // biases of the rows whose bodies it has changed.
   void resolve(const std::vector<RowGroup>& groups, const SolverParameters& parameters, MutableBodyColumns state);
 

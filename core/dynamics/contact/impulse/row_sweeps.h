@@ -1,6 +1,6 @@
-// Sweeps over some of the rows, until none changes a velocity by more than the tolerance: those of impacts, whose
-// points must agree, and those of deep overlaps. Such rows are copied to groups of their own, again eight pairs of a
-// colour in each, and their impulses back when they agree.
+// Sweeps over some of the rows, until none changes a velocity by more than the tolerance: rows of impacts, whose points
+// must agree, and rows of deep overlaps. These rows are copied to separate groups, again eight pairs of a colour in
+// each, and their impulses are copied back after convergence.
 #pragma once
 
 #include <array>
@@ -18,20 +18,20 @@ class RowSweeps {
 
   RowSweeps(const ContactRowLayout& rows, ThreadPool& threads) : rows_(rows), threads_(threads) {}
 
-  // Takes none of the rows; then some more of them, in the order of the groups.
+  // Clears the selection; then adds rows, in the order of the groups.
   void clear();
   void add(const RowPlace* first, const RowPlace* last);
   // After these, by one thread.
   void form_groups();
   bool are_any() const { return !groups_.empty(); }
-  // The sweeps, by the first thread, for they are few, and threads would meet after each colour of each; the others
-  // wait for it.
+  // Only the first thread sweeps; the others wait. The rows are few, and threads would have to synchronise after each
+  // colour.
   void solve(Sweep sweep, const SolverBodies& bodies, const SolverParameters& parameters, std::size_t thread);
 
  private:
   struct Source {  // the pairs of a group
     std::int32_t group[kRowsPerBlock], lane[kRowsPerBlock];
-    unsigned points[kRowsPerBlock];  // a bit each: that the row of the point is one of these
+    unsigned points[kRowsPerBlock];  // one bit each: whether the point's row is selected
     std::size_t pairs;
   };
   std::size_t slot_for(const RowPlace& place);

@@ -15,8 +15,9 @@ namespace {
 // In units of the scene's time sqrt(L/g), so that equal scenes in other units get equal sub-steps. A stack of n bodies
 // sags by n g h²/2.5 at its foot: with kLongestSubStep, by 2e-4 n of a body's half-length.
 constexpr double kLongestSubStep = 0.023;
-// Bodies that weigh many times as much as others need shorter ones: of 1 m boxes in a pyramid on sub-steps of 1/480 s,
-// a top of thirty or a hundred times the others' mass moves them by 5 mm at most, one of three hundred by up to 10 cm.
+// Bodies that are many times as heavy as others need shorter sub-steps. In a pyramid of 1 m boxes with sub-steps of
+// 1/480 s, a top with thirty or a hundred times the others' mass moves them by at most 5 mm, one with three hundred
+// times by up to 10 cm.
 constexpr double kShorterSubStep = 0.0046, kUnevenMassRatio = 30;
 constexpr int kFewestSubSteps = 4;
 // A longer step is chosen for the small number of steps, and leaves time for more work in each.
@@ -31,7 +32,7 @@ constexpr double kMaxPushSpeed = 2;               // of the scene's speed sqrt(g
 // rounding must not decide whether the next sub-step takes it for closed.
 constexpr double kTouching = 1e-7;
 
-// What comes together faster than gravity brings it in so many sub-steps is an impact.
+// An approach faster than gravity causes in this many sub-steps is an impact.
 constexpr double kSubStepsOfFall = 4;
 constexpr int kMaxImpactSweeps = 30;       // over the points of an impact, of which few bodies have more than four
 constexpr double kImpactTolerance = 1e-3;  // of the restitution threshold

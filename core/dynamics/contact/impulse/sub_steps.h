@@ -17,7 +17,7 @@ class SubSteps {
   // See the option `impacts`.
   static bool takes_impacts_at_once(const Settings& settings);
   int of(double dt) const;
-  // In how many of them [at most `count`] contacts are found anew; between these they keep their normals.
+  // The number of them [at most `count`] in which contacts are found again; between these they keep their normals.
   int contact_updates(double dt, int count) const;
   // For sub-steps of h [s].
   SolverParameters parameters(double h) const;
