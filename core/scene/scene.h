@@ -56,7 +56,7 @@ struct Spring {
   double rest_length = 0;       // m
 };
 
-// What holds two bodies together, as rows that the motion must meet: 3, 5, 5, 6, 1 and 4. Nothing is said of how.
+// A constraint between two bodies, as rows that the motion must satisfy: 3, 5, 5, 6, 1 and 4. The method is not prescribed.
 struct BallJoint {
   Vec3 anchor;  // m, in W at t = 0: a point that both share
 };
