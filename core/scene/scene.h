@@ -56,7 +56,7 @@ struct Spring {
   double rest_length = 0;       // m
 };
 
-// A constraint between two bodies, as rows that the motion must satisfy: 3, 5, 5, 6, 1 and 4. The method is not prescribed.
+// Constraints between two bodies. They have 3, 5, 5, 6, 1 and 4 rows; any method may satisfy them.
 struct BallJoint {
   Vec3 anchor;  // m, in W at t = 0: a point that both share
 };
