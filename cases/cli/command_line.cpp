@@ -180,7 +180,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, int jobs) {
   const std::vector<std::string> words = words_of(argc, argv);
   refuse_empty_words(words);
   try {
-    app.parse({words.rbegin(), words.rend()});
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::CallForHelp&) {
     const auto chosen = app.get_subcommands();
     line.printed = chosen.empty() ? help_text() : help_text(*find_command(chosen.front()->get_name()), *chosen.front());

@@ -13,7 +13,7 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 
 // Two columns. A left one that is too long gets a line of its own.
 std::string columns(const Rows& rows) {
-  constexpr std::size_t kMost = 24;
+  constexpr std::size_t kMost = 30;
   std::size_t width = 0;
   for (const auto& [left, right] : rows) width = std::max(width, std::min(left.size(), kMost));
   std::string text;
@@ -61,12 +61,15 @@ std::string help_text(const CommandRow& row, const CLI::App& command) {
 }
 
 std::string first_steps() {
-  return "which command? Try one of these:\n" +
-         columns({{"rigor run springs/fixed-spring", "run one case by every engine and write a report to out/"},
-                  {"rigor list", "list cases, engines, integrators, metrics and truths"},
-                  {"rigor new my-case", "write a case of your own, ready to run"},
-                  {"rigor gate --quick", "exit 1 if an engine is less accurate than recorded"},
-                  {"rigor --help", "list all commands"}});
+  std::string text =
+      "which command? Try one of these:\n" +
+      columns({{"rigor run springs/fixed-spring", "run one case by every engine and write a report to out/"},
+               {"rigor list", "list cases, engines, integrators, metrics and truths"},
+               {"rigor new my-case", "write a case of your own, ready to run"},
+               {"rigor gate --quick", "exit 1 if an engine is less accurate than recorded"},
+               {"rigor --help", "list all commands"}});
+  text.pop_back();  // the caller ends the line
+  return text;
 }
 
 }  // namespace rigor

@@ -1,6 +1,6 @@
 #include "cases/import/mass_share.h"
 
-#include "core/scene/validate.h"
+#include <Eigen/Eigenvalues>
 
 namespace rigor {
 namespace {
@@ -20,20 +20,25 @@ LinkInertial rest_of(const LinkInertial& whole, double part, const Shape& shape,
   return {mass, whole.pose * BodyPose{centre, Quat::Identity()}, (inertia + inertia.transpose()) / 2};
 }
 
-// Whether matter can have this inertia, with a margin of a hundredth against rounding.
-bool can_be(const Mat3& inertia) {
-  const double trace = inertia.trace();
-  return why_no_inertia(inertia - 0.005 * trace * Mat3::Identity()).empty();
+// The second moments of the mass, kg m²: matter has none below zero.
+Mat3 second_moments(const Mat3& inertia) { return 0.5 * inertia.trace() * Mat3::Identity() - inertia; }
+
+// Whether the rest keeps a hundredth of the whole's second moments in every direction. A limit relative to the whole
+// suits needles and plates too, which are near the triangle inequality themselves.
+bool can_be(const Mat3& rest, const Mat3& whole) {
+  constexpr double kLeastShare = 0.01;
+  const Mat3 spare = second_moments(rest) - kLeastShare * second_moments(whole);
+  return Eigen::SelfAdjointEigenSolver<Mat3>(spare, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() > 0;
 }
 
 }  // namespace
 
 std::optional<MassShare> take_share(const LinkInertial& whole, const Shape& shape, const BodyPose& at, double most) {
-  constexpr double kLeast = 1.0 / 1024;  // below, what solves joints would feel the ratio of the masses
+  constexpr double kLeast = 1.0 / 1024;  // smaller parts would strain the solvers of joints
   for (double part = 0.5; part >= kLeast; part /= 2) {
     if (part > most) continue;
     const LinkInertial rest = rest_of(whole, part * whole.mass, shape, at);
-    if (can_be(rest.inertia)) return MassShare{part * whole.mass, rest};
+    if (can_be(rest.inertia, whole.inertia)) return MassShare{part * whole.mass, rest};
   }
   return {};
 }
