@@ -28,25 +28,9 @@ struct CommandRow {
 
 const std::vector<CommandRow>& commands();  // in the order of the README
 
-int list_command(const CommandLine& line, const EngineTable& engines);
-int run_command(const CommandLine& line, const EngineTable& engines);
-int gate_command(const CommandLine& line, const EngineTable& engines);
-int sweep_command(const CommandLine& line, const EngineTable& engines);
-int tune_command(const CommandLine& line, const EngineTable& engines);
-int history_command(const CommandLine& line, const EngineTable& engines);
-int merge_command(const CommandLine& line, const EngineTable& engines);
-int compare_command(const CommandLine& line, const EngineTable& engines);
-int baseline_command(const CommandLine& line, const EngineTable& engines);
-int trace_command(const CommandLine& line, const EngineTable& engines);
-int truth_command(const CommandLine& line, const EngineTable& engines);
-int new_command(const CommandLine& line, const EngineTable& engines);
-int completion_command(const CommandLine& line, const EngineTable& engines);
-int import_command(const CommandLine& line, const EngineTable& engines);
-int export_command(const CommandLine& line, const EngineTable& engines);
-int open_command(const CommandLine& line, const EngineTable& engines);
-int settle_command(const CommandLine& line, const EngineTable& engines);
-int conform_command(const CommandLine& line, const EngineTable& engines);
-int diagnose_command(const CommandLine& line, const EngineTable& engines);
+// The words that many commands take.
+inline constexpr const char *kCases = "case ids, families, files or folders",
+                            *kCasesOrAll = "case ids, families, files or folders; default: the whole suite";
 
 // Returns the run that --engine names, else the only engine of --plugin or from outside. Throws InputError.
 RunName run_asked_for(const CommandLine& line, const EngineTable& engines);

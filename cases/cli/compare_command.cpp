@@ -25,7 +25,7 @@ void check_engine(const std::string& name) {
 
 }  // namespace
 
-int compare_command(const CommandLine& line, const EngineTable&) {
+static int compare_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 2) {
     throw InputError(fmt::format(
         "rigor compare: takes two files, OLD and NEW (a results.json or a baseline), and found {}", line.words.size()));
@@ -36,7 +36,7 @@ int compare_command(const CommandLine& line, const EngineTable&) {
   return changes.is_worse() ? kGateFailed : kGood;
 }
 
-int baseline_command(const CommandLine& line, const EngineTable&) {
+static int baseline_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 1) throw InputError("rigor baseline: takes one file, a results.json");
   if (!line.regression.empty()) {
     check_engine(line.regression);
@@ -47,6 +47,28 @@ int baseline_command(const CommandLine& line, const EngineTable&) {
   }
   print(baseline_text(read_baseline(line.words[0])));
   return kGood;
+}
+
+CommandRow compare_row() {
+  return {"compare",
+          "list what improved or got worse between two results; exit 1 if anything got worse",
+          "FILE",
+          "OLD and NEW, each a results.json or a baseline",
+          {"--factor"},
+          {{"rigor compare old/results.json out/results.json", "two runs"},
+           {"rigor compare baseline.txt out/results.json --factor 1.5", "ignore errors that grow by less than half"}},
+          compare_command};
+}
+
+CommandRow baseline_row() {
+  return {"baseline",
+          "print the short form of a result, one line a cell, to keep and compare with",
+          "FILE",
+          "a results.json",
+          {"--regression"},
+          {{"rigor baseline out/results.json > baseline.txt", "keep a result"},
+           {"rigor baseline out/results.json --regression ode", "the values for adapters/ode/regression.jsonl"}},
+          baseline_command};
 }
 
 }  // namespace rigor

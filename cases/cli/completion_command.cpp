@@ -154,13 +154,24 @@ const std::vector<Completion> kCompletions = {{"bash", bash}, {"man", manual}, {
 
 }  // namespace
 
-int completion_command(const CommandLine& line, const EngineTable& engines) {
+static int completion_command(const CommandLine& line, const EngineTable& engines) {
   const std::vector<std::string> names = names_of(kCompletions);
   const std::string word = line.words.size() == 1 ? line.words.front() : "";
   for (const Completion& kind : kCompletions) {
     if (kind.name == word) return print(kind.text(engines)), kGood;
   }
   throw InputError(fmt::format("rigor completion: takes one of {}{}", listed(names), did_you_mean(word, names)));
+}
+
+CommandRow completion_row() {
+  return {"completion",
+          "print completions for a shell, or the manual page",
+          "KIND",
+          "bash, zsh or man",
+          {},
+          {{"rigor completion bash > ~/.local/share/bash-completion/completions/rigor", "for bash"},
+           {"rigor completion man | man -l -", "read the manual page"}},
+          completion_command};
 }
 
 }  // namespace rigor

@@ -117,7 +117,7 @@ RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
   return parse_run_name(outside.front(), engines.infos());
 }
 
-int conform_command(const CommandLine& line, const EngineTable& engines) {
+static int conform_command(const CommandLine& line, const EngineTable& engines) {
   const RunName run = run_asked_for(line, engines);
   const Trial trial{engines.find(run.engine), engines.info_of(run.engine), run.settings};
   const Json results = results_of(trial, engines, line.limit);
@@ -133,6 +133,17 @@ int conform_command(const CommandLine& line, const EngineTable& engines) {
     print_table(table_of(run, results, holds) + (report ? "\n" + text_of(*report, run.text) : ""));
   }
   return holds ? kGood : kGateFailed;
+}
+
+CommandRow conform_row() {
+  return {"conform",
+          "check an engine against the interface; exit 1 if a check fails",
+          "",
+          "",
+          {"--engine", "--jobs", "--json", "--plugin", "--timeout"},
+          {{"rigor conform --plugin 'python3 my_engine.py'", "an engine of your own"},
+           {"rigor conform --engine ode --json", "a built-in engine, as JSON"}},
+          conform_command};
 }
 
 }  // namespace rigor

@@ -31,4 +31,15 @@ int diagnose_command(const CommandLine& line, const EngineTable& engines) {
   return kGood;
 }
 
+CommandRow diagnose_row() {
+  return {"diagnose",
+          "name the known mistake that explains an engine's error",
+          "CASE",
+          "case ids, families, files or folders; default: cases that tell mistakes apart",
+          {"--engine", "--jobs", "--json", "--plugin", "--suite", "--timeout"},
+          {{"rigor diagnose --plugin ./my_engine.so", "an engine of your own"},
+           {"rigor diagnose springs/fixed-spring --engine ode", "on one case"}},
+          diagnose_command};
+}
+
 }  // namespace rigor

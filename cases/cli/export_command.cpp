@@ -8,7 +8,7 @@
 
 namespace rigor {
 
-int export_command(const CommandLine& line, const EngineTable& engines) {
+static int export_command(const CommandLine& line, const EngineTable& engines) {
   if (line.format.empty()) throw InputError("rigor export: which format? Give --format mjcf or --format sdf");
   const SceneFormat& format = find_scene_format(line.format);
   LeftOut left_out;
@@ -16,6 +16,17 @@ int export_command(const CommandLine& line, const EngineTable& engines) {
   for (const std::string& sentence : left_out.sentences()) say(harmless("left out: " + sentence));
   print(text);
   return kGood;
+}
+
+CommandRow export_row() {
+  return {"export",
+          "print a case's scene for other programs; stderr lists what was left out",
+          "CASE",
+          "a case or a file",
+          {"--format", "--suite"},
+          {{"rigor export joints/double-pendulum --format mjcf > pendulum.xml", "for MuJoCo"},
+           {"rigor export joints/double-pendulum --format sdf > pendulum.sdf", "for Gazebo"}},
+          export_command};
 }
 
 }  // namespace rigor

@@ -93,4 +93,15 @@ int history_command(const CommandLine& line, const EngineTable&) {
                                did_you_mean(what, known)));
 }
 
+CommandRow history_row() {
+  return {"history",
+          "add a result to a history, or show errors and costs along it",
+          "ACTION",
+          "add and the folder of a run; or show and parts of case and engine names",
+          {"--file", "--page"},
+          {{"rigor history add out", "add the run in out/ to history.jsonl"},
+           {"rigor history show springs ode --page history.html", "show some of it, as a page too"}},
+          history_command};
+}
+
 }  // namespace rigor

@@ -10,7 +10,7 @@
 
 namespace rigor {
 
-int import_command(const CommandLine& line, const EngineTable& engines) {
+static int import_command(const CommandLine& line, const EngineTable& engines) {
   if (line.words.size() != 1)
     throw InputError(fmt::format("rigor import: takes one file (URDF, SDF or MJCF), and found {}", line.words.size()));
   const std::string& path = line.words.front();
@@ -24,6 +24,17 @@ int import_command(const CommandLine& line, const EngineTable& engines) {
   for (const std::string& sentence : made.left_out) say("left out: " + sentence);
   print(made.case_text);
   return kGood;
+}
+
+CommandRow import_row() {
+  return {"import",
+          "print a robot's file (URDF, SDF or MJCF) as a case file; stderr lists what was left out",
+          "FILE",
+          "a file that ends in .urdf, .sdf, .mjcf or .xml",
+          {"--keyframe"},
+          {{"rigor import robot.urdf > robot.toml", "a case file to edit"},
+           {"rigor import humanoid.xml --keyframe squat > squat.toml", "start from a keyframe of MJCF"}},
+          import_command};
 }
 
 }  // namespace rigor

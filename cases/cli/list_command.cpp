@@ -110,7 +110,7 @@ std::string table(const Rows& rows) {
 
 }  // namespace
 
-int list_command(const CommandLine& line, const EngineTable& engines) {
+static int list_command(const CommandLine& line, const EngineTable& engines) {
   std::vector<std::string> names;
   for (const Kind& kind : kKinds) names.push_back(kind.name);
   for (const std::string& word : line.words) {
@@ -128,6 +128,18 @@ int list_command(const CommandLine& line, const EngineTable& engines) {
   }
   print_table(text);
   return kGood;
+}
+
+CommandRow list_row() {
+  return {"list",
+          "list cases, engines, integrators, metrics and truths",
+          "KIND",
+          "cases, engines, integrators, metrics or truths; default: all",
+          {"--plugin", "--suite"},
+          {{"rigor list", "everything"},
+           {"rigor list cases engines", "two of the lists"},
+           {"rigor list engines --plugin 'python3 my_engine.py'", "with an engine of your own"}},
+          list_command};
 }
 
 }  // namespace rigor

@@ -77,7 +77,7 @@ void gather_trajectories(const Merged& merged, const OutputFolder& folder) {
 
 }  // namespace
 
-int merge_command(const CommandLine& line, const EngineTable& engines) {
+static int merge_command(const CommandLine& line, const EngineTable& engines) {
   if (line.words.empty())
     throw InputError("rigor merge: takes the folders of all parts, as 'rigor run --shard K/N --out DIR' wrote them");
   std::vector<Part> parts;
@@ -97,6 +97,17 @@ int merge_command(const CommandLine& line, const EngineTable& engines) {
   for (const std::string& remark : merged.remarks) say(remark);
   for (const std::string& missing : merged.missing) say(missing + "; this is not the whole grid");
   return merged.missing.empty() ? ending : int{kBroken};
+}
+
+CommandRow merge_row() {
+  return {"merge",
+          "merge the results of --shard runs into one result",
+          "DIR",
+          "the output folders of all parts",
+          {"--deviations", "--out", "--plugin", "--suite"},
+          {{"rigor merge part1 part2 part3 --out whole", "three parts, made by --shard 1/3, 2/3 and 3/3"},
+           {"rigor merge parts/* --out whole", "all folders in parts"}},
+          merge_command};
 }
 
 }  // namespace rigor

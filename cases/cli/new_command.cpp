@@ -70,7 +70,7 @@ void check_name(const std::string& title) {
 
 }  // namespace
 
-int new_command(const CommandLine& line, const EngineTable&) {
+static int new_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 1) throw InputError("rigor new: takes one name, as my-case, for the file my-case.toml");
   const std::string file = file_of(line.words.front()), title = title_of(file);
   check_name(title);
@@ -85,6 +85,16 @@ int new_command(const CommandLine& line, const EngineTable&) {
   say(fmt::format("{} is written; next: rigor run {} --engine ode --engine bullet --engine core:rk4", file,
                   shell_word(file)));
   return kGood;
+}
+
+CommandRow new_row() {
+  return {"new",
+          "write a case file that runs, with a comment on each line",
+          "NAME",
+          "name of the case, as my-case",
+          {},
+          {{"rigor new my-case", "write my-case.toml"}, {"rigor new cases/pendulum", "write cases/pendulum.toml"}},
+          new_command};
 }
 
 }  // namespace rigor

@@ -31,7 +31,7 @@ std::string why_not_shown(const std::string& file) {
 
 }  // namespace
 
-int open_command(const CommandLine& line, const EngineTable&) {
+static int open_command(const CommandLine& line, const EngineTable&) {
   std::error_code error;
   const std::filesystem::path file = std::filesystem::absolute(std::filesystem::path(line.out) / "report.html", error);
   if (error || !std::filesystem::is_regular_file(file, error))
@@ -41,6 +41,13 @@ int open_command(const CommandLine& line, const EngineTable&) {
   if (why.empty()) return kGood;
   say(fmt::format("{}; open this file in a browser: {}", why, file.string()));
   return kBroken;
+}
+
+CommandRow open_row() {
+  return {"open",      "show the report of a run in the browser",
+          "",          "",
+          {"--out"},   {{"rigor open", "the report in out/"}, {"rigor open --out nightly", "the report in nightly/"}},
+          open_command};
 }
 
 }  // namespace rigor

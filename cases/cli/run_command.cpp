@@ -96,8 +96,35 @@ int run_or_part(const CommandLine& line, const EngineTable& engines) {
 
 }  // namespace
 
-int run_command(const CommandLine& line, const EngineTable& engines) { return run_or_part(line, engines); }
+static int run_command(const CommandLine& line, const EngineTable& engines) { return run_or_part(line, engines); }
 
-int gate_command(const CommandLine& line, const EngineTable& engines) { return run_or_part(line, engines); }
+static int gate_command(const CommandLine& line, const EngineTable& engines) { return run_or_part(line, engines); }
+
+CommandRow run_row() {
+  return {
+      "run",
+      "simulate cases, judge the results, print a table and write reports",
+      "CASE",
+      kCasesOrAll,
+      {"--deviations", "--dt", "--duration", "--engine", "--jobs", "--out", "--plugin", "--resume", "--shard",
+       "--suite", "--timeout"},
+      {{"rigor run springs/fixed-spring", "one case by every engine; the report is out/report.html"},
+       {"rigor run springs --engine ode --engine core:rk4 --dt 1/60", "a family of cases, two engines, one step size"},
+       {"rigor run robot.urdf my-case.toml --out robots", "files of your own"}},
+      run_command};
+}
+
+CommandRow gate_row() {
+  return {"gate",
+          "run, and exit 1 if a gate does not hold",
+          "CASE",
+          kCasesOrAll,
+          {"--deviations", "--dt", "--duration", "--engine", "--jobs", "--out", "--plugin", "--quick", "--resume",
+           "--shard", "--suite", "--timeout"},
+          {{"rigor gate --quick", "for each change: the fast gates of the whole suite"},
+           {"rigor gate --engine bullet", "all gates of one engine"},
+           {"rigor gate springs --plugin ./my_engine.so", "an engine of your own against one family"}},
+          gate_command};
+}
 
 }  // namespace rigor

@@ -39,7 +39,7 @@ void settle(Scene& scene) {
 
 }  // namespace
 
-int settle_command(const CommandLine& line, const EngineTable&) {
+static int settle_command(const CommandLine& line, const EngineTable&) {
   if (line.words.size() != 1)
     throw InputError(fmt::format("rigor settle: takes one file, and found {}", line.words.size()));
   const TomlFile file = TomlFile::read(line.words.front());
@@ -57,6 +57,16 @@ int settle_command(const CommandLine& line, const EngineTable&) {
   }
   print(text);
   return kGood;
+}
+
+CommandRow settle_row() {
+  return {"settle",
+          "print a case file with the nearest initial velocities that its joints allow",
+          "FILE",
+          "a case file",
+          {},
+          {{"rigor settle my-case.toml > settled.toml", "correct velocities that break a joint"}},
+          settle_command};
 }
 
 }  // namespace rigor

@@ -210,4 +210,17 @@ int merge_sweep(const CommandLine& line, const std::vector<Part>& parts, const E
   return answers.size() == sweep.cells() ? ending : int{kBroken};
 }
 
+CommandRow sweep_row() {
+  return {"sweep",
+          "run cases over steps, options and values of the scene; write a table and maps",
+          "CASE",
+          kCases,
+          {"--dt", "--duration", "--engine", "--jobs", "--metric", "--out", "--plugin", "--resume", "--sample",
+           "--seed", "--shard", "--suite", "--timeout", "--vary"},
+          {{"rigor sweep springs/stiff-1 --vary dt=1/1000..1/10:log:20 --engine ode", "twenty step sizes"},
+           {"rigor sweep springs/stiff-1 --vary dt=1/100,1/200 --vary duration=1,2 --engine core:rk4",
+            "a grid of two axes"}},
+          sweep_command};
+}
+
 }  // namespace rigor

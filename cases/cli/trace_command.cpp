@@ -100,7 +100,7 @@ Case the_case(const CommandLine& line, const EngineTable& engines) {
       fmt::format("rigor {}: takes one case, and {} names {} of them", line.command, line.words.front(), cases.size()));
 }
 
-int trace_command(const CommandLine& line, const EngineTable& engines) {
+static int trace_command(const CommandLine& line, const EngineTable& engines) {
   Case definition = the_case(line, engines);
   if (line.engines.size() != 1) throw InputError("rigor trace: takes exactly one --engine; see rigor list engines");
   const std::vector<StepSize> steps = line.dt.empty() ? definition.dt : line.dt;
@@ -124,7 +124,7 @@ int trace_command(const CommandLine& line, const EngineTable& engines) {
   });
 }
 
-int truth_command(const CommandLine& line, const EngineTable& engines) {
+static int truth_command(const CommandLine& line, const EngineTable& engines) {
   Case definition = the_case(line, engines);
   if (definition.truth == "none")
     throw InputError(fmt::format("{}: the case states no truth (truth.kind is \"none\")", definition.id));
@@ -136,6 +136,29 @@ int truth_command(const CommandLine& line, const EngineTable& engines) {
   return print_from_child("the truth of " + definition.id, line.limit, [&](const Channel& channel) {
     send_truth(*make_truth(definition.truth, definition.scene, end), definition.scene, times, channel);
   });
+}
+
+CommandRow trace_row() {
+  return {"trace",
+          "print one trajectory as CSV, JSON lines, MCAP or glTF",
+          "CASE",
+          "a case or a file",
+          {"--dt", "--duration", "--engine", "--every", "--format", "--plugin", "--suite", "--timeout"},
+          {{"rigor trace springs/fixed-spring --engine ode --dt 1/240 > ode.csv", "a table of all samples"},
+           {"rigor trace robot.urdf --engine core:rk4 --dt 1/240 --format gltf > robot.gltf", "an animation"},
+           {"rigor trace ballistic/fast-spin --engine bullet --dt 1/60 --every 6", "each sixth sample"}},
+          trace_command};
+}
+
+CommandRow truth_row() {
+  return {"truth",
+          "print the states of the truth and its own error as CSV",
+          "CASE",
+          "a case or a file",
+          {"--duration", "--suite", "--timeout", "--times"},
+          {{"rigor truth springs/fixed-spring", "at every coarsest step of the run"},
+           {"rigor truth springs/fixed-spring --times 1,2,5/2", "at three instants"}},
+          truth_command};
 }
 
 }  // namespace rigor

@@ -117,4 +117,15 @@ int tune_command(const CommandLine& line, const EngineTable& engines) {
   return tuning.winner ? kGood : kGateFailed;
 }
 
+CommandRow tune_row() {
+  return {"tune",
+          "find the cheapest setting of an engine within bounds; exit 1 if there is none",
+          "CASE",
+          kCases,
+          {"--duration", "--engine", "--jobs", "--plugin", "--seed", "--suite", "--timeout", "--within"},
+          {{"rigor tune springs/fixed-spring --engine ode --within 1mm", "position within a millimetre"},
+           {"rigor tune springs --engine bullet --within 1cm --within '2% energy'", "two bounds on a family"}},
+          tune_command};
+}
+
 }  // namespace rigor

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "core/scene/features.h"
+#include "tests/cases/truth/closed_form/contact/contact_scenes.h"
 #include "tests/scenes.h"
 
 using namespace rigor;
