@@ -15,6 +15,15 @@ constexpr double kEqual = 1e-6;
 // In steps of kEqual. No round number lies on the border between two steps.
 double in_steps(double x, double scale) { return scale > 0 ? std::floor(x / (kEqual * scale) + 0.37) : 0; }
 
+// m/s
+double speed_of(const Body& body, double size) { return body.velocity.norm() + size * body.angular_velocity.norm(); }
+
+double fastest_of(const Scene& scene, double size) {
+  double fastest = 0;
+  for (const Body& body : scene.bodies) fastest = std::max(fastest, speed_of(body, size));
+  return fastest;
+}
+
 Vec3 middle_of(const Scene& scene, const std::vector<Collider>& colliders) {
   Vec3 sum = Vec3::Zero();
   int count = 0;
@@ -25,14 +34,12 @@ Vec3 middle_of(const Scene& scene, const std::vector<Collider>& colliders) {
   return count > 0 ? Vec3(sum / count) : sum;
 }
 
-// Planes come first.
-std::array<double, 5> rank_of(const Scene& scene, const Collider& collider, const Vec3& middle, double size) {
-  if (!std::isfinite(collider.inradius)) return {-1, in_steps(std::get<Plane>(collider.shape).offset, size)};
+std::array<double, 5> rank_of(const Scene& scene, const Collider& collider, double size) {
+  if (!std::isfinite(collider.inradius)) return {1, in_steps(std::get<Plane>(collider.shape).offset, size)};
   const Body& body = scene.bodies[static_cast<std::size_t>(collider.body)];
-  const Vec3 place = body.position - middle;
-  const double height = -scene.gravity.normalized().dot(place);
-  return {1, in_steps(height, size), body.fixed ? 0 : in_steps(std::log(body.mass), 1),
-          in_steps(collider.bounding_radius, size), in_steps(place.norm(), size)};
+  const double height = scene.gravity.isZero(0) ? 0 : -scene.gravity.normalized().dot(body.position);
+  return {0, in_steps(height, size), body.fixed ? 0 : in_steps(std::log(body.mass), 1),
+          in_steps(collider.bounding_radius, size), in_steps(speed_of(body, size), fastest_of(scene, size))};
 }
 
 // The first of these vectors that is not across the axis says which way along it counts as forwards.
@@ -52,9 +59,8 @@ std::vector<Collider> in_canonical_order(const Scene& scene, std::vector<Collide
   for (const Collider& collider : colliders) {
     if (std::isfinite(collider.bounding_radius)) size = std::max(size, collider.bounding_radius);
   }
-  const Vec3 middle = middle_of(scene, colliders);
   std::vector<std::array<double, 5>> ranks;
-  for (const Collider& collider : colliders) ranks.push_back(rank_of(scene, collider, middle, size));
+  for (const Collider& collider : colliders) ranks.push_back(rank_of(scene, collider, size));
   std::vector<std::size_t> order(colliders.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return ranks[x] < ranks[y]; });
@@ -63,33 +69,18 @@ std::vector<Collider> in_canonical_order(const Scene& scene, std::vector<Collide
   return ordered;
 }
 
-std::vector<Vec3> ordering_directions(const Scene& scene, const std::vector<Collider>& colliders) {
-  const Vec3 middle = middle_of(scene, colliders), shares(1, 0.618, 0.382);  // no sum or difference of two is the third
-  std::vector<Vec3> directions;
+std::vector<Vec3> mirrored_axes(const Scene& scene, const std::vector<Collider>& colliders) {
+  const Vec3 middle = middle_of(scene, colliders);
+  std::vector<Vec3> axes;
   for (const Collider& collider : colliders) {
+    axes.push_back(Vec3::Ones());
+    if (!std::holds_alternative<Box>(collider.shape)) continue;
     const Body& body = scene.bodies[static_cast<std::size_t>(collider.body)];
     const Mat3 R = matrix_of(body.orientation);
     const Vec3 &g = scene.gravity, &v = body.velocity, &w = body.angular_velocity, place = body.position - middle;
-    Vec3 direction;
-    for (int k = 0; k < 3; ++k) direction[k] = shares[k] * sign_along(R.col(k), {g, v, w.cross(g), place});
-    directions.push_back(direction);
+    for (int k = 0; k < 3; ++k) axes.back()[k] = sign_along(R.col(k), {-g, v, w.cross(g), place});
   }
-  return directions;
-}
-
-// By insertion: there are few.
-void sort_along(const Vec3& direction_W, Manifold& points) {
-  std::array<double, Manifold::kMost> along;
-  for (int i = 0; i < points.size(); ++i) {
-    const ManifoldPoint point = points[i];
-    const double at = direction_W.dot(point.point);
-    int k = i;
-    for (; k > 0 && along[static_cast<std::size_t>(k - 1)] > at; --k) {
-      points[k] = points[k - 1];
-      along[static_cast<std::size_t>(k)] = along[static_cast<std::size_t>(k - 1)];
-    }
-    points[k] = point, along[static_cast<std::size_t>(k)] = at;
-  }
+  return axes;
 }
 
 }  // namespace rigor

@@ -43,7 +43,10 @@ void JointedRows::assign(BodyColumns state, const std::vector<ContactConstraint>
   for (Coordinate& at : coordinates_) {
     at.first_row = rows_.size();
     const JointCoordinate::Value value = at.coordinate.at(state);
-    for (const double sign : {1.0, -1.0, 1.0}) add(coordinate_row(at.coordinate, value, sign, at.restitution));
+    for (const double sign : {1.0, -1.0, 1.0}) {
+      add(coordinate_row(at.coordinate, value, sign, at.restitution));
+      rows_.back().lever = lever_of(rows_.back(), at.coordinate);
+    }
     rows_[at.first_row].impulse[0] = impulse_scale * at.lower_impulse;
     rows_[at.first_row + 1].impulse[0] = impulse_scale * at.upper_impulse;
     rows_[at.first_row + 2].impulse[0] = impulse_scale * at.motor_impulse;
@@ -131,6 +134,14 @@ void JointedRows::find_masses(Row& row) const {
   row.tangent_mass.tt = row.tangent_mass.ss = row.tangent_mass.slip, row.tangent_mass.ts = 0;
 }
 
+// The radius at which the bodies' mass would have the inertia that the row feels.
+double JointedRows::lever_of(const Row& row, const JointCoordinate& coordinate) const {
+  if (!coordinate.turns()) return 1;
+  double inverse_mass = 0;
+  for (const int body : row.body) inverse_mass += body == kWorld ? 0 : system_.bodies[body].inverse_mass;
+  return std::sqrt(row.mass * inverse_mass);
+}
+
 void JointedRows::load_velocities(BodyColumns state) {
   for (std::size_t i = 0; i < state.size(); ++i) loaded_[i] = joined(state.velocity(i), state.angular_velocity(i));
   velocities_ = loaded_;
@@ -175,7 +186,8 @@ void JointedRows::prepare(BodyColumns state, double t, const SolverParameters& p
   for (Row& row : rows_) {
     row.approach = -speed(row, 0);
     row.bias = bias_of(row);
-    row.is_impact = row.approach > parameters.restitution_threshold && row.gap < 2 * parameters.h * row.approach;
+    row.is_impact =
+        row.lever * row.approach > parameters.restitution_threshold && row.gap < 2 * parameters.h * row.approach;
   }
   for (const Coordinate& at : coordinates_) rows_[at.first_row + 2].is_impact = false;
 }
@@ -184,7 +196,7 @@ void JointedRows::prepare(BodyColumns state, double t, const SolverParameters& p
 double JointedRows::bias_of(const Row& row) const {
   const double theta = parameters_.theta;
   if (!is_soft(row)) return std::max(0.0, row.gap) / (parameters_.h * theta) - (1 - theta) / theta * row.approach;
-  return std::max(-parameters_.max_push_speed, parameters_.bias_rate * row.gap);
+  return std::max(-parameters_.max_push_speed / row.lever, parameters_.bias_rate * row.gap);
 }
 
 void JointedRows::warm_start() {
@@ -274,7 +286,7 @@ void JointedRows::sweep_impacts(const Solve& solve) {
       if (!row.is_impact) return;
       const double before = speed(row, 0);
       solve(row);
-      largest = std::max(largest, std::abs(speed(row, 0) - before));
+      largest = std::max(largest, row.lever * std::abs(speed(row, 0) - before));
     });
     if (largest <= parameters_.tolerance) return;
   }

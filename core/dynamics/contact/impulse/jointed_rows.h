@@ -48,7 +48,8 @@ class JointedRows {
          apart = Vec3::Zero();  // of a contact: unit; m, from b's point to a's when contacts were updated
     double initial_gap = 0, friction = 0, restitution = 0;
     std::size_t first_response = 0, last_response = 0;
-    double mass = 0;                // kg, along the normal
+    double mass = 0;                // kg, along the normal; kg m² for an angle
+    double lever = 1;               // m per rad for an angle: thresholds are speeds and lengths
     TangentMass tangent_mass = {};  // kg
     double gap = 0, approach = 0, bias = 0;
     double impulse[3] = {};
@@ -68,13 +69,14 @@ class JointedRows {
                      double restitution) const;
   void add(Row row);
   void find_masses(Row& row) const;
+  double lever_of(const Row& row, const JointCoordinate& coordinate) const;
   double speed(const Row& row, int direction) const;  // of the row
   void apply(const Row& row, int direction, double impulse);
   void solve_normal(Row& row, double impulse);
   void solve_friction(Row& row);
   // Whether it rests or overlaps; a fast contact does not count, even if it is closed.
   bool is_soft(const Row& row) const {
-    return row.gap <= parameters_.touching && row.approach <= parameters_.restitution_threshold;
+    return row.lever * row.gap <= parameters_.touching && row.lever * row.approach <= parameters_.restitution_threshold;
   }
   double bias_of(const Row& row) const;
   void solve_biased(Row& row);

@@ -22,7 +22,7 @@ constexpr double kSunk = 0.5;                // one of more is no contact any lo
 constexpr double kTurnsFar = 0.25;           // a surface that turns farther is followed on its way
 constexpr double kNearlyCoincident = 0.999;  // an overlap of so much of both radii may have no direction
 constexpr int kMostOfPair = 4;
-constexpr double kEqualScores = 1e-6;  // points that differ by less of their distance are equally good
+constexpr double kEqualScores = 1e-6;  // of a manifold's width: points that differ by less are equally good
 
 double smaller_inradius(const Collider& a, const Collider& b) { return std::min(a.inradius, b.inradius); }
 
@@ -60,25 +60,25 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
   return (inner.low.array() >= outer.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
 }
 
-// Four points hold a face as well as eight: the deepest, the one furthest from it, and the two furthest to either side
-// of the line between these. Of points that are equal up to rounding the one furthest along `direction` is chosen.
-void reduce_to_four(Manifold& points, const Vec3& direction) {
+// Four points hold a face as well as eight: the deepest, the one furthest from it, the one furthest aside of the line
+// between these, and the one furthest to the other side. Of points that are equal but for rounding the first is taken.
+void reduce_to_four(Manifold& points) {
   if (points.size() <= kMostOfPair) return;
-  const Vec3 origin = points[0].point;
-  const auto take = [&](int at, const auto& score_of) {
-    const auto score = [&](const ManifoldPoint& p) {
-      return score_of(p) + kEqualScores * direction.dot(p.point - origin);
-    };
-    const auto best = std::max_element(points.begin() + at, points.end(),
-                                       [&](const auto& p, const auto& q) { return score(p) < score(q); });
-    std::swap(points[at], *best);
+  const double equal = kEqualScores * (points[kMostOfPair].point - points[0].point).norm();
+  const auto take = [&](int at, const auto& score) {
+    int best = at;
+    for (int i = at + 1; i < points.size(); ++i) {
+      if (score(points[i]) > score(points[best]) + equal) best = i;
+    }
+    std::swap(points[at], points[best]);
   };
   take(0, [](const ManifoldPoint& p) { return -p.gap; });
   const ManifoldPoint first = points[0];
   take(1, [&](const ManifoldPoint& p) { return (p.point - first.point).norm(); });
   const Vec3 side = first.normal.cross(points[1].point - first.point).normalized();
-  take(2, [&](const ManifoldPoint& p) { return side.dot(p.point - first.point); });
-  take(3, [&](const ManifoldPoint& p) { return -side.dot(p.point - first.point); });
+  take(2, [&](const ManifoldPoint& p) { return std::abs(side.dot(p.point - first.point)); });
+  const double sign = side.dot(points[2].point - first.point) < 0 ? 1 : -1;
+  take(3, [&](const ManifoldPoint& p) { return sign * side.dot(p.point - first.point); });
   points.keep(kMostOfPair);
 }
 
@@ -87,7 +87,7 @@ void reduce_to_four(Manifold& points, const Vec3& direction) {
 void Manifolds::place_body(std::size_t i, BodyColumns state, double dt) {
   const Collider& collider = colliders_[i];
   poses_[i].p = state.position(collider.body);
-  if (kinds_[i] != Kind::ball) poses_[i].R = state.rotation(collider.body);
+  if (kinds_[i] != Kind::ball) poses_[i].R = state.rotation(collider.body) * axes_[i].asDiagonal();
   const Vec3 displacement = dt * state.velocity(collider.body);
   const double margin = kSpeculativeMargin * collider.inradius + rotational_displacement(collider, state, dt);
   boxes_[i] = swept_box(collider, poses_[i], displacement, margin);
@@ -149,13 +149,7 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
     if (point.gap < margin + turning + dt * std::max(0.0, -point.normal.dot(v))) manifold[kept++] = point;
   }
   manifold.keep(kept);
-  if (manifold.size() > 1) {
-    const Collider& owner = std::isfinite(a.inradius) ? a : b;
-    const auto place = static_cast<std::size_t>(&owner - colliders_.data());
-    const Vec3 direction = poses_[place].R * directions_[place];
-    reduce_to_four(manifold, direction);
-    sort_along(direction, manifold);
-  }
+  reduce_to_four(manifold);
   for (const ManifoldPoint& point : manifold) watch(a, b, point.gap, part);
   const ContactLaw& law = laws_.of(a.body, b.body);
   for (const ManifoldPoint& point : manifold) {

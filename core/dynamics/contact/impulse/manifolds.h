@@ -36,7 +36,7 @@ class Manifolds {
       : threads_(threads),
         parts_(threads.members()),
         colliders_(in_canonical_order(scene, colliders_of(scene))),
-        directions_(ordering_directions(scene, colliders_)),
+        axes_(mirrored_axes(scene, colliders_)),
         laws_(scene),
         poses_(colliders_.size(), {Vec3::Zero(), Mat3::Identity()}),
         boxes_(colliders_.size()),
@@ -101,9 +101,9 @@ class Manifolds {
   ThreadPool& threads_;
   std::vector<Part> parts_;  // by thread
   std::vector<Collider> colliders_;
-  std::vector<Vec3> directions_;  // by collider, see ordering_directions()
-  std::vector<int> rank_;         // by body: its collider
-  std::vector<Kind> kinds_;       // by collider
+  std::vector<Vec3> axes_;   // by collider, see mirrored_axes()
+  std::vector<int> rank_;    // by body: its collider
+  std::vector<Kind> kinds_;  // by collider
   ContactLaws laws_;
   BroadPhase broad_phase_;
   std::vector<Pose> poses_;
