@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cases/metrics/measures/energy_in_play.h"
+#include "cases/metrics/measures/limit_bounces.h"
 #include "cases/metrics/measures/measuring.h"
 #include "cases/metrics/measures/synchronised.h"
 #include "core/dynamics/model/energy.h"
@@ -112,7 +113,8 @@ EnergySeries energy_series(const JudgedRun& run, double stagger) {
     series.expected = lowest_so_far(series.found), series.only_gains_count = true;
   } else if (!truth.empty()) {
     series.found.resize(truth.size());
-    for (const double e : truth) series.expected.push_back(series.found.front() + e - truth.front());
+    for (const double e : with_bounces_in_step(run, truth))
+      series.expected.push_back(series.found.front() + e - truth.front());
   } else {
     series.not_applicable = "forces or motors drive the scene, and there is no truth to say what energy they give it";
   }

@@ -19,10 +19,11 @@ struct EnergySeries {
 // stay unchanged where forces push bodies that contact brakes. The push alone, without the friction that almost
 // balances it, would move them further from the positions' time.
 //
-// The expected energy, by the first row that applies:
-//   no gain or loss of energy                            the energy at the start
-//   a truth with constant energy                         the same (for example an elastic bounce)
-//   timed forces, or dampers, and a truth                its own start plus the truth's change, up to its horizon
+// What is expected, the first that applies:
+//   nothing takes or gives energy                        what it was at the start
+//   a truth whose energy stays what it was               likewise (an elastic bounce, say)
+//   timed forces, or dampers, and a truth                its own start plus the truth's change, up to its horizon;
+//                                                        bounces at limits in step (limit_bounces.h)
 //   timed forces without a truth                         nothing
 //   contact that may lose energy, or dampers             at most the lowest so far: only gains count
 EnergySeries energy_series(const JudgedRun& run, double stagger);
