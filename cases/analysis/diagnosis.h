@@ -1,4 +1,4 @@
-// What was found in the results, as data: the reports say it in their own words.
+// Findings in the results, as data. The reports put them into words.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ struct Diagnosis {
   std::vector<std::size_t> runs;  // indices in Results::runs
   std::string of_case;            // its id
   double value = 0;               // how bad, in the topic's unit
-  std::string cause = "";         // the engine's own setting that explains it; empty if it tells of none
+  std::string cause = "";         // the engine's own setting that explains it; empty if it reports none
   std::vector<std::pair<StepSize, double>> over = {};  // the metric at each step, from the coarsest to the finest
-  Instant worst = {};                                  // of the step that `value` is of
-  double beside = 0;                                   // what `value` is held against; of no meaning for some topics
+  Instant worst = {};                                  // at the step of `value`
+  double beside = 0;                                   // the number that `value` is compared with, for some topics
 };
 
 }  // namespace rigor
