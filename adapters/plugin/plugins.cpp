@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 #include "adapters/plugin/library_engine.h"
@@ -39,14 +40,26 @@ std::unique_ptr<Engine> engine_of(const std::string& plugin, double limit) {
   return std::make_unique<ProcessEngine>(PluginStart{plugin, limit, log_descriptor()});
 }
 
+std::map<std::string, std::string>& plugins_by_engine() {
+  static std::map<std::string, std::string> plugins;
+  return plugins;
+}
+
 }  // namespace
+
+std::string plugin_of(const std::string& engine) {
+  const auto found = plugins_by_engine().find(engine);
+  return found == plugins_by_engine().end() ? "" : found->second;
+}
 
 void add_plugin(EngineTable& table, const std::string& plugin, double limit) {
   if (plugin.find_first_not_of(" \t") == std::string::npos)
     throw InputError("a plug-in is a path that ends in .so, or a command line; this one is empty");
   std::unique_ptr<Engine> engine = engine_of(plugin, limit);
+  const std::string name = engine->info().name;
   try {
     table.add(std::move(engine), identity_of(plugin));
+    plugins_by_engine()[name] = plugin;
   } catch (const InputError& error) {
     throw InputError(fmt::format("plug-in '{}': {}", plugin, error.what()));
   }

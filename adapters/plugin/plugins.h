@@ -12,6 +12,9 @@ namespace rigor {
 // Throws InputError for a plug-in that does not describe itself, or whose name is taken.
 void add_plugin(EngineTable& table, const std::string& plugin, double limit);
 
+// The plug-in that add_plugin made this engine of; empty for an engine of the program.
+std::string plugin_of(const std::string& engine);
+
 // The parts of RIGOR_PLUGINS, which colons separate.
 std::vector<std::string> plugins_of_environment();
 

@@ -12,14 +12,15 @@ std::string how_it_corrects(const Cell& cell) {
   return split.empty() ? in_its_words(cell, "erp") : split;
 }
 
-// In a pile some balls graze each other. The normal then depends on a step's overlap, which is no error of restitution.
+// In a pile some balls graze each other. The overlap of a step then changes the normal, which is no error of
+// restitution.
 bool is_pile(const CaseResult& result) {
   constexpr std::size_t kMostTellable = 60;  // bodies
   return result.definition.scene.bodies.size() > kMostTellable;
 }
 
-// Bodies that should stay together part, with a share of the speed they met with. One that keeps more than half has not
-// been stopped at all.
+// Bodies that should stay together separate at a share of their approach speed. A body that keeps more than half of it
+// was not stopped at all.
 std::optional<Diagnosis> overlap_given_back(const CaseResult& result, const MetricOverSteps& restitution) {
   constexpr double kNotable = 0.02, kMostGivenBack = 0.5;
   for (std::size_t i = restitution.values.size(); i-- > 0;) {
@@ -33,7 +34,7 @@ std::optional<Diagnosis> overlap_given_back(const CaseResult& result, const Metr
   return std::nullopt;
 }
 
-// Of a first-order engine the error falls with dt; this one's is, at some finer step, larger than at the coarsest.
+// The error of a first-order engine falls with dt. Here the error at some finer step exceeds that at the coarsest.
 std::optional<Diagnosis> unconverged(const CaseResult& result, const MetricOverSteps& restitution) {
   constexpr double kNotable = 0.05;
   if (restitution.values.size() < 2 || is_pile(result)) return std::nullopt;

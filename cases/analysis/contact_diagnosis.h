@@ -1,4 +1,4 @@
-// Errors of contacts: restitution that does not converge, overlap returned as speed, friction that depends on the
+// Finds errors of contacts: restitution that does not converge, overlap returned as speed, friction that depends on the
 // direction.
 #pragma once
 
@@ -6,14 +6,14 @@
 
 namespace rigor {
 
-// Bounces that are no better at a finer step; the value is the largest error of a finer one.
+// Bounces that do not improve at finer steps. The value is the largest error at a finer step.
 inline constexpr const char* kUnconverged = "restitution";
-// After an impact that should leave none, a share of the speed that bodies met with: the value.
+// Speed after an impact that should leave none. The value is its share of the approach speed.
 inline constexpr const char* kOverlapGivenBack = "overlap";
-// Bodies that should all stop after the same way do not; the value is by what share of it they differ.
+// Bodies that should all stop after the same distance do not. The value is the relative difference.
 inline constexpr const char* kFrictionDirections = "friction";
 
-// One run and one topic each, by run.
+// One run and one topic in each, sorted by run.
 std::vector<Diagnosis> contact_diagnoses(const CaseResult& result);
 
 }  // namespace rigor

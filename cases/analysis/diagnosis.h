@@ -1,4 +1,4 @@
-// Findings in the results as data; the reports put them into words.
+// Findings in the results, as data. The reports put them into words.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ struct Diagnosis {
   double value = 0;               // how bad, in the topic's unit
   std::string cause = "";         // the engine's own setting that explains it; empty if it reports none
   std::vector<std::pair<StepSize, double>> over = {};  // the metric at each step, from the coarsest to the finest
-  Instant worst = {};                                  // of the step of `value`
-  double beside = 0;                                   // the comparison value; unused for some topics
+  Instant worst = {};                                  // at the step of `value`
+  double beside = 0;                                   // the number that `value` is compared with, for some topics
 };
 
 }  // namespace rigor

@@ -11,9 +11,9 @@
 namespace rigor {
 namespace {
 
-constexpr double kSmall = 1e-4;  // of a joint's reach: smaller gaps are not reported
+constexpr double kSmall = 1e-4;  // of a joint's reach: smaller gaps get no sentence
 
-// Steps from the nodes of `from` to each; all that stands still is the last node.
+// The number of joints between the nodes of `from` and each node. The last node is all that stands still.
 std::vector<int> distances(const Scene& scene, std::size_t from) {
   const std::size_t count = scene.bodies.size() + 1;
   const auto node = [&](int body) {
@@ -39,7 +39,7 @@ const Cell* cell_at(const CaseResult& result, std::size_t run, const StepSize& d
   return cell == result.cells.end() ? nullptr : &*cell;
 }
 
-// Another run of the same engine whose joints, at that step, come apart by no more than a tenth.
+// Another run of the same engine with at most a tenth of the gap at that step.
 std::optional<std::size_t> run_that_holds(const Results& results, const CaseResult& result, const Cell& cell,
                                           double gap) {
   const RunName& mine = results.runs[cell.run];
@@ -82,8 +82,8 @@ std::optional<Diagnosis> joints_part(const CaseResult& result, const MetricOverS
   return found;
 }
 
-// First order in dt from step to step; the effect of a position error on the energy is of second order. Only for
-// engines that report how they correct their joints: the core's energy is explained by its method.
+// The loss must be of first order in dt from step to step, because an error of position changes the energy to second
+// order. Only engines that report how they correct joints count. The core's method explains its energy.
 std::optional<Diagnosis> joints_take_energy(const CaseResult& result, const MetricOverSteps& drifts) {
   constexpr double kNotable = 0.01, kAll = 1;  // of the energy in play
   if (drifts.cells.size() < 2 || may_change_energy(result.definition.scene)) return std::nullopt;

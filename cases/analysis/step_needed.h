@@ -1,4 +1,4 @@
-// Which step size an error in bounds takes.
+// Finds the step size that keeps an error in bounds.
 #pragma once
 
 #include <vector>

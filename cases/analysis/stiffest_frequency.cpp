@@ -7,7 +7,7 @@
 namespace rigor {
 namespace {
 
-// What a spring's unit pull does to one of its bodies: a force and a torque, both in W.
+// The effect of a spring's unit pull on one of its bodies, in W.
 struct Pull {
   int body;
   Vec3 force, torque;

@@ -1,5 +1,5 @@
-// Error against cost as dt shrinks: who is how wrong for the same CPU time. Each run's cells are points of a curve, in
-// logarithms; it is read where another run's cost crosses it.
+// Compares errors at equal CPU time. The cells of a run are points of a curve of log error against log cost. The curve
+// is read at the cost of another run.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,10 @@
 
 namespace rigor {
 
-// interpolated: between two of the run's own cells. extrapolated: cheaper than its cheapest cell, along its first two,
-// to a step at most four times as long and no longer than what it bears. at_most: dearer than its dearest cell, whose
-// error is the bound, for it could spend the rest on smaller steps.
+// interpolated: the cost lies between two of the run's own cells.
+// extrapolated: the cost is below the cheapest cell. The line through the first two cells is used up to a step four
+// times as long, and no longer than the largest stable step. at_most: the cost is above the dearest cell. Its error is
+// a bound, because the run could use smaller steps.
 enum class Reach { interpolated, extrapolated, at_most };
 std::string word_of(Reach reach);
 
@@ -20,10 +21,10 @@ struct AtCost {
   double error = 0;
   Reach reach = Reach::interpolated;
 };
-// `points` in any order. None where the curve does not reach so far.
+// `points` in any order. No value if the curve does not reach the cost.
 std::optional<AtCost> error_at_cost(std::vector<ErrorPoint> points, double cost, double largest_stable_dt);
 
-// A run beside one cell of a baseline.
+// A run compared with one cell of a baseline.
 struct EqualCost {
   std::size_t run = 0, baseline = 0;  // indices in Results::runs
   ErrorPoint of_baseline;

@@ -1,9 +1,10 @@
-// rigor diagnose: which known mistake an engine's error looks like.
+// rigor diagnose: finds the known mistake that an engine's error looks like.
 #include <algorithm>
 
 #include "cases/analysis/mistakes/finder.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/progress.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/report/json/mistakes_json.h"
 #include "cases/report/wording/mistakes.h"
@@ -11,12 +12,15 @@
 #include "core/base/json.h"
 
 namespace rigor {
+
 MistakeReport diagnosed(const CommandLine& line, const EngineTable& engines, const RunName& run) {
   const Vocabulary vocabulary = vocabulary_of(engines.infos());
   std::vector<ProbeScene> probes = line.words.empty() ? probes_of_suite(vocabulary)
                                                       : probes_of(select_cases(line.words, line.suite_dir, vocabulary));
   constexpr double kMost = 10;  // s of CPU time for a run that takes milliseconds
-  MistakeFinder finder(engines, run, std::move(probes), {line.jobs, std::min(line.limit, kMost)});
+  Progress progress("motions");
+  const auto show = [&](std::size_t motions) { progress.show(motions, 0); };
+  MistakeFinder finder(engines, run, std::move(probes), {line.jobs, std::min(line.limit, kMost), show});
   return finder.report(engines.find(run.engine));
 }
 

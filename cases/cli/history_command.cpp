@@ -1,4 +1,4 @@
-// rigor history: add a run's result to a file that keeps them from commit to commit, and show how they moved.
+// rigor history: adds the result of a run to a file, commit by commit, and shows the changes.
 #include <fmt/format.h>
 
 #include <array>
@@ -31,7 +31,7 @@ std::string now() {
   return {text.data(), length};
 }
 
-// Of the repository that the current folder is in, or what a runner says.
+// The commit that a CI runner names, or that of the current folder's repository.
 std::string current_commit() {
   constexpr std::size_t kShort = 12;
   for (const char* variable : {"RIGOR_COMMIT", "GITHUB_SHA", "CI_COMMIT_SHA"}) {
@@ -60,7 +60,7 @@ int add(const CommandLine& line) {
   return kGood;
 }
 
-// In the page's place all at once, or not at all.
+// Replaces the page as a whole, or leaves the old one.
 void write_page(const std::string& file, const std::string& text) {
   const std::string growing = file + ".partial";
   std::ofstream stream(growing, std::ios::binary);

@@ -3,18 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+
+#include "cases/cli/durations.h"
+#include "cases/cli/measured_times.h"
 
 namespace rigor {
 namespace {
 
-// Measured over the suite, a step of all its metrics included: what differs is engines, by ten and more, and cases.
+// Measured over the suite, all metrics of a step included. Engines differ by ten times and more, and so do cases.
 constexpr double kPerBodyStep = 3e-6;                             // s
 constexpr double kPerJointedStep = 6e-6, kPerJointedBody = 4e-6;  // s, of a step, and of each body in it
 constexpr double kPerCell = 0.03;                                 // s
 constexpr double kPerSearch = 0.1, kPerSearchWithLimits = 0.4;    // s, for a stable step
 constexpr double kPerSolvedTruth = 1, kPerClosedForm = 0.05;      // s
 constexpr double kTimingAndTwin = 2;                              // a run of everything runs each cell again
+constexpr double kSpreadOfGuess = 4;                              // of a guess; of the sum of measured times
+constexpr double kSpread = 1.5;
 
 bool is_run(const Cell& cell) { return cell.status != Status::unsupported; }
 
@@ -37,11 +41,9 @@ double seconds_of_truth(const std::string& truth) {
   return truth == "reference" || truth == "events" ? kPerSolvedTruth : kPerClosedForm;
 }
 
-std::string in_words(double seconds) {
-  if (seconds < 2) return "a moment";
-  if (seconds < 90)
-    return fmt::format("about {:.0f} s", seconds < 10 ? std::ceil(seconds) : 10 * std::ceil(seconds / 10));
-  return fmt::format("about {:.0f} minutes", std::ceil(seconds / 60));
+std::string in_words(const Estimate& estimate) {
+  constexpr double kMoment = 2;  // s
+  return estimate.most < kMoment ? "a moment" : duration_range(estimate.least, estimate.most);
 }
 
 std::string counted(std::size_t count, const char* what) {
@@ -50,22 +52,29 @@ std::string counted(std::size_t count, const char* what) {
 
 }  // namespace
 
-double estimated_seconds(const Results& planned, const CommandLine& line) {
+Estimate estimated_seconds(const Results& planned, const CommandLine& line) {
   const bool is_everything = line.command == "run";
-  double all = 0;
+  const MeasuredTimes measured = measured_times(line.out);
+  double known = 0, guessed = 0;
   for (const CaseResult& result : planned.cases) {
-    all += seconds_of_truth(result.definition.truth);
+    guessed += seconds_of_truth(result.definition.truth);
     for (const Cell& cell : result.cells) {
-      if (is_run(cell))
-        all += std::min(seconds_of(result.definition, cell) * (is_everything ? kTimingAndTwin : 1), line.limit);
+      if (!is_run(cell)) continue;
+      const auto before = measured.find({result.definition.id, planned.runs[cell.run].text, cell.dt.text});
+      if (before != measured.end()) {
+        known += before->second;
+      } else {
+        guessed += std::min(seconds_of(result.definition, cell) * (is_everything ? kTimingAndTwin : 1), line.limit);
+      }
     }
     if (!is_everything) continue;
     const auto searches =
         std::count_if(result.stable_steps.begin(), result.stable_steps.end(),
                       [](const StableStepResult& stable) { return stable.status != Status::unsupported; });
-    all += seconds_of_search(result.definition.scene) * static_cast<double>(searches);
+    guessed += seconds_of_search(result.definition.scene) * static_cast<double>(searches);
   }
-  return all / line.jobs;
+  return {(known / kSpread + guessed / kSpreadOfGuess) / line.jobs,
+          (known * kSpread + guessed * kSpreadOfGuess) / line.jobs};
 }
 
 std::string plan_sentence(const Results& planned, const CommandLine& line) {

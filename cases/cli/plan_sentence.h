@@ -1,4 +1,4 @@
-// What a run is about to do, and about how long that takes.
+// What a run is about to do, and how long that takes.
 #pragma once
 
 #include <string>
@@ -8,10 +8,16 @@
 
 namespace rigor {
 
-// "3 cases by 20 runs at up to 3 steps: 140 cells, 12 more unsupported; about 40 s on 2 cores".
+// "3 cases by 20 runs: 140 cells, 12 more unsupported; 20 to 60 s with 2 jobs; the reports will be in out".
 std::string plan_sentence(const Results& planned, const CommandLine& line);
 
-// s of wall time, from what steps of a body cost here in the mean: right to a factor of three.
-double estimated_seconds(const Results& planned, const CommandLine& line);
+// s of wall time.
+struct Estimate {
+  double least = 0, most = 0;
+};
+
+// Cells that the results.json in `line.out` has from this machine count with the time that they took there. All others
+// count with what a step of a body costs in the mean, which is right to a factor of four either way.
+Estimate estimated_seconds(const Results& planned, const CommandLine& line);
 
 }  // namespace rigor

@@ -6,9 +6,11 @@
 #include <stdexcept>
 
 #include "adapters/plugin/plugins.h"
+#include "cases/case/suite.h"
 #include "cases/cli/command_line.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/report/wording/printed_command.h"
 #include "core/base/error.h"
 #include "core/base/json_words.h"
 
@@ -34,6 +36,7 @@ int answer(int argc, const char* const* argv, const Executor* executor) {
   for (const CommandRow& row : commands()) {
     const bool is_shared = std::find(row.options.begin(), row.options.end(), "--shard") != row.options.end();
     if (!leads(line) && (!line.printed.empty() || (row.name == line.command && !is_shared))) throw Dismissed();
+    if (line.suite_dir != default_suite_dir()) use_suite(line.suite_dir);
     if (line.printed.empty() && row.name == line.command) return row.run(line, engines_for(row, line));
   }
   return print_table(line.printed), kGood;

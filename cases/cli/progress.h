@@ -1,20 +1,34 @@
-// A bar on stderr while cells run, if stderr is a terminal.
+// Shows on stderr how far a command is: a bar on a terminal, else a line every ten seconds.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <string>
 
 namespace rigor {
 
 class Progress {
  public:
-  Progress();
+  // `what`: the noun of the count, as "cells".
+  explicit Progress(std::string what = "cells");
   ~Progress();  // wipes the bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  void show(std::size_t done, std::size_t all);
+  void show(std::size_t done, std::size_t all);  // `all` is 0 if it is not known
 
  private:
+  void show_bar() const;
+  void print_line_if_due();
+
+  std::string what_;
   bool is_terminal_, has_colour_;
+  std::size_t done_ = 0, all_ = 0, kept_ = 0;
+  std::chrono::steady_clock::time_point start_, last_line_;
 };
+
+// "37 of 140 cells after 42 s; 2 to 4 minutes left". The lower bound is the remaining time at the rate so far.
+// `kept`: of `done`, those that an interrupted run had finished.
+std::string progress_text(const std::string& what, std::size_t done, std::size_t all, double seconds,
+                          std::size_t kept = 0);
 
 }  // namespace rigor

@@ -1,5 +1,5 @@
-// rigor sweep: a grid, or a sample of one, over steps, options and values of the scene; as a table and drawn. Or a
-// shard of it, and of all shards the whole.
+// rigor sweep: runs a grid, or a sample of one, over steps, options and values of the scene. Writes a table and a page.
+// Also runs one shard of a sweep, and merges all shards.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -43,7 +43,7 @@ SweepInput input_of(const CommandLine& line, const Vocabulary& words) {
 
 bool is_broken(const SweepRow& row) { return row.status == Status::crashed || row.status == Status::timed_out; }
 
-// The tables grow in the folder as rows come.
+// The tables in the folder, which grow with each row.
 class SweepFiles {
  public:
   SweepFiles(const Sweep& sweep, const OutputFolder& folder)
@@ -113,10 +113,15 @@ int end_of(const SweepFiles& files, const Sweep& sweep, const CommandLine& line)
   return files.has_broken() ? kBroken : kGood;
 }
 
+void say_plan(const CommandLine& line, std::size_t cells) {
+  if (leads(line)) say(fmt::format("{} cells with {} jobs; the tables will be in {}", cells, line.jobs, line.out));
+}
+
 int sweep_whole(const CommandLine& line, const Sweep& sweep, const EngineTable& engines) {
   OutputFolder folder = folder_of(line);
   if (!leads(line)) run_sweep(sweep, engines, options_of(line, folder), {});
   SweepFiles files(sweep, folder);
+  say_plan(line, sweep.cells());
   try {
     Progress progress;
     std::size_t done = 0;
@@ -137,6 +142,7 @@ int sweep_shard(const CommandLine& line, const Sweep& sweep, const EngineTable& 
   const auto [begin, end] = jobs_of(sweep, line.shard);
   const std::size_t first = sweep.first_row_of(begin), rows = sweep.first_row_of(end) - first;
   bool has_broken = false;
+  say_plan(line, rows);
   try {
     Progress progress;
     std::size_t done = 0;
@@ -156,8 +162,8 @@ int sweep_shard(const CommandLine& line, const Sweep& sweep, const EngineTable& 
     throw;
   }
   print_table(
-      fmt::format("shard {0} of {1}: {2} of {3} cells\nThis is a part and no result: 'rigor merge DIR... --out "
-                  "DIR' makes the whole of all {1} parts.\n",
+      fmt::format("shard {0} of {1}: {2} of {3} cells\nThis is one part of {1}. 'rigor merge DIR... --out DIR' makes "
+                  "the result from all parts.\n",
                   line.shard.index, line.shard.count, rows, sweep.cells()));
   return has_broken ? kBroken : kGood;
 }

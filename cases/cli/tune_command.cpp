@@ -1,5 +1,5 @@
-// rigor tune: the cheapest setting of an engine that keeps bounds, its own calls to paste, and the other engines beside
-// it.
+// rigor tune: finds the cheapest setting of an engine that keeps bounds. Prints the run and the engine's own calls to
+// paste, and compares the other engines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,9 @@
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/progress.h"
 #include "cases/cli/vocabulary.h"
+#include "cases/report/wording/printed_command.h"
 #include "cases/runner/grid.h"
 #include "core/base/error.h"
 
@@ -57,34 +59,65 @@ std::string front_text(const Tuning& tuning) {
   return text + "\n";
 }
 
+// The winner's run, to paste.
+std::string run_of_winner(const CommandLine& line, const TunedPoint& best) {
+  std::vector<std::string> words = {"rigor", "run"};
+  words.insert(words.end(), line.words.begin(), line.words.end());
+  words.insert(words.end(), {"--engine", best.run.text, "--dt", best.dt.text});
+  if (line.duration) words.insert(words.end(), {"--duration", fmt::format("{}", *line.duration)});
+  const std::vector<std::string> from = where_from(best.run.text);
+  words.insert(words.end(), from.begin(), from.end());
+  return pasted(words);
+}
+
+// The same tuning of another engine, to paste.
+std::string tuning_of(const CommandLine& line, const std::string& engine) {
+  std::vector<std::string> words = {"rigor", "tune"};
+  words.insert(words.end(), line.words.begin(), line.words.end());
+  words.insert(words.end(), {"--engine", engine});
+  for (const std::string& bound : line.within) words.insert(words.end(), {"--within", bound});
+  if (line.duration) words.insert(words.end(), {"--duration", fmt::format("{}", *line.duration)});
+  const std::vector<std::string> from = where_from(engine);
+  words.insert(words.end(), from.begin(), from.end());
+  return pasted(words);
+}
+
 std::string winner_text(const CommandLine& line, const Tuning& tuning, const EngineTable& engines) {
   const TunedPoint& best = *tuning.winner;
   std::string text = fmt::format(
-      "winner: {} at {} s, {} ms of CPU a simulated second ({} to {} in 5 repeats), {:.3g} of the bound\n"
-      "  rigor run {} --engine {} --dt {}\n",
+      "winner: {} at {} s, {} ms of CPU a simulated second ({} to {} in 5 repeats), {:.3g} of the bound\n  {}\n",
       best.run.text, best.dt.text, milliseconds(best.cost), milliseconds(best.least), milliseconds(best.most),
-      best.error, fmt::join(line.words, " "), best.run.text, best.dt.text);
+      best.error, run_of_winner(line, best));
   const auto calls =
       engine_calls(parse_run_name(best.run.text, engines.infos()), fmt::format("{}.0 / {}", 1, best.dt.text.substr(2)));
-  if (!calls.empty()) text += fmt::format("  in the engine's own calls:\n    {}\n", fmt::join(calls, "\n    "));
+  if (!calls.empty())
+    text += fmt::format("  the same in the engine's own calls:\n    {}\n", fmt::join(calls, "\n    "));
   if (!tuning.ties.empty()) {
-    text += "  no dearer, as far as repeats can tell:\n";
+    text += "  repeats cannot tell these from the winner:\n";
     for (const TunedPoint& tie : tuning.ties) text += "  " + row(tie);
   }
   return text + "\n";
 }
 
-std::string beside_text(const std::vector<Tuning>& others) {
-  std::string text = fmt::format(
-      "the same of the other engines, of each at most {} settings or its methods as they are; rigor tune --engine NAME "
-      "tries {}\n  {:>10} {:>12}  {:<9} {}\n",
-      kSettingsBeside, kSettings, "error", "cost [ms/s]", "dt [s]", "run");
+std::string beside_text(const CommandLine& line, const std::vector<Tuning>& others) {
+  std::string text = fmt::format("the other engines, with at most {} settings each\n  {:>10} {:>12}  {:<9} {}\n",
+                                 kSettingsBeside, "error", "cost [ms/s]", "dt [s]", "run");
   for (const Tuning& other : others) {
     text += other.winner ? row(*other.winner)
                          : fmt::format("  {:>10} {:>12}  {:<9} {}: {}\n", "-", "-", "-", other.engine,
                                        other.nearest.empty() ? "nothing ran" : other.nearest);
   }
+  if (!others.empty())
+    text += fmt::format("up to {} settings of one of them: {}\n", kSettings, tuning_of(line, others.front().engine));
   return text;
+}
+
+// Reports how many runs are finished, under the engine's name.
+Tuning tuned(const std::string& engine, const std::vector<Case>& cases, const std::vector<Bound>& bounds,
+             const EngineTable& engines, TuneOptions options) {
+  Progress progress("runs of " + engine);
+  options.on_runs = [&](std::size_t runs) { progress.show(runs, 0); };
+  return tune(engine, cases, bounds, engines, options);
 }
 
 }  // namespace
@@ -94,12 +127,12 @@ int tune_command(const CommandLine& line, const EngineTable& engines) {
   const std::vector<Bound> bounds = bounds_of(line);
   const std::string asked_for = parse_run_name(line.engines.front(), engines.infos()).engine;
   TuneOptions options{line.jobs, line.limit, line.seed, kSettings};
-  const Tuning tuning = tune(line.engines.front(), cases, bounds, engines, options);
+  const Tuning tuning = tuned(line.engines.front(), cases, bounds, engines, options);
   std::string held;
   for (const Bound& bound : bounds)
     held += fmt::format("{}{} (|{}| up to {:g})", held.empty() ? "" : ", ", bound.text, bound.metric, bound.most);
   std::string text =
-      fmt::format("within {} on {}\nerror: the largest share of a bound; cost: CPU of a simulated second\n\n", held,
+      fmt::format("within {} on {}\nerror: the largest share of a bound; cost: CPU time per simulated second\n\n", held,
                   fmt::join(line.words, ", "));
   if (!tuning.front.empty()) text += front_text(tuning);
   text += tuning.winner ? winner_text(line, tuning, engines)
@@ -111,9 +144,9 @@ int tune_command(const CommandLine& line, const EngineTable& engines) {
   std::vector<Tuning> others;
   for (const EngineInfo& engine : engines.infos()) {
     if (engine.name != asked_for && !is_on_request(engine.name))
-      others.push_back(tune(engine.name, cases, bounds, engines, options));
+      others.push_back(tuned(engine.name, cases, bounds, engines, options));
   }
-  print_table(beside_text(others));
+  print_table(beside_text(line, others));
   return tuning.winner ? kGood : kGateFailed;
 }
 

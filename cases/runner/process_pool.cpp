@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstring>
@@ -37,6 +38,20 @@ class SignalWatch {
  private:
   struct sigaction before_[std::size(kSignals)]{};
 };
+
+struct Heartbeat {
+  std::function<void()> call = {};
+  pid_t owner = 0;
+};
+Heartbeat& current_heartbeat() {
+  static Heartbeat heartbeat;
+  return heartbeat;
+}
+
+void beat() {
+  const Heartbeat& heartbeat = current_heartbeat();
+  if (heartbeat.call && heartbeat.owner == getpid()) heartbeat.call();
+}
 
 using Children = std::vector<std::unique_ptr<ForkedChild>>;
 
@@ -92,6 +107,8 @@ std::string sentence_of(const JobEnd& end, double limit) {
   return "";
 }
 
+void set_heartbeat(std::function<void()> heartbeat) { current_heartbeat() = {std::move(heartbeat), getpid()}; }
+
 void run_jobs(const std::vector<Job>& jobs, int at_once,
               const std::function<void(std::size_t, const std::string&)>& on_message,
               const std::function<void(std::size_t, const JobEnd&)>& on_end) {
@@ -110,6 +127,7 @@ void run_jobs(JobFeed& feed, int at_once, const std::function<void(std::size_t, 
       children.push_back(std::make_unique<ForkedChild>(next->job, next->number));
     }
     wait_for_news(children, feed.longest_wait());
+    beat();
     if (caught_signal) {
       children.clear();
       throw Interrupted{caught_signal};

@@ -59,6 +59,10 @@ class JobFeed {
   virtual int longest_wait() const { return 50; }  // ms, until it wants to be asked again
 };
 
+// Called at every turn of run_jobs, some twenty times a second, in the process that has set it and not in its children.
+// An empty function stops the calls.
+void set_heartbeat(std::function<void()> heartbeat);
+
 // At most `at_once` children at a time, started in order. Throws Interrupted. on_end is called once for every job.
 void run_jobs(JobFeed& feed, int at_once,
               const std::function<void(std::size_t job, const std::string& message)>& on_message,

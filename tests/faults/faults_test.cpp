@@ -133,8 +133,11 @@ bool is_asked(const Fault& fault, const std::string& engine) {
   return (nth_engine + nth_fault) % 2 == 0;
 }
 
-// What an engine does by itself no gate can take for a mistake in it.
+// An engine's own model may hide a fault. DART's friction is a pyramid. The pyramids of DART and ODE hardly let a slip
+// turn: in contact/slope-curve they are wrong by 0.5 to 1.5 m at every dt, and the direction of the step before changes
+// less than a quarter of that.
 bool is_its_own_way(const std::string& engine, const Fault& fault) {
+  if (fault.name == "late-friction-direction") return engine == "dart" || engine == "ode";
   return engine == "dart" && fault.name == "friction as a pyramid";
 }
 

@@ -1,5 +1,6 @@
-// Checks whether an engine meets the seam's contract (core/engine/engine.h), for engines from outside and any other.
-// The scenes are small, each with its own truth. Each failure shows the request, the answer and the expected answer.
+// Checks whether an engine obeys the seam (core/engine/engine.h). It serves engines from outside first, and all others.
+// Each check uses a small scene with a truth of its own. A failed check reports the call, the answer and the due
+// answer.
 #pragma once
 
 #include <string>
@@ -11,11 +12,11 @@ namespace rigor {
 
 struct CheckResult {
   enum class Answer { holds, broken, not_asked } answer = Answer::holds;
-  std::string sent, came, due;  // of a check that is broken
-  std::string why;              // one was not asked
+  std::string sent, came, due;  // of a broken check
+  std::string why;              // of a check that was not asked
 };
 
-// An engine, and the run of it that is tried.
+// An engine and the run that is tried.
 struct Trial {
   const Engine& engine;
   EngineInfo info;
@@ -28,9 +29,9 @@ struct ConformanceCheck {
   CheckResult (*run)(const Trial& trial);
 };
 
-const std::vector<ConformanceCheck>& conformance_checks();  // ordered by their use to an author
+const std::vector<ConformanceCheck>& conformance_checks();  // in the order in which an author needs them
 
-// The check's result; an engine that throws, or that does not answer, breaks it.
+// Runs the check. An engine that throws or does not answer breaks it.
 CheckResult check_result(const ConformanceCheck& check, const Trial& trial);
 
 }  // namespace rigor

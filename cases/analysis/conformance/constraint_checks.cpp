@@ -11,8 +11,8 @@ namespace rigor::conformance {
 namespace {
 
 constexpr double kStep = 1.0 / 240;  // s
-// m and rad. Engines let a joint part by some millimetres, and metre-sized bodies sink by up to 2 cm, as they ship; one
-// that takes an anchor, axis or size for another is off by tenths.
+// m and rad. As shipped, engines let joints open by some millimetres and bodies of a metre sink by up to 2 cm. A wrong
+// anchor, axis or size makes an error of tenths.
 constexpr double kSlack = 0.03;
 
 // A rod half a metre from the origin, to which it is joined.
@@ -63,7 +63,7 @@ CheckResult of_joint(const Trial& trial, const Joined& joined) {
   const BodyState came = world.step(kStep, 120).state().columns().body(0);
   Comparison is(world.sent() + "; read");
   joined.keeps(is, came);
-  // What moves at all has moved after half a second.
+  // A body that moves at all has moved after half a second.
   if (joined.type != "fixed" && (came.position - rod.position).norm() < 0.1)
     return broken(world.sent() + "; read", "a body that stands still", "one that swings or slides down");
   return is.result();

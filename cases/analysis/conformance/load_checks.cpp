@@ -1,4 +1,4 @@
-// Forces, torques and springs, whether the engine has them or takes them as wrenches.
+// Forces, torques and springs, of the engine's own or as wrenches.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ CheckResult a_force_acts_while_it_is_there(const Trial& trial) {
              angular_velocity = body.angular_velocity + dt / 1.5 * scene.forces[0].torque;
   Comparison push(world.sent() + "; read");
   push.vector("velocity after the push", pushed.velocity, velocity, 20 * eps);
-  // The body rotates by w dt = 0.017 within the step. The square of what the torque adds depends on the scheme.
+  // The body turns by w dt = 0.017 within the step. The square of that is left to the scheme.
   const double turning = 1e-3 * (angular_velocity - body.angular_velocity).norm();
   push.vector("angular velocity after the push", pushed.angular_velocity, angular_velocity, 20 * eps + turning);
   const BodyState later = world.step(dt, 10).state().columns().body(0);
@@ -63,7 +63,7 @@ CheckResult a_spring_converges(const Trial& trial) {
   };
   const double coarse = error_at(500), fine = error_at(1000), rounding = 1e4 * rounding_of(trial);
   Comparison spring(sent);
-  // A first-order step has an error of about dt x 3 m/s. An explicit one also grows by e^(w² dt/2), here 1.4.
+  // The error of a first-order step is about dt x 3 m/s. An explicit step also grows by e^(w² dt/2), 1.4 here.
   spring.number("a distance [m] from the truth of", fine, 0, 5.0 / 1000 + rounding);
   if (spring.result().answer == CheckResult::Answer::broken) return spring.result();
   if (fine <= coarse / 1.6 + rounding) return holds();  // halving the step halves it at least: wrenches are held
@@ -95,7 +95,7 @@ CheckResult a_pair_keeps_its_momentum(const Trial& trial) {
   return kept.result();
 }
 
-// A thousand swings of a stiff oscillator: the energy of a symplectic method only oscillates.
+// A thousand turns of a stiff oscillator. The energy of a symplectic method oscillates and does not drift.
 CheckResult symplectic_is_as_it_says(const Trial& trial) {
   if (!method_of(trial.info, trial.settings).symplectic) return not_asked("it does not say that it is symplectic");
   constexpr int kSteps = 3000, kWindow = 210;  // ten turns
@@ -110,7 +110,7 @@ CheckResult symplectic_is_as_it_says(const Trial& trial) {
   for (int n = 0; n < kWindow; ++n) first += energy(scene, world.step(dt).state().columns()) / kWindow;
   world.step(dt, kSteps - 2 * kWindow);
   for (int n = 0; n < kWindow; ++n) last += energy(scene, world.step(dt).state().columns()) / kWindow;
-  // Windows that hold no whole number of turns differ by a share of a turn's sway, 15 % here, in ten.
+  // A window may hold a part of a turn more. Ten turns dilute its oscillation of 15 %.
   if (std::abs(last / first - 1) <= 0.02) return holds();
   return broken("an oscillator of 1 kg and 1 N/m, 3000 steps of 0.3 s",
                 fmt::format("a mean energy of {:.4g} J at first and {:.4g} J at last", first, last),

@@ -1,4 +1,4 @@
-// How bodies move that nothing holds or touches, against truths in closed form and the reference.
+// Motion of free bodies, compared with closed forms and the reference.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ CheckResult it_neither_sleeps_nor_damps(const Trial& trial) {
   return even.result();
 }
 
-// A semi-implicit step falls g dt t / 2 too far, an explicit one as much too little, others are nearer.
+// A semi-implicit step falls g dt t / 2 too far, and an explicit step as much too short. Others are nearer.
 CheckResult it_falls_as_its_order_says(const Trial& trial) {
   const double dt = 1.0 / 30, t = 1, eps = rounding_of(trial);
   const Scene scene = scene_of(round_body(), {3, -2, -9});
@@ -76,7 +76,7 @@ struct OrderFound {
   std::string sent;
 };
 
-// After so many steps of dt, from that of the truth [rad, rad/s].
+// The error after so many steps of dt [rad, rad/s].
 double error_of_top(const Trial& trial, const Body& body, double dt, int steps, std::string& sent) {
   const Scene scene = scene_of(body);
   const BodyState truth = truth_at(scene, dt * steps);
@@ -94,12 +94,12 @@ OrderFound errors_of_top(const Trial& trial, int steps) {
   return found;
 }
 
-// An adaptive method divides a step of half a turn until it is accurate. A method that only claims to be adaptive, and
-// would escape the check of its order, has a large error.
+// An adaptive method divides a step of half a turn until the error is small. A method that only claims to be adaptive
+// has a large error here; no other check asks for its order.
 CheckResult an_adaptive_top_needs_no_short_steps(const Trial& trial) {
   constexpr double kLongStep = 3;  // s, at some 1 rad/s
-  // The error is 0.04 with tolerances of a thousandth, as some engines ship. It is 0.14 to 3 for one undivided step,
-  // except for compositions of exact rotations, which are as accurate as the loosest.
+  // A tolerance of a thousandth, as some engines ship, gives 0.04. One undivided step gives 0.14 to 3, except for
+  // compositions of exact rotations, which are as accurate as the loosest adaptive method.
   constexpr double kMost = 0.1;
   std::string sent;
   Body uneven = odd_body();
@@ -114,8 +114,8 @@ CheckResult a_top_turns_as_its_order_says(const Trial& trial) {
   constexpr int kSteps = 100;
   const OrderFound found = errors_of_top(trial, kSteps);
   const double rounding = 20 * kSteps * rounding_of(trial);  // ten of numbers of about 1 for each step of the longer
-  // Without the gyroscopic term, or with w in another frame, the error is a large part of w² t in a second. The error
-  // of a first-order step is w² dt.
+  // A missing gyroscopic term or a wrong frame of w makes an error near w² t in a second. The error of a first-order
+  // step is w² dt.
   constexpr double kFirstOrder = 2.0 / kSteps;
   Comparison top(found.sent + "; read");
   top.number("an error [rad, rad/s] of", found.coarse, 0, kFirstOrder + rounding);

@@ -1,4 +1,4 @@
-// What holds of every engine before anything moves, and of how it is asked: time, order, bits, refusals.
+// Rules that hold before anything moves, and rules of the calls: time, order, bits, refusals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -83,8 +83,8 @@ CheckResult load_then_read_is_the_scene(const Trial& trial) {
   return same.result();
 }
 
-// What says single is judged more mildly. A number of double precision is a thousandth of single's last digit off, or
-// less; one rounded to single is, by chance, once in a thousand times, and of eighteen in a row never.
+// Single precision gets wider tolerances, so the claim is checked. A number rounded to single lies within a thousandth
+// of single's last digit of the double by chance once in a thousand times, and eighteen in a row never do.
 CheckResult it_is_no_better_than_it_says(const Trial& trial) {
   if (trial.info.precision != "single") return not_asked("it says double precision, which the others ask for");
   const Scene scene = three_bodies();

@@ -1,4 +1,4 @@
-// Shared code of the checks: scenes, worlds after some steps, and the text of differences.
+// Shared by the checks: scenes, worlds that record their calls, and comparisons in words.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ CheckResult holds();
 CheckResult not_asked(const std::string& why);
 CheckResult broken(const std::string& sent, const std::string& came, const std::string& due);
 
-// The unit roundoff of the numbers that the engine says it holds.
+// The unit roundoff of the engine's declared precision.
 double rounding_of(const Trial& trial);
 
-// The first of several things that is further off than it may be.
+// Keeps the first of several values that exceeds its tolerance.
 class Comparison {
  public:
   explicit Comparison(std::string sent) : sent_(std::move(sent)) {}
@@ -28,7 +28,7 @@ class Comparison {
   CheckResult result_;
 };
 
-// A world that remembers its requests.
+// A world that records its calls.
 class TriedWorld {
  public:
   TriedWorld(const Trial& trial, const Scene& scene);
@@ -48,10 +48,10 @@ Body round_body();
 Scene scene_of(Body body, const Vec3& gravity = Vec3::Zero());
 Body solid(const std::string& name, const Shape& shape, const Vec3& position);
 
-// Empty if the engine declares that it can run the scene, else the reason for skipping it.
+// The reason why the engine cannot run the scene; empty if it declares that it can.
 std::string why_not(const Trial& trial, const Scene& scene, double dt);
 
-// The rows of a table of checks, a file each.
+// The tables of checks, one per file.
 std::vector<ConformanceCheck> seam_checks();
 std::vector<ConformanceCheck> motion_checks();
 std::vector<ConformanceCheck> load_checks();

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kTurn = 3, kSpeed = 12, kSpin = 15;  // where the groups begin
 constexpr double kOfLoading = 1e-12;                       // roundings of a few conversions
 
-// The largest of the columns from `first` to `last`, of their change since the start where `is_change`.
+// The largest norm of the columns from `first` to `last`, or of their change since the start if `is_change`.
 double largest(const Sight& base, std::size_t bodies, std::size_t first, std::size_t last, bool is_change) {
   const std::size_t row = kMotionColumns, sample = bodies * row;
   double most = 0;
@@ -25,7 +25,7 @@ double largest(const Sight& base, std::size_t bodies, std::size_t first, std::si
   return std::sqrt(most);
 }
 
-// Of `size` numbers, `sample` at each instant.
+// The range of a part among `size` numbers, with `sample` numbers at each instant.
 std::pair<std::size_t, std::size_t> range_of(Observation::Part part, std::size_t sample, std::size_t size) {
   const std::size_t samples = size / sample, middle = (samples + 1) / 2;
   switch (part) {
@@ -48,12 +48,12 @@ Observation::Observation(const View& view, std::size_t view_index, Part part, co
   std::tie(begin_, end_) = range_of(part, sample_, base.states.size());
   per_ = std::max<double>(1, static_cast<double>(end_ - begin_) / kMotionColumns);
   tolerance_ = is_loaded() ? kOfLoading : view.tolerance;
-  // What hardly moves is measured by a metre, and by its own time.
+  // A body that hardly moves gets a metre, and a metre in the view's duration, as its scales.
   constexpr double kHardly = 1e-3;
   const double dt = view.dt.front(), time = dt * static_cast<double>(view.steps);
   const double way = largest(base, bodies, 0, kTurn, true), length = way > kHardly ? way : 1;
   const double fastest = largest(base, bodies, kSpeed, kSpin, false), speed = std::max(fastest, length / time);
-  // Of what counts where bodies touch at most a quarter is a step's way, by which an engine is late for an impact.
+  // An engine may meet an impact a step late. An error must be four times the path of a step to count.
   if (view.can_touch && !is_loaded()) tolerance_ = std::max(tolerance_, 4 * dt * fastest / length);
   const double spin = std::max(largest(base, bodies, kSpin, kMotionColumns, false), 1 / time);
   for (std::size_t c = 0; c < kMotionColumns; ++c)

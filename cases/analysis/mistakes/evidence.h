@@ -1,7 +1,9 @@
-// How much of an engine's error a known mistake explains, observation by observation. An observation is a part of a
-// view: the state as loaded, before any step, in which no scheme has a share; the motion after it, in two halves, for
-// what a mistake makes chaotic is told apart in the first alone; and where bodies touch, the end, in which how an
-// engine pushed a body to where it lies has no share.
+// Measures how much of an engine's error a known mistake explains, one observation at a time. An observation is one
+// part of a view:
+// - the state as loaded, before any step. The scheme has no share in it.
+// - the first half of the motion. A mistake may make the motion chaotic later.
+// - the second half.
+// - the last sample, if bodies touch. The way by which a body came to rest has no share in it.
 #pragma once
 
 #include <vector>
@@ -10,27 +12,26 @@
 
 namespace rigor {
 
-// Distances as roots of mean squares over samples and bodies, each group of columns by the scale of the motion without
-// mistakes: the longest way, a whole turn, the highest speed and spin.
+// Root mean squares over samples and bodies. Each group of columns is divided by the scale of the motion without
+// mistakes: the longest path, a whole turn, the highest speed and the highest spin.
 struct Distances {
-  double error = 0;        // of the engine from the motion without mistakes
-  double predicted = 0;    // of the mistake from that
-  double rest = 0;         // of the engine from the mistake
-  double together = 0;     // the inner product of the two differences
-  bool ends_alike = true;  // both blow up, or neither
+  double error = 0;        // from the motion without mistakes to the engine's
+  double predicted = 0;    // from the motion without mistakes to the one with the mistake
+  double rest = 0;         // from the motion with the mistake to the engine's
+  double together = 0;     // the inner product of the first two differences
+  bool ends_alike = true;  // both motions blow up, or neither does
 };
 
 class Observation {
  public:
   enum class Part { loaded, early, late, end };
-  // `base`: without mistakes.
+  // `base`: the motion without mistakes.
   Observation(const View& view, std::size_t view_index, Part part, const Sight& base, std::size_t bodies);
 
   Distances distances(const Sight& engine, const Sight& mistake) const;
-  // Distance of a sight from its own coarse one: what extrapolation, or chaos, leaves open.
+  // The distance of a sight from its own coarse one. It bounds the error of extrapolation, or shows chaos.
   double uncertainty(const Sight& sight) const;
-  // As far as the engine's motion says where it goes: where it blows up, or grows beyond what its steps resolve, not on
-  // from where it has left by many times its size.
+  // Ends where the engine's motion is lost: it blows up, or its steps do not resolve it, and it is far from the base.
   Observation until_lost(const Sight& engine) const;
   bool is_empty() const { return begin_ == end_; }
   // The scaled difference of a sight from the base.
@@ -38,7 +39,7 @@ class Observation {
 
   std::size_t view_index() const { return view_; }
   bool is_loaded() const { return part_ == Part::loaded; }
-  double tolerance() const { return tolerance_; }  // below it nothing is seen
+  double tolerance() const { return tolerance_; }  // smaller distances say nothing
 
  private:
   double weight(std::size_t i) const;
@@ -53,7 +54,7 @@ class Observation {
   double weights_[kMotionColumns];
 };
 
-// Each of which has an engine's error in it, or a mistake's that the engine does not have.
+// The observations of all views that have a base.
 std::vector<Observation> observations_of(const std::vector<View>& views, const std::vector<Sight>& bases,
                                          const std::vector<ProbeScene>& probes);
 

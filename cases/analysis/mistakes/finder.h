@@ -1,18 +1,21 @@
-// What known mistake an engine's error looks like: the engine's motion on a few scenes beside that of the core with
-// each mistake of the table (adapters/faults/faults.h) in it, by any amount, and with pairs of them.
+// Finds the known mistake that an engine's error looks like. The engine's motion on a few scenes is compared with the
+// motion of the core with each mistake of the table (adapters/faults/faults.h), by any amount, and with pairs of them.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "cases/analysis/mistakes/laws.h"
 #include "cases/analysis/mistakes/ranking.h"
 
 namespace rigor {
 
 struct MistakeReport {
-  // right: no error is seen beyond what the engine's scheme makes. named: one suspect is first by far. alike: several
-  // that move alike in all cases are. unnamed: no known mistake fits. untried: no motion of the engine is to be had.
+  // right: the engine has no error that its scheme does not make.
+  // named: one suspect explains the error best by far. alike: several do, because they move alike in all cases.
+  // unnamed: no known mistake explains the error. untried: no motion of the engine could be computed.
   enum class Verdict { right, named, alike, unnamed, untried } verdict = Verdict::right;
   struct Named {
     std::vector<std::string> names;  // two for a pair
@@ -22,10 +25,12 @@ struct MistakeReport {
   };
   std::vector<Named> suspects;        // the first few, best first
   std::size_t known = 0;              // mistakes in the table
-  std::size_t leaders = 0;            // of `suspects`, those that the verdict means
-  std::vector<std::string> off;       // the cases where the engine is off
-  std::vector<std::string> seen;      // all cases on which it was seen
-  std::vector<std::string> failures;  // what it could not be seen on, and why
+  std::size_t leaders = 0;            // the number of suspects that the verdict means
+  std::vector<std::string> off;       // the cases where the engine is wrong
+  std::vector<std::string> seen;      // all cases that the engine ran
+  std::vector<std::string> failures;  // the cases that it did not run, and why
+  std::vector<LawDrift> laws;         // the conservation laws that its motion was compared with
+  std::vector<std::string> by_twin;   // of `seen`, the cases where a twin repeats the engine's scheme
   std::string beside;                 // what it was held against
 };
 
@@ -33,26 +38,31 @@ class MistakeFinder {
  public:
   struct Options {
     int at_once = 1;
-    double limit = 10;  // s of CPU time for a run
+    double limit = 10;                                         // s of CPU time for a run
+    std::function<void(std::size_t motions)> on_motions = {};  // called with the number of finished motions
   };
   MistakeFinder(const EngineTable& engines, RunName run, std::vector<ProbeScene> probes, Options options);
 
-  // Of the run's engine; `engine` behaves as that one should.
+  // `engine` stands for the run's engine: the engine itself, or one that a test has broken.
   MistakeReport report(const Engine& engine);
 
  private:
-  // What does not depend on the engine's motion, for one choice of bases.
+  // All that does not depend on the engine's motion, for one choice of bases.
   struct Table {
     std::vector<View> views;
     std::vector<Sight> bases;
     std::vector<Observation> observations;
     std::vector<Hypothesis> hypotheses;
   };
+  std::vector<StateSeries> motions_of(const std::vector<MotionTask>& tasks, double limit) const;
   std::vector<Sight> sights(const Table& table, const Engine* engine, std::shared_ptr<const Fault> fault) const;
   void add_chaos(const Table& table, const Engine& engine, std::vector<Sight>& moved) const;
   std::vector<Hypothesis> simulated(const Table& table, std::vector<Hypothesis> hypotheses) const;
   RunName nearest_method(const Engine& engine);
   const Table& table_for(const RunName* of_points);
+  void note_sights(const Table& table, const std::vector<Sight>& moved, MistakeReport& report) const;
+  std::vector<LawDrift> law_drifts(const Engine& engine, const std::vector<std::string>& seen) const;
+  std::vector<Hypothesis> larger_amounts(const Trace& trace, const Table& table) const;
   void add_amounts(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const;
   void add_pairs(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const;
 
@@ -61,6 +71,7 @@ class MistakeFinder {
   std::vector<ProbeScene> probes_;
   Options options_;
   std::map<std::string, Table> tables_;  // by the base of Kind::same_method
+  mutable std::size_t motions_ = 0;      // so far
 };
 
 }  // namespace rigor

@@ -26,7 +26,7 @@ void append_state(BodyColumns bodies, std::vector<double>& into) {
   }
 }
 
-// From now on this process may take so much CPU time [s], or ends.
+// Ends this process after so much more CPU time [s].
 void allow(double seconds) {
   itimerval timer{};
   timer.it_value.tv_sec = static_cast<time_t>(seconds);
@@ -54,7 +54,7 @@ StateSeries simulated(const MotionTask& task) {
   return motion;
 }
 
-// A task's index, whether it came about, and its states or why not.
+// A task's index, whether it succeeded, and its states or the reason.
 std::string message_of(std::size_t index, const StateSeries& motion) {
   const std::uint64_t number = index;
   std::string text(sizeof number, '\0');
@@ -82,7 +82,7 @@ StateSeries motion_in(const std::string& message) {
   return motion;
 }
 
-using Chain = std::vector<std::size_t>;  // tasks that one child does, one after another
+using Chain = std::vector<std::size_t>;  // the tasks of one child, in order
 
 std::vector<Chain> dealt(const Chain& tasks, int hands) {
   std::vector<Chain> chains(std::min<std::size_t>(std::max(hands, 1), std::max<std::size_t>(tasks.size(), 1)));
@@ -93,10 +93,10 @@ std::vector<Chain> dealt(const Chain& tasks, int hands) {
 }  // namespace
 
 std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, const EngineTable& engines, int at_once,
-                                          double limit) {
-  constexpr int kMostDeaths = 4;  // an engine that dies of everything is not asked for the rest
-  // s, of which the pool allows a multiple by the clock: what a run may take is watched by its own timer, and on a busy
-  // machine a short one waits for long.
+                                          double limit, const std::function<void()>& on_motion) {
+  constexpr int kMostDeaths = 4;  // an engine that dies of every task does not get the rest
+  // s: the pool allows a multiple of this by the clock. Each run has its own timer of CPU time, and may wait for long
+  // on a busy machine.
   constexpr double kLeastPatience = 10;
   const double patience = std::max(limit, kLeastPatience);
   int deaths = 0, answers = 0;
@@ -120,11 +120,12 @@ std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, 
     const auto on_message = [&](std::size_t job, const std::string& message) {
       motions[index_in(message)] = motion_in(message);
       ++done[job], ++answers;
+      if (on_motion) on_motion();
     };
     const auto on_end = [&](std::size_t job, const JobEnd& end) {
       if (done[job] == chains[job].size()) return;
       motions[chains[job][done[job]++]].why =
-          why_it_ended(end, end.how == Ending::timed_out ? patience : limit);  // the one that it was at
+          why_it_ended(end, end.how == Ending::timed_out ? patience : limit);  // the task in progress
       ++deaths;
     };
     run_jobs(jobs, at_once, on_message, on_end);
@@ -132,7 +133,7 @@ std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, 
     for (std::size_t job = 0; job < chains.size(); ++job)
       left.insert(left.end(), chains[job].begin() + static_cast<long>(done[job]), chains[job].end());
     if (deaths < kMostDeaths || deaths < answers) continue;
-    for (const std::size_t n : left) motions[n].why = "not tried, for it died of others";
+    for (const std::size_t n : left) motions[n].why = "not tried: the engine died of other tasks";
     left.clear();
   }
   return motions;

@@ -1,7 +1,8 @@
-// Motions to compare: runs of engines, faulty ones among them, several at once in child processes, so that one that
-// crashes costs itself.
+// Computes motions to compare: runs of engines with and without faults. Several run at once in child processes, so a
+// crash costs one motion.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,26 +12,26 @@
 
 namespace rigor {
 
-// Of each body: position, rotation matrix row by row (of a quaternion of any length, see matrix_of), velocity, angular
-// velocity. A matrix has no sign to choose.
+// The columns of each body: position, rotation matrix by rows, velocity, angular velocity. A matrix, unlike a
+// quaternion, has no sign to choose.
 inline constexpr std::size_t kMotionColumns = 18;
 
 struct MotionTask {
   const Engine* engine;
   Settings settings;
   std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const Fault> fault;  // that the engine is broken by; null: none
+  std::shared_ptr<const Fault> fault;  // the engine is broken by it; null: by none
   double dt;                           // s
-  long steps, every;                   // each `every`-th is kept, t = 0 first
+  long steps, every;                   // each `every`-th step is kept, after the state at t = 0
 };
 
 struct StateSeries {
   std::vector<double> states;  // sample by sample, body by body; ends where the run blows up
-  std::string why;             // it did not come about; empty if it did
+  std::string why;             // the reason if the motion could not be computed; else empty
 };
 
-// One a task. `limit`: s of CPU time for a run.
+// One a task. `limit`: s of CPU time for a run. `on_motion` is called after each.
 std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, const EngineTable& engines, int at_once,
-                                          double limit);
+                                          double limit, const std::function<void()>& on_motion = {});
 
 }  // namespace rigor

@@ -10,11 +10,11 @@ namespace {
 
 struct Row {
   const char* id;
-  double duration;  // s: until what it is there for has happened
+  double duration;  // s: until the event that it is chosen for has happened
   bool is_of_points = false;
 };
 
-// Each mistake of the table moves bodies in some of these otherwise than they should, and no two in all of them alike.
+// Each mistake of the table changes the motion in some of these, and no two mistakes change it alike in all of them.
 constexpr Row kRows[] = {
     {"ballistic/fast-spin", 0.6, true},
     {"ballistic/free-fall", 1.2, true},  // 5 m/s after 0.5 s, a hundred steps after 1 s
@@ -47,12 +47,35 @@ constexpr Row kRows[] = {
     {"tops/off-diagonal-inertia", 1},
 };
 
-// 1/60 s is itself a mistake of the table. Where bodies touch, what is left of a step's length at each impact shows.
+// 1/60 s is itself a mistake of the table. An engine may meet each impact up to a step late, so bodies that touch get
+// shorter steps.
 double step_for(const Scene& scene) { return anything_can_touch(scene) ? 1.0 / 500 : 1.0 / 100; }
 
-ProbeScene probe_of(const Case& definition, double duration) {
+// rad/s or 1/s: no spring or damper of the scene makes a faster motion. Each acts on its bodies alone, at the full arm.
+double fastest_rate(const Scene& scene) {
+  double fastest = 0;
+  for (const Spring& spring : scene.springs) {
+    double mobility = 0;  // 1/kg
+    for (const auto& [body, point] : {std::pair(spring.a, spring.point_a), std::pair(spring.b, spring.point_b)}) {
+      if (body == kWorld || scene.bodies[static_cast<std::size_t>(body)].fixed) continue;
+      const Body& moving = scene.bodies[static_cast<std::size_t>(body)];
+      mobility += 1 / moving.mass + point.squaredNorm() * moving.inertia.inverse().norm();
+    }
+    fastest = std::max({fastest, spring.damping * mobility, std::sqrt(spring.stiffness * mobility)});
+  }
+  return fastest;
+}
+
+// Extrapolation from three steps needs steps that resolve the motion, also that of a mistake that is twice as stiff.
+double resolving_step(const Scene& scene) {
+  constexpr double kOfRate = 0.2, kShortest = 1e-4;
+  const double rate = fastest_rate(scene);
+  return std::min(step_for(scene), rate > 0 ? std::max(kShortest, kOfRate / rate) : HUGE_VAL);
+}
+
+ProbeScene probe_of(const Case& definition, double dt, double duration) {
   ProbeScene probe{definition.id, std::make_shared<Scene>(definition.scene)};
-  probe.dt = step_for(definition.scene), probe.duration = std::min(duration, definition.duration);
+  probe.dt = dt, probe.duration = std::min(duration, definition.duration);
   return probe;
 }
 
@@ -61,7 +84,8 @@ ProbeScene probe_of(const Case& definition, double duration) {
 std::vector<ProbeScene> probes_of_suite(const Vocabulary& vocabulary) {
   std::vector<ProbeScene> probes;
   for (const Row& row : kRows) {
-    probes.push_back(probe_of(select_cases({row.id}, default_suite_dir(), vocabulary).front(), row.duration));
+    const Case definition = select_cases({row.id}, default_suite_dir(), vocabulary).front();
+    probes.push_back(probe_of(definition, step_for(definition.scene), row.duration));
     probes.back().is_of_points = row.is_of_points;
   }
   return probes;
@@ -72,7 +96,8 @@ std::vector<ProbeScene> probes_of(const std::vector<Case>& cases) {
   std::vector<ProbeScene> probes;
   for (const Case& definition : cases) {
     const double steps = std::max(20.0, kMostBodySteps / static_cast<double>(definition.scene.bodies.size()));
-    probes.push_back(probe_of(definition, steps * step_for(definition.scene)));
+    const double dt = resolving_step(definition.scene);
+    probes.push_back(probe_of(definition, dt, steps * dt));
   }
   return probes;
 }

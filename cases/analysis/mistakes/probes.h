@@ -1,4 +1,4 @@
-// The scenes on which an engine's motion is held against that of known mistakes.
+// The scenes on which an engine's motion is compared with the motion of known mistakes.
 #pragma once
 
 #include <memory>
@@ -14,13 +14,13 @@ struct ProbeScene {
   std::shared_ptr<const Scene> scene;
   double dt = 0;              // s
   double duration = 0;        // s
-  bool is_of_points = false;  // its bodies move as points do, or spin steadily: how a scheme turns them is not in it
+  bool is_of_points = false;  // its bodies move like points or spin steadily, so the scheme's rotations do not matter
 };
 
-// Those cases of Rigor's own suite that tell the table's mistakes apart.
+// The cases of Rigor's own suite that tell the table's mistakes apart.
 std::vector<ProbeScene> probes_of_suite(const Vocabulary& vocabulary);
 
-// The cases, each as far as it is short enough to be run a hundred times.
+// The given cases, each cut to a length that can be run a hundred times.
 std::vector<ProbeScene> probes_of(const std::vector<Case>& cases);
 
 }  // namespace rigor

@@ -8,21 +8,21 @@
 namespace rigor {
 namespace {
 
-// Numbers of a few roundings in single precision, and of some hundred steps of them.
+// A few roundings in single precision, and some hundred steps of them.
 constexpr double kSingleLoaded = 1e-6, kSingleMoved = 1e-4;
 
-// An observation counts where there is this many times more in it than the nearest of all mistakes leaves there: the
-// rest is taken for what the engine's scheme does otherwise than the base.
+// An observation counts if its error is this many times what the nearest mistake leaves there. Otherwise the error is
+// treated as a difference between the schemes.
 constexpr double kClear = 20;
-// Of the pairs, some 140 are tried: in two numbers, as the place and the speed of a body that slides, one of them
-// comes by chance to within a twentieth once in three times, to within this part once in a hundred.
+// About 140 pairs are tried. In two numbers, such as the position and speed of a sliding body, one of the pairs fits by
+// chance: to a twentieth once in three times, to this share once in a hundred times.
 constexpr double kClearOfPair = 120;
 
-// What two together have to leave less than, of what one leaves: half where one alone does not do; a tenth where it
-// does but for what extrapolation may leave (views.cpp; below a fiftieth of the error of smooth motion).
+// A pair of mistakes must leave at most half of the rest of a single one. It must leave at most a tenth if the single
+// one explains enough: extrapolation leaves up to a fiftieth of the error of smooth motion (views.cpp).
 constexpr double kDoes = 0.98, kWorthASecond = 0.5, kWorthASecondThen = 0.1;
 
-constexpr double kExplained = 0.01;  // what may be left of an error that is explained
+constexpr double kExplained = 0.01;  // the largest rest of an explained error
 
 double share_left(const Distances& d) {
   const double size = std::max(d.error, d.predicted);
@@ -51,7 +51,7 @@ bool Trace::is_seen(std::size_t o, const Hypothesis& hypothesis) const {
 double Trace::tolerance(std::size_t o) const {
   const Observation& observation = observations_[o];
   const double of_precision = !is_single_ ? 0 : observation.is_loaded() ? kSingleLoaded : kSingleMoved;
-  // The finest two of three steps leave more open than all three: some of it is a bound.
+  // The two finest steps have a larger error than all three together, so a share of it is a bound.
   constexpr double kSome = 0.3;
   const double of_steps = kSome * observation.uncertainty(engine_[observation.view_index()]);
   return std::max({observation.tolerance(), of_precision, of_steps});
@@ -61,8 +61,8 @@ double Trace::certain_error(std::size_t o) const {
   const View& view = views_[observations_[o].view_index()];
   if (observations_[o].is_loaded() || view.kind == View::Kind::twin) return tolerance(o);
   if (view.kind == View::Kind::same_method) return std::numeric_limits<double>::infinity();
-  // Some uncertainties of a smooth motion. Where bodies touch, engines' models of contact differ by so much without any
-  // mistake: ODE's box on a slope where it hardly slides by 0.045 of its way.
+  // Smooth motion: some uncertainties. If bodies touch, contact models differ without any mistake: ODE's box on a slope
+  // where it hardly slides is wrong by 0.045 of its path.
   constexpr double kFew = 10, kFarOff = 0.1;
   return view.kind == View::Kind::extrapolated ? kFew * tolerance(o) : kFarOff;
 }
@@ -92,9 +92,8 @@ bool Trace::is_active(std::size_t o, double size, double error, double nearest) 
   return is_clear(o, size, nearest) || (!is_accurate && error > certain_error(o));
 }
 
-// Where bodies touch, or a method of high order is off otherwise, what is left is of the engine's way with contacts as
-// well as of the mistake; and what is hardly seen beside what extrapolation leaves open, of the engine's motion or of
-// the mistake's, says little.
+// An observation beside the accurate core weighs less, because the engine's contact model has a share in it. An
+// observation with an error near the uncertainty of extrapolation weighs little.
 double Trace::weight_of(std::size_t o, double size, const Sight& mistake) const {
   constexpr double kOfAccurate = 0.25, kSeen = 0.03;
   const Observation& observation = observations_[o];
@@ -176,7 +175,7 @@ bool Trace::has_idle_second(const Suspect& suspect, const std::vector<Hypothesis
 }
 
 Trace::Fit Trace::fit(const Hypothesis& hypothesis) const {
-  // Where bodies touch, what an engine does otherwise would be taken for an amount.
+  // A different contact model would look like an amount, so contacts count only if nothing else does.
   const Fit smooth = fit(hypothesis, false);
   return smooth.cosine == 0 ? fit(hypothesis, true) : smooth;
 }
@@ -189,7 +188,7 @@ Trace::Fit Trace::fit(const Hypothesis& hypothesis, bool of_contacts) const {
     if (!of_contacts && !observations_[o].is_loaded() && views_[v].kind == View::Kind::accurate) continue;
     const Distances d = observations_[o].distances(engine_[v], hypothesis.sights[v]);
     if (std::max(d.error, d.predicted) < tolerance(o)) continue;
-    // Each observation counts alike.
+    // Each observation has the same weight.
     const double weight = 1 / (d.error * d.error + d.predicted * d.predicted);
     together += weight * d.together, predicted += weight * d.predicted * d.predicted;
     error += weight * d.error * d.error;

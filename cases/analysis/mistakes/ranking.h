@@ -1,4 +1,4 @@
-// Which of many suspected mistakes explains an engine's error, and how well.
+// Ranks suspected mistakes by how well they explain an engine's error.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace rigor {
 
-// A mistake, or two together, and how it moves in each view.
+// A mistake, or two together, and its motion in each view.
 struct Hypothesis {
   std::shared_ptr<const Fault> fault;
   std::vector<std::string> names;  // one, or two
@@ -18,63 +18,63 @@ struct Hypothesis {
 };
 
 struct CaseShare {
-  std::string id;    // of a case where the engine is off
-  double error = 0;  // how far, as a share of the motion
-  double rest = 0;   // share of that which is left beside the mistake, 0..1
+  std::string id;    // a case where the engine is wrong
+  double error = 0;  // as a share of the motion
+  double rest = 0;   // the share of the error that the mistake leaves, 0..1
 };
 
 struct Suspect {
   std::size_t hypothesis;  // index
-  double explains = 0;     // 0..1: 1 less the root of the mean square of what is left, over all observations
+  double explains = 0;     // 0..1: 1 less the root mean square of the rests over all observations
   std::vector<CaseShare> cases;
-  std::size_t explained = 0;  // of `cases`, those where less than a hundredth is left
+  std::size_t explained = 0;  // the number of `cases` where less than a hundredth is left
 };
 
-// What is seen of the engine under suspicion.
+// The motion of the engine under suspicion.
 class Trace {
  public:
   // `is_single`: the engine holds its numbers in single precision.
   Trace(const std::vector<View>& views, const std::vector<Observation>& observations, std::vector<Sight> engine,
         bool is_single);
 
-  // The best first; none that says nothing of any observation, and no pair of which one mistake does as well alone.
+  // The best first. Left out: mistakes without any observation, and pairs of which one mistake alone does as well.
   std::vector<Suspect> ranked(const std::vector<Hypothesis>& hypotheses, const std::vector<ProbeScene>& probes) const;
-  // Whether the engine's error passes what its scheme, rounding and the view leave open in any observation; with its
-  // cases, by index.
+  // The probes, by index, where the engine's error exceeds what its scheme, rounding and the view explain.
   std::vector<std::size_t> probes_off(const std::vector<Hypothesis>& hypotheses) const;
-  // The factor on this mistake's motion that comes nearest to the engine's, and the cosine of the two; 0 for none.
+  // The factor on this mistake's motion that fits the engine's best, and the cosine of the two; 0 if there is none.
   struct Fit {
     double factor = 0, cosine = 0;
   };
   Fit fit(const Hypothesis& hypothesis) const;
-  // What would be left of the error if the two mistakes' motions just added up, 0..1; for all pairs i < j.
+  // For all pairs i < j: the rest of the error, 0..1, if the motions of both mistakes simply added up.
   struct Sum {
     std::size_t first, second;
     double rest;
   };
   std::vector<Sum> sums(const std::vector<Hypothesis>& hypotheses) const;
-  // Observations that this mistake alone explains to a hundredth, by index.
+  // The observations, by index, that this mistake alone explains to a hundredth.
   std::vector<std::size_t> explained_by(const Hypothesis& hypothesis, const std::vector<Hypothesis>& all) const;
 
  private:
   Fit fit(const Hypothesis& hypothesis, bool of_contacts) const;
   bool is_seen(std::size_t observation) const;                                // the engine has a sight there
-  bool is_seen(std::size_t observation, const Hypothesis& hypothesis) const;  // both have
+  bool is_seen(std::size_t observation, const Hypothesis& hypothesis) const;  // both have one
   double tolerance(std::size_t observation) const;
-  double certain_error(std::size_t observation) const;  // beyond it the engine is off whatever explains it
-  // Of what is left there, for an error of this size.
+  double certain_error(std::size_t observation) const;  // a larger error is certain even without an explanation
+  // The weight of an observation with an error of this size.
   double weight_of(std::size_t observation, double size, const Sight& mistake) const;
-  // 0..1, the root of the mean square over the observations that both say something of; adds the cases, by probe.
+  // 0..1: the root mean square over the observations of both. Adds the cases, by probe.
   double left_by(const Hypothesis& mistake, const Hypothesis& seen_with, const std::vector<double>& least,
                  std::map<std::size_t, CaseShare>* cases) const;
-  // Whether one of a pair, or the best of all single ones, does as well over what the pair says something of: with a
-  // mistake in what an engine tells that is less than what is seen of a single one.
+  // Whether one mistake of a pair, or the best single one, explains the pair's observations as well. A pair with a
+  // mistake in reading has fewer observations than a single mistake.
   bool has_idle_second(const Suspect& suspect, const std::vector<Hypothesis>& hypotheses, const Hypothesis* best,
                        const std::vector<double>& least) const;
-  // Of each observation, how near any hypothesis comes, the motion without mistakes included.
+  // The smallest distance of any hypothesis in each observation. The motion without mistakes is one of them.
   std::vector<double> nearest(const std::vector<Hypothesis>& hypotheses) const;
   bool is_clear(std::size_t observation, double size, double nearest) const;
-  // Whether it counts for and against mistakes. Where bodies touch, what no mistake comes near is the engine's own way.
+  // Whether the observation counts for and against mistakes. If bodies touch, an error that no mistake comes near is
+  // the engine's own contact model.
   bool is_active(std::size_t observation, double size, double error, double nearest) const;
 
   const std::vector<View>& views_;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr long kSamples = 30;
 
-// What is left open, as a share of the motion's scale: roundings of a hundred steps, which joints solve for besides;
-// how deep a body lies in another at rest, g dt², of a metre.
+// The smallest distances that count, as shares of the motion's scale: roundings of a hundred steps; the same with
+// joints, which are solved to a tolerance; the depth of a resting contact, g dt², beside a metre.
 constexpr double kOfRounding = 1e-10, kOfJoints = 1e-8, kOfContacts = 1e-4;
 
 View view_on(View::Kind kind, std::size_t index, const ProbeScene& probe, const RunName& base, std::vector<double> dt) {
@@ -24,7 +24,7 @@ View view_on(View::Kind kind, std::size_t index, const ProbeScene& probe, const 
   return view;
 }
 
-// From x(h) = x + a hᵖ + b hᵖ⁺¹ + ..., at h, h/2, h/4. The finer two alone give `coarse`.
+// Eliminates a and b from x(h) = x + a hᵖ + b hᵖ⁺¹ + ... at h, h/2, h/4. The two finer steps give `coarse`.
 Sight extrapolated(const std::vector<double>& one, const std::vector<double>& half, const std::vector<double>& quarter,
                    int order) {
   Sight sight;
@@ -79,7 +79,7 @@ std::vector<MotionTask> tasks_of(const View& view, const ProbeScene& probe, cons
 }
 
 std::vector<MotionTask> nudged_tasks(std::vector<MotionTask> tasks) {
-  // Of a hundred steps' roundings, each of some parts in 1e16, far less than a twin's match may leave.
+  // Roundings of a hundred steps, far less than the difference that a twin may have.
   constexpr double kNudge = 1e-14;
   const Vec3 way = kNudge * Vec3(1, -1, 1);
   for (MotionTask& task : tasks) {

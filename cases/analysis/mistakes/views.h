@@ -1,9 +1,12 @@
-// How an engine's motion on a probe is seen beside that of a known mistake, so that what the engine's scheme must do at
-// a step of this size is in neither:
-// - by its twin, which makes the same mistakes of the scheme to rounding;
-// - extrapolated to a step of nothing from three step sizes, beside the accurate core treated likewise;
-// - by a method of the core that steps points as the engine does, for mistakes that hang on the step;
-// - as it is, beside the accurate core: for methods of high order, and where bodies touch.
+// Views compare an engine's motion on a probe with the motion of a known mistake. The error of the engine's scheme must
+// have no share in the comparison. There are four kinds:
+// - twin: the base is the engine's scheme replica (twin), which has the same scheme error to rounding.
+// - extrapolated: motions at three step sizes are extrapolated to dt = 0. The base is the accurate core. A mistake that
+//   vanishes with dt is not visible.
+// - same_method: the base is a method of the core that steps points as the engine does. It shows mistakes that depend
+// on
+//   the step.
+// - accurate: the base is the accurate core, without extrapolation, for methods of high order and for contacts.
 #pragma once
 
 #include <string>
@@ -22,31 +25,31 @@ struct View {
   std::vector<double> dt;  // s, one, or three that halve
   long steps, every;       // of the first dt
   int order = 1;           // of the engine's method, by which three are extrapolated
-  double tolerance = 0;    // what the kind of view leaves open, in scaled numbers
-  bool can_touch = false;  // an engine sees an impact by up to a step too late
+  double tolerance = 0;    // the smallest distance that counts in this kind of view, scaled
+  bool can_touch = false;  // an engine may meet an impact up to a step too late
 };
 
-// What is seen of one motion.
+// One motion as a view shows it.
 struct Sight {
   std::vector<double> states;  // as StateSeries's
-  // The same less surely, to see what is left open: of an extrapolated one from the two finer steps alone; of an
-  // engine's beside its twin as roundings may move it (nudged_tasks); else empty.
+  // The same with less certainty, to measure it. Extrapolated: from the two finer steps alone. Beside a twin: the
+  // motion after a nudge by some roundings (nudged_tasks). Else empty.
   std::vector<double> coarse;
-  std::string why;               // there is none; empty if there is
-  bool as_loaded_alone = false;  // of a mistake: nothing is held against its motion after that
+  std::string why;               // the reason if there is no motion; else empty
+  bool as_loaded_alone = false;  // of a mistake: only its state as loaded is compared
 };
 
-// The views of a run on the probes. `of_points`: the base of Kind::same_method; null where that is not needed.
+// The views of a run on the probes. `of_points`: the base of Kind::same_method; null if it is not needed.
 std::vector<View> views_of(const EngineTable& engines, const RunName& run, const std::vector<ProbeScene>& probes,
                            const RunName* of_points);
 bool needs_same_method(const std::vector<View>& views);
 
-// The tasks of a view, one for each of its dt.
+// The tasks of a view, one for each dt.
 std::vector<MotionTask> tasks_of(const View& view, const ProbeScene& probe, const Engine& engine,
                                  const Settings& settings, std::shared_ptr<const Fault> fault);
-// The same with every moving body nudged by some roundings at the start, by which chaos shows.
+// The same after a nudge of every moving body by some roundings at the start. It shows chaos.
 std::vector<MotionTask> nudged_tasks(std::vector<MotionTask> tasks);
-// Of their motions, from `first` on.
+// The sight from the view's motions, which begin at `first`.
 Sight seen(const View& view, const std::vector<StateSeries>& motions, std::size_t first);
 
 }  // namespace rigor

@@ -134,8 +134,8 @@ void Sweep::check_options() {
   }
 }
 
-// Each value in one of the sweep's own scenes, before anything runs; in the others it may turn out yet that it cannot
-// be combined with the rest, and then those cells are `invalid`.
+// Checks each value in one of the sweep's own scenes before anything runs. A value may still not combine with others.
+// Such cells become `invalid`.
 void Sweep::check_values() const {
   constexpr std::size_t kMost = 1000;  // of samples, and about as many of an axis: evenly, with its first and its last
   for (std::size_t c = 0; c < input_.cases.size(); ++c) {

@@ -1,6 +1,6 @@
-// A sweep: cases × runs × the values of several keys, each cell with its row in a table. What shares a scene is one
-// variant. A job is a few neighbouring rows of a variant: its process makes their truth and forks their cells. Jobs
-// follow from the sweep alone, so that whoever has planned it can do any of them, and go on from any other's journal.
+// A sweep: cases × runs × the values of several keys. Each cell is a row of a table. Cells with the same scene form a
+// variant. A job is a few neighbouring rows of one variant. Its process computes their truth and forks their cells. The
+// jobs depend on the plan alone, so any process can do any job and continue any journal.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ namespace rigor {
 
 inline constexpr double kMostCells = 1e6;     // of a sweep
 inline constexpr std::size_t kRowsOfJob = 8;  // at most
-inline constexpr std::size_t kFewJobs = 64;   // so many there are before any has two rows, for shards that are alike
+inline constexpr std::size_t kFewJobs = 64;   // a sweep has so many jobs before one gets two rows, for equal shards
 
 struct SweepRow {
   std::size_t of_case = 0, run = 0;  // indices in Sweep
@@ -27,22 +27,22 @@ struct SweepRow {
   Status status = Status::crashed;
   std::string reason = "it did not run";
   std::string verdict;                      // "stable", ...; empty where there is none
-  std::vector<double> metrics;              // of Sweep::metrics; not a number where there is none
-  std::vector<std::string> held_to_itself;  // those whose truth the run's own code makes (truth/provenance.h)
+  std::vector<double> metrics;              // of Sweep::metrics; NaN if there is none
+  std::vector<std::string> held_to_itself;  // metrics whose truth comes from the run's own code (truth/provenance.h)
 };
 
 struct SweepInput {
   std::vector<Case> cases;
   std::vector<RunName> runs;
   std::vector<SweepAxis> axes;
-  std::vector<std::string> metrics;  // those asked for; empty: all that are not costly
+  std::vector<std::string> metrics;  // the requested ones; empty: all that are not costly
   std::size_t samples = 0;           // 0: the full grid
   unsigned long seed = 0;
 };
 
 class Sweep {
  public:
-  // Throws InputError for a key that is none, with a near match; a value that no scene, step or option can have; and
+  // Throws InputError for an unknown key, with a near match; for a value that no scene, step or option can have; and
   // for more than kMostCells cells, with their number.
   Sweep(SweepInput input, const Vocabulary& vocabulary);
 
@@ -54,20 +54,20 @@ class Sweep {
   bool asks_for_metrics() const { return !input_.metrics.empty(); }
   std::size_t cells() const { return cells_; }
 
-  // Rows come variant by variant: by case, then by what the scene is, then by run, then by options and step.
+  // Rows come variant by variant: by case, then by scene, then by run, then by options and step.
   std::size_t jobs() const { return first_jobs_.back(); }
   std::size_t first_row_of(std::size_t job) const;       // among all
   std::vector<SweepRow> rows_of(std::size_t job) const;  // as planned
   Case definition_of(std::size_t job) const;             // throws InputError
-  // With the varied options. Throws InputError for an option that the method does not have.
+  // The run with the varied options. Throws InputError for an option that the method does not have.
   RunName run_of(const SweepRow& row) const;
-  // Of what its results depend on, the program apart.
+  // All that the results depend on, except the program.
   std::string plan() const;
 
  private:
   using Point = std::vector<std::string>;  // a value of each axis
   struct Place {
-    std::size_t of_case, scene, first;  // of a job: the row of its variant that it begins with
+    std::size_t of_case, scene, first;  // of a job; `first` is its first row in the variant
   };
   Place place_of(std::size_t job) const;
   std::size_t steps_of(std::size_t of_case) const { return has_step_axis_ ? 1 : input_.cases[of_case].dt.size(); }
@@ -104,12 +104,11 @@ struct SweepOptions {
 // The jobs of a shard: from the first to before the second. Stretches of about the same number of rows.
 std::pair<std::size_t, std::size_t> jobs_of(const Sweep& sweep, const Shard& shard);
 
-// What a row has come to, as text and from it. The second throws std::exception for what is no answer of this row.
+// A row's result as text, and the row from such a text. The second throws std::exception for an answer of another row.
 std::string answer_of(const SweepRow& row);
 void apply_answer(SweepRow& row, const std::string& answer);
 
-// Calls `on_row` for each row of the shard, in their order, as they come; what it takes does not grow with their
-// number.
+// Calls `on_row` for each row of the shard in order. The memory that it takes does not grow with their number.
 void run_sweep(const Sweep& sweep, const EngineTable& engines, const SweepOptions& options,
                const std::function<void(const SweepRow& row)>& on_row);
 

@@ -1,4 +1,4 @@
-// How a sweep runs: the process of a job, what is heard of it, and the journal of the jobs that are done.
+// Runs a sweep: the process of a job, its messages, and the journal of finished jobs.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -121,7 +121,7 @@ class JobProcess {
   GridOptions grid_options_;
 };
 
-// Hands rows out in their order, and keeps those that came too early.
+// Passes rows on in order and keeps those that arrive early.
 class InOrder {
  public:
   InOrder(std::size_t first, const std::function<void(const SweepRow&)>& on_row) : on_row_(on_row), next_(first) {}
@@ -140,7 +140,7 @@ class InOrder {
   std::size_t next_;
 };
 
-// The rows of a job as they come in, and the journal of those that are whole.
+// The rows of each open job, and the journal of complete jobs.
 class SweepProgress {
  public:
   SweepProgress(const Sweep& sweep, const SweepOptions& options, const std::function<void(const SweepRow&)>& on_row)
@@ -149,7 +149,7 @@ class SweepProgress {
         journal_(options.journal, options.journal.empty() ? "" : build_identity() + "\n" + sweep.plan()),
         in_order_(jobs_of(sweep, options.shard).first, on_row) {}
 
-  // Whether a run before this one has been through it.
+  // Whether an earlier run has finished the job.
   bool take_from_journal(std::size_t job) {
     const auto kept = journal_.found().find(job);
     if (kept == journal_.found().end()) return false;
@@ -207,7 +207,7 @@ class SweepProgress {
   std::map<std::size_t, Open> open_;
 };
 
-// The jobs of a shard that no run before this one has been through.
+// The jobs of a shard that no earlier run has finished.
 class JobsToDo : public JobSource {
  public:
   JobsToDo(const Sweep& sweep, std::pair<std::size_t, std::size_t> range, double limit, SweepProgress& progress)
@@ -223,7 +223,7 @@ class JobsToDo : public JobSource {
   std::size_t given(std::size_t number) const { return given_[number]; }
 
  private:
-  // One of a single row makes its truth and runs it under one limit.
+  // A job with a single row computes its truth and its cell under one limit.
   double limit_of(std::size_t job) const {
     const bool is_single = sweep_.first_row_of(job + 1) - sweep_.first_row_of(job) == 1;
     return is_single ? 2 * limit_ : limit_;
@@ -254,7 +254,7 @@ void apply_answer(SweepRow& row, const std::string& answer) {
 }
 
 std::pair<std::size_t, std::size_t> jobs_of(const Sweep& sweep, const Shard& shard) {
-  // Of two shards that meet, a job is the one's in which it begins.
+  // A job belongs to the shard in which it begins.
   const auto begin_of = [&](int index) {
     const double row = static_cast<double>(sweep.cells()) * (index - 1) / shard.count;
     std::size_t low = 0, high = sweep.jobs();

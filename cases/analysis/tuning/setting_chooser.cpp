@@ -12,7 +12,7 @@ namespace {
 constexpr double kShare = 0.25;                 // of the run
 constexpr std::size_t kCoarse = 5, kFine = 11;  // 1/30 s, 1/100 s
 
-// Where the ends of its range and the middle change nothing, a number is without effect.
+// A number has no effect if both ends and the middle of its range change nothing.
 std::vector<std::string> few_of(const OptionInfo& option) {
   const std::vector<std::string> all = tried_values(option);
   if (!option.choices.empty() || all.size() <= 3) return all;
@@ -26,7 +26,7 @@ void add_runs(const MethodSpace& space, const OptionInfo& option, const std::vec
 
 }  // namespace
 
-// Each once.
+// Runs each of these once.
 void SettingChooser::screen(const std::vector<std::string>& runs, double limit) {
   std::vector<Probe> probes;
   for (const std::string& run : runs) {
@@ -48,7 +48,7 @@ bool SettingChooser::has_effect(const MethodSpace& space, const OptionInfo& opti
   });
 }
 
-// A value that changes nothing is as good as the default; one that makes the run far dearer is left out.
+// Leaves out values that change nothing and values that make the run far dearer.
 SettingChooser::Choices SettingChooser::options_with_effect(const MethodSpace& space) {
   screen({space.base}, options_.limit);
   const double limit = std::max(kLeastLimit, kFarDearer * effects_.at(space.base).seconds);

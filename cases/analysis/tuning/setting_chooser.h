@@ -1,4 +1,4 @@
-// The settings of a method that a tuning tries: combinations of those values of its options that change something.
+// Chooses the settings of a method that a tuning tries: combinations of option values that change the motion.
 #pragma once
 
 #include <map>
@@ -11,25 +11,25 @@
 
 namespace rigor {
 
-// How much longer than its like [s of CPU time] a probe may take: what is so much dearer is no winner. At least so long
-// that the rest of a probe, some tens of milliseconds, is nothing beside it, and that on a busy machine the pool, which
-// allows ten times as much by the clock, ends none for its waiting.
+// A probe may take kFarDearer times as long as others of its kind, because a dearer setting cannot win. The limit is at
+// least kLeastLimit [s of CPU time]. The overhead of a probe, some tens of milliseconds, is then negligible, and the
+// pool, which allows ten times as much by the clock, does not end a probe that waits on a busy machine.
 inline constexpr double kFarDearer = 20, kLeastLimit = 3;
 
 class SettingChooser {
  public:
   SettingChooser(Prober& prober, const TuneOptions& options) : prober_(prober), options_(options) {}
 
-  // The names of runs, the method as it is first. All combinations, or as many as there may be: each value by itself
-  // first, the rest drawn.
+  // The names of runs, with the unchanged method first. All combinations if they fit into `most`. Otherwise each value
+  // alone, and then drawn combinations.
   std::vector<std::string> settings_of(const MethodSpace& space, std::size_t most);
   const std::vector<std::string>& without_effect() const { return without_effect_; }  // "worldstep: erp"
 
  private:
   using Choices = std::vector<std::pair<std::string, std::vector<std::string>>>;  // option, values
   struct Effect {
-    std::vector<double> values;  // of a short run at two steps, of all bounds and cases
-    double seconds = 0;          // that took
+    std::vector<double> values;  // of a short run at two steps, for all bounds and cases
+    double seconds = 0;          // its duration
     bool is_late = false;
   };
 

@@ -11,7 +11,7 @@
 namespace rigor {
 namespace {
 
-// A run of the space and the coarsest step at which it has kept the bounds so far.
+// A run of the space and the coarsest step that has kept the bounds so far.
 struct Setting {
   std::string run;
   std::size_t step = 0;
@@ -50,7 +50,7 @@ class Tuner {
     return settings;
   }
 
-  // The steps of each that are tried next.
+  // The end of the steps that are tried next.
   static std::size_t end_of(const Setting& setting) {
     return std::min(setting.step + kStepsAtOnce, tuned_steps().size());
   }
@@ -62,11 +62,11 @@ class Tuner {
     return probes;
   }
 
-  // `quickest`: s that a run took which kept the bounds.
+  // `quickest`: s, of the fastest run that kept the bounds.
   static double limit_beside(double quickest) { return std::max(kLeastLimit, kFarDearer * quickest); }
 
-  // The settings with their coarsest steps that keep the bounds for this share of the run, the better half of them. One
-  // that is far dearer than another that has kept them is given up: a finer step is dearer still.
+  // Finds each setting's coarsest step that keeps the bounds for this share of the run, and returns the better half. A
+  // setting that is far dearer than one that kept them is dropped, because a finer step is dearer still.
   std::vector<Setting> halved(std::vector<Setting> settings, double share) {
     std::vector<Setting> kept;
     std::size_t best = tuned_steps().size();
@@ -125,7 +125,7 @@ class Tuner {
     }
   }
 
-  // Where nothing keeps the bounds even for a short run: to say in full what came nearest.
+  // Used if nothing keeps the bounds even for a short run. Full runs then show the nearest one.
   std::vector<Setting> every_method() const {
     std::vector<Setting> settings;
     for (const MethodSpace& space : spaces_) settings.push_back({space.base, tuned_steps().size() - kStepsAtOnce});
@@ -144,8 +144,8 @@ class Tuner {
     return point.keeps();
   }
 
-  // What is cheapest, one at a time so that nothing disturbs it, in turn so that what disturbs the machine disturbs
-  // all.
+  // Measures the cheapest points again, one at a time so that they do not disturb each other. They take turns, so a
+  // disturbance of the machine affects all of them.
   void measure_again() {
     constexpr std::size_t kMost = 6, kRepeats = 5;
     constexpr double kNoise = 2;  // times the least cost: two cells at once can hardly disturb each other by more
@@ -178,19 +178,13 @@ class Tuner {
     return static_cast<std::size_t>(std::find(steps.begin(), steps.end(), point.dt) - steps.begin());
   }
 
-  // Of those that repeats cannot tell from the cheapest, the plainest name; then the longest step.
-  void choose_winner(std::vector<TunedPoint*> good) {
+  void choose_winner(const std::vector<TunedPoint*>& good) {
     if (good.empty()) return say_nearest();
-    const auto cheapest =
-        *std::min_element(good.begin(), good.end(), [](const auto* a, const auto* b) { return a->cost < b->cost; });
-    std::erase_if(good, [&](const TunedPoint* point) { return point->least > cheapest->most; });
-    std::stable_sort(good.begin(), good.end(), [](const auto* a, const auto* b) {
-      const auto options = [](const TunedPoint* p) { return std::count(p->run.text.begin(), p->run.text.end(), ','); };
-      return std::make_tuple(options(a), -a->dt.seconds, a->run.text) <
-             std::make_tuple(options(b), -b->dt.seconds, b->run.text);
-    });
-    found_.winner = *good.front();
-    for (std::size_t i = 1; i < good.size(); ++i) found_.ties.push_back(*good[i]);
+    std::vector<TunedPoint> points;
+    for (const TunedPoint* point : good) points.push_back(*point);
+    found_.ties = equally_cheap(std::move(points));
+    found_.winner = found_.ties.front();
+    found_.ties.erase(found_.ties.begin());
   }
 
   void say_nearest() {
@@ -221,7 +215,7 @@ class Tuner {
   std::vector<MethodSpace> spaces_;
   const TuneOptions& options_;
   Prober prober_;
-  double quickest_ = ProbeAnswer::kNone;  // s: what a whole run takes that keeps the bounds, as far as it is known
+  double quickest_ = ProbeAnswer::kNone;  // s: an estimate for a whole run that keeps the bounds
   std::vector<TunedPoint> points_;
   Tuning found_;
 };
@@ -237,6 +231,19 @@ const std::vector<StepSize>& tuned_steps() {
     return made;
   }();
   return steps;
+}
+
+std::vector<TunedPoint> equally_cheap(std::vector<TunedPoint> points) {
+  if (points.empty()) return points;
+  const TunedPoint cheapest =
+      *std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  std::erase_if(points, [&](const TunedPoint& point) { return point.least > cheapest.most; });
+  std::stable_sort(points.begin(), points.end(), [](const TunedPoint& a, const TunedPoint& b) {
+    const auto options = [](const TunedPoint& p) { return std::count(p.run.text.begin(), p.run.text.end(), ','); };
+    return std::make_tuple(options(a), -a.dt.seconds, a.run.text) <
+           std::make_tuple(options(b), -b.dt.seconds, b.run.text);
+  });
+  return points;
 }
 
 Tuning tune(const std::string& text, const std::vector<Case>& cases, const std::vector<Bound>& bounds,

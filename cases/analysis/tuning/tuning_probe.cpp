@@ -18,7 +18,9 @@ std::vector<ProbeAnswer> Prober::run(const std::vector<Probe>& probes, const Pro
   options.stable_steps = options.is_thorough = options.spreads = false;
   for (const Bound& bound : bounds_) options.only_metrics.push_back(bound.metric);
   if (effort.is_timed) options.only_metrics.push_back("cost");
-  run_grid(grid, engines_, options, [](std::size_t, std::size_t) {});
+  run_grid(grid, engines_, options, [&](std::size_t done, std::size_t) {
+    if (options_.on_runs) options_.on_runs(runs_ + done);
+  });
   runs_ += probes.size() * cases_.size();
   std::vector<ProbeAnswer> answers(probes.size());
   for (std::size_t i = 0; i < probes.size(); ++i) {

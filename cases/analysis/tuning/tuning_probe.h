@@ -1,4 +1,4 @@
-// What a tuning asks of the runner: some runs at some steps, on all cases, for a share of their duration.
+// Runs a tuning's probes: some runs at some steps, on all cases, for a share of their duration.
 #pragma once
 
 #include <limits>
@@ -20,8 +20,8 @@ struct ProbeAnswer {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   double error = kNone, cost = 0;  // as in TunedPoint
   std::string why;                 // of the first case without a result
-  std::vector<double> values;      // of all bounds and cases, to tell whether two settings do the same
-  double seconds = 0;              // that its longest cell took, with its judging
+  std::vector<double> values;      // of all bounds and cases; equal for settings with the same motion
+  double seconds = 0;              // of its longest cell, judging included
   bool is_late = false;            // a cell had no result within the limit
 };
 
@@ -38,10 +38,10 @@ class Prober {
          const TuneOptions& options)
       : cases_(cases), bounds_(bounds), engines_(engines), options_(options) {}
 
-  // One each of the probes, in their order.
+  // One answer per probe, in their order.
   std::vector<ProbeAnswer> run(const std::vector<Probe>& probes, const ProbeEffort& effort);
   std::size_t runs() const { return runs_; }  // so far
-  // Where the truth does not vouch for the whole run, a sentence each.
+  // One sentence per case whose truth does not cover the whole run.
   const std::set<std::string>& remarks() const { return remarks_; }
 
  private:

@@ -31,11 +31,23 @@ Json json_of_suspect(const MistakeReport::Named& suspect) {
           {"cases", cases}};
 }
 
+Json json_of_law(const LawDrift& law) {
+  return {{"law", law.law},
+          {"cases", law.cases},
+          {"kept", law.is_kept},
+          {"case", law.id},
+          {"drift", law.drift},
+          {"dt", law.dt},
+          {"drift_at_half_dt", law.at_half_dt}};
+}
+
 }  // namespace
 
 Json mistakes_json(const MistakeReport& report, const std::string& run) {
   Json suspects = Json::array();
   for (const auto& suspect : report.suspects) suspects.push_back(json_of_suspect(suspect));
+  Json laws = Json::array();
+  for (const LawDrift& law : report.laws) laws.push_back(json_of_law(law));
   return {{"engine", run},
           {"verdict", word_of_verdict(report.verdict)},
           {"known_mistakes", report.known},
@@ -43,6 +55,8 @@ Json mistakes_json(const MistakeReport& report, const std::string& run) {
           {"suspects", suspects},
           {"cases", report.seen},
           {"cases_off", report.off},
+          {"cases_by_twin", report.by_twin.size()},
+          {"laws", laws},
           {"not_seen", report.failures},
           {"held_against", report.beside}};
 }

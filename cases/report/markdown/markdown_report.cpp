@@ -18,6 +18,7 @@
 #include "cases/report/wording/explained_error.h"
 #include "cases/report/wording/explanation.h"
 #include "cases/report/wording/findings/findings.h"
+#include "cases/report/wording/printed_command.h"
 #include "cases/report/wording/verdict_matrix.h"
 
 namespace rigor {
@@ -78,7 +79,7 @@ std::string diagnosis_line(const CaseResult& result) {
   }
   std::string text;
   for (const std::string& run : runs)
-    text += fmt::format("{} `rigor diagnose {} --engine '{}'`", text.empty() ? "" : ",", result.definition.id, run);
+    text += fmt::format("{} `{}`", text.empty() ? "" : ",", diagnose_command_text(result.definition.id, run));
   return text.empty() ? "" : "\nWhich known mistake the error looks like:" + text + "\n";
 }
 

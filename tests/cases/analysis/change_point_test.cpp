@@ -13,13 +13,13 @@ using namespace rigor;
 
 namespace {
 
-enum class Shape { normal, even, exponential, outliers, spikes };
+enum class NoiseShape { normal, even, exponential, outliers, spikes };
 
 // Noise of standard deviation 1 and of this autocorrelation from one value to the next. std::mt19937_64 gives the same
 // numbers everywhere; the standard distributions do not.
 class Noise {
  public:
-  Noise(Shape shape, double correlation, unsigned long seed)
+  Noise(NoiseShape shape, double correlation, unsigned long seed)
       : shape_(shape), correlation_(correlation), random_(seed) {}
 
   std::vector<double> series(std::size_t count) {
@@ -36,22 +36,22 @@ class Noise {
  private:
   double even() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
   double normal() { return std::sqrt(-2 * std::log(1 - even())) * std::cos(2 * std::numbers::pi * even()); }
-  double spike() { return shape_ == Shape::spikes && even() < 0.05 ? 10 : 0; }  // of one value
+  double spike() { return shape_ == NoiseShape::spikes && even() < 0.05 ? 10 : 0; }  // of one value
   double innovation() {
     switch (shape_) {
-      case Shape::normal:
-      case Shape::spikes:
+      case NoiseShape::normal:
+      case NoiseShape::spikes:
         return normal();
-      case Shape::even:
+      case NoiseShape::even:
         return std::sqrt(12.0) * (even() - 0.5);
-      case Shape::exponential:
+      case NoiseShape::exponential:
         return -std::log(1 - even()) - 1;
-      case Shape::outliers:  // one value in twenty is ten times as far off
+      case NoiseShape::outliers:  // one value in twenty is ten times as far off
         return (even() < 0.05 ? 10 : 1) * normal() / std::sqrt(0.95 + 0.05 * 100);
     }
     return 0;
   }
-  Shape shape_;
+  NoiseShape shape_;
   double correlation_;
   std::mt19937_64 random_;
 };
@@ -70,7 +70,7 @@ std::vector<double> with_step(std::vector<double> values, std::size_t at, double
 // The share of fivefold steps at `at` that are found there alone, in the logarithms of values with this relative noise.
 double share_found(std::size_t count, std::size_t at, double noise) {
   constexpr int kSeries = 1000;
-  Noise source(Shape::normal, 0.5, 11);
+  Noise source(NoiseShape::normal, 0.5, 11);
   int found = 0;
   for (int i = 0; i < kSeries; ++i)
     found += change_points(with_step(source.series(count), at, noise, std::log(5))) == std::vector<std::size_t>{at};
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(fewer_than_three_values_are_no_level) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_beyond_the_noise_are_found_where_they_are) {
-  Noise noise(Shape::even, 0, 1);
+  Noise noise(NoiseShape::even, 0, 1);
   std::vector<double> values = with_step(with_step(noise.series(60), 20, 0.03, 0.3), 40, 1, -0.7);
   BOOST_TEST(change_points(values) == (std::vector<std::size_t>{20, 40}));
   // The first change is found in the second part: its index counts from the beginning.
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(steps_beyond_the_noise_are_found_where_they_are) {
 
 // One step up and one down leave no single split that explains much.
 BOOST_AUTO_TEST_CASE(a_step_that_is_taken_back_is_found) {
-  Noise noise(Shape::normal, 0.5, 2);
+  Noise noise(NoiseShape::normal, 0.5, 2);
   BOOST_TEST(change_points(with_step(with_step(noise.series(50), 20, 0.1, 1.6), 30, 1, -1.6)) ==
              (std::vector<std::size_t>{20, 30}));
   BOOST_TEST(change_points(with_step(with_step(noise.series(24), 8, 0.05, 1.6), 16, 1, -1.6)) ==
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(a_step_that_is_taken_back_is_found) {
 
 BOOST_AUTO_TEST_CASE(one_outlier_is_no_change_wherever_it_stands) {
   for (const std::size_t count : {8u, 30u, 200u}) {
-    const std::vector<double> quiet = Noise(Shape::even, 0, 3).series(count);
+    const std::vector<double> quiet = Noise(NoiseShape::even, 0, 3).series(count);
     for (std::size_t at = 0; at < count; ++at) {
       std::vector<double> values = quiet;
       values[at] = 1000;
@@ -177,7 +177,8 @@ BOOST_AUTO_TEST_CASE(noise_alone_changes_in_at_most_one_series_of_a_hundred) {
   constexpr double kMost = 0.017;
   for (const std::size_t count : {10u, 12u, 20u, 50u, 100u, 200u}) {
     for (const double correlation : {0.0, 0.3, 0.5}) {
-      for (const Shape shape : {Shape::normal, Shape::even, Shape::exponential, Shape::outliers, Shape::spikes}) {
+      for (const NoiseShape shape :
+           {NoiseShape::normal, NoiseShape::even, NoiseShape::exponential, NoiseShape::outliers, NoiseShape::spikes}) {
         const double rate = rate_of_changes(Noise(shape, correlation, 100 + count), count, kSeries);
         BOOST_TEST(rate <= kMost, count << " values, correlation " << correlation << ", shape " << int(shape));
         BOOST_TEST_MESSAGE(count << " values, correlation " << correlation << ", shape " << int(shape) << ": " << rate);
@@ -195,7 +196,7 @@ BOOST_AUTO_TEST_CASE(the_exact_distribution_of_students_statistic_bounds_the_rat
   for (const int count : {6, 7, 8, 12, 20}) {
     double sum = 0;
     for (int split = 3; split + 3 <= count; ++split) sum += chance_of_student(count, split, 0.5, kMostWithin);
-    const double rate = rate_of_changes(Noise(Shape::normal, 0.5, 5), static_cast<std::size_t>(count), 20000);
+    const double rate = rate_of_changes(Noise(NoiseShape::normal, 0.5, 5), static_cast<std::size_t>(count), 20000);
     BOOST_TEST_MESSAGE(count << " values: at most " << sum << "; simulated " << rate);
     BOOST_TEST(sum <= 0.01, count);
     BOOST_TEST(rate <= sum + 0.0015, count);  // three standard deviations of 20000 series at 0.5 %

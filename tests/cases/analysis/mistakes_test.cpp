@@ -4,6 +4,7 @@
 // from 0. RIGOR_DIAGNOSE_SEED draws other pairs: those of 1 were looked at while the thresholds were chosen, those of
 // any other number had no part in it.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
@@ -73,12 +74,14 @@ class Finders {
   Finders() : engines_(built_in_engines()) {
     add_plugin(engines_, "python3 " RIGOR_SOURCE_DIR "/adapters/plugin/examples/toy.py", 20);
   }
-  MistakeReport of(const std::string& run, const Fault& fault) {
+  MistakeReport of(const std::string& run, const Fault& fault, const std::vector<std::string>& ids = {}) {
     const RunName name = parse_run_name(run, engines_.infos());
-    auto [place, is_new] = finders_.try_emplace(run);
-    if (is_new)
-      place->second = std::make_unique<MistakeFinder>(engines_, name, probes_of_suite(test::words()),
-                                                      MistakeFinder::Options{2, 10});
+    auto [place, is_new] = finders_.try_emplace(fmt::format("{} on {}", run, fmt::join(ids, " ")));
+    if (is_new) {
+      std::vector<ProbeScene> probes = ids.empty() ? probes_of_suite(test::words())
+                                                   : probes_of(select_cases(ids, default_suite_dir(), test::words()));
+      place->second = std::make_unique<MistakeFinder>(engines_, name, std::move(probes), MistakeFinder::Options{2, 10});
+    }
     return place->second->report(BrokenEngine(engines_.find(name.engine), fault));
   }
   // Whether a fault changes any of the engine's motions, even by one bit. Only scenes that the engine supports count.
@@ -277,6 +280,23 @@ BOOST_AUTO_TEST_CASE(the_amount_of_a_mistake_is_found) {
       for (const double percent : {0.5, -1.0}) {
         const MistakeReport report = finders().of(engine, fault.by(percent));
         BOOST_TEST(is_named(fmt::format("gravity off by {} %", percent), report), engine << ": " << first_line(report));
+      }
+    }
+  }
+}
+
+// A mistake a hundred times as large as the table's moves bodies along another path than the table's does.
+BOOST_AUTO_TEST_CASE(damping_applied_twice_is_named_whatever_the_cases) {
+  for (const Fault& fault : faults()) {
+    if (fault.name != "damping off by 1 %") continue;
+    const Fault twice = fault.by(100);
+    for (const char* engine : {"ode", "toy-py"}) {
+      for (const std::vector<std::string>& ids : std::vector<std::vector<std::string>>{
+               {"springs/hung-part"}, {"springs/hung-part", "springs/strong-damping"}, {}}) {
+        const MistakeReport report = finders().of(engine, twice, ids);
+        BOOST_TEST(is_named("damping off by 100 %", report), engine << " on " << fmt::format("{}", fmt::join(ids, " "))
+                                                                    << ": " << first_line(report)
+                                                                    << what_is_left(report));
       }
     }
   }

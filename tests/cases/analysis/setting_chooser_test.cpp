@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <ctime>
+#include <set>
 
 #include "cases/analysis/tuning/setting_chooser.h"
 #include "tests/cases/runner/faulty_engine.h"
@@ -84,6 +85,22 @@ BOOST_AUTO_TEST_CASE(what_is_without_effect_or_far_dearer_is_left_out) {
   BOOST_TEST(chooser.without_effect() == std::vector<std::string>{"idle of priced"}, boost::test_tools::per_element());
   // 1 s a step would be 16 s in all; it is given up after kLeastLimit at each of the two steps.
   BOOST_TEST(cpu_seconds_of_children() - before < 10);
+}
+
+// All combinations if they fit; else each value by itself, and then combinations that the seed draws.
+BOOST_AUTO_TEST_CASE(the_full_grid_is_taken_only_if_all_of_it_fits) {
+  const std::vector<std::string> grid = settings(200);
+  const auto pushes =
+      std::count_if(grid.begin(), grid.end(), [](const auto& run) { return run.find("work") == std::string::npos; });
+  BOOST_TEST(grid.size() == 2 * static_cast<std::size_t>(pushes));  // with `work=100`, and without
+  BOOST_TEST(grid.size() >= 8u);
+  BOOST_TEST(settings(grid.size()) == grid, boost::test_tools::per_element());
+  std::set<std::vector<std::string>> drawn;
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    drawn.insert(settings(grid.size() - 1));
+    for (const std::string& run : *drawn.begin()) BOOST_TEST(has(grid, run));
+  }
+  BOOST_TEST(drawn.size() > 1u);
 }
 
 BOOST_AUTO_TEST_CASE(where_no_other_setting_has_room_none_is_run) {

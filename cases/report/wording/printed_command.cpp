@@ -1,0 +1,52 @@
+#include "cases/report/wording/printed_command.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "adapters/plugin/plugins.h"
+
+namespace rigor {
+namespace {
+
+std::string& named_suite() {
+  static std::string folder;
+  return folder;
+}
+
+bool is_plain(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || std::string("_-./:=,@%+").find(c) != std::string::npos;
+}
+
+std::string quoted_word(const std::string& word) {
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+std::string pasted(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted_word(word);
+  return line;
+}
+
+void use_suite(const std::string& folder) { named_suite() = folder; }
+
+std::vector<std::string> where_from(const std::string& run) {
+  std::vector<std::string> words;
+  const std::string plugin = plugin_of(run.substr(0, run.find_first_of(":,@")));
+  if (!plugin.empty()) words.insert(words.end(), {"--plugin", plugin});
+  if (!named_suite().empty()) words.insert(words.end(), {"--suite", named_suite()});
+  return words;
+}
+
+std::string diagnose_command_text(const std::string& case_id, const std::string& run) {
+  std::vector<std::string> words = {"rigor", "diagnose", case_id, "--engine", run};
+  const std::vector<std::string> from = where_from(run);
+  words.insert(words.end(), from.begin(), from.end());
+  return pasted(words);
+}
+
+}  // namespace rigor
