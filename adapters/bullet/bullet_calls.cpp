@@ -13,7 +13,7 @@ void append(std::vector<std::string>& calls, const std::vector<std::string>& mor
   calls.insert(calls.end(), more.begin(), more.end());
 }
 
-// Of BulletMultibodyWorld: `body` is a btMultiBody, `world` a btMultiBodyDynamicsWorld.
+// Calls of BulletMultibodyWorld: `body` is a btMultiBody, `world` a btMultiBodyDynamicsWorld.
 std::vector<std::string> multibody_calls(bool is_matched) {
   std::vector<std::string> calls = {
       "btMultiBodyConstraintSolver solver;",
@@ -27,7 +27,7 @@ std::vector<std::string> multibody_calls(bool is_matched) {
   return calls;
 }
 
-// What the matched track sets from the scene if the run does not.
+// The values that the matched track takes from the scene if the run does not set them.
 void add_matched_defaults(const Settings& settings, std::vector<std::string>& calls) {
   if (!settings.options.contains("erp"))
     calls.push_back(fmt::format("world->getSolverInfo().m_erp = {};  // in a scene with joints", bullet::kErp));
@@ -38,7 +38,7 @@ void add_matched_defaults(const Settings& settings, std::vector<std::string>& ca
   }
 }
 
-// Of BulletWorld: `body` is a btRigidBody.
+// Calls of BulletWorld: `body` is a btRigidBody.
 std::vector<std::string> rigid_body_calls(const Settings& settings) {
   static const std::map<std::string, std::string> flags = {
       {"implicit-body", "BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY"},

@@ -16,8 +16,8 @@ namespace rigor {
 struct DartBodies {
   std::vector<::dart::dynamics::SkeletonPtr> skeletons;
   std::vector<::dart::dynamics::BodyNode*> bodies;  // by body of the scene; one that is fixed does not move
-  // By joint of the scene: null if it has no coordinate of its own. DART counts from parent to child: our coordinate is
-  // equal or the negative.
+  // One per joint of the scene: null if it has no coordinate of its own. DART counts from parent to child: our
+  // coordinate is equal or the negative.
   struct Coordinate {
     ::dart::dynamics::Joint* joint = nullptr;
     double sign = 1;

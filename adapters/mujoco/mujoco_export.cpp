@@ -186,7 +186,7 @@ class Exporter {
     if (const auto* ball = std::get_if<BallJoint>(&joint.type))
       return row(joint_name(index), "ball", point_in(body, ball->anchor), nullptr);
     if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-      // Of several joints of a body the first moves with the parent: that is the axis which is fixed in it.
+      // The first of several joints of a body moves with the parent: its axis is the one fixed in the parent.
       row(joint_name(index), "hinge", point_in(body, universal->anchor), is_b ? &universal->axis : &universal->axis2);
       return row(joint_name(index) + "/2", "hinge", point_in(body, universal->anchor),
                  is_b ? &universal->axis2 : &universal->axis);

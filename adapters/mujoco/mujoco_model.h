@@ -13,8 +13,8 @@ namespace rigor {
 struct MujocoModel {
   mujoco_library::Model model;
   std::vector<int> body;  // by body of the scene: MuJoCo's, or -1 for a fixed one without one
-  // By joint of the scene: the place of its coordinate in qvel, or -1 without a coordinate of its own, and the sign 1
-  // or -1. MuJoCo counts from parent to child, so the coordinate is MuJoCo's or its negative.
+  // One per joint of the scene: the place of its coordinate in qvel, or -1 without a coordinate of its own, and the
+  // sign 1 or -1. MuJoCo counts from parent to child, so the coordinate is MuJoCo's or its negative.
   struct Coordinate {
     int velocity = -1;
     double sign = 1;

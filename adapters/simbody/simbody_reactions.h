@@ -13,7 +13,7 @@ class SimbodyReactions {
  public:
   explicit SimbodyReactions(const SimbodySystem& system);
 
-  // By joint: a force [N], and a couple about the joint's point [N m], on one of its bodies; in W.
+  // One per joint: a force [N], and a couple about the joint's point [N m], on one of its bodies; in W.
   struct Carried {
     Vec3 force = Vec3::Zero(), couple = Vec3::Zero();
   };

@@ -54,7 +54,7 @@ void drain(Descriptor& from, std::string& into) {
   }
 }
 
-// The parent's handlers are not for the child. What the parent was told to ignore, the child ignores too.
+// The parent's handlers are not for the child. Signals that the parent ignores are ignored in the child, too.
 void drop_handlers() {
   for (int signal = 1; signal < NSIG; ++signal) {
     const bool stops = signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGQUIT;

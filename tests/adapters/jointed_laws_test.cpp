@@ -163,8 +163,8 @@ BOOST_AUTO_TEST_CASE(a_turned_frame_is_the_same_frame) {
 }
 
 BOOST_AUTO_TEST_CASE(the_ends_of_a_joint_may_be_exchanged) {
-  // Some rows are fixed in a. From the other end they express the same joint, but differ beside it, where the stages of
-  // a Runge-Kutta method lie. The difference is a part of its own error.
+  // Some rows are fixed in a. Seen from the other end they express the same joint, but differ beside it, where the
+  // stages of a Runge-Kutta method lie. The difference is a part of its own error.
   const Scene scene = tree(), other = ends_exchanged(scene);
   for_each_core_run(scene, [&](const Run& run) {
     const bool has_stages_beside = run.settings.method.starts_with("rk");

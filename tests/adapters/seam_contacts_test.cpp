@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(a_pair_that_the_scene_keeps_apart_never_touches) {
       BOOST_TEST(std::abs(position(1).x() + 0.5) < 1e-9);
       // A scheme of first order is g t dt / 2 off.
       BOOST_TEST(std::abs(position(2).z() - (0.1 - g * t * t / 2)) < 0.6 * g * t * dt);
-      // As deep as a contact may be: 3 steps of a fall, or a margin of Bullet's.
+      // The largest depth of a contact: 3 steps of a fall, or a margin of Bullet's.
       if (!has_spheres_of_meshes(run)) BOOST_TEST(std::abs(position(3).z() - 0.1) < 2e-3);
     }
   }

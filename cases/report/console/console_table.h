@@ -12,7 +12,7 @@ namespace rigor {
 
 std::string console_table(const Results& results);
 
-// What fell short, a paragraph each, worst things first.
+// The failures, one paragraph each, worst first.
 std::string failures_text(const std::vector<Failure>& rows, const std::string& diagnose);
 
 // How many gates held, failed and were not checked.

@@ -11,7 +11,7 @@
 namespace rigor {
 namespace {
 
-// Where the first `count` characters of a text end.
+// The end of the first `count` characters of a text.
 std::size_t bytes_of(const std::string& text, std::size_t count) {
   std::size_t at = 0;
   for (; at < text.size(); ++at) {

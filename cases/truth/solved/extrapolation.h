@@ -19,7 +19,7 @@ class Extrapolation {
   // The tolerance is relative and absolute, per step.
   Extrapolation(int columns, double tolerance) : columns_(columns), tolerance_(tolerance) {}
 
-  // As odeint's controlled steppers: moves the state and t by h if the error allows it, and sets the next h.
+  // Moves the state and t by h if the error allows it, and sets the next h, like odeint's controlled steppers.
   template <typename System>
   boost::numeric::odeint::controlled_step_result try_step(System system, State& state, Real& t, Real& h) {
     system(state, slope_, t);

@@ -19,7 +19,7 @@ struct PairLanes {
   }
 };
 
-// As many rows of a block as T has lanes.
+// Rows of a block, as many as T has lanes.
 template <class T>
 struct RowLanes {
   using Lanes = T;

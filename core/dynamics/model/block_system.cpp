@@ -15,8 +15,8 @@ namespace {
 // under scaling of rows or columns, so masses and stiffnesses may differ arbitrarily.
 constexpr double kSingular = 1e-2 / std::numeric_limits<double>::epsilon();
 
-// Whether A is singular up to rounding, tested with one more right side. That side is as large as A's rows, and has no
-// direction that a system of bodies could have.
+// Whether A is singular up to rounding, tested with one more right side. The right side is as large as A's rows, and
+// has no direction that a system of bodies could have.
 bool is_singular(const auto& A, const auto& lu) {
   const auto magnitudes = A.cwiseAbs();
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(A.cols());

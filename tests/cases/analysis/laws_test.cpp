@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(an_inertia_of_the_step_before_shows_in_the_angular_momentum
   const LawDrift& drift = law_of(stale, "angular momentum");
   BOOST_TEST(!drift.is_kept);
   BOOST_TEST(drift.drift > 1e-4);
-  // Of first order: halving the step halves the drift. A tenth of it is of the second.
+  // First order: halving the step halves the drift. A tenth of it is of second order.
   BOOST_TEST(std::abs(drift.at_half_dt / drift.drift - 0.5) < 0.1, drift.at_half_dt << " of " << drift.drift);
   BOOST_TEST(law_of(stale, "linear momentum").is_kept);
   const std::string text = text_of(stale, "toy-py");

@@ -1,4 +1,4 @@
-// Which cells a sweep has, and what its results depend on.
+// The cells of a sweep, and the inputs of its results.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,7 +29,7 @@ const std::vector<std::string> kTwoByTwo = {"scene.spring[0].stiffness=100,200",
 
 BOOST_AUTO_TEST_SUITE(cases_analysis_sweep_grid)
 
-// As many values of each key, so that keys that moved together would miss half of the grid.
+// The keys have equally many values, so keys that moved together would miss half of the grid.
 BOOST_AUTO_TEST_CASE(every_combination_is_there_once) {
   const Sweep sweep(input_of(kTwoByTwo), test::words());
   BOOST_TEST(sweep.cells() == 16u);

@@ -83,9 +83,9 @@ BOOST_AUTO_TEST_CASE(joints_bring_limits_and_damping_and_name_what_they_cannot) 
   BOOST_TEST(joint.upper == 0.9);
   BOOST_TEST(joint.damping == 0.7);
   const auto left_out = left_out_of_model("r.urdf", urdf_of("prismatic", more));
-  for (const char* part : {":2: joint 'j': <limit>: attribute 'effort': changes no motion: bounds a drive", "attribute 'velocity'",
-                           "attribute 'friction': is dry friction", "joint 'j': <mimic>: couples two joints",
-                           "gravity: the format states none"})
+  for (const char* part : {":2: joint 'j': <limit>: attribute 'effort': changes no motion: bounds a drive",
+                           "attribute 'velocity'", "attribute 'friction': is dry friction",
+                           "joint 'j': <mimic>: couples two joints", "gravity: the format states none"})
     BOOST_TEST(some_has(left_out, part), part);
   BOOST_TEST(!some_has(left_out_of_model("r.urdf", urdf_of("continuous", "")), "friction"));
 }
@@ -333,7 +333,7 @@ BOOST_AUTO_TEST_CASE(sdf_takes_universal_ball_and_spring_and_models_in_models) {
   BOOST_TEST((joint_named(scene, "s").stiffness == 7 && joint_named(scene, "s").rest == -0.2));
 }
 
-// As in files of simulators: a rail of mass 0, and a matrix with both halves.
+// Parts from files of simulators: a rail of mass 0, and a matrix with both halves.
 BOOST_AUTO_TEST_CASE(a_mass_of_zero_is_none_and_half_a_matrix_is_enough) {
   const std::string rail =
       "<robot name='r'><link name='rail'><inertial><mass value='0'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "

@@ -261,7 +261,7 @@ BOOST_AUTO_TEST_CASE(a_setting_of_several_values_differs_where_one_of_them_is_ne
              std::vector<std::string>{"good, solver: exact | new, was exact | rough"});
 }
 
-// Of several answers to one question the worst counts. An answer over several steps has no cell that would show it.
+// The worst of several answers to one question counts. An answer over several steps has no cell that would show it.
 BOOST_AUTO_TEST_CASE(an_answer_over_several_steps_is_kept_and_the_worst_of_two_counts) {
   const auto with = [](std::vector<GateAnswer> answers) {
     Results grid = gated_results();

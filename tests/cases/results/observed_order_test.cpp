@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(errors_at_the_floor_and_cells_that_blew_up_show_no_order) {
   BOOST_TEST(!none.text.empty());
 }
 
-// As in a gate's run, which times steps only for a gate on the cost.
+// Steps are timed only for a gate on the cost, as in a gate's run.
 BOOST_AUTO_TEST_CASE(an_order_needs_no_costs_and_work_precision_does) {
   Results results = test::priced_results({{"a", power(3, 2, {0.1, 0.05})}});
   for (Cell& cell : results.cases.front().cells) {

@@ -62,8 +62,8 @@ bool parts(const Vec3& n, const Vec3& p, const Body& above, const Body& below) {
   return true;
 }
 
-// From b to a: a face normal of either that separates the two, or between edges the direction midway between their
-// faces.
+// Points from b to a: a face normal of either that separates the two, or between edges the direction midway between
+// their faces.
 void touch_boxes(const Scene& scene, int a, int b, std::vector<Point>& out) {
   const Body &of_a = scene.bodies[a], &of_b = scene.bodies[b];
   for (const Vec3& p : corners_of(of_a)) {

@@ -41,7 +41,8 @@ double distance(BodyColumns a, BodyColumns b) {
   return largest;
 }
 
-// From the judge's own equations of motion, solved in extended precision by code that shares nothing with the methods.
+// Computed from the judge's own equations of motion, solved in extended precision by code that shares nothing with the
+// methods.
 BodyTable accurate(const Scene& scene, double duration) {
   const auto truth = make_truth("reference", scene, duration);
   BOOST_TEST(truth->error(duration) < 1e-11);

@@ -64,7 +64,7 @@ export function serve(engine) {
   process.exit(0); // a runtime's own threads and timers do not keep it
 }
 
-// From [xx, yy, zz, xy, xz, yz]: moments, and the quaternion (w, x, y, z) of the principal frame, by Jacobi's
+// Converts [xx, yy, zz, xy, xz, yz] to moments and the quaternion (w, x, y, z) of the principal frame, by Jacobi's
 // rotations.
 export function principal([xx, yy, zz, xy, xz, yz]) {
   const a = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];

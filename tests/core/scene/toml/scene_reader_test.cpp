@@ -168,7 +168,7 @@ rest_length = 0)");
   BOOST_TEST((first.point_b == Vec3(1, 0, 0)));
   BOOST_TEST(first.stiffness == 10);
   BOOST_TEST(first.damping == 0);
-  // From (3, 5, 0) to (0, 1, 0), to a few roundings of the rotation.
+  // The direction is from (3, 5, 0) to (0, 1, 0), to a few roundings of the rotation.
   BOOST_TEST(std::abs(first.rest_length - 5) < 4e-15);
   BOOST_TEST(second.a == kWorld);
   BOOST_TEST(second.b == 1);

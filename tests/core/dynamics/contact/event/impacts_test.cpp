@@ -6,8 +6,8 @@ using namespace rigor::test;
 
 BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_impacts)
 
-// A ball strikes the first of two that touch and do not separate. It rebounds from both together. From the first alone
-// it would come to rest, and leave them at half its speed. With v the impact speed and e its restitution,
+// A ball strikes the first of two that touch and do not separate. It rebounds from both together. Rebounding from the
+// first alone, it would come to rest, and leave them at half its speed. With v the impact speed and e its restitution,
 //   m v = m v' + 2 m u,   u - v' = e v.
 BOOST_AUTO_TEST_CASE(what_touches_without_rebound_is_struck_as_one) {
   const double v = 2;

@@ -90,8 +90,8 @@ BOOST_AUTO_TEST_CASE(what_has_too_much_goes_back_towards_what_has_less_until_it_
   BOOST_TEST(twice_energy_of(system, pose.columns(), still) == 0);
 }
 
-// Perfectly elastic, with friction. Whatever Newton's rule gives for the points together, the energy rises in no step
-// by more than position correction allows, a slop of 1e-3 m of the weight.
+// Perfectly elastic, with friction. Newton's rule may give any result for the points together. The energy rises in no
+// step by more than position correction allows, a slop of 1e-3 m of the weight.
 BOOST_AUTO_TEST_CASE(no_impact_of_a_jointed_pair_adds_energy) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     const Scene scene = falling_pair(seed);

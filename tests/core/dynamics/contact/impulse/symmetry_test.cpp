@@ -23,7 +23,7 @@ double farthest_apart(const Motion& x, const Motion& y) {
   return most;
 }
 
-// By how much a nanometre at the start changes the motion.
+// The change of the motion by a nanometre at the start.
 double change_by_a_nanometre(const Scene& scene, const Motion& motion, const std::string& integrator) {
   Scene other = scene;
   for (Body& body : other.bodies) {
@@ -36,9 +36,10 @@ void check_relations(std::uint32_t seed, const std::string& integrator) {
   const Scene scene = generated_contact_scene(seed);
   const Motion motion = motion_of(scene, kIdentity, kDt, kSteps, integrator);
   const double sensitivity = change_by_a_nanometre(scene, motion, integrator);
-  // A relation changes the start by some roundings of a metre, 1e-15 m, where the nanometre changes it by 1e-9 m. Where
-  // the motion amplifies the nanometre by less than 100, a thousand roundings of a metre are left. Where it amplifies
-  // more it is chaotic: 60 of 400 scenes; then rounding must do no more than ten times what the nanometre does.
+  // A relation changes the start by some roundings of a metre, 1e-15 m; the nanometre changes it by 1e-9 m. If the
+  // motion amplifies the nanometre by less than 100, the bound is a thousand roundings of a metre. If it amplifies
+  // more, the motion is chaotic (60 of 400 scenes), and rounding may have at most ten times the effect of the
+  // nanometre.
   const double most = sensitivity < 1e-7 ? 1e-11 : 10 * sensitivity;
   for (const Relation& relation : exact_relations()) {
     const double apart = farthest_apart(motion, motion_of(scene, relation, kDt, kSteps, integrator));
@@ -62,8 +63,8 @@ BOOST_AUTO_TEST_CASE(so_they_do_by_other_integrators) {
   }
 }
 
-// Nothing says which corner of a level box comes first. What one corner does before the other is left: the tolerance
-// of impacts (1e-3 of 4 g h = 0.05 m/s) over a second, 5e-5 m; 1e-6 m measured.
+// No rule says which corner of a level box comes first. The effect of one corner before the other remains: the
+// tolerance of impacts (1e-3 of 4 g h = 0.05 m/s) over a second, 5e-5 m; 1e-6 m measured.
 BOOST_AUTO_TEST_CASE(a_level_box_lands_as_its_mirror_image_does) {
   const Scene scene = on_floor({solid("box", Box{{0.3, 0.5, 0.2}}, {0.05, -0.02, 0.5})}, {0.3, 0.9});
   const Motion motion = motion_of(scene, kIdentity, kDt, kSteps);
