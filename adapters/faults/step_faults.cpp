@@ -16,6 +16,13 @@ std::function<void(Moment&)> gyroscopic(double times) {
   });
 }
 
+// The inertia in W is that of the orientation a step before.
+void hold_inertia_back(Body& body, double dt) {
+  const Vec3 w_B = body.orientation.conjugate() * body.angular_velocity;
+  const Mat3 back = matrix_of(rotation_by(-dt * w_B));
+  body.inertia = (back * body.inertia * back.transpose()).eval();
+}
+
 void fall_asleep(Body& body, double) {
   if (body.velocity.norm() > 0.05 || body.angular_velocity.norm() > 0.05) return;
   body.velocity.setZero(), body.angular_velocity.setZero();
@@ -52,6 +59,7 @@ std::vector<Fault> step_faults() {
       on_stepping("gyroscopic term dropped", gyroscopic(-1)),
       on_stepping("sign of the gyroscopic term", gyroscopic(-2)),
       on_stepping("gyroscopic term doubled", gyroscopic(1)),
+      on_stepping("inertia one step late", each_moving(hold_inertia_back)),
   };
   for (Fault& fault : faults_of_step_size()) all.push_back(std::move(fault));
   const std::vector<Fault> of_state = {

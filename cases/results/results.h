@@ -71,6 +71,7 @@ struct Cell {
   Stability stability;
   // From when on the run was stepped by less than its method, if it was: such a time is no test of the method.
   std::optional<ReducedOrder> reduced_order;
+  std::optional<double> sub_step;              // s: the step really taken, where the method divides its steps
   std::map<std::string, MetricValue> metrics;  // by name; empty if the cell did not get so far
   SchemeFindings scheme;
   SettingsInForce settings;

@@ -61,6 +61,7 @@ const std::map<std::string, ShownBy>& shown_by() {
       {"gyroscopic term dropped", {"tops/dzhanibekov-box", kTurn + kMomentum}},
       {"sign of the gyroscopic term", {"tops/dzhanibekov-box", kTurn + kMomentum}},
       {"gyroscopic term doubled", {"tops/dzhanibekov-box", kTurn + kMomentum}},
+      {"inertia one step late", {"tops/dzhanibekov-box", kTurn + kMomentum}},
       {"dt halved for every tenth step", {"ballistic/projectile", kPlace + "|" + kTurn}},
       {"one sub-step too many", {"ballistic/projectile", kPlace + "|" + kTurn}},
       {"every hundredth step left out", {"ballistic/free-fall", kPlace}},

@@ -15,9 +15,8 @@ struct EnergySeries {
   std::string not_applicable;           // why there is nothing to expect; empty if there is
 };
 
-// `stagger`: the velocities are first brought forward by that many steps, see synchronised.h; 0 takes them as they are
-// read. So they are, too, where forces push what contact brakes: the push alone, without the friction that all but
-// balances it, would bring them further from the positions' time than they were.
+// `stagger`: the steps by which the velocities are first brought forward, see synchronised.h. 0 takes them as they are
+// read.
 //
 // What is expected, the first that applies:
 //   nothing takes or gives energy                        what it was at the start
@@ -31,10 +30,9 @@ EnergySeries energy_series(const JudgedRun& run, double stagger);
 const std::vector<double>& energies_of(const JudgedRun& run, double stagger);
 std::vector<double> lowest_so_far(const std::vector<double>& energies);  // J, the sample itself included
 
-// J, at each sample: by how much the energy has risen above the lowest before, in both of its readings, whichever says
-// less. As read, a bounce seems to gain what lies between the velocity's time and the position's; brought forward by
-// the free acceleration, so does a body that comes to rest on another, which holds it. No real gain is missed by
-// either.
+// J, at each sample: the rise of the energy above the lowest before. The smaller of both readings counts. As read, a
+// bounce seems to gain the difference between the velocity's time and the position's. Brought forward, a chain of
+// impacts may seem to gain, for no change beside an impact is an acceleration. A real gain shows in both.
 std::vector<double> rises_of(const std::vector<double>& as_read, const std::vector<double>& synchronised);
 
 // Whether contact may take energy: an impact below restitution 1 does, and so does friction, even an infinite one when
