@@ -11,6 +11,7 @@
 #include "core/dynamics/integrators/joint_events.h"
 #include "core/dynamics/joints/singular_passages.h"
 #include "core/engine/clock.h"
+#include "core/engine/sub_step.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -19,7 +20,7 @@ namespace {
 constexpr const char* kVersion = "0.1.0";
 constexpr const char* kDefault = "dormand-prince";  // correct at any step
 
-class CoreWorld : public World, public MayReduceOrder {
+class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
  public:
   CoreWorld(const Scene& scene, const Integrator& integrator, const Settings& settings)
       : system_(scene),
@@ -84,6 +85,8 @@ class CoreWorld : public World, public MayReduceOrder {
   std::optional<ReducedOrder> reduced_order() const override {
     return contact_ ? contact_->reduced_order() : std::nullopt;
   }
+
+  std::optional<double> sub_step() const override { return contact_ ? contact_->sub_step() : std::nullopt; }
 
  private:
   // With the rule by which it was taken where none was named.

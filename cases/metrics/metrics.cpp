@@ -15,6 +15,7 @@ MetricRow ensemble_distance();
 MetricRow ensemble_p_value();
 MetricRow friction_anisotropy();
 MetricRow impact_time_error();
+MetricRow internal_energy_drift();
 MetricRow joint_gap();
 MetricRow joint_gap_rate();
 MetricRow joint_twist();
@@ -53,6 +54,7 @@ const std::vector<MetricRow>& metrics() {
       ensemble_p_value(),
       friction_anisotropy(),
       impact_time_error(),
+      internal_energy_drift(),
       joint_gap(),
       joint_gap_rate(),
       joint_twist(),

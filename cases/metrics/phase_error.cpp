@@ -1,9 +1,13 @@
 // The one shift in time of the whole truth that fits the run best: s minimises the misfit
 //   J(s) = mean over samples of Σ m |p - P(t - s)|² + φᵀ I φ,  φ = 2 vec(Q(t - s)⁻¹ q),
-// in which a metre and a radian have the weight that they have in the kinetic energy. s > 0: the run lags; s < 0: it
-// leads. The best of 33 shifts within half a period in both directions (a whole period equals none) brackets the root
-// of dJ/ds. The truth's samples, extrapolated at their own speed, select it. The truth itself is evaluated there and
-// beside it.
+// in which a metre and a radian weigh as they do in the kinetic energy. s > 0: the run lags; s < 0: it leads. The best
+// of 33 shifts within half a period either way (a whole one cannot be told from none) brackets the root of dJ/ds. The
+// truth's samples, continued at their own speed, tell which shift that is. The truth itself is asked there and beside
+// it.
+//
+// The mean leaves out the ends of the run: the samples for which a shift would ask for the truth before its start or
+// beyond its horizon. The search for the best of the 33 leaves out half a period at each end. The result leaves out no
+// more than the shift itself and one 32nd of a period.
 #include <fmt/format.h>
 
 #include <boost/math/tools/roots.hpp>
@@ -30,7 +34,22 @@ class Fit {
   Fit(const JudgedRun& run, std::size_t count) : run_(run), count_(count), shifted_(run.scene.bodies.size()) {
     find_period();
     widest_ = std::min(period_ / 2, end() / 4);
-    choose_samples();
+    leave_out(widest_);
+  }
+
+  // At most 500 instants, none nearer to an end than `margin` [s]: the same for all shifts up to it. Fewer of jointed
+  // bodies, whose truth takes up to a hundred times as long to answer: one number needs no more.
+  void leave_out(double margin) {
+    const std::size_t most = run_.scene.joints.empty() ? 500 : 40;
+    constexpr double kRounding = 1e-9;  // of a time
+    std::vector<std::size_t> inside;
+    for (std::size_t n = 0; n < count_; ++n) {
+      const double t = run_.trajectory.samples[n].time, slack = kRounding * end();
+      if (t >= margin - slack && t <= end() - margin + slack) inside.push_back(n);
+    }
+    const std::size_t every = 1 + inside.size() / most;
+    chosen_.clear();
+    for (std::size_t k = 0; k < inside.size(); k += every) chosen_.push_back(inside[k]);
   }
 
   bool is_static() const { return !(period_ > 0); }
@@ -115,19 +134,6 @@ class Fit {
     if (turns) period_ = moves ? std::min(period_, period(turned, spin)) : period(turned, spin);
   }
 
-  // At most 500 instants at which the truth can be asked for every shift: the same for all. Fewer of jointed bodies,
-  // whose truth takes up to a hundred times as long to answer: one number needs no more.
-  void choose_samples() {
-    const std::size_t most = run_.scene.joints.empty() ? 500 : 40;
-    std::vector<std::size_t> inside;
-    for (std::size_t n = 0; n < count_; ++n) {
-      const double t = run_.trajectory.samples[n].time;
-      if (t >= widest_ && t <= end() - widest_) inside.push_back(n);
-    }
-    const std::size_t every = 1 + inside.size() / most;
-    for (std::size_t k = 0; k < inside.size(); k += every) chosen_.push_back(inside[k]);
-  }
-
   const JudgedRun& run_;
   std::size_t count_;  // of the samples compared
   BodyTable shifted_;
@@ -152,10 +158,11 @@ double refined(Fit& fit, std::map<int, Misfit>& tried, int best, double step, do
   return 0.5 * (root.first + root.second);
 }
 
-// Descends from a shift to the first that is better than both neighbours; adds evaluated shifts to `tried`.
-int least_beside(Fit& fit, double step, int best, std::map<int, Misfit>& tried) {
+// From a shift down to the first that is better than both beside it, no further than `most` either way; into `tried`
+// those that were asked for.
+int least_beside(Fit& fit, double step, int best, int most, std::map<int, Misfit>& tried) {
   const auto value = [&](int k) {
-    if (std::abs(k) > kEitherWay) return std::numeric_limits<double>::infinity();
+    if (std::abs(k) > most) return std::numeric_limits<double>::infinity();
     if (!tried.contains(k)) tried[k] = fit.at(k * step);
     return tried[k].value;
   };
@@ -163,6 +170,16 @@ int least_beside(Fit& fit, double step, int best, std::map<int, Misfit>& tried) 
     const int better = value(best - 1) < value(best + 1) ? best - 1 : best + 1;
     if (!(value(better) < value(best))) return best;
     best = better;
+  }
+}
+
+// The best shift over all samples that it and both beside it can be compared at. As it moves away from none, fewer can.
+int best_over_most_samples(Fit& fit, double step, int best, std::map<int, Misfit>& tried) {
+  for (int most = std::min(std::abs(best) + 1, kEitherWay);; ++most) {
+    fit.leave_out(most * step);
+    tried.clear();
+    best = least_beside(fit, step, best, most, tried);
+    if (std::abs(best) < most || most == kEitherWay) return best;
   }
 }
 
@@ -183,7 +200,7 @@ MetricResult measure_phase_error(const JudgedRun& run) {
   }
   if (!std::isfinite(least)) return {{}, "the run is too far from the truth"};
   std::map<int, Misfit> tried;
-  best = least_beside(fit, step, best, tried);
+  best = best_over_most_samples(fit, step, best, tried);
   if (std::abs(best) == kEitherWay) {
     return {{}, fmt::format("the best shift is {:.3g} s or more, where the search ends", fit.widest())};
   }
@@ -197,8 +214,12 @@ MetricResult measure_phase_error(const JudgedRun& run) {
 }  // namespace
 
 MetricRow phase_error() {
-  return {"phase_error",       "s",   "the shift in time that fits the run best: it lags (+) or leads (-) the truth",
-          measure_phase_error, false, true};
+  return {"phase_error",
+          "s",
+          "the shift in time that fits the run best, but for the ends: it lags (+) or leads (-) the truth",
+          measure_phase_error,
+          false,
+          true};
 }
 
 }  // namespace rigor

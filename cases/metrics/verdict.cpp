@@ -10,9 +10,11 @@
 
 #include "cases/metrics/measures/built_at_rest.h"
 #include "cases/metrics/measures/energy_series.h"
+#include "cases/metrics/measures/internal_energy.h"
 #include "cases/metrics/measures/measuring.h"
 #include "cases/metrics/measures/overlaps.h"
 #include "cases/metrics/measures/shape_gap.h"
+#include "cases/metrics/measures/tunnelling.h"
 #include "core/base/error.h"
 #include "core/scene/contact_laws.h"
 
@@ -23,8 +25,8 @@ namespace {
 // readings of the energy, whose only noise is rounding. Half of that is reported, which two digits of a verdict show.
 constexpr double kMoved = 0.01, kRisen = 0.005;
 
-constexpr Verdict kVerdicts[] = {Verdict::stable,  Verdict::drifting,  Verdict::overlapping,
-                                 Verdict::gaining, Verdict::collapsed, Verdict::blown_up};
+constexpr Verdict kVerdicts[] = {Verdict::stable,    Verdict::drifting,  Verdict::overlapping, Verdict::gaining,
+                                 Verdict::collapsed, Verdict::tunnelled, Verdict::blown_up};
 
 double mean_of(const std::vector<double>& values, std::size_t first, std::size_t count) {
   return std::accumulate(values.begin() + static_cast<long>(first), values.begin() + static_cast<long>(first + count),
@@ -45,7 +47,7 @@ std::vector<double> means_of_tenths(const std::vector<double>& values) {
 
 // Drifting or not, where the energy should be something. Means of tenths, because a bounded oscillation of the energy
 // is no drift.
-Stability drift(const JudgedRun& run, const EnergySeries& energies) {
+Stability drift(const JudgedRun& run, const EnergySeries& energies, const char* which = "energy") {
   std::vector<double> astray = energies.found;
   for (std::size_t n = 0; n < astray.size(); ++n) astray[n] -= energies.expected[n];
   const std::size_t tenth = tenth_of(astray);
@@ -53,9 +55,9 @@ Stability drift(const JudgedRun& run, const EnergySeries& energies) {
                time = run.trajectory.samples[astray.size() - 1].time;
   const Verdict verdict = std::abs(share) > kMoved ? Verdict::drifting : Verdict::stable;
   return {verdict, 0, kWorld,
-          fmt::format("from the first to the last tenth of {:.4g} s the energy moved by {:+.3g} % of the {:.3g} J in "
-                      "play from its expected value",
-                      time, 100 * share, energies.scale),
+          fmt::format("from the first to the last tenth of {:.4g} s the {} moved by {:+.3g} % of the {:.3g} J in "
+                      "play from where it should be",
+                      time, which, 100 * share, energies.scale),
           share};
 }
 
@@ -79,12 +81,14 @@ Stability gain(const JudgedRun& run, double scale) {
           share};
 }
 
-// m, of overlap that a pair may have: a body that moves goes no deeper into one that does not than it is thick; of two
-// that move none has its middle inside the other.
+// m, of overlap that a pair may have: with a fixed body the thickness of the thinner of the two; of two that move, half
+// of that, so that none has its middle inside the other.
 double deepest_allowed(const Body& a, const Body& b) {
-  if (a.fixed) return 2 * inradius(*b.shape);
-  return b.fixed ? 2 * inradius(*a.shape) : std::min(inradius(*a.shape), inradius(*b.shape));
+  const double thinner = std::min(inradius(*a.shape), inradius(*b.shape));
+  return a.fixed || b.fixed ? 2 * thinner : thinner;
 }
+
+int mover_of(const Scene& scene, int a, int b) { return scene.bodies[a].fixed ? b : a; }
 
 std::optional<Stability> overlapping(const JudgedRun& run) {
   const Scene& scene = run.scene;
@@ -97,7 +101,7 @@ std::optional<Stability> overlapping(const JudgedRun& run) {
       const double share = found.depth / deepest_allowed(scene.bodies[found.a], scene.bodies[found.b]);
       if (!(share > most)) return;
       most = share;
-      const int mover = scene.bodies[found.a].fixed ? found.b : found.a, other = mover == found.a ? found.b : found.a;
+      const int mover = mover_of(scene, found.a, found.b), other = mover == found.a ? found.b : found.a;
       worst = {Verdict::overlapping, sample.time, mover,
                fmt::format("at {:.4g} s '{}' and '{}' overlap by {:.3g} m", sample.time, scene.bodies[mover].name,
                            scene.bodies[other].name, found.depth),
@@ -105,6 +109,22 @@ std::optional<Stability> overlapping(const JudgedRun& run) {
     });
   }
   return worst;
+}
+
+std::optional<Stability> tunnelled(const JudgedRun& run) {
+  const Scene& scene = run.scene;
+  Tunnelling tunnelling(scene);
+  const auto& samples = run.trajectory.samples;
+  for (std::size_t n = 0; tunnelling.is_possible() && n < samples.size(); ++n) {
+    const bool is_step = n > 0 && samples[n].time - samples[n - 1].time < 1.5 * run.trajectory.dt;
+    const auto passage = tunnelling.go_on(samples[n].time, samples[n].bodies.columns(), is_step);
+    if (!passage) continue;
+    const int mover = mover_of(scene, passage->a, passage->b), other = mover == passage->a ? passage->b : passage->a;
+    return Stability{Verdict::tunnelled, passage->time, mover,
+                     fmt::format("by {:.4g} s '{}' has passed through '{}'", passage->time, scene.bodies[mover].name,
+                                 scene.bodies[other].name)};
+  }
+  return {};
 }
 
 std::optional<Stability> collapsed(const JudgedRun& run) {
@@ -140,6 +160,8 @@ std::string word_of(Verdict verdict) {
       return "gaining";
     case Verdict::collapsed:
       return "collapsed";
+    case Verdict::tunnelled:
+      return "tunnelled";
     case Verdict::blown_up:
       return "blown up";
   }
@@ -162,6 +184,7 @@ std::string phrase_of(const Stability& stability) {
     case Verdict::overlapping:
       return fmt::format("{} {:.2g} m", word, stability.amount);
     case Verdict::collapsed:
+    case Verdict::tunnelled:
     case Verdict::blown_up:
       return fmt::format("{} {:.2f} s", word, stability.time);
     default:
@@ -180,8 +203,11 @@ Stability verdict_on(const JudgedRun& run) {
     if (!is_driven(run.scene) && (energies.only_gains_count || anything_can_touch(run.scene)))
       found.push_back(gain(run, energies.scale));
   }
+  const EnergySeries internal = internal_energy_series(run, run.leapfrog_stagger);
+  if (internal.not_applicable.empty()) found.push_back(drift(run, internal, "energy about the centre of mass"));
   if (const auto overlap = overlapping(run)) found.push_back(*overlap);
   if (const auto fall = collapsed(run)) found.push_back(*fall);
+  if (const auto passage = tunnelled(run)) found.push_back(*passage);
   return worst_of(found);
 }
 

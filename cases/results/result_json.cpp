@@ -115,6 +115,8 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
                       number_of(verdict.at("amount"))};
   }
   cell.reduced_order = reduced_order_from(json.at("reduced_order"));
+  cell.sub_step.reset();
+  if (json.contains("sub_step") && !json.at("sub_step").is_null()) cell.sub_step = number_of(json.at("sub_step"));
   cell.metrics = metrics_from(json.at("metrics"), scene);
   cell.scheme = scheme_from(json.at("by_scheme"), scene);
   cell.settings.clear();
@@ -169,6 +171,7 @@ Json json_of(const Cell& cell, const Scene& scene) {
                        {"phrase", phrase_of(stability)}};
   }
   json["reduced_order"] = json_of(cell.reduced_order);
+  json["sub_step"] = cell.sub_step ? Json(*cell.sub_step) : Json(nullptr);
   json["metrics"] = json_of(cell.metrics, scene);
   json["by_scheme"] = json_of(cell.scheme, scene);
   json["settings"] = Json::object();

@@ -71,6 +71,7 @@ struct Cell {
   Stability stability;
   // The time from which the run used less than its method, if any. That part does not test the method.
   std::optional<ReducedOrder> reduced_order;
+  std::optional<double> sub_step;              // s: the step really taken, where the method divides its steps
   std::map<std::string, MetricValue> metrics;  // by name; empty if the cell did not get so far
   SchemeFindings scheme;
   SettingsInForce settings;

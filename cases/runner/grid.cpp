@@ -13,6 +13,7 @@
 #include "cases/runner/build_identity.h"
 #include "cases/runner/case_process.h"
 #include "cases/runner/shards/shard.h"
+#include "cases/runner/stable_step.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -273,6 +274,7 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   executor.begin(plan_of_all(grid, engines, options), options.journals);
   executor.run(jobs, work, on_message, on_end);
   all_jobs.add_spreads(grid, engines, options);
+  std::for_each(grid.cases.begin(), grid.cases.end(), hold_to_cells);
   grid.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

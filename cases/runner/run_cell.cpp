@@ -101,6 +101,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   if (!truth) check_start(run, scene);
   cell.settings = run.settings;
   cell.reduced_order = run.reduced_order;
+  cell.sub_step = run.sub_step;
   cell.cpu_seconds = is_timed ? timed_again(engine, run_name.settings, scene, run) : run.cpu_seconds;
   std::optional<TruthSamples> samples;
   if (truth) {

@@ -13,6 +13,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/engine/remote.h"
 #include "core/engine/spared_reactions.h"
+#include "core/engine/sub_step.h"
 
 namespace rigor {
 namespace {
@@ -143,6 +144,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     if (const auto body = body_not_finite(now.bodies())) {
       run.not_finite = NotFinite{now.time, *body};
       run.reduced_order = reduced_order_of(*world);
+      run.sub_step = sub_step_of(*world);
       return run;
     }
     check_orientations(now.bodies(), scene, now.time);
@@ -152,6 +154,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     if (n == steps) {
       run.settings = world->settings_in_force();  // some worlds report settings that depend on the run
       run.reduced_order = reduced_order_of(*world);
+      run.sub_step = sub_step_of(*world);
       return run;
     }
     report_reactions(*world, is_reported(n + 1));

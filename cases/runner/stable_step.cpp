@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cases/metrics/measures/energy_series.h"
+#include "cases/metrics/measures/tunnelling.h"
 #include "cases/metrics/stability.h"
 #include "core/dynamics/model/energy.h"
 #include "core/engine/remote.h"
@@ -171,6 +172,8 @@ class Search {
     world->read(now);
     const double start = energy(scene_, now.bodies());
     const bool may_lose = contact_may_lose(scene_);
+    Tunnelling tunnelling(scene_);
+    tunnelling.go_on(now.time, now.bodies(), true);
     const long whole = steps_in(horizon_, dt),
                steps = static_cast<double>(whole) * dt < horizon_ * (1 - 1e-9) ? whole + 1 : whole;
     expect_steps(*world, dt, steps, 1);
@@ -180,6 +183,7 @@ class Search {
       world->read(now);
       if (!world->solver_warning().empty()) return false;
       if (!is_bounded(energy(scene_, now.bodies()) - start, energy_in_play_, may_lose)) return false;
+      if (tunnelling.go_on(now.time, now.bodies(), true)) return false;
     }
     return true;
   }
@@ -201,6 +205,32 @@ class Search {
 StableStep largest_stable_dt(const Engine& engine, const Settings& settings, const Scene& scene, double horizon,
                              double energy_in_play) {
   return Search(engine, settings, scene, horizon, energy_in_play).result();
+}
+
+void hold_to_cells(CaseResult& result) {
+  const auto fails = [](const Cell& cell) {
+    return cell.status == Status::diverged || cell.status == Status::invalid ||
+           cell.stability.verdict == Verdict::blown_up || cell.stability.verdict == Verdict::tunnelled;
+  };
+  for (std::size_t run = 0; run < result.stable_steps.size(); ++run) {
+    StableStepResult& stable = result.stable_steps[run];
+    if (stable.status != Status::pass) continue;
+    const Cell *worst = nullptr, *held = nullptr;
+    for (const Cell& cell : result.cells) {
+      if (cell.run == run && fails(cell) && (!worst || cell.dt.seconds < worst->dt.seconds)) worst = &cell;
+    }
+    const double known = stable.step.dt * (stable.step.is_floor ? 1 - 1e-9 : 1);  // a floor itself does not hold
+    if (!worst || known < worst->dt.seconds) continue;
+    for (const Cell& cell : result.cells) {
+      const bool is_below = cell.run == run && cell.dt.seconds < worst->dt.seconds && !cell.metrics.empty();
+      if (is_below && !fails(cell) && (!held || cell.dt.seconds > held->dt.seconds)) held = &cell;
+    }
+    const std::string why = fmt::format("the case's own run fails at {} s: ", worst->dt.text);
+    stable.step = held ? StableStep{held->dt.seconds, true, false,
+                                    why + fmt::format("not searched between that and {} s", held->dt.text)}
+                       : StableStep{worst->dt.seconds, false, true, why + "not searched below"};
+    stable.reason = stable.step.cut;
+  }
 }
 
 }  // namespace rigor

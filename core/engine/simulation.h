@@ -24,7 +24,8 @@ struct Simulation {
   std::string solver_warning;      // the first one of the world, with its time; empty if none
   double solver_warning_time = 0;  // s
   std::optional<ReducedOrder> reduced_order;
-  double cpu_seconds = 0;  // of the steps alone, without recording; not a number if nobody timed them
+  std::optional<double> sub_step;  // s, see MayDivideSteps
+  double cpu_seconds = 0;          // of the steps alone, without recording; not a number if nobody timed them
   long steps_per_sample = 1;
 };
 

@@ -51,11 +51,11 @@ const std::vector<double>& energies_of(const JudgedRun& run, double stagger) {
   const auto [known, is_new] = run.energies.by_stagger.try_emplace(stagger);
   std::vector<double>& found = known->second;
   if (!is_new) return found;
-  Synchroniser synchroniser(run.scene, run.trajectory.dt, stagger);
+  const Synchroniser synchroniser(run.scene, run.trajectory, stagger);
   BodyTable bodies;
-  for (const Sample& sample : run.trajectory.samples) {
-    bodies = sample.bodies.columns();
-    synchroniser.apply(sample.time, bodies.columns());
+  for (std::size_t n = 0; n < run.trajectory.samples.size(); ++n) {
+    bodies = run.trajectory.samples[n].bodies.columns();
+    synchroniser.apply(n, bodies.columns());
     found.push_back(energy(run.scene, bodies.columns()));
   }
   return found;
@@ -103,8 +103,7 @@ EnergySeries energy_series(const JudgedRun& run, double stagger) {
   }
   series.scale = energy_scale(run);
   const Exchange exchange = exchange_of(run.scene);
-  const bool is_stagger_known = exchange != Exchange::driving || !contact_may_lose(run.scene);
-  series.found = energies_of(run, is_stagger_known ? stagger : 0);
+  series.found = energies_of(run, stagger);
   const auto truth = truths_energies(run, samples_within(run, kTruthNeededPosition));
   const bool conserved = exchange == Exchange::none || (exchange == Exchange::contact && stays(truth, series.scale));
   if (conserved) {

@@ -15,9 +15,8 @@ struct EnergySeries {
   std::string not_applicable;           // why there is nothing to expect; empty if there is
 };
 
-// `stagger`: the velocities are first advanced by that many steps, see synchronised.h; 0 uses them unchanged. They also
-// stay unchanged where forces push bodies that contact brakes. The push alone, without the friction that almost
-// balances it, would move them further from the positions' time.
+// `stagger`: the steps by which the velocities are first brought forward, see synchronised.h. 0 takes them as they are
+// read.
 //
 // What is expected, the first that applies:
 //   nothing takes or gives energy                        what it was at the start
@@ -32,10 +31,9 @@ EnergySeries energy_series(const JudgedRun& run, double stagger);
 const std::vector<double>& energies_of(const JudgedRun& run, double stagger);
 std::vector<double> lowest_so_far(const std::vector<double>& energies);  // J, the sample itself included
 
-// J, at each sample: the rise of the energy above its lowest earlier value, in both readings; the smaller one counts.
-// In the raw reading a bounce seems to gain energy by the time between velocity and position. In the advanced reading a
-// body that comes to rest on another does so, because free acceleration ignores the support. A real gain appears in
-// both.
+// J, at each sample: the rise of the energy above the lowest before. The smaller of both readings counts. As read, a
+// bounce seems to gain the difference between the velocity's time and the position's. Brought forward, a chain of
+// impacts may seem to gain, for no change beside an impact is an acceleration. A real gain shows in both.
 std::vector<double> rises_of(const std::vector<double>& as_read, const std::vector<double>& synchronised);
 
 // Whether contact may remove energy: an impact with restitution below 1, or friction, even an infinite one when a body

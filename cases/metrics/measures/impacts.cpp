@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "cases/metrics/measures/shape_gap.h"
@@ -27,24 +28,69 @@ class Flight {
     constexpr double kStep = 1e-6;   // s; of a gap of metres it leaves nine digits of a speed
     return (gap(after + kStep) - gap(after - kStep)) / (2 * kStep);
   }
-  // When they touch, within `reach` [s] of the sample, forwards or backwards; the flight must be apart at the sample.
+  // The first touch within `reach` [s] of the sample, forwards or backwards, if there is one. A flight that only passes
+  // near the other body has none. The flight must be apart at the sample.
   std::optional<double> touch(double reach) const {
-    double apart = 0, overlapping = reach;
-    if (gap(reach) > 0) return {};
+    const double step = reach / kPieces;
+    double gap_before = gap(0), gap_here = gap(step);
+    for (int k = 1; k <= kPieces; ++k) {
+      if (!(gap_here > 0)) return first_root((k - 1) * step, k * step);
+      const double gap_next = k < kPieces ? gap((k + 1) * step) : kFarAway;
+      if (gap_here <= gap_before && gap_here <= gap_next && k < kPieces) {
+        const double nearest = nearest_between((k - 1) * step, (k + 1) * step);
+        if (!(gap(nearest) > 0)) return first_root((k - 1) * step, nearest);
+      }
+      gap_before = gap_here, gap_here = gap_next;
+    }
+    return {};
+  }
+  // m/s, of the gap at the touch after `after` [s], had the bodies the velocities of `other` there.
+  double rate_with(const Flight& other, double after) const {
+    Flight changed = *this;
+    changed.a_ = state(a_, pair_.first, after), changed.b_ = state(b_, pair_.second, after);
+    changed.a_.velocity = other.a_.velocity, changed.a_.angular_velocity = other.a_.angular_velocity;
+    changed.b_.velocity = other.b_.velocity, changed.b_.angular_velocity = other.b_.angular_velocity;
+    return changed.rate(0);
+  }
+
+ private:
+  const Body& body(int i) const { return scene_->bodies[i]; }
+  static constexpr int kPieces = 48;  // of a flight in which touches are looked for
+  static constexpr double kFarAway = std::numeric_limits<double>::infinity();
+
+  BodyState state(const BodyState& from, int i, double after) const {
+    BodyState moved = from;
+    moved.orientation.normalize();
+    if (body(i).fixed) return moved;
+    moved.position += after * from.velocity + 0.5 * after * after * scene_->gravity;
+    moved.velocity += after * scene_->gravity;
+    moved.orientation = rotation_by(after * from.angular_velocity) * moved.orientation;
+    return moved;
+  }
+  BodyPose pose(const BodyState& from, int i, double after) const {
+    const BodyState moved = state(from, i, after);
+    return {moved.position, moved.orientation};
+  }
+  // Apart at the first instant, and not at the second. Returns an instant at which they are apart.
+  double first_root(double apart, double overlapping) const {
     for (int round = 0; round < 60; ++round) {
       const double middle = 0.5 * (apart + overlapping);
       (gap(middle) > 0 ? apart : overlapping) = middle;
     }
     return apart;
   }
-
- private:
-  const Body& body(int i) const { return scene_->bodies[i]; }
-  BodyPose pose(const BodyState& state, int i, double after) const {
-    const Quat q = state.orientation.normalized();
-    if (body(i).fixed) return {state.position, q};
-    return {state.position + after * state.velocity + 0.5 * after * after * scene_->gravity,
-            rotation_by(after * state.angular_velocity) * q};
+  // The instant of the least gap, by golden sections.
+  double nearest_between(double from, double to) const {
+    constexpr double kGolden = 0.6180339887498949;
+    double low = to - kGolden * (to - from), high = from + kGolden * (to - from);
+    for (int round = 0; round < 40; ++round) {
+      if (gap(low) < gap(high)) {
+        to = high, high = low, low = to - kGolden * (to - from);
+      } else {
+        from = low, low = high, high = from + kGolden * (to - from);
+      }
+    }
+    return 0.5 * (from + to);
   }
 
   const Scene* scene_;
@@ -63,14 +109,14 @@ struct Watch {
 class Watcher {
  public:
   Watcher(const Scene& scene, const Trajectory& trajectory, double stagger)
-      : scene_(scene), trajectory_(trajectory), synchroniser_(scene, trajectory.dt, stagger) {
+      : scene_(scene), trajectory_(trajectory), synchroniser_(scene, trajectory, stagger) {
     const auto& samples = trajectory.samples;
     spacing_ = samples.size() > 1 ? samples[1].time - samples[0].time : trajectory.dt;
     slowest_ = 2 * scene.gravity.norm() * spacing_;
   }
 
   std::map<Pair, std::vector<ImpactSpeeds>> impacts() {
-    for (const Sample& sample : trajectory_.samples) look_at(sample);
+    for (std::size_t n = 0; n < trajectory_.samples.size(); ++n) look_at(n);
     for (auto& [pair, watch] : watched_) {
       if (watch.hit) conclude(pair, watch, {}, trajectory_.samples.back().time);
     }
@@ -83,9 +129,10 @@ class Watcher {
   }
 
  private:
-  void look_at(const Sample& sample) {
+  void look_at(std::size_t n) {
+    const Sample& sample = trajectory_.samples[n];
     bodies_ = sample.bodies.columns();
-    synchroniser_.apply(sample.time, bodies_.columns());
+    synchroniser_.apply(n, bodies_.columns());
     std::vector<std::pair<Pair, double>> near;
     std::map<int, int> neighbours;  // of each body
     for_each_near_pair(scene_, bodies_.columns(), reach(), [&](int a, int b, double gap) {
@@ -130,15 +177,27 @@ class Watcher {
 
   // `leaving`: the first flight apart again; none if they stay together until they approach anew.
   void conclude(const Pair& pair, Watch& watch, const std::optional<Flight>& leaving, double time) {
-    const double range = 3 * spacing_;  // an impact is seen a step late, and left a step after that
-    const double in = watch.approaching->touch(range).value_or(0);
-    ImpactSpeeds impact{watch.since + in, -watch.approaching->rate(in), 0};
-    if (leaving) {
-      const double out = leaving->touch(-range).value_or(0);
-      impact.time = time + out, impact.after = leaving->rate(out);
+    if (watch.is_alone) {
+      if (const auto impact = impact_between(*watch.approaching, watch.since, leaving, time))
+        found_[pair].push_back(*impact);
     }
-    if (watch.is_alone) found_[pair].push_back(impact);
     watch = {};
+  }
+
+  // None where the bodies only pass each other: the flight does not touch, or goes on as it was. An impact of any
+  // restitution takes all of the speed of approach at least, and half of that tells it from none.
+  std::optional<ImpactSpeeds> impact_between(const Flight& approaching, double since,
+                                             const std::optional<Flight>& leaving, double time) const {
+    const double range = 3 * spacing_;  // an impact is seen a step late, and left a step after that
+    const auto in = approaching.touch(range);
+    if (!in) return {};
+    ImpactSpeeds impact{since + *in, -approaching.rate(*in), 0};
+    if (!leaving) return impact;
+    if (approaching.rate_with(*leaving, *in) < -0.5 * impact.before) return {};
+    const auto out = leaving->touch(-range);
+    impact.time = out ? time + *out : impact.time;
+    impact.after = out ? leaving->rate(*out) : std::max(0.0, leaving->rate(0));
+    return impact;
   }
 
   bool is_round(int body) const {

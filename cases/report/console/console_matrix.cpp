@@ -154,13 +154,10 @@ std::string console_matrix(const Results& results) {
                           "where there is no truth; in brackets, of a truth that the run's own code makes.",
                           headline_dt(results).text),
               0) +
-      "\n" +
-      wrapped(
-          "✓ stable  ≈ drifting  ∩ overlapping  ↑ gaining energy  ↓ collapsed  ✕ blown up at that time, or gate "
-          "failed  ◆ known deviation  ◇ unexpected pass  – unsupported  ◐ stable, in part at a lower order  "
-          "! invalid, crashed or out of time",
-          0) +
-      "\n" + wrapped("position error in sizes of the case: ░ from 1e-3  ▒ 1e-2  ▓ 1e-1  █ 1", 0) + "\n";
+      "\n" + "✓ stable  ≈ drifting  ∩ overlapping  ↑ gaining energy  ↓ collapsed  » tunnelled\n" +
+      "✕ blown up at that time, or gate failed  ◆ known deviation  ◇ unexpected pass  – unsupported\n"
+      "◐ stable, in part at a lower order  ! invalid, crashed or out of time\n" +
+      "position error in sizes of the case: ░ from 1e-3  ▒ 1e-2  ▓ 1e-1  █ 1\n";
   for (std::size_t first = 0; first < runs.size(); first += columns) {
     const auto begin = runs.begin() + static_cast<long>(first),
                end = runs.begin() + static_cast<long>(std::min(first + columns, runs.size()));

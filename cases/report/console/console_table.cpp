@@ -38,6 +38,13 @@ std::string percent_text(const Cell& cell, const std::string& name) {
   return fmt::format("{}{}", percent > 0 ? "+" : "", rounded(percent));
 }
 
+// "1/960" where that is what it is.
+std::string step_text(double seconds) {
+  const double whole = std::round(1 / seconds);
+  const bool is_fraction = std::abs(whole * seconds - 1) < 1e-9;
+  return is_fraction ? fmt::format("1/{:.0f}", whole) : fmt::format("{:.3g}", seconds);
+}
+
 std::string stable_text(const StableStepResult& stable) {
   if (stable.status != Status::pass) return stable.status == Status::unsupported ? kNoValue : word_of(stable.status);
   return fmt::format("{}{}", stable.step.is_cap ? ">=" : stable.step.is_floor ? "<" : "", rounded(stable.step.dt));
@@ -48,7 +55,8 @@ std::string verdict_text(const Cell& cell, const Scene& scene) {
     return fmt::format("blown up at {:.2f} s: {}", cell.stability.time, scene.body_name(cell.stability.body));
   }
   const std::string word = cell.status == Status::pass ? phrase_of(cell.stability) : word_of(cell.status);
-  return cell.reduced_order ? word + " ◐" : word;  // a warning below says from when on
+  // Warnings below the table explain both signs.
+  return word + (cell.reduced_order ? " ◐" : "") + (cell.sub_step ? " ÷" : "");
 }
 
 // Rows of six numbers behind a name need this width. Below it a name gets a line of its own.
@@ -225,7 +233,13 @@ std::string truth_sentence(const CaseResult& result) {
 std::vector<std::string> cell_warnings(const Results& results, const CaseResult& result, const StepSize& dt) {
   std::vector<std::string> warnings;
   for (const Cell& cell : result.cells) {
-    if (!cell.reduced_order || cell.dt != dt) continue;
+    if (cell.dt != dt) continue;
+    if (cell.sub_step) {
+      warnings.push_back(
+          fmt::format("{} (÷) takes sub-steps of {} s. Its verdict and its largest dt hold for sub-steps",
+                      results.runs[cell.run].text, step_text(*cell.sub_step)));
+    }
+    if (!cell.reduced_order) continue;
     warnings.push_back(fmt::format("{} (◐) is from {:.4g} s on stepped {}", results.runs[cell.run].text,
                                    cell.reduced_order->from, cell.reduced_order->how));
   }

@@ -19,11 +19,12 @@ constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 struct Kind {
   const char *word, *colour;
 };
-// The results of a cell, from best to worst.
-constexpr Kind kKinds[] = {{"stable", "#3b76c4"},      {"drifting", "#9cc3ea"},  {"overlapping", "#d9c84a"},
-                           {"gaining", "#f0a13a"},     {"collapsed", "#b5651d"}, {"blown up", "#b3261e"},
-                           {"unsupported", "#d9d9d9"}, {"invalid", "#8a8a8a"},   {"broke off", "#111111"}};
-constexpr unsigned char kUnsupported = 6, kInvalid = 7, kBrokeOff = 8;
+// What a cell came to, from the best to the worst.
+constexpr Kind kKinds[] = {{"stable", "#3b76c4"},   {"drifting", "#9cc3ea"},    {"overlapping", "#d9c84a"},
+                           {"gaining", "#f0a13a"},  {"collapsed", "#b5651d"},   {"tunnelled", "#7b3fa0"},
+                           {"blown up", "#b3261e"}, {"unsupported", "#d9d9d9"}, {"invalid", "#8a8a8a"},
+                           {"broke off", "#111111"}};
+constexpr unsigned char kBlownUp = 6, kUnsupported = 7, kInvalid = 8, kBrokeOff = 9;
 
 unsigned char kind_of(const SweepRow& row) {
   if (row.status == Status::unsupported) return kUnsupported;
@@ -135,7 +136,7 @@ SweepPage::Range SweepPage::range_of(std::size_t of_case, std::size_t error) con
   Range range{std::numeric_limits<double>::infinity(), 0};
   for (const Point& point : points_) {
     const double value = std::abs(point.errors[error]);
-    if (point.of_case != of_case || !(value > 0) || !std::isfinite(value) || point.kind >= 5) continue;
+    if (point.of_case != of_case || !(value > 0) || !std::isfinite(value) || point.kind >= kBlownUp) continue;
     range.least = std::min(range.least, value), range.most = std::max(range.most, value);
   }
   return range.most > 0 ? range : Range{1, 1};
@@ -202,11 +203,11 @@ std::string SweepPage::map(const Points& points, std::size_t error, const Range*
   std::string text = frame(x, keys_[y].name) + ticks(y, false);
   for (const Point* point : points) {
     const double value = std::abs(point->errors[error]);
-    const bool has_shade = range && point->kind < 5 && std::isfinite(value);
-    const std::string colour = !range             ? kKinds[point->kind].colour
-                               : has_shade        ? shade(range->share(std::max(value, range->least)))
-                               : point->kind == 5 ? kKinds[5].colour
-                                                  : kKinds[kUnsupported].colour;
+    const bool has_shade = range && point->kind < kBlownUp && std::isfinite(value);
+    const std::string colour = !range                    ? kKinds[point->kind].colour
+                               : has_shade               ? shade(range->share(std::max(value, range->least)))
+                               : point->kind == kBlownUp ? kKinds[kBlownUp].colour
+                                                         : kKinds[kUnsupported].colour;
     // A little wider than its place, or the paper shines through between two.
     text += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\">{}</rect>",
                         kLeft + point->at[x] * width, kTop + kHeight - (point->at[y] + 1) * height, width + 0.3,
@@ -222,13 +223,13 @@ std::string SweepPage::lines(std::size_t of_case, std::size_t error, const Range
     bool is_begun = false;
     for (const Point* point : points_of(of_case, run)) {
       const double value = std::abs(point->errors[error]), x = kLeft + share_of(0, *point) * kWidth;
-      const bool is_there = point->kind < 5 && std::isfinite(value);
+      const bool is_there = point->kind < kBlownUp && std::isfinite(value);
       const double y = kTop + (1 - (is_there ? range.share(std::max(value, range.least)) : 1)) * kHeight;
       if (is_there) path += fmt::format("{}{:.1f} {:.1f}", is_begun ? " L" : "M", x, y);
       is_begun = is_there;
-      if (is_there || point->kind == 5)
+      if (is_there || point->kind == kBlownUp)
         marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\">{}</circle>", x, y,
-                             is_there ? colour_of_run(run) : kKinds[5].colour, hint(*point, error));
+                             is_there ? colour_of_run(run) : kKinds[kBlownUp].colour, hint(*point, error));
     }
     text += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>", path, colour_of_run(run)) +
             marks;
@@ -243,8 +244,8 @@ std::string SweepPage::scatter(const Points& points, std::size_t key, std::size_
   for (std::size_t i = 0; i < points.size(); i += every) {
     const Point& point = *points[i];
     const double value = std::abs(point.errors[error]);
-    if (point.kind > 5) continue;
-    const double up = point.kind == 5 || !std::isfinite(value) ? 1 : range.share(std::max(value, range.least));
+    if (point.kind > kBlownUp) continue;
+    const double up = point.kind == kBlownUp || !std::isfinite(value) ? 1 : range.share(std::max(value, range.least));
     text += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\" fill=\"{}\" fill-opacity=\"0.75\">{}</circle>",
                         kLeft + share_of(key, point) * kWidth, kTop + (1 - up) * kHeight, kKinds[point.kind].colour,
                         hint(point, error));

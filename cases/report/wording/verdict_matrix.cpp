@@ -57,6 +57,8 @@ std::string sign_of(Verdict verdict) {
       return "↑";
     case Verdict::collapsed:
       return "↓";
+    case Verdict::tunnelled:
+      return "»";
     case Verdict::blown_up:
       return "✕";
   }

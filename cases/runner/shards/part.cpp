@@ -10,6 +10,7 @@
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/case_process.h"
+#include "cases/runner/stable_step.h"
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
@@ -145,6 +146,7 @@ class Merge {
       CaseResult& result = grid_.cases[c];
       if (!result.truth && result.error.empty()) result.error = "no part has come as far as its truth";
       result.spreads = spreads_of(plan_.cases[c], paths_[c]);
+      hold_to_cells(result);
     }
     return std::move(merged_);
   }

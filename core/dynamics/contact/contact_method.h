@@ -26,6 +26,8 @@ class ContactStepper : public Stepper {
   virtual long work() const { return 0; }
   // From when on it did not keep the integrator's order in contact, if it says so.
   virtual std::optional<ReducedOrder> reduced_order() const { return {}; }
+  // s, of the parts in which the last step was taken; none if it was taken as one.
+  virtual std::optional<double> sub_step() const { return {}; }
 };
 
 // What a contact stepper is made from. Outlives it.

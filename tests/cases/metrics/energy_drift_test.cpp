@@ -118,6 +118,41 @@ BOOST_AUTO_TEST_CASE(synchronising_takes_most_of_the_sampling_out_of_a_springs_e
   BOOST_TEST(synchronised < 0.1 * raw);
 }
 
+// A tumbling cube that falls for 10 s has 490 kJ of its fall in play, and 50 J of its spin. A spin that loses 1 % of
+// its speed loses 2 % of these, and 2e-6 of the fall's.
+BOOST_AUTO_TEST_CASE(a_loss_in_the_tumbling_is_not_measured_by_the_fall) {
+  const Scene scene = test::thrown_cube();
+  Trajectory run = run_of(scene, "velocity-verlet", 1.0 / 30, 10);
+  for (std::size_t n = run.samples.size() / 2; n < run.samples.size(); ++n) {
+    const MutableBodyColumns bodies = run.samples[n].bodies.columns();
+    bodies.set_angular_velocity(0, 0.99 * bodies.angular_velocity(0));
+  }
+  const JudgedRun judged{scene, run, nullptr, 0};
+  BOOST_TEST(test::measured("energy_drift", judged).measurement->value < 1e-5);
+  BOOST_TEST(test::measured("internal_energy_drift", judged).measurement->value == 1 - 0.99 * 0.99,
+             boost::test_tools::tolerance(1e-6));
+  const Stability verdict = verdict_on(judged);
+  BOOST_TEST(word_of(verdict.verdict) == "drifting");
+  BOOST_TEST(verdict.why.find("the energy about the centre of mass moved by -1.99 % of the 50 J") != std::string::npos,
+             verdict.why);
+}
+
+BOOST_AUTO_TEST_CASE(an_internal_energy_is_left_to_the_total_where_it_says_no_more) {
+  const auto why = [](const Scene& scene) {
+    const Trajectory run = run_of(scene, "velocity-verlet", 0.1, 1);
+    return test::measured("internal_energy_drift", {scene, run, nullptr, 0}).not_applicable;
+  };
+  BOOST_TEST(why(test::fixed_spring()).find("spring holds") != std::string::npos);
+  Scene cube = test::thrown_cube();
+  cube.gravity.setZero(), cube.bodies[0].velocity.setZero();
+  BOOST_TEST(why(cube) == "the centre of mass rests: energy_drift says the same");
+  cube = test::thrown_cube();
+  cube.bodies[0].angular_velocity.setZero();
+  BOOST_TEST(why(cube) == "nothing moves about the centre of mass, and no spring is tense");
+  cube.forces.push_back({.body = 0, .torque = {1, 0, 0}});
+  BOOST_TEST(why(cube) == "contact, dampers, limits, forces or motors may change it");
+}
+
 BOOST_AUTO_TEST_CASE(what_a_damper_takes_is_known_from_the_truth) {
   const Scene scene = test::coupled_bodies(3);
   const auto truth = make_truth("reference", scene, 3);

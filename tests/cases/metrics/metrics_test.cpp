@@ -43,6 +43,7 @@ bool is_of_contact_or_joints(const std::string& metric) {
                                           "ensemble_distance",
                                           "ensemble_p_value",
                                           "impact_time_error",
+                                          "internal_energy_drift",
                                           "penetration",
                                           "restitution_error",
                                           "stop_distance_error",

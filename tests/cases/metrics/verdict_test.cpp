@@ -237,6 +237,87 @@ BOOST_AUTO_TEST_CASE(an_overlap_of_more_than_a_bodys_thickness_names_both_bodies
   BOOST_TEST(phrase_of(stays) == "overlapping 0.3 m");
 }
 
+// A ball of 1 m and 2 kg at `speed` [m/s] against a wall of 1 cm, without gravity; `motion` gives its place along x.
+Stability verdict_at_wall(double speed, const std::function<double(double t)>& place) {
+  Scene scene;
+  scene.bodies = {test::on_its_own("ball", Sphere{0.5}, 2, {place(0), 0, 0}),
+                  test::on_its_own("wall", Box{{0.01, 9, 9}}, 1, {0, 0, 0})};
+  scene.bodies[0].velocity = {speed, 0, 0}, scene.bodies[1].fixed = true;
+  const Trajectory run = run_of(scene, 30, [&](double t, MutableBodyColumns bodies) {
+    constexpr double kJustBefore = 1e-6;  // s
+    bodies.set_position(0, {place(t), 0, 0});
+    bodies.set_velocity(0, {(place(t) - place(t - kJustBefore)) / kJustBefore, 0, 0});
+  });
+  return verdict_on({scene, run, nullptr, 0});
+}
+
+BOOST_AUTO_TEST_CASE(what_goes_through_a_thin_wall_between_samples_or_slowly_has_tunnelled) {
+  // 400 m/s is 13 m a sample: no sample sees the wall. 3 m/s is 0.1 m a sample, and ten of them do.
+  for (const double speed : {400.0, 3.0}) {
+    const Stability through = verdict_at_wall(speed, [=](double t) { return speed * (t - 0.51); });
+    BOOST_TEST_CONTEXT(through.why) {
+      BOOST_TEST(word_of(through.verdict) == "tunnelled");
+      BOOST_TEST(through.body == 0);
+      BOOST_TEST(through.time > 0.5);
+      BOOST_TEST(through.why.find("'ball' has passed through 'wall'") != std::string::npos);
+    }
+  }
+  const Stability fast = verdict_at_wall(400, [](double t) { return 400 * (t - 0.51); });
+  BOOST_TEST(phrase_of(fast) == "tunnelled 0.53 s");
+}
+
+BOOST_AUTO_TEST_CASE(what_bounces_stays_or_sinks_in_and_comes_back_has_not_tunnelled) {
+  for (const double speed : {400.0, 3.0}) {
+    const auto bounces = [=](double t) { return -0.505 - speed * std::abs(t - 0.51); };
+    const auto stays = [=](double t) { return -0.505 - speed * std::max(0.0, 0.51 - t); };
+    BOOST_TEST(word_of(verdict_at_wall(speed, bounces).verdict) == "stable");
+    BOOST_TEST(word_of(verdict_at_wall(speed, stays).verdict) == "stable");
+  }
+  // By 0.3 m, thirty times the wall's thickness, and out again.
+  const Stability deep = verdict_at_wall(3, [](double t) { return -0.205 - 3 * std::abs(t - 0.5); });
+  BOOST_TEST(word_of(deep.verdict) == "overlapping");
+  BOOST_TEST(deep.why.find("passed through") == std::string::npos);
+}
+
+// Two thin plates that meet, both moving, and one that turns edge over edge beside the other.
+BOOST_AUTO_TEST_CASE(of_two_thin_bodies_that_move_either_may_pass_the_other) {
+  Scene scene;
+  scene.bodies = {test::on_its_own("one", Box{{0.02, 1, 1}}, 1, {-1, 0, 0}),
+                  test::on_its_own("other", Box{{0.02, 1, 1}}, 1, {1, 0.1, 0})};
+  const auto verdict = [&](double beside, bool bounces) {
+    const Trajectory run = run_of(scene, 60, [&](double t, MutableBodyColumns bodies) {
+      const double way = 3.7 * (t - 0.5), speed = 3.7 * (bounces && way > 0 ? -1 : 1);
+      const double place = bounces ? -std::abs(way) - 0.01 : way;
+      bodies.set_position(0, {place, 0, 0}), bodies.set_velocity(0, {speed, 0, 0});
+      bodies.set_position(1, {-place, beside, 0}), bodies.set_velocity(1, {-speed, 0, 0});
+    });
+    return word_of(verdict_on({scene, run, nullptr, 0}).verdict);
+  };
+  BOOST_TEST(verdict(0.1, false) == "tunnelled");
+  BOOST_TEST(verdict(0.1, true) == "stable");
+  BOOST_TEST(verdict(1.1, false) == "stable");  // beside each other
+}
+
+// A step of 1/4 s, in which a ball bounces off one wall and then another: the straight line between both samples leads
+// through the first one, and the path did not.
+BOOST_AUTO_TEST_CASE(a_path_that_is_not_known_is_no_passage) {
+  Scene scene;
+  scene.bodies = {test::on_its_own("ball", Sphere{0.1}, 2, {0, 0, 1}),
+                  test::on_its_own("pin", Sphere{0.1}, 1, {0, 0, 0})};
+  scene.bodies[1].fixed = true;
+  Trajectory run{0.25, {}};
+  const auto add = [&](double z, double x_speed) {
+    BodyTable table(2);
+    table.columns().set_body(0, {{0, 0, z}, Quat::Identity(), {x_speed, 0, -8}, Vec3::Zero()});
+    table.columns().set_body(1, {{0, 0, 0}, Quat::Identity(), Vec3::Zero(), Vec3::Zero()});
+    run.samples.push_back({0.25 * static_cast<double>(run.samples.size()), table});
+  };
+  add(1, 0), add(-1, 5);  // deflected by 5 m/s on the way
+  BOOST_TEST(verdict_on({scene, run, nullptr, 0}).why.find("passed through") == std::string::npos);
+  run.samples.pop_back(), add(-1, 0);  // as it was: nothing stopped it
+  BOOST_TEST(word_of(verdict_on({scene, run, nullptr, 0}).verdict) == "tunnelled");
+}
+
 BOOST_AUTO_TEST_CASE(what_the_truth_says_stands_and_fell_has_collapsed) {
   const Scene scene = standing_box();
   const test::StatedTruth rest([](double) {
@@ -274,7 +355,7 @@ BOOST_AUTO_TEST_CASE(the_worst_verdict_is_the_word_and_all_are_in_the_sentence) 
 
 BOOST_AUTO_TEST_CASE(a_word_is_read_back_as_the_verdict_it_is) {
   for (const Verdict verdict : {Verdict::stable, Verdict::drifting, Verdict::overlapping, Verdict::gaining,
-                                Verdict::collapsed, Verdict::blown_up})
+                                Verdict::collapsed, Verdict::tunnelled, Verdict::blown_up})
     BOOST_TEST(word_of(verdict_of(word_of(verdict))) == word_of(verdict));
   BOOST_CHECK_THROW(verdict_of("fine"), InputError);
 }

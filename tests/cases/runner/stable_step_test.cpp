@@ -172,4 +172,62 @@ BOOST_AUTO_TEST_CASE(the_course_scenes_have_the_known_stability_limits) {
   }
 }
 
+// A case whose run fails at 1/30 s and not at 1/10, 1/100 and 1/1000 s, and whose search found so much.
+StableStep held_to_cells(const StableStep& found, const std::string& failing, bool only_failing = false) {
+  CaseResult result;
+  result.stable_steps = {{Status::pass, found.cut, found}};
+  for (const auto& [text, seconds] : {std::pair{"1/10", 0.1}, {"1/30", 1.0 / 30}, {"1/100", 0.01}, {"1/1000", 0.001}}) {
+    Cell cell;
+    cell.dt = {seconds, text}, cell.status = Status::pass, cell.metrics["position_error"] = {};
+    const bool fails = failing.find(std::string(text) + " ") != std::string::npos;
+    if (fails) cell.status = Status::diverged, cell.stability.verdict = Verdict::blown_up;
+    if (fails || !only_failing) result.cells.push_back(cell);
+  }
+  hold_to_cells(result);
+  BOOST_TEST(result.stable_steps[0].reason == result.stable_steps[0].step.cut);
+  return result.stable_steps[0].step;
+}
+
+BOOST_AUTO_TEST_CASE(a_largest_stable_step_is_below_every_step_at_which_the_cases_own_run_fails) {
+  const StableStep found{0.125, true, false, "the search's steps are used up"};
+  const StableStep held = held_to_cells(found, "1/30 ");
+  BOOST_TEST(held.dt == 0.01);
+  BOOST_TEST(held.is_cap);
+  BOOST_TEST(held.cut == "the case's own run fails at 1/30 s: not searched between that and 1/100 s");
+  BOOST_TEST(held_to_cells(found, "1/10 1/100 ").dt == 0.001);
+  const StableStep none = held_to_cells(found, "1/30 1/100 ", true);
+  BOOST_TEST(none.dt == 0.01);
+  BOOST_TEST(none.is_floor);
+  // What contradicts nothing stays.
+  BOOST_TEST(held_to_cells(found, "").dt == 0.125);
+  const StableStep finer = held_to_cells({0.03, false, false, ""}, "1/30 1/10 ");
+  BOOST_TEST(finer.dt == 0.03);
+  BOOST_TEST(finer.cut == "");
+  const StableStep floor = held_to_cells({1.0 / 30, false, true, "below"}, "1/30 ");
+  BOOST_TEST(floor.is_floor);
+  BOOST_TEST(floor.cut == "below");
+}
+
+// A ball that an engine without contacts moves through a wall of 1 cm at 1 m/s: no step at which one sees it keeps it
+// from there.
+BOOST_AUTO_TEST_CASE(a_step_at_which_bodies_pass_through_each_other_is_not_stable) {
+  Scene scene = test::tumbling_body({1, 1, 1});
+  scene.gravity.setZero();
+  Body& ball = scene.bodies[0];
+  ball.shape = Sphere{0.1}, ball.collides = true, ball.position = {-5, 0, 0}, ball.velocity = {1, 0, 0};
+  scene.bodies.push_back(ball);
+  Body& wall = scene.bodies[1];
+  wall.name = "wall", wall.shape = Box{{0.01, 3, 3}}, wall.fixed = true;
+  wall.position.setZero(), wall.velocity.setZero(), wall.angular_velocity.setZero();
+  test::Script script;
+  double dt = 0;
+  script.play = [&](int step, MutableBodyColumns bodies) {
+    bodies.set_position(0, {-5 + step * dt, 0, 0}), bodies.set_velocity(0, {1, 0, 0});
+    bodies.set_position(1, {0, 0, 0}), bodies.set_velocity(1, {0, 0, 0});
+  };
+  dt = 0.5;  // a way a step, whatever the step
+  const StableStep through = largest_stable_dt(test::ScriptedEngine(script), {}, scene, 30, 100);
+  BOOST_TEST(!through.is_cap);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -192,21 +192,4 @@ std::optional<std::vector<UniqueReaction>> JointReactions::unique() {
   return unique;
 }
 
-void JointReactions::project_velocities(MutableBodyColumns bodies) {
-  find_rows(bodies);
-  if (!is_regular_) return;
-  std::vector<Block> velocities(inverse_mass_.size());
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    if (order_[i] >= 0) velocities[order_[i]] << bodies.velocity(i), bodies.angular_velocity(i);
-  }
-  const std::vector<Block> changes =
-      solver_.correction(rows_, inverse_mass_, [&](const Row& row) { return row.rate(velocities); });
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    if (order_[i] < 0) continue;
-    const Block& change = changes[order_[i]];
-    bodies.set_velocity(i, bodies.velocity(i) + change.head<3>());
-    bodies.set_angular_velocity(i, bodies.angular_velocity(i) + change.tail<3>());
-  }
-}
-
 }  // namespace rigor

@@ -41,10 +41,6 @@ class JointReactions {
   // At the state that at() was last asked for, where the joints have to hold, so a truth's; nothing where singular.
   std::optional<std::vector<UniqueReaction>> unique();
 
-  // The velocities nearest to the bodies' own, weighed by mass, that the joints allow. Left as they are at a singular
-  // position.
-  void project_velocities(MutableBodyColumns bodies);
-
  private:
   using Rows = ConstraintRows<double, 6>;  // velocities: v, w in W
   using Row = Rows::Row;

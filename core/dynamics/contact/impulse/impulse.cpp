@@ -81,6 +81,10 @@ class ImpulseStepper : public ContactStepper {
     return warning.empty() ? manifolds_.failure() : warning;
   }
 
+  std::optional<double> sub_step() const override {
+    return parameters_.h > 0 ? std::optional(parameters_.h) : std::nullopt;
+  }
+
   SettingsInForce settings_in_force() const override {
     SettingsInForce settings = sub_steps_.settings_in_force();
     settings.insert(settings.begin(), {{"contact solver", "sequential impulses, two passes a sub-step, warm start"},

@@ -2,6 +2,7 @@
 #include "cases/metrics/measures/impacts.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "tests/cases/truth/closed_form/contact/contact_scenes.h"
 
@@ -206,6 +207,41 @@ BOOST_AUTO_TEST_CASE(slow_balls_in_space_meet_as_well) {
   const auto found = impacts_of(scene, run_of(scene, at, 100), 0);
   BOOST_TEST_REQUIRE(found.size() == 1);
   check(found.begin()->second.at(0), 0.5, 0.05, 0.03);
+}
+
+// Three centimetres beside the other one, at constant velocity.
+BOOST_AUTO_TEST_CASE(a_near_miss_is_no_impact) {
+  Scene scene = balls_over_ground({0, 3});
+  scene.gravity.setZero(), scene.bodies[0].collides = false;
+  for (const double beside : {1.03, 1.0001}) {
+    const Motion passing = [=](std::size_t body, double t) {
+      BodyState state = lying();
+      state.position = body == 1 ? Vec3(0, 0, 0) : Vec3(2 * (t - 0.503), beside, 0);
+      state.velocity = body == 1 ? Vec3(0, 0, 0) : Vec3(2, 0, 0);
+      return state;
+    };
+    BOOST_TEST(impacts_of(scene, run_of(scene, passing, 100), 0).empty());
+  }
+}
+
+// A ball that is deflected at a radius of 1 m from the other's centre, wherever in a step, and whatever passes is seen.
+BOOST_AUTO_TEST_CASE(a_glancing_impact_counts_and_flying_through_does_not) {
+  Scene scene = balls_over_ground({0, 3});
+  scene.gravity.setZero(), scene.bodies[0].collides = false;
+  const double beside = 0.9, depth = std::sqrt(1 - beside * beside);  // m; the touch is at (-depth, beside)
+  const Vec3 normal(-depth, beside, 0), before(4, 0, 0), after = before - 1.5 * before.dot(normal) * normal;
+  for (const bool is_deflected : {true, false}) {
+    const Motion passing = [=](std::size_t body, double t) {
+      BodyState state = lying();
+      const double since = t - 0.503;
+      state.position = body == 1 ? Vec3(0, 0, 0) : Vec3(normal + since * (since > 0 && is_deflected ? after : before));
+      state.velocity = body == 1 ? Vec3(0, 0, 0) : (since > 0 && is_deflected ? after : before);
+      return state;
+    };
+    const auto found = impacts_of(scene, run_of(scene, passing, 100), 0);
+    BOOST_TEST_REQUIRE(found.size() == (is_deflected ? 1 : 0));
+    if (is_deflected) check(found.begin()->second.at(0), 0.503, 4 * depth, 2 * depth);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_is_empty_or_without_contact_has_no_impact) {

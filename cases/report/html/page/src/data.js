@@ -168,12 +168,17 @@ export function judgement(cell) {
   const word = cell.verdict?.phrase ?? "stable";
   const found = verdictKinds[cell.verdict?.word ?? "stable"];
   if (found.kind === "good" && cell.reduced_order) return { kind: "drift", sign: "◐", word: `${word} in part` };
-  return { ...found, word };
+  return { ...found, word: cell.sub_step ? `${word} ÷` : word };
 }
 
 // What a cell's verdict and numbers do not say.
 export const warningOf = (cell) =>
-  cell?.reduced_order ? `from ${digits(cell.reduced_order.from)} s on stepped ${cell.reduced_order.how}` : "";
+  [
+    cell?.sub_step ? `takes sub-steps of ${digits(cell.sub_step)} s` : "",
+    cell?.reduced_order ? `from ${digits(cell.reduced_order.from)} s on stepped ${cell.reduced_order.how}` : "",
+  ]
+    .filter(Boolean)
+    .join("; ");
 
 // The reason of a cell's status, with notes; for the mouse pointer.
 export const asideOf = (cell) => [cell.reason, warningOf(cell)].filter(Boolean).map((text) => ` – ${text}`).join("");
@@ -184,6 +189,7 @@ const verdictKinds = {
   overlapping: { kind: "bad", sign: "∩" },
   gaining: { kind: "bad", sign: "↑" },
   collapsed: { kind: "bad", sign: "↓" },
+  tunnelled: { kind: "bad", sign: "»" },
 };
 
 // The shade of a matrix cell: its position error in decades of the case's size, from 0 at 1e-4 of the size to 1 at the

@@ -134,6 +134,7 @@ export class Overview {
       item("bad", "∩", "two bodies overlap by a body's own size"),
       item("bad", "↑", "gaining energy that nothing gives it"),
       item("bad", "↓", "collapsed: it had to stand"),
+      item("bad", "»", "tunnelled: bodies passed through each other"),
       item("bad", "✕", "blown up, crashed, or a gate failed"),
       item("known", "◆", "known deviation"),
       item("none", "–", "cannot be run on this engine"),

@@ -199,17 +199,6 @@ BOOST_AUTO_TEST_CASE(which_rows_are_in_use_is_decided_at_the_start_whatever_is_a
   }
 }
 
-BOOST_AUTO_TEST_CASE(velocities_are_brought_to_the_nearest_that_joints_allow) {
-  const Scene scene = suite_scene("joints/pendulum-90");
-  BodyTable bodies = start_of(scene);
-  bodies.columns().set_velocity(0, {1, -2, 3}), bodies.columns().set_angular_velocity(0, {4, 5, -4});
-  JointReactions(scene).project_velocities(bodies.columns());
-  // Only the part of m (r x v) + I w about z through the anchor remains: the rod rotates at this over I + m d².
-  const double w = (0.5 * -2 + 0.08354166666666667 * -4) / (0.08354166666666667 + 0.25);
-  BOOST_TEST((bodies.columns().angular_velocity(0) - Vec3(0, 0, w)).norm() < 1e-14);
-  BOOST_TEST((bodies.columns().velocity(0) - Vec3(0, 0.5 * w, 0)).norm() < 1e-14);
-}
-
 // At an instant, not over what comes after it.
 BOOST_AUTO_TEST_CASE(a_force_that_will_end_is_carried_whole_until_it_does) {
   Scene scene;
