@@ -32,6 +32,9 @@ const std::vector<CommandRow>& commands();  // in the order of the README
 inline constexpr const char *kCases = "case ids, families, files or folders",
                             *kCasesOrAll = "case ids, families, files or folders; default: the whole suite";
 
+// Reads a value of --engine. Throws InputError.
+RunName run_of_option(const std::string& value, const std::vector<EngineInfo>& infos);
+
 // Returns the run that --engine names, else the only engine of --plugin or from outside. Throws InputError.
 RunName run_asked_for(const CommandLine& line, const EngineTable& engines);
 

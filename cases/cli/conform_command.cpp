@@ -104,7 +104,7 @@ bool answers(const Json& results) {
 
 RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
   if (line.engines.size() > 1) throw InputError(fmt::format("rigor {}: takes one --engine", line.command));
-  if (!line.engines.empty()) return parse_run_name(line.engines.front(), engines.infos());
+  if (!line.engines.empty()) return run_of_option(line.engines.front(), engines.infos());
   std::vector<std::string> outside;
   for (const EngineInfo& info : engines.infos()) {
     const std::string& identity = engines.identity_of(info.name);  // begins with what it was started by

@@ -149,11 +149,19 @@ int answer_of_gate(const GridRun& run, int ending) {
 
 }  // namespace
 
+RunName run_of_option(const std::string& value, const std::vector<EngineInfo>& infos) {
+  try {
+    return parse_run_name(value, infos);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--engine: {}", error.what()));
+  }
+}
+
 std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<EngineInfo>& infos) {
   if (line.engines.empty()) return without_those_on_request(default_runs(infos));
   std::vector<RunName> runs;
   for (const std::string& name : line.engines) {
-    RunName run = parse_run_name(name, infos);
+    RunName run = run_of_option(name, infos);
     const auto is_it = [&](const RunName& other) { return is_same_run(other, run); };
     if (std::none_of(runs.begin(), runs.end(), is_it)) runs.push_back(std::move(run));
   }

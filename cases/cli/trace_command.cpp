@@ -107,7 +107,7 @@ static int trace_command(const CommandLine& line, const EngineTable& engines) {
   if (steps.size() != 1) throw InputError("rigor trace: takes exactly one --dt; " + steps_of(definition));
   const TraceFormat& format = line.format.empty() ? trace_formats().front() : find_trace_format(line.format);
   override_run(definition, {steps, line.duration});
-  const RunName run = parse_run_name(line.engines.front(), engines.infos());
+  const RunName run = run_of_option(line.engines.front(), engines.infos());
   const Engine& engine = engines.find(run.engine);
   const double dt = steps.front().seconds;
   const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt);
