@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "adapters/hanging_joint.h"
+#include "adapters/common/hanging_joint.h"
 #include "adapters/simbody/simbody_system.h"
 
 namespace rigor {

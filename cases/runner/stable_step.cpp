@@ -9,7 +9,7 @@
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/metrics/stability.h"
 #include "core/dynamics/model/energy.h"
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
 #include "core/engine/simulation.h"
 #include "core/scene/contact_laws.h"
 
