@@ -5,90 +5,87 @@
 #include <algorithm>
 #include <cassert>
 
-#include "adapters/bullet/bullet_engine.h"
-#include "adapters/bullet/bullet_multibody_twin.h"
-#include "adapters/bullet/bullet_twin.h"
+#include "adapters/common/engine_row.h"
 #include "adapters/core/core_engine.h"
-#ifdef RIGOR_WITH_DART
-#include "adapters/dart/dart_engine.h"
-#include "adapters/dart/dart_twin.h"
-#endif
-#ifdef RIGOR_WITH_MUJOCO
-#include "adapters/mujoco/mujoco_engine.h"
-#include "adapters/mujoco/mujoco_twin.h"
-#endif
-#include "adapters/ode/ode_engine.h"
-#include "adapters/ode/ode_twin.h"
-#ifdef RIGOR_WITH_SICONOS
-#include "adapters/siconos/siconos_engine.h"
-#include "adapters/siconos/siconos_twin.h"
-#endif
-#ifdef RIGOR_WITH_SIMBODY
-#include "adapters/simbody/simbody_engine.h"
-#include "adapters/simbody/simbody_twin.h"
-#endif
+#include "adapters/models.h"
 #include "core/base/error.h"
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
+
+// CMake names the engines whose library it found, as ROW(bullet) ROW(core) ..., in alphabetical order, and the packages
+// of those that it did not find (adapters/CMakeLists.txt).
+#ifndef RIGOR_ENGINE_ROWS
+#define RIGOR_ENGINE_ROWS ROW(core)
+#define RIGOR_MISSING_ENGINES
+#endif
 
 namespace rigor {
+
+#define ROW(engine) EngineRow engine##_row();
+RIGOR_ENGINE_ROWS
+#undef ROW
+
 namespace {
 
-std::vector<Integrator> twins() {
-  std::vector<Integrator> rows = {kBulletMultibodyTwin, kBulletTwin, kOdeTwin};
-#ifdef RIGOR_WITH_DART
-  rows.push_back(kDartTwin);
-#endif
-#ifdef RIGOR_WITH_MUJOCO
-  rows.insert(rows.end(), {kMujocoEulerTwin, kMujocoImplicitTwin, kMujocoRk4Twin});
-#endif
-#ifdef RIGOR_WITH_SICONOS
-  rows.push_back(kSiconosTwin);
-#endif
-#ifdef RIGOR_WITH_SIMBODY
-  const std::vector<Integrator> of_simbody = simbody_twins();
-  rows.insert(rows.end(), of_simbody.begin(), of_simbody.end());
-#endif
-  return rows;
+struct NamedRow {
+  std::string engine;
+  EngineRow row;
+};
+
+const std::vector<NamedRow>& rows() {
+#define ROW(engine) {#engine, engine##_row()},
+  static const std::vector<NamedRow> all = {RIGOR_ENGINE_ROWS};
+#undef ROW
+  return all;
+}
+
+std::unique_ptr<Engine> make_core() {
+  std::vector<Integrator> twins;
+  for (const NamedRow& named : rows()) {
+    if (!named.row.twins) continue;
+    const std::vector<Integrator> own = named.row.twins();
+    twins.insert(twins.end(), own.begin(), own.end());
+  }
+  return std::make_unique<CoreEngine>(std::move(twins));
 }
 
 }  // namespace
 
-// One row an engine, alphabetical.
+EngineRow core_row() { return {make_core}; }
+
 EngineTable built_in_engines() {
   EngineTable table;
-  table.add(std::make_unique<BulletEngine>());
-  table.add(std::make_unique<CoreEngine>(twins()));
-#ifdef RIGOR_WITH_DART
-  table.add(std::make_unique<DartEngine>());
-#endif
-#ifdef RIGOR_WITH_MUJOCO
-  table.add(std::make_unique<MujocoEngine>());
-#endif
-  table.add(std::make_unique<OdeEngine>());
-#ifdef RIGOR_WITH_SICONOS
-  table.add(std::make_unique<SiconosEngine>());
-#endif
-#ifdef RIGOR_WITH_SIMBODY
-  table.add(std::make_unique<SimbodyEngine>());
-#endif
+  for (const NamedRow& named : rows()) table.add(named.row.make());
   return table;
 }
 
+std::vector<std::string> engine_calls(const RunName& run, const std::string& dt) {
+  for (const NamedRow& named : rows())
+    if (named.engine == run.engine && named.row.calls) return named.row.calls(run.settings, dt);
+  return {};
+}
+
+namespace {
+
+// MJCF is MuJoCo's; `does` says what is done with it.
+const EngineRow& row_for_mjcf(const std::string& does) {
+  for (const NamedRow& named : rows())
+    if (named.row.read_model && named.row.write_model) return named.row;
+  throw InputError(
+      fmt::format("{} MuJoCo, without which this program was built; install libmujoco-dev and build again", does));
+}
+
+}  // namespace
+
+LinkModel mujoco_link_model(const std::string& path, const std::string& keyframe) {
+  return row_for_mjcf(path + ":1: MJCF is read by").read_model(path, keyframe);
+}
+
+std::string mjcf_of(const Scene& scene, LeftOut& left_out) {
+  return row_for_mjcf("MJCF is written by").write_model(scene, left_out);
+}
+
 const std::vector<MissingEngine>& missing_engines() {
-  static const std::vector<MissingEngine> missing = {
-#ifndef RIGOR_WITH_DART
-      {"dart", "libdart-dev and libdart-external-ikfast-dev"},
-#endif
-#ifndef RIGOR_WITH_MUJOCO
-      {"mujoco", "libmujoco-dev"},
-#endif
-#ifndef RIGOR_WITH_SICONOS
-      {"siconos", "libsiconos-mechanics-dev"},
-#endif
-#ifndef RIGOR_WITH_SIMBODY
-      {"simbody", "libsimbody-dev"},
-#endif
-  };
+  static const std::vector<MissingEngine> missing = {RIGOR_MISSING_ENGINES};
   return missing;
 }
 
@@ -128,9 +125,7 @@ const EngineInfo& EngineTable::info_of(const std::string& name) const { return i
 const std::string& EngineTable::identity_of(const std::string& name) const { return identities_[index_of(name)]; }
 
 void EngineTable::rest() const {
-  for (const auto& engine : engines_) {
-    if (const auto* remote = dynamic_cast<const RemoteEngine*>(engine.get())) remote->rest();
-  }
+  for (const auto& engine : engines_) engine->rest();
 }
 
 const Engine& EngineTable::find(const std::string& name) const { return *engines_[index_of(name)]; }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/engine/engine.h"
+#include "core/engine/run_name.h"
 
 namespace rigor {
 
@@ -35,7 +36,7 @@ class EngineTable {
 // An engine that Rigor knows and that this build was made without.
 struct MissingEngine {
   std::string name;
-  std::string package;  // Debian's, which brings its library
+  std::string package;  // Debian's, for its library
 };
 const std::vector<MissingEngine>& missing_engines();  // alphabetical
 
@@ -49,6 +50,10 @@ bool is_on_request(const std::string& engine);
 
 EngineTable built_in_engines();  // alphabetical; a copy of one's own, to add others to
 const EngineTable& engines();    // the same, without additional engines
+
+// A run's settings as the calls that its adapter makes for them, to paste into a program. `world` and `body` are called
+// as in the engine's tutorials; the last line is the step, of `dt` as written. None for an engine without calls.
+std::vector<std::string> engine_calls(const RunName& run, const std::string& dt);
 
 inline const std::vector<EngineInfo>& infos_of(const EngineTable& table) { return table.infos(); }
 inline const Engine& find_engine(const EngineTable& table, const std::string& name) { return table.find(name); }

@@ -11,7 +11,7 @@
 #include "adapters/plugin/plugins.h"
 #include "adapters/plugin/shared_library.h"
 #include "bench/benchmarks.h"
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
 #include "core/scene/toml/scene_writer.h"
 
 namespace rigor::bench {
@@ -97,7 +97,7 @@ void register_plugins(const std::vector<std::string>& plugins) {
     for (const int count : {1, 100, 1000}) {
       const auto name = [&](const char* what) { return fmt::format("plugin/{}/{}/{}", what, count, info.name); };
       benchmark::RegisterBenchmark(name("step").c_str(), step_and_read, std::cref(engine), count)->UseRealTime();
-      if (dynamic_cast<const RemoteEngine*>(&engine)) {
+      if (engine.is_remote()) {
         benchmark::RegisterBenchmark(name("run").c_str(), run_thousand, std::cref(engine), count, 33)->UseRealTime();
         benchmark::RegisterBenchmark(name("run-every-step").c_str(), run_thousand, std::cref(engine), count, 1)
             ->UseRealTime();

@@ -3,11 +3,15 @@
 #include <LinearMath/btScalar.h>
 #include <fmt/format.h>
 
+#include "adapters/bullet/bullet_calls.h"
 #include "adapters/bullet/bullet_matched.h"
+#include "adapters/bullet/bullet_multibody_twin.h"
 #include "adapters/bullet/bullet_multibody_world.h"
 #include "adapters/bullet/bullet_turn.h"
+#include "adapters/bullet/bullet_twin.h"
 #include "adapters/bullet/bullet_world.h"
-#include "adapters/option_values.h"
+#include "adapters/common/engine_row.h"
+#include "adapters/common/option_values.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
@@ -16,19 +20,13 @@ namespace {
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
-const Features kJoints = {"joint:ball",
-                          "joint:fixed",
-                          "joint:hinge",
-                          "joint:slider",
-                          "joint:universal",
-                          "joint-spring",
-                          "joint-damper",
-                          "joints-with-dampers",
-                          "joints-with-contacts",
-                          "joint-limit",
-                          "motor:effort",
-                          "motor:speed",
-                          "joint-limit:beyond-half-turn"};
+const Features kJoints = {"joint:ball",          "joint:cylindrical",
+                          "joint:fixed",         "joint:hinge",
+                          "joint:slider",        "joint:universal",
+                          "joint-spring",        "joint-damper",
+                          "joints-with-dampers", "joints-with-contacts",
+                          "joint-limit",         "motor:effort",
+                          "motor:speed",         "joint-limit:beyond-half-turn"};
 
 std::vector<OptionInfo> options_of_rigid_bodies() {
   return {{"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
@@ -96,6 +94,14 @@ std::string BulletEngine::twin(const Settings& settings) const {
   if (settings.method != "mlcp") return name + "off,joints=none";
   name += fmt::format("off,erp={},joints=direct", number_option(settings, "erp", bullet::kErp));
   return settings.options.contains("cfm") ? name + ",cfm=" + settings.options.at("cfm") : name;
+}
+
+EngineRow bullet_row() {
+  return {make_engine<BulletEngine>,
+          [] {
+            return std::vector<Integrator>{kBulletMultibodyTwin, kBulletTwin};
+          },
+          bullet_calls};
 }
 
 }  // namespace rigor

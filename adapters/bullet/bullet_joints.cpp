@@ -57,6 +57,12 @@ struct Make {
     return std::make_unique<btPoint2PointConstraint>(a, b, a.getCenterOfMassTransform().inverse() * anchor,
                                                      b.getCenterOfMassTransform().inverse() * anchor);
   }
+  std::unique_ptr<btTypedConstraint> operator()(const CylindricalJoint& cylinder) const {
+    const SharedFrame frame(a, b, cylinder.anchor, frame_with_x(cylinder.axis));
+    auto constraint = std::make_unique<btSliderConstraint>(a, b, frame.in_a, frame.in_b, true);
+    constraint->setLowerAngLimit(1), constraint->setUpperAngLimit(-1);  // free, by Bullet's signs
+    return constraint;
+  }
   std::unique_ptr<btTypedConstraint> operator()(const HingeJoint& hinge) const {
     const SharedFrame frame(a, b, hinge.anchor, frame_with_z(hinge.axis));
     auto constraint = std::make_unique<btHingeConstraint>(a, b, frame.in_a, frame.in_b, true);
@@ -75,7 +81,7 @@ struct Make {
     return std::make_unique<btFixedConstraint>(a, b, frame.in_a, frame.in_b);
   }
   std::unique_ptr<btTypedConstraint> operator()(const UniversalJoint& universal) const {
-    const Vec3 z = universal.axis, x = (universal.axis2 - universal.axis2.dot(z) * z).normalized();
+    const Vec3 z = universal.axis, x = universal.square_axis2();
     Mat3 axes;
     axes << x, z.cross(x), z;
     const SharedFrame frame(a, b, universal.anchor, axes);
@@ -133,13 +139,12 @@ void Joints::add(const Scene& scene, const Joint& joint, const BodyOf& body_of) 
   of_joint_.push_back(constraints_.back().get());
   const bool b_moves = joint.b != kWorld && !scene.bodies[static_cast<std::size_t>(joint.b)].fixed;
   reported_.push_back({b_moves ? joint.b : joint.a, b_moves});
-  const auto* slider = std::get_if<SliderJoint>(&joint.type);
   const bool is_beyond = joint.lower < -std::numbers::pi || joint.upper > std::numbers::pi;
   auto* hinge = dynamic_cast<btHingeConstraint*>(of_joint_.back());
   if (hinge && joint.has_limits()) limited_.push_back(hinge);
   if (hinge && joint.has_limits() && is_beyond)
     winding_.push_back({hinge, joint.lower, joint.upper, joint.restitution});
-  if (slider && joint.has_limits()) constraints_.push_back(limits_along(slider->axis, make));
+  if (joint.has_limits() && !turns(joint)) constraints_.push_back(limits_along(*free_axis(joint), make));
 }
 
 void Joints::enter(btDynamicsWorld& world) {

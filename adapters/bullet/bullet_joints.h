@@ -1,13 +1,12 @@
 // A scene's joints as Bullet's constraints between rigid bodies:
-//   ball       btPoint2PointConstraint
-//   fixed      btFixedConstraint
-//   hinge      btHingeConstraint; the frames' z is the axis. Its angle counts as ours does only if it is told to use
-//   the
-//              frame of a (useReferenceFrameA); its limits' bounce is multiplied by their "bias factor"
-//   slider     btSliderConstraint; the frames' x is the axis, their origin b's centre
-//   universal  btGeneric6DofSpring2Constraint with one of three angles locked: z of a's frame is the axis, x of b's
-//   frame
-//              axis2, and the angle about z x x is what keeps them at right angles
+//   ball         btPoint2PointConstraint
+//   cylindrical  btSliderConstraint with a free angle; the frames' x is the axis, their origin the anchor
+//   fixed        btFixedConstraint
+//   hinge        btHingeConstraint; the frames' z is the axis. Its angle counts as ours does only with the frame of a
+//                (useReferenceFrameA). Bullet multiplies the bounce of its limits by their "bias factor"
+//   slider       btSliderConstraint; the frames' x is the axis, their origin b's centre
+//   universal    btGeneric6DofSpring2Constraint with one of three angles locked: z of a's frame is the axis, x of b's
+//                frame axis2. The angle about z x x keeps them at right angles
 // A slider's limits are a second constraint beside it, a btGeneric6DofSpring2Constraint of which all but the
 // displacement along the axis is free: btSliderConstraint looks for its bounce on the way out, and so never bounces.
 // Bullet has no joint that keeps a distance, and none of its constraints is one for a special choice of its parameters.
@@ -20,7 +19,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/engine/reported_reactions.h"
+#include "core/engine/capabilities.h"
 
 namespace rigor::bullet {
 

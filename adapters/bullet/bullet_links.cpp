@@ -7,24 +7,18 @@ namespace {
 
 constexpr bool kCollidesWithParent = false;
 
-// Where the joint's point is for both: its anchor, or the child's centre.
-struct PointOf {
-  const LinkFrame& child;
-  Vec3 operator()(const BallJoint& joint) const { return joint.anchor; }
-  Vec3 operator()(const HingeJoint& joint) const { return joint.anchor; }
-  Vec3 operator()(const UniversalJoint& joint) const { return joint.anchor; }
-  template <typename Other>
-  Vec3 operator()(const Other&) const {
-    return child.origin;
-  }
-};
+// The joint's point for both ends: its anchor, or the child's centre.
+Vec3 point_of(const Joint& joint, const LinkFrame& child) {
+  const Vec3* anchor = anchor_of(joint);
+  return anchor ? *anchor : child.origin;
+}
 
 // A universal joint's axes, exactly at right angles: the first fixed in the parent, the second in the child.
 struct UniversalAxes {
   Vec3 first, second;  // unit, in W at t = 0
 };
 UniversalAxes axes_of(const UniversalJoint& joint, bool child_is_b) {
-  const Vec3 axis2 = (joint.axis2 - joint.axis2.dot(joint.axis) * joint.axis).normalized();
+  const Vec3 axis2 = joint.square_axis2();
   return child_is_b ? UniversalAxes{joint.axis, axis2} : UniversalAxes{axis2, joint.axis};
 }
 
@@ -44,6 +38,13 @@ struct AddLinks {
 
   void operator()(const BallJoint&) const {
     tree.setupSpherical(link, mass, moments, parent, turn(), from_parent(), to_child(), !kCollidesWithParent);
+  }
+  // Two links, as of a universal joint: a slide, then a turn of what has the mass.
+  void operator()(const CylindricalJoint& joint) const {
+    const btVector3 nothing(0, 0, 0), axis = child.seen(joint.axis);
+    tree.setupPrismatic(link, 0, nothing, parent, turn(), axis, from_parent(), nothing, !kCollidesWithParent);
+    tree.setupRevolute(link + 1, mass, moments, link, btQuaternion::getIdentity(), axis, nothing, to_child(),
+                       !kCollidesWithParent);
   }
   void operator()(const HingeJoint& joint) const {
     tree.setupRevolute(link, mass, moments, parent, turn(), child.seen(joint.axis), from_parent(), to_child(),
@@ -73,18 +74,24 @@ struct SetVelocities {
   int link;  // of the child
   const LinkFrame &child, &above;
   bool child_is_b;
+  Vec3 point;  // in W
 
   Vec3 turning() const { return child.angular_velocity - above.angular_velocity; }
+  Vec3 sliding() const {
+    const Vec3 carried = above.velocity + above.angular_velocity.cross(point - above.origin);
+    return child.velocity + child.angular_velocity.cross(point - child.origin) - carried;
+  }
 
   void operator()(const BallJoint&) const {
     const Vec3 rate = child.q.conjugate() * turning();
     tree.setJointVelMultiDof(link, rate.data());
   }
-  void operator()(const HingeJoint& joint) const { tree.setJointVel(link, joint.axis.dot(turning())); }
-  void operator()(const SliderJoint& joint) const {
-    const Vec3 carried = above.velocity + above.angular_velocity.cross(child.origin - above.origin);
-    tree.setJointVel(link, joint.axis.dot(child.velocity - carried));
+  void operator()(const CylindricalJoint& joint) const {
+    tree.setJointVel(link - 1, joint.axis.dot(sliding()));
+    tree.setJointVel(link, joint.axis.dot(turning()));
   }
+  void operator()(const HingeJoint& joint) const { tree.setJointVel(link, joint.axis.dot(turning())); }
+  void operator()(const SliderJoint& joint) const { tree.setJointVel(link, joint.axis.dot(sliding())); }
   void operator()(const UniversalJoint& joint) const {
     const UniversalAxes axes = axes_of(joint, child_is_b);
     tree.setJointVel(link - 1, axes.first.dot(turning()));
@@ -103,7 +110,11 @@ LinkFrame frame_at_start(const Body& body, const Quat& q_WP) {
   return {body.position, q_WP, body.velocity, body.angular_velocity};
 }
 
-int links_of(const Joint& joint) { return std::holds_alternative<UniversalJoint>(joint.type) ? 2 : 1; }
+int links_of(const Joint& joint) {
+  return std::visit(ForJoints{[](const CylindricalJoint&) { return 2; }, [](const UniversalJoint&) { return 2; },
+                              [](const auto&) { return 1; }},
+                    joint.type);
+}
 
 void add_links(btMultiBody& tree, const Joint& joint, const JointEnds& ends, const NewLinks& links) {
   const AddLinks add{.tree = tree,
@@ -114,12 +125,13 @@ void add_links(btMultiBody& tree, const Joint& joint, const JointEnds& ends, con
                      .mass = links.mass,
                      .moments = links.moments,
                      .child_is_b = ends.child_is_b,
-                     .point = std::visit(PointOf{ends.child}, joint.type)};
+                     .point = point_of(joint, ends.child)};
   std::visit(add, joint.type);
 }
 
 void set_velocities(btMultiBody& tree, int link, const Joint& joint, const JointEnds& ends) {
-  std::visit(SetVelocities{tree, link, ends.child, ends.parent, ends.child_is_b}, joint.type);
+  std::visit(SetVelocities{tree, link, ends.child, ends.parent, ends.child_is_b, point_of(joint, ends.child)},
+             joint.type);
 }
 
 }  // namespace rigor::bullet

@@ -3,7 +3,7 @@
 #include "adapters/bullet/bullet_multibody_twin.h"
 
 #include "adapters/bullet/bullet_turn.h"
-#include "adapters/reduced_twin.h"
+#include "adapters/common/reduced_twin.h"
 
 namespace rigor {
 namespace {

@@ -26,8 +26,8 @@
 #include "adapters/bullet/bullet_convert.h"
 #include "adapters/bullet/bullet_links.h"
 #include "adapters/bullet/bullet_tree.h"
-#include "adapters/external_loads.h"
-#include "adapters/hanging_joint.h"
+#include "adapters/common/external_loads.h"
+#include "adapters/common/hanging_joint.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
 
@@ -44,6 +44,7 @@ class BulletMultibodyWorld : public World, public ReportsReactions {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return ""; }  // nothing is solved by iteration
+  Capabilities capabilities() override { return {.reactions = this}; }
   void ask_for_reactions() override;
   std::vector<ReportedReaction> reactions() const override;
 

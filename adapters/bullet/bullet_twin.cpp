@@ -143,7 +143,8 @@ class BulletTwin : public Stepper {
   Wrenches wrenches_;
 };
 
-const Features kJointKinds = {"joint:ball", "joint:fixed", "joint:hinge", "joint:slider", "joint:universal"};
+const Features kJointKinds = {"joint:ball",  "joint:cylindrical", "joint:fixed",
+                              "joint:hinge", "joint:slider",      "joint:universal"};
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adapters/bullet/bullet_twin_rows.h"
-#include "adapters/twin_joint_solver.h"
+#include "adapters/common/twin_joint_solver.h"
 
 namespace rigor {
 

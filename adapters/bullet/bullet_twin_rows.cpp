@@ -114,15 +114,17 @@ class SixCoordinates : public BulletJointRows {
 };
 
 // x is the axis. Both ends are pushed at one point, which the masses share out, so that no couple arises however far b
-// has come. The row that keeps the turn about the axis is missing where that turn is exactly zero.
+// has come. The row that keeps the turn about the axis is missing where that turn is exactly zero, and of a cylindrical
+// joint always.
 class Slider : public BulletJointRows {
  public:
-  explicit Slider(const Frames& frames) : frames_(frames) {}
+  Slider(const Frames& frames, bool keeps_turn) : frames_(frames), keeps_turn_(keeps_turn) {}
   void add_to(std::vector<ConstraintRow>& rows, const BulletEnd& a, const BulletEnd& b) const override {
     const Frames::Now now = frames_.now(a, b);
     const Vec3 on_a = now.of_a.col(0), on_b = now.of_b.col(0);
     const Vec3 axis = (now.share_a * on_a + (1 - now.share_a) * on_b).normalized();
-    const double turned = std::atan2(now.of_b.col(1).dot(now.of_a.col(2)), now.of_b.col(1).dot(now.of_a.col(1)));
+    const double turned =
+        keeps_turn_ ? std::atan2(now.of_b.col(1).dot(now.of_a.col(2)), now.of_b.col(1).dot(now.of_a.col(1))) : 0;
     add_ways(rows, now, axis, turned != 0);
     const Across across = directions_across(axis);
     const Vec3 tilt = on_a.cross(on_b);
@@ -149,6 +151,7 @@ class Slider : public BulletJointRows {
   }
 
   Frames frames_;
+  bool keeps_turn_;
 };
 
 BulletEnd end_at_start(const Scene& scene, int body) {
@@ -175,17 +178,22 @@ struct MakeRows {
     return std::make_unique<Hinge>(frames(joint.anchor, axes(joint.axis.unitOrthogonal(), joint.axis)));
   }
   std::unique_ptr<BulletJointRows> operator()(const SliderJoint& joint) const {
-    const Vec3 y = joint.axis.unitOrthogonal();
-    return std::make_unique<Slider>(frames(center_b, axes(joint.axis, joint.axis.cross(y))));
+    return slider(center_b, joint.axis, true);
   }
   std::unique_ptr<BulletJointRows> operator()(const FixedJoint&) const {
     return std::make_unique<SixCoordinates>(frames(center_b, Mat3::Identity()), true);
   }
   std::unique_ptr<BulletJointRows> operator()(const UniversalJoint& joint) const {
-    const Vec3 x = (joint.axis2 - joint.axis2.dot(joint.axis) * joint.axis).normalized();
+    const Vec3 x = joint.square_axis2();
     return std::make_unique<SixCoordinates>(frames(joint.anchor, axes(x, joint.axis)), false);
   }
+  std::unique_ptr<BulletJointRows> operator()(const CylindricalJoint& joint) const {
+    return slider(joint.anchor, joint.axis, false);
+  }
   std::unique_ptr<BulletJointRows> operator()(const DistanceJoint&) const { return nullptr; }
+  std::unique_ptr<BulletJointRows> slider(const Vec3& point, const Vec3& axis, bool keeps_turn) const {
+    return std::make_unique<Slider>(frames(point, axes(axis, axis.cross(axis.unitOrthogonal()))), keeps_turn);
+  }
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "adapters/bullet/bullet_matched.h"
 #include "adapters/bullet/bullet_pair_laws.h"
-#include "adapters/option_values.h"
+#include "adapters/common/option_values.h"
 
 namespace rigor {
 namespace {

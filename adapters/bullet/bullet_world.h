@@ -11,7 +11,7 @@
 
 #include "adapters/bullet/bullet_convert.h"
 #include "adapters/bullet/bullet_joints.h"
-#include "adapters/external_loads.h"
+#include "adapters/common/external_loads.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
 #include "core/scene/contact_laws.h"
@@ -28,6 +28,7 @@ class BulletWorld : public World, public ReportsReactions {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return warning_; }
+  Capabilities capabilities() override { return {.reactions = this}; }
   void ask_for_reactions() override { joints_->ask_for_reactions(); }
   std::vector<ReportedReaction> reactions() const override;
 

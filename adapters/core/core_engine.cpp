@@ -6,12 +6,11 @@
 #include <cassert>
 #include <utility>
 
-#include "adapters/option_values.h"
+#include "adapters/common/option_values.h"
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/integrators/joint_events.h"
 #include "core/dynamics/joints/singular_passages.h"
 #include "core/engine/clock.h"
-#include "core/engine/sub_step.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -49,6 +48,8 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
         stepper_ = std::make_unique<JointEvents>(scene, system_, *joints_, std::move(stepper_));
     }
   }
+
+  Capabilities capabilities() override { return {.reduced_order = this, .divided_steps = this}; }
 
   void step(double dt) override {
     if (joints_) joints_->begin_step();
@@ -114,19 +115,9 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
 };
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
-const Features kJointFeatures = {"joint:ball",
-                                 "joint:distance",
-                                 "joint:fixed",
-                                 "joint:hinge",
-                                 "joint:slider",
-                                 "joint:universal",
-                                 "joint-spring",
-                                 "joint-damper",
-                                 "motor:effort",
-                                 "motor:speed",
-                                 "joints-with-dampers",
-                                 "joint-limit",
-                                 "joint-limit:beyond-half-turn"};
+const Features kJointFeatures =
+    joined(joints_of_all_types(), {"joint-spring", "joint-damper", "motor:effort", "motor:speed", "joints-with-dampers",
+                                   "joint-limit", "joint-limit:beyond-half-turn"});
 
 template <typename Rows>
 std::vector<std::string> names_of(const Rows& rows) {

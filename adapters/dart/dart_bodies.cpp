@@ -14,12 +14,10 @@ namespace {
 
 namespace dyn = ::dart::dynamics;
 
-// Where a joint's frame is: at its anchor, or at the centre of what hangs on it.
+// The joint's frame is at its anchor, or at the centre of what hangs on it.
 Vec3 point_of(const Joint& joint, const Body& hanging) {
-  if (const auto* ball = std::get_if<BallJoint>(&joint.type)) return ball->anchor;
-  if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) return hinge->anchor;
-  if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) return universal->anchor;
-  return hanging.position;
+  const Vec3* anchor = anchor_of(joint);
+  return anchor ? *anchor : hanging.position;
 }
 
 class SkeletonMaker {
@@ -93,26 +91,27 @@ class SkeletonMaker {
 
   dyn::Joint* make_joint(const Joint& joint, int index, dyn::BodyNode* parent) {
     const Mat3 to_body = matrix_of(scene_.bodies[index].orientation).transpose();
-    if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-      auto* made = add<dyn::RevoluteJoint>(index, parent);
-      made->setAxis(to_body * hinge->axis);
+    const auto along = [&](auto* made, const Vec3& axis) -> dyn::Joint* {
+      made->setAxis(to_body * axis);
       return made;
-    }
-    if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
-      auto* made = add<dyn::PrismaticJoint>(index, parent);
-      made->setAxis(to_body * slider->axis);
-      return made;
-    }
-    if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-      const Vec3 axis2 = (universal->axis2 - universal->axis2.dot(universal->axis) * universal->axis).normalized();
-      auto* made = add<dyn::UniversalJoint>(index, parent);  // its first axis is fixed in the parent
-      const bool is_b = joint.b == index;
-      made->setAxis1(to_body * (is_b ? universal->axis : axis2));
-      made->setAxis2(to_body * (is_b ? axis2 : universal->axis));
-      return made;
-    }
-    if (std::holds_alternative<FixedJoint>(joint.type)) return add<dyn::WeldJoint>(index, parent);
-    return add<dyn::BallJoint>(index, parent);
+    };
+    return std::visit(
+        ForJoints{
+            [&](const BallJoint&) -> dyn::Joint* { return add<dyn::BallJoint>(index, parent); },
+            [](const CylindricalJoint&) -> dyn::Joint* { return nullptr; },  // not among the features
+            [](const DistanceJoint&) -> dyn::Joint* { return nullptr; },
+            [&](const FixedJoint&) -> dyn::Joint* { return add<dyn::WeldJoint>(index, parent); },
+            [&](const HingeJoint& hinge) { return along(add<dyn::RevoluteJoint>(index, parent), hinge.axis); },
+            [&](const SliderJoint& slider) { return along(add<dyn::PrismaticJoint>(index, parent), slider.axis); },
+            [&](const UniversalJoint& universal) -> dyn::Joint* {
+              const Vec3 axis2 = universal.square_axis2();
+              auto* made = add<dyn::UniversalJoint>(index, parent);  // its first axis is fixed in the parent
+              const bool is_b = joint.b == index;
+              made->setAxis1(to_body * (is_b ? universal.axis : axis2));
+              made->setAxis2(to_body * (is_b ? axis2 : universal.axis));
+              return made;
+            }},
+        joint.type);
   }
 
   static void drive(const DartBodies::Coordinate& at, const Joint& joint) {

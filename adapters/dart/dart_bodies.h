@@ -9,7 +9,7 @@
 #include <dart/dynamics/Skeleton.hpp>
 #include <vector>
 
-#include "adapters/spanning_tree.h"
+#include "adapters/common/spanning_tree.h"
 
 namespace rigor {
 

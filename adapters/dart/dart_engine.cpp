@@ -2,8 +2,11 @@
 
 #include <dart/config.hpp>
 
+#include "adapters/common/engine_row.h"
+#include "adapters/common/option_values.h"
+#include "adapters/dart/dart_calls.h"
+#include "adapters/dart/dart_twin.h"
 #include "adapters/dart/dart_world.h"
-#include "adapters/option_values.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
@@ -52,5 +55,9 @@ std::unique_ptr<World> DartEngine::load(const Scene& scene, const Settings& sett
 
 // Neither solver touches smooth motion, nor do its options.
 std::string DartEngine::twin(const Settings&) const { return "core:dart-twin"; }
+
+EngineRow dart_row() {
+  return {make_engine<DartEngine>, [] { return std::vector<Integrator>{kDartTwin}; }, dart_calls};
+}
 
 }  // namespace rigor

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/reduced_twin.h"
+#include "adapters/common/reduced_twin.h"
 
 namespace rigor {
 namespace {

@@ -15,9 +15,9 @@
 #include "adapters/dart/dart_constants.h"
 #include "adapters/dart/dart_contacts.h"
 #include "adapters/dart/dart_matched.h"
-#include "adapters/external_loads.h"
-#include "adapters/hanging_joint.h"
-#include "adapters/option_values.h"
+#include "adapters/common/external_loads.h"
+#include "adapters/common/hanging_joint.h"
+#include "adapters/common/option_values.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine_failure.h"
 #include "core/scene/contact_laws.h"
@@ -45,6 +45,12 @@ Scene external_part(const Scene& scene, const SpanningTree& tree) {
   return left;
 }
 
+bool closes_loops(const Joint& joint) {
+  return std::visit(ForJoints{[](const BallJoint&) { return true; }, [](const FixedJoint&) { return true; },
+                              [](const HingeJoint&) { return true; }, [](const auto&) { return false; }},
+                    joint.type);
+}
+
 void refuse_what_features_do_not_say(const Scene& scene, const SpanningTree& tree) {
   const auto refuse = [&](int joint, const char* why) {
     throw EngineFailure(FailureKind::unsupported,
@@ -54,13 +60,11 @@ void refuse_what_features_do_not_say(const Scene& scene, const SpanningTree& tre
     if (scene.joints[k].has_limits() && scene.joints[k].restitution > 0)
       refuse(static_cast<int>(k), "bounces at its limits, and DART's limits have no restitution");
     const bool is_beyond = scene.joints[k].lower < -std::numbers::pi || scene.joints[k].upper > std::numbers::pi;
-    if (scene.joints[k].has_limits() && is_beyond && scene.joints[k].stiffness > 0 &&
-        std::holds_alternative<HingeJoint>(scene.joints[k].type))
+    if (scene.joints[k].has_limits() && is_beyond && scene.joints[k].stiffness > 0 && turns(scene.joints[k]))
       refuse(static_cast<int>(k), "has a spring and a limit beyond half a turn, and DART counts one angle for both");
   }
   for (const int k : tree.loops) {
-    const std::string type = joint_type_name(scene.joints[k]);
-    if (type == "slider" || type == "universal")
+    if (!closes_loops(scene.joints[k]))
       refuse(k, "closes a loop of joints, which DART closes by balls and fixed joints, and hinges by two balls, alone");
     if (scene.joints[k].has_limits()) refuse(k, "closes a loop of joints, where DART has no limits");
     for (const Motor& motor : scene.motors)
@@ -78,6 +82,7 @@ class DartWorld : public World, public ReportsReactions {
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
   // What passes to a body is worked out before DART's constraints, which loops are, get their impulses.
+  Capabilities capabilities() override { return {.reactions = this}; }
   void ask_for_reactions() override { is_asked_ = !has_loops_; }
   std::vector<ReportedReaction> reactions() const override;
 
@@ -132,8 +137,8 @@ DartWorld::DartWorld(const Scene& scene, const Settings& settings)
     if (motor.speed) speed_motors_.push_back(motor);
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     const Joint& joint = scene.joints[k];
-    const bool turns = made_.coordinates[k].joint && std::holds_alternative<HingeJoint>(joint.type);
-    if (turns && joint.stiffness > 0 && !joint.has_limits()) wound_.push_back(k);
+    const bool winds = made_.coordinates[k].joint && turns(joint);
+    if (winds && joint.stiffness > 0 && !joint.has_limits()) wound_.push_back(k);
   }
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     const int joint = tree.links[i].joint;
@@ -182,14 +187,18 @@ void DartWorld::close_loops(const Scene& scene, const SpanningTree& tree) {
           second ? std::make_shared<con::BallJointConstraint>(first, second, point)
                  : std::make_shared<con::BallJointConstraint>(first, point));
     };
-    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-      meet(ball->anchor);
-    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-      meet(hinge->anchor - 0.5 * hinge->axis), meet(hinge->anchor + 0.5 * hinge->axis);
-    } else {
-      world_->getConstraintSolver()->addConstraint(second ? std::make_shared<con::WeldJointConstraint>(first, second)
-                                                          : std::make_shared<con::WeldJointConstraint>(first));
-    }
+    std::visit(ForJoints{[&](const BallJoint& ball) { meet(ball.anchor); },
+                         [&](const HingeJoint& hinge) {
+                           meet(hinge.anchor - 0.5 * hinge.axis), meet(hinge.anchor + 0.5 * hinge.axis);
+                         },
+                         [&](const FixedJoint&) {
+                           world_->getConstraintSolver()->addConstraint(
+                               second ? std::make_shared<con::WeldJointConstraint>(first, second)
+                                      : std::make_shared<con::WeldJointConstraint>(first));
+                         },
+                         [](const CylindricalJoint&) {}, [](const DistanceJoint&) {},  // not among the features
+                         [](const SliderJoint&) {}, [](const UniversalJoint&) {}},     // refused by closes_loops()
+               joint.type);
   }
 }
 

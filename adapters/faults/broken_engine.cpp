@@ -52,6 +52,13 @@ class BrokenWorld : public World {
   SettingsInForce settings_in_force() const override { return world_->settings_in_force(); }
   std::string solver_warning() const override { return world_->solver_warning(); }
 
+  // A remote run reads few of its steps, and this world reads each one.
+  Capabilities capabilities() override {
+    Capabilities can = world_->capabilities();
+    can.remote = nullptr;
+    return can;
+  }
+
  private:
   void remember() {
     Snapshot now;

@@ -1,4 +1,4 @@
-// A run's settings in MuJoCo's own words, see adapters/calls.h.
+// A run's settings in MuJoCo's own words, see engine_calls() in adapters/engines.h.
 #pragma once
 
 #include <string>

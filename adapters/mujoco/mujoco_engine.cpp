@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "adapters/common/engine_row.h"
+#include "adapters/common/option_values.h"
+#include "adapters/mujoco/mujoco_calls.h"
+#include "adapters/mujoco/mujoco_export.h"
+#include "adapters/mujoco/mujoco_import.h"
+#include "adapters/mujoco/mujoco_twin.h"
 #include "adapters/mujoco/mujoco_world.h"
-#include "adapters/option_values.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
@@ -49,9 +54,9 @@ EngineInfo MujocoEngine::info() const {
           .precision = sizeof(mjtNum) == sizeof(double) ? "double" : "single",
           .features = joined(contacts_of_all_shapes(),
                              {"contact-filter", "spring", "timed-force", "fixed-body", "friction:none",
-                              "friction:coulomb", "joint:ball", "joint:distance", "joint:fixed", "joint:hinge",
-                              "joint:slider", "joint:universal", "joint-spring", "joint-damper", "joint-limit",
-                              "joint-limit:beyond-half-turn", "joints-with-dampers", "motor:effort"}),
+                              "friction:coulomb", "joint:ball", "joint:cylindrical", "joint:distance", "joint:fixed",
+                              "joint:hinge", "joint:slider", "joint:universal", "joint-spring", "joint-damper",
+                              "joint-limit", "joint-limit:beyond-half-turn", "joints-with-dampers", "motor:effort"}),
           .methods = {euler(), implicit(), rk4()}};
 }
 
@@ -65,6 +70,14 @@ std::unique_ptr<World> MujocoEngine::load(const Scene& scene, const Settings& se
 // Neither cone nor solver touches smooth motion.
 std::string MujocoEngine::twin(const Settings& settings) const {
   return fmt::format("core:mujoco-{}-twin", settings.method);
+}
+
+EngineRow mujoco_row() {
+  return {make_engine<MujocoEngine>,
+          [] {
+            return std::vector<Integrator>{kMujocoEulerTwin, kMujocoImplicitTwin, kMujocoRk4Twin};
+          },
+          mujoco_calls, read_with_mujoco, mjcf_for_others};
 }
 
 }  // namespace rigor

@@ -22,21 +22,7 @@ std::string escaped(const std::string& name) {
   return text;
 }
 
-struct GeomForOthers {
-  std::string operator()(const Sphere& s) const { return fmt::format(R"(type="sphere" size="{}")", s.radius); }
-  std::string operator()(const Box& b) const {
-    return fmt::format(R"(type="box" size="{}")", numbers(Vec3(b.size / 2)));
-  }
-  std::string operator()(const Capsule& c) const {
-    return fmt::format(R"(type="capsule" size="{} {}")", c.radius, c.length / 2);
-  }
-  std::string operator()(const Plane& p) const {
-    return fmt::format(R"(type="plane" size="0 0 1" pos="{}" zaxis="{}")", numbers(Vec3(p.normal * p.offset)),
-                       numbers(p.normal));
-  }
-};
-
-// Uses principal moments and axes, because MuJoCo would diagonalise a full inertia only to a relative 2.5e-8.
+// By principal moments and axes: a full inertia MuJoCo would diagonalise to 2.5e-8 of itself only.
 std::string inertia_of_body(const Body& body) {
   if (body.inertia.isDiagonal(0)) return fmt::format(R"(diaginertia="{}")", numbers(Vec3(body.inertia.diagonal())));
   const SymmetricEigen principal = eigen_of(body.inertia);
@@ -146,8 +132,7 @@ class Exporter {
     const std::string touch = !body.collides ? R"( contype="0" conaffinity="0")"
                               : mu == 0      ? R"( condim="1")"
                                         : fmt::format(R"( condim="3" friction="{} 0.005 0.0001")", std::min(mu, 1e6));
-    add("{:{}}<geom name=\"{}\" {}{}/>\n", "", indent, escaped(body.name), std::visit(GeomForOthers{}, *body.shape),
-        touch);
+    add("{:{}}<geom name=\"{}\" {}{}/>\n", "", indent, escaped(body.name), mjcf_shape(*body.shape), touch);
   }
 
   // The points of springs and distance joints.
@@ -176,33 +161,26 @@ class Exporter {
 
   void add_joint(int body, int index, int indent) {
     const Joint& joint = scene_.joints[index];
-    const bool is_b = joint.b == body;  // MuJoCo counts from the parent to what hangs on it
-    const auto row = [&](const std::string& name, const char* type, const Vec3& anchor, const Vec3* axis,
-                         const std::string& more = "") {
-      add("{:{}}<joint name=\"{}\" type=\"{}\" pos=\"{}\"", "", indent, name, type, numbers(anchor));
-      if (axis) add(" axis=\"{}\"", numbers(direction_in(body, *axis)));
-      add("{}/>\n", more);
-    };
-    if (const auto* ball = std::get_if<BallJoint>(&joint.type))
-      return row(joint_name(index), "ball", point_in(body, ball->anchor), nullptr);
-    if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-      // The first of several joints of a body moves with the parent: its axis is the one fixed in the parent.
-      row(joint_name(index), "hinge", point_in(body, universal->anchor), is_b ? &universal->axis : &universal->axis2);
-      return row(joint_name(index) + "/2", "hinge", point_in(body, universal->anchor),
-                 is_b ? &universal->axis2 : &universal->axis);
+    const bool is_reversed = free_axis(joint) && joint.b != body;  // MuJoCo counts from the parent to what hangs on it
+    std::string name = joint_name(index);
+    for (const MjcfJoint& row : mjcf_joints(joint, body)) {
+      add("{:{}}<joint name=\"{}\" type=\"{}\" pos=\"{}\"", "", indent, name, row.type,
+          numbers(row.point ? point_in(body, *row.point) : Vec3::Zero().eval()));
+      if (row.axis) add(" axis=\"{}\"", numbers(direction_in(body, is_reversed ? Vec3(-*row.axis) : *row.axis)));
+      if (free_axis(joint)) add("{}", coordinate_of(joint));
+      add("/>\n");
+      name += "/2";
     }
-    const Vec3* axis = free_axis(joint);
-    if (!axis) return;  // a fixed one has no element
-    const Vec3 along = is_b ? *axis : Vec3(-*axis);
-    std::string more =
+  }
+
+  static std::string coordinate_of(const Joint& joint) {
+    std::string text =
         fmt::format(R"( stiffness="{}" springref="{}" damping="{}")", joint.stiffness, joint.rest, joint.damping);
     constexpr double kFar = 1e6;  // MuJoCo bounds a joint on both sides or on none
     if (joint.has_limits())
-      more +=
+      text +=
           fmt::format(R"( limited="true" range="{} {}")", std::max(joint.lower, -kFar), std::min(joint.upper, kFar));
-    const auto* hinge = std::get_if<HingeJoint>(&joint.type);
-    row(joint_name(index), hinge ? "hinge" : "slide", hinge ? point_in(body, hinge->anchor) : Vec3::Zero().eval(),
-        &along, more);
+    return text;
   }
 
   void add_springs() {
@@ -229,21 +207,17 @@ class Exporter {
       const std::string bodies =
           fmt::format(R"(body1="{}"{})", escaped(scene_.body_name(first)),
                       second == kWorld ? "" : fmt::format(R"( body2="{}")", escaped(scene_.body_name(second))));
-      const auto* hinge = std::get_if<HingeJoint>(&joint.type);
-      if (std::holds_alternative<DistanceJoint>(joint.type)) {
-        add("    <tendon tendon1=\"distance{}\"/>\n", k);
-      } else if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-        add("    <connect {} anchor=\"{}\"/>\n", bodies, numbers(point_in(first, ball->anchor)));
-      } else if (hinge && joint.stiffness == 0 && joint.damping == 0 && !joint.has_limits()) {
-        for (const Vec3& point : {hinge->anchor, Vec3(hinge->anchor + hinge->axis)})
-          add("    <connect {} anchor=\"{}\"/>\n", bodies, numbers(point_in(first, point)));
-      } else if (std::holds_alternative<FixedJoint>(joint.type)) {
-        add("    <weld {}/>\n", bodies);
-      } else {
+      MjcfLoop loop = mjcf_loop(joint);
+      if (loop.points.size() > 1 && (joint.stiffness != 0 || joint.damping != 0 || joint.has_limits()))
+        loop = {MjcfLoop::Equality::none};
+      if (loop.equality == MjcfLoop::Equality::none)
         leave_out(
             scene_.joint_name(static_cast<std::size_t>(k)),
             "closes a loop of joints, which MuJoCo closes by balls, plain hinges, fixed and distance joints alone");
-      }
+      if (loop.equality == MjcfLoop::Equality::tendon) add("    <tendon tendon1=\"distance{}\"/>\n", k);
+      if (loop.equality == MjcfLoop::Equality::weld) add("    <weld {}/>\n", bodies);
+      for (const Vec3& point : loop.points)
+        add("    <connect {} anchor=\"{}\"/>\n", bodies, numbers(point_in(first, point)));
     }
     add("  </equality>\n");
   }

@@ -142,7 +142,7 @@ class Writer {
     Shape shape = *body.shape;
     auto* plane = std::get_if<Plane>(&shape);
     if (plane && is_kept_apart(index)) plane->offset -= plane->normal.dot(body.position);  // in the body's frame
-    add(R"(<geom name="g{}" {} {}/>)", index, std::visit(GeomOf{}, shape), friction_of(scene_.contact_default, false));
+    add(R"(<geom name="g{}" {} {}/>)", index, mjcf_shape(shape), friction_of(scene_.contact_default, false));
   }
 
   // The points of springs and distance joints.
@@ -170,26 +170,22 @@ class Writer {
     return scene_.pose(body).orientation.conjugate() * direction_W;
   }
 
-  // The joint by which `body` hangs on its parent. A fixed one has no element.
   void write_joint(int body, int index) {
     const Joint& joint = scene_.joints[index];
     const double sign = joint.b == body ? 1 : -1;
-    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-      add(R"(<joint name="j{}" type="ball" pos="{}"/>)", index, text_of(point_in(body, ball->anchor)));
-    } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-      // Of several joints of a body the first moves with the parent: that is the axis which is fixed in it.
-      const Vec3 first = sign > 0 ? universal->axis : universal->axis2;
-      const Vec3 second = sign > 0 ? universal->axis2 : universal->axis;
-      const std::string anchor = text_of(point_in(body, universal->anchor));
-      add(R"(<joint name="j{}x" type="hinge" pos="{}" axis="{}"/>)", index, anchor, text_of(direction_in(body, first)));
-      add(R"(<joint name="j{}y" type="hinge" pos="{}" axis="{}"/>)", index, anchor,
-          text_of(direction_in(body, second)));
-    } else if (const Vec3* axis = free_axis(joint)) {
-      const auto* hinge = std::get_if<HingeJoint>(&joint.type);
-      add(R"(<joint name="j{}" type="{}" pos="{}" axis="{}" stiffness="{}" springref="{}" damping="{}"{}/>)", index,
-          hinge ? "hinge" : "slide", text_of(hinge ? point_in(body, hinge->anchor) : Vec3::Zero().eval()),
-          text_of(direction_in(body, *axis)), joint.stiffness, sign * joint.rest, joint.damping,
-          limits_of(joint, sign));
+    const std::vector<MjcfJoint> rows = mjcf_joints(joint, body);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const MjcfJoint& row = rows[k];
+      add(R"(<joint name="j{}{}" type="{}" pos="{}")", index,
+          rows.size() == 1 ? ""
+          : k == 0         ? "x"
+                           : "y",
+          row.type, text_of(row.point ? point_in(body, *row.point) : Vec3::Zero().eval()));
+      if (row.axis) add(R"( axis="{}")", text_of(direction_in(body, *row.axis)));
+      if (free_axis(joint))
+        add(R"( stiffness="{}" springref="{}" damping="{}"{})", joint.stiffness, sign * joint.rest, joint.damping,
+            limits_of(joint, sign));
+      add("/>");
     }
   }
 
@@ -232,32 +228,23 @@ class Writer {
                                     scene_.joint_name(static_cast<std::size_t>(index))));
   }
 
-  // A hinge is two points on its axis, a metre apart: of their six rows five count, which rows that give way bear.
   void write_loop(int index) {
     const Joint& joint = scene_.joints[index];
     refuse_drive(index);
     const bool moves = joint.a != kWorld;  // an equality's first body is not the world
     const int first = moves ? joint.a : joint.b, second = moves ? joint.b : kWorld;
     const std::string other = second == kWorld ? "" : fmt::format(R"( body2="{}")", name_of(second));
-    const auto connect = [&](const Vec3& anchor) {
-      add("<connect body1=\"{}\"{} anchor=\"{}\"/>\n", name_of(first), other, text_of(point_in(first, anchor)));
-    };
-    if (std::holds_alternative<DistanceJoint>(joint.type)) {
-      add("<tendon tendon1=\"d{}\"/>\n", index);
-    } else if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-      connect(ball->anchor);
-    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-      connect(hinge->anchor);
-      connect(hinge->anchor + hinge->axis);
-    } else if (std::holds_alternative<FixedJoint>(joint.type)) {
-      add("<weld body1=\"{}\"{}/>\n", name_of(first), other);
-    } else {
+    const MjcfLoop loop = mjcf_loop(joint);
+    if (loop.equality == MjcfLoop::Equality::none)
       throw EngineFailure(
           FailureKind::unsupported,
           fmt::format("{} closes a loop of joints, which MuJoCo closes by balls, hinges, fixed and distance "
                       "joints alone",
                       scene_.joint_name(static_cast<std::size_t>(index))));
-    }
+    if (loop.equality == MjcfLoop::Equality::tendon) add("<tendon tendon1=\"d{}\"/>\n", index);
+    if (loop.equality == MjcfLoop::Equality::weld) add("<weld body1=\"{}\"{}/>\n", name_of(first), other);
+    for (const Vec3& point : loop.points)
+      add("<connect body1=\"{}\"{} anchor=\"{}\"/>\n", name_of(first), other, text_of(point_in(first, point)));
   }
 
   void write_pairs() {
@@ -281,6 +268,49 @@ class Writer {
 };
 
 }  // namespace
+
+std::string mjcf_shape(const Shape& shape) { return std::visit(GeomOf{}, shape); }
+
+std::vector<MjcfJoint> mjcf_joints(const Joint& joint, int hanging_body) {
+  using Elements = std::vector<MjcfJoint>;
+  return std::visit(
+      ForJoints{[](const BallJoint& type) -> Elements {
+                  return {{"ball", &type.anchor, nullptr}};
+                },
+                [](const CylindricalJoint& type) -> Elements {
+                  return {{"slide", nullptr, &type.axis}, {"hinge", &type.anchor, &type.axis}};
+                },
+                [](const DistanceJoint&) -> Elements { return {}; }, [](const FixedJoint&) -> Elements { return {}; },
+                [](const HingeJoint& type) -> Elements {
+                  return {{"hinge", &type.anchor, &type.axis}};
+                },
+                [](const SliderJoint& type) -> Elements {
+                  return {{"slide", nullptr, &type.axis}};
+                },
+                [&](const UniversalJoint& type) -> Elements {
+                  const bool is_b = joint.b == hanging_body;
+                  return {{"hinge", &type.anchor, is_b ? &type.axis : &type.axis2},
+                          {"hinge", &type.anchor, is_b ? &type.axis2 : &type.axis}};
+                }},
+      joint.type);
+}
+
+MjcfLoop mjcf_loop(const Joint& joint) {
+  using Equality = MjcfLoop::Equality;
+  const auto none = [](const auto&) -> MjcfLoop { return {Equality::none}; };
+  return std::visit(ForJoints{[](const BallJoint& type) -> MjcfLoop {
+                                return {Equality::connect, {type.anchor}};
+                              },
+                              [&](const CylindricalJoint& type) { return none(type); },
+                              [](const DistanceJoint&) -> MjcfLoop { return {Equality::tendon}; },
+                              [](const FixedJoint&) -> MjcfLoop { return {Equality::weld}; },
+                              [](const HingeJoint& type) -> MjcfLoop {
+                                return {Equality::connect, {type.anchor, type.anchor + type.axis}};
+                              },
+                              [&](const SliderJoint& type) { return none(type); },
+                              [&](const UniversalJoint& type) { return none(type); }},
+                    joint.type);
+}
 
 std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings) {
   return Writer(scene, tree, settings).text();

@@ -1,5 +1,5 @@
 // A scene in MJCF, MuJoCo's own XML. Bodies are called b0, b1, … by their index, their shapes g0, g1, …, joints j0 (and
-// j0x, j0y of a universal joint), springs s0, distance joints d0.
+// j0x, j0y where a joint has two elements), springs s0, distance joints d0.
 //
 // MuJoCo's conventions and ours: SI here and there; quaternions (w, x, y, z), body to world; a body's frame is that of
 // its parent's child, and we set its origin at the centre of mass as ours; a capsule by its half length along z, a box
@@ -7,14 +7,34 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "adapters/spanning_tree.h"
+#include "adapters/common/spanning_tree.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
 
 // Bodies that hang on each other: TinyXML-2, which reads for MuJoCo, nests a hundred elements.
 inline constexpr int kDeepestBody = 95;
+
+// The attributes of a shape.
+std::string mjcf_shape(const Shape& shape);
+
+// The elements by which a joint hangs a body on its parent, of MuJoCo's types "ball", "hinge" and "slide". Of several
+// the first moves with the parent. A fixed joint has none.
+struct MjcfJoint {
+  const char* type;
+  const Vec3* point;  // m, in W; null: the body's centre
+  const Vec3* axis;   // in W; null for a ball
+};
+std::vector<MjcfJoint> mjcf_joints(const Joint& joint, int hanging_body);
+
+// The equality that closes a loop. A hinge is two points on its axis, a metre apart: of their six rows five count.
+struct MjcfLoop {
+  enum class Equality { connect, tendon, weld, none } equality;
+  std::vector<Vec3> points = {};  // m, in W: of `connect`
+};
+MjcfLoop mjcf_loop(const Joint& joint);
 
 std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings);
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "adapters/common/spanning_tree.h"
 #include "adapters/mujoco/mujoco_library.h"
-#include "adapters/spanning_tree.h"
 #include "core/engine/engine.h"
 
 namespace rigor {

@@ -1,5 +1,7 @@
 #include "adapters/mujoco/mujoco_reactions.h"
 
+#include "adapters/mujoco/mujoco_mjcf.h"
+
 namespace rigor {
 
 namespace {
@@ -28,9 +30,9 @@ MujocoReactions::MujocoReactions(const Scene& scene, const SpanningTree& tree, c
   are_said_ = scene.springs.empty() && method != "rk4";
   for (const int k : tree.loops) {
     const Joint& joint = scene.joints[static_cast<std::size_t>(k)];
-    const bool is_hinge = std::holds_alternative<HingeJoint>(joint.type);
-    are_said_ = are_said_ && (is_hinge || std::holds_alternative<BallJoint>(joint.type));
-    loops_.push_back({k, joint.a != kWorld ? joint.a : joint.b, is_hinge ? 2 : 1});  // as write_loop() has them
+    const MjcfLoop loop = mjcf_loop(joint);
+    are_said_ = are_said_ && loop.equality == MjcfLoop::Equality::connect;
+    loops_.push_back({k, joint.a != kWorld ? joint.a : joint.b, static_cast<int>(loop.points.size())});
   }
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/hanging_joint.h"
+#include "adapters/common/hanging_joint.h"
 #include "adapters/mujoco/mujoco_model.h"
 
 namespace rigor {

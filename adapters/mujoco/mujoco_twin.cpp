@@ -1,7 +1,7 @@
 // The smooth steps of MuJoCo 2.2, for comparison with MuJoCo itself. A free body's coordinates are position,
 // orientation q, velocity in W and angular velocity w in B. tau is the torque in B and I the inertia there:
 //   euler     w1 = w0 + dt I⁻¹ (tau - w0 x I w0),   v1 = v0 + dt F/m,   x1 = x0 + dt v1,   q1 = q0 exp(dt w1),
-//             and alike in the coordinates of joints (adapters/reduced_twin.h); the others for free bodies alone
+//             and alike in the coordinates of joints (adapters/common/reduced_twin.h); the others for free bodies alone
 //   implicit  the same with (I + dt ([w0]x I - [I w0]x))⁻¹ for I⁻¹ and, where springs damp, one Newton step for their
 //             forces: (M + dt sum c j jᵀ) (V1 - V0) = dt f, j the slope of a spring's length in the velocities of one
 //             body; the effect of one body's velocity on another's force is left out
@@ -13,7 +13,7 @@
 #include <Eigen/LU>
 #include <array>
 
-#include "adapters/reduced_twin.h"
+#include "adapters/common/reduced_twin.h"
 
 namespace rigor {
 namespace {

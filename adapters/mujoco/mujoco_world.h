@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "adapters/external_loads.h"
+#include "adapters/common/external_loads.h"
 #include "adapters/mujoco/mujoco_model.h"
 #include "adapters/mujoco/mujoco_reactions.h"
 #include "core/engine/clock.h"
@@ -18,6 +18,7 @@ class MujocoWorld : public World, public ReportsReactions {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
+  Capabilities capabilities() override { return {.reactions = this}; }
   void ask_for_reactions() override { is_asked_ = said_.are_said(); }
   std::vector<ReportedReaction> reactions() const override;
 

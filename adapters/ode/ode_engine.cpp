@@ -4,9 +4,12 @@
 #include <ode/ode.h>
 #include <ode/version.h>
 
+#include "adapters/common/engine_row.h"
+#include "adapters/common/option_values.h"
+#include "adapters/ode/ode_calls.h"
 #include "adapters/ode/ode_matched.h"
+#include "adapters/ode/ode_twin.h"
 #include "adapters/ode/ode_world.h"
-#include "adapters/option_values.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
@@ -24,13 +27,11 @@ std::vector<OptionInfo> options_of_both() {
 }
 
 Features joints_of_all_kinds() {
-  return {"joint:ball",          "joint:distance",
-          "joint:fixed",         "joint:hinge",
-          "joint:slider",        "joint:universal",
-          "joint-spring",        "joint-damper",
-          "joint-limit",         "motor:effort",
-          "motor:speed",         "joints-with-contacts",
-          "joints-with-dampers", "joint-limit:beyond-half-turn"};
+  return {"joint:ball",           "joint:cylindrical",   "joint:distance",
+          "joint:fixed",          "joint:hinge",         "joint:slider",
+          "joint:universal",      "joint-spring",        "joint-damper",
+          "joint-limit",          "motor:effort",        "motor:speed",
+          "joints-with-contacts", "joints-with-dampers", "joint-limit:beyond-half-turn"};
 }
 
 MethodInfo by_size() {
@@ -89,6 +90,10 @@ std::string OdeEngine::twin(const Settings& settings) const {
   if (!matched || settings.options.contains("cfm"))
     name += fmt::format(",cfm={}", number_option(settings, "cfm", kShippedCfm));
   return name + (settings.method == "quickstep" ? ",joints=none" : ",joints=direct");
+}
+
+EngineRow ode_row() {
+  return {make_engine<OdeEngine>, [] { return std::vector<Integrator>{kOdeTwin}; }, ode_calls};
 }
 
 }  // namespace rigor

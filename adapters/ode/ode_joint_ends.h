@@ -29,8 +29,7 @@ class OdeJointEnds {
   }
   // In W at t = 0, at right angles to the last digit.
   OdePair<Vec3> axes(const UniversalJoint& universal) const {
-    const Vec3& axis = universal.axis;
-    return ordered(axis, (universal.axis2 - universal.axis2.dot(axis) * axis).normalized());
+    return ordered(universal.axis, universal.square_axis2());
   }
 
  private:

@@ -33,6 +33,12 @@ struct OdeJoints::Maker {
     dJointSetBallAnchor(id, ball.anchor.x(), ball.anchor.y(), ball.anchor.z());
     return id;
   }
+  dJointID operator()(const CylindricalJoint& cylinder) const {
+    const dJointID id = attached(dJointCreatePiston(world, nullptr));
+    dJointSetPistonAnchor(id, cylinder.anchor.x(), cylinder.anchor.y(), cylinder.anchor.z());
+    dJointSetPistonAxis(id, cylinder.axis.x(), cylinder.axis.y(), cylinder.axis.z());
+    return id;
+  }
   dJointID operator()(const HingeJoint& hinge) const {
     const dJointID id = attached(dJointCreateHinge(world, nullptr));
     dJointSetHingeAnchor(id, hinge.anchor.x(), hinge.anchor.y(), hinge.anchor.z());
@@ -84,9 +90,7 @@ OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBody
     const OdeJointEnds ends(scene, joint);
     const Maker maker{world, ends, bodies[ends.bodies.first],
                       ends.bodies.second == kWorld ? nullptr : bodies[ends.bodies.second]};
-    const Axis* axis = std::holds_alternative<HingeJoint>(joint.type)    ? &kHinge
-                       : std::holds_alternative<SliderJoint>(joint.type) ? &kSlider
-                                                                         : nullptr;
+    const Axis* axis = !free_axis(joint) ? nullptr : turns(joint) ? &kHinge : &kSlider;
     const double sign = ends.sign();
     joints_.push_back({std::visit(maker, joint.type), sign, axis, sign > 0 ? joint.lower : -joint.upper,
                        sign > 0 ? joint.upper : -joint.lower, ends.bodies.first});

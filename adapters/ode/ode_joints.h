@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/engine/reported_reactions.h"
+#include "core/engine/capabilities.h"
 #include "core/scene/scene.h"
 
 namespace rigor {

@@ -66,8 +66,8 @@ class OdeTwin : public Stepper {
   Wrenches wrenches_;
 };
 
-const Features kJointKinds = {"joint:ball",  "joint:distance", "joint:fixed",
-                              "joint:hinge", "joint:slider",   "joint:universal"};
+const Features kJointKinds = {"joint:ball",  "joint:cylindrical", "joint:distance", "joint:fixed",
+                              "joint:hinge", "joint:slider",      "joint:universal"};
 
 }  // namespace
 

@@ -87,6 +87,32 @@ class OdeUniversal : public OdeBall {
   Vec3 axis_, other_axis_;
 };
 
+// ODE's piston. The first is pushed at the place of the second's anchor.
+class OdePiston : public OdeJointRows {
+ public:
+  OdePiston(const CylindricalJoint& cylinder, const OdeEnd& first, const OdeEnd& second)
+      : arm_(seen_from(first, cylinder.anchor)),
+        other_(seen_from(second, cylinder.anchor)),
+        axis_(first.R.transpose() * cylinder.axis),
+        other_axis_(second.R.transpose() * cylinder.axis) {}
+  int count() const override { return 4; }
+  void fill(const OdeEnd& first, const OdeEnd& second, OdeRows& rows) const override {
+    const Vec3 axis = first.R * axis_, off = axis.cross(second.R * other_axis_), other = second.R * other_;
+    const Vec3 line = second.position + other - first.position, missing = line - first.R * arm_;
+    const Across across = directions_across(axis);
+    int at = 0;
+    for (const Vec3& p : {across.first, across.second}) {
+      keep_from_turning(p, p.dot(off), rows, at++);
+      rows.on_first.row(at) << p.transpose(), line.cross(p).transpose();
+      rows.on_second.row(at) << -p.transpose(), p.cross(other).transpose();
+      rows.missing[at++] = p.dot(missing);
+    }
+  }
+
+ private:
+  Vec3 arm_, other_, axis_, other_axis_;
+};
+
 // The axis is the first's, the offset the second's; half of the turning of each counts.
 class OdeSlider : public OdeJointRows {
  public:
@@ -161,6 +187,9 @@ struct MakeRows {
   const OdeEnd &first, &second;
 
   Rows operator()(const BallJoint& ball) const { return std::make_unique<OdeBall>(ball.anchor, first, second); }
+  Rows operator()(const CylindricalJoint& cylinder) const {
+    return std::make_unique<OdePiston>(cylinder, first, second);
+  }
   Rows operator()(const HingeJoint& hinge) const { return std::make_unique<OdeHinge>(hinge, first, second); }
   Rows operator()(const SliderJoint& slider) const { return std::make_unique<OdeSlider>(slider, first, second); }
   Rows operator()(const FixedJoint&) const { return std::make_unique<OdeFixed>(first, second); }

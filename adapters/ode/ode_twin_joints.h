@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/twin_joint_solver.h"
+#include "adapters/common/twin_joint_solver.h"
 
 namespace rigor {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "adapters/common/option_values.h"
 #include "adapters/ode/ode_library.h"
 #include "adapters/ode/ode_matched.h"
-#include "adapters/option_values.h"
 
 namespace rigor {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/external_loads.h"
+#include "adapters/common/external_loads.h"
 #include "adapters/ode/ode_joints.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
@@ -31,6 +31,7 @@ class OdeWorld : public World, public ReportsReactions {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
+  Capabilities capabilities() override { return {.reactions = this}; }
   void ask_for_reactions() override { joints_->ask_for_reactions(); }
   std::vector<ReportedReaction> reactions() const override;
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "adapters/option_values.h"
+#include "adapters/common/option_values.h"
 #include "adapters/plugin/answer.h"
 #include "adapters/plugin/in_quotes.h"
 #include "adapters/plugin/memory_limit.h"

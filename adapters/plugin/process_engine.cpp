@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "adapters/option_values.h"
+#include "adapters/common/option_values.h"
 #include "adapters/plugin/process_world.h"
 #include "core/engine/engine_failure.h"
 

@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "adapters/plugin/process_session.h"
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
 
 namespace rigor {
 
-class ProcessEngine : public RemoteEngine {
+class ProcessEngine : public Engine {
  public:
   // Starts the command once to get its description. Throws InputError, in one sentence, on failure.
   explicit ProcessEngine(PluginStart start);
@@ -21,6 +21,7 @@ class ProcessEngine : public RemoteEngine {
   // Throws EngineFailure. The process is started with the first world, and serves all that come after it.
   std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override;
   std::string twin(const Settings&) const override { return ""; }
+  bool is_remote() const override { return true; }
   void rest() const override;
 
  private:

@@ -7,11 +7,11 @@
 #include "adapters/plugin/process_session.h"
 #include "adapters/plugin/rigor_loads.h"
 #include "core/engine/clock.h"
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
 
 namespace rigor {
 
-class ProcessWorld : public RemoteWorld {
+class ProcessWorld : public World, public RemoteRuns {
  public:
   ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings);
   ~ProcessWorld() override;
@@ -20,6 +20,7 @@ class ProcessWorld : public RemoteWorld {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override { return in_force_; }
   std::string solver_warning() const override { return lost_why_.empty() ? warning_ : lost_why_; }
+  Capabilities capabilities() override { return {.remote = this}; }
   void expect(double dt, long steps, long every) override;
   double remote_cpu_seconds() const override {
     return session_->child().cpu_seconds() - session_->child().looked_for();

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "adapters/external_loads.h"
+#include "adapters/common/external_loads.h"
 #include "adapters/plugin/plugin_info.h"
 
 namespace rigor {

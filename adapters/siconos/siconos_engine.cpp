@@ -4,7 +4,10 @@
 
 #include <filesystem>
 
+#include "adapters/common/engine_row.h"
+#include "adapters/siconos/siconos_calls.h"
 #include "adapters/siconos/siconos_info.h"
+#include "adapters/siconos/siconos_twin.h"
 
 namespace rigor {
 namespace {
@@ -33,6 +36,10 @@ std::string SiconosEngine::twin(const Settings& settings) const {
   if (settings.track == Track::stock) return "";
   const auto theta = settings.options.find("theta");
   return "core:siconos-twin" + (theta == settings.options.end() ? "" : ",theta=" + theta->second);
+}
+
+EngineRow siconos_row() {
+  return {make_engine<SiconosEngine>, [] { return std::vector<Integrator>{kSiconosTwin}; }, siconos_calls};
 }
 
 }  // namespace rigor

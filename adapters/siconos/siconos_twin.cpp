@@ -10,7 +10,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "adapters/option_values.h"
+#include "adapters/common/option_values.h"
 #include "adapters/siconos/siconos_matched.h"
 #include "adapters/siconos/siconos_slope.h"
 

@@ -24,7 +24,7 @@ Quat about(const Vec3& axis, double angle) { return rotation_by(angle * axis); }
 }  // namespace
 
 int SimbodyCoordinates::Node::speeds() const {
-  static constexpr int kSpeeds[] = {6, 3, 1, 1, 2, 0};
+  static constexpr int kSpeeds[] = {6, 3, 2, 1, 1, 2, 0};
   return kSpeeds[static_cast<int>(kind)];
 }
 
@@ -70,6 +70,13 @@ SimbodyCoordinates::State SimbodyCoordinates::state_of(BodyColumns bodies) const
     const Quat q_F = above.q * node.q_parent, q_FM = q_F.conjugate() * q_B * node.q_body;
     const Vec3 w = q_F.conjugate() * (w_B - above.w);
     const auto angle = [](double sine, double cosine) { return 2 * std::atan2(sine, cosine); };
+    const Vec3 line = p_B + q_B * node.p_body - above.p;
+    const auto moved = [&]() -> Vec3 {  // M's origin in F
+      return q_F.conjugate() * line - node.q_parent.conjugate() * node.p_parent;
+    };
+    const auto speed = [&]() -> Vec3 {
+      return q_F.conjugate() * (v_B + w_B.cross(q_B * node.p_body) - above.v - above.w.cross(line));
+    };
     switch (node.kind) {
       case Kind::ball:
         state.q.segment<4>(node.q) = wxyz(q_FM.normalized()), state.u.segment<3>(node.u) = w;
@@ -77,13 +84,13 @@ SimbodyCoordinates::State SimbodyCoordinates::state_of(BodyColumns bodies) const
       case Kind::pin:
         state.q[node.q] = angle(q_FM.z(), q_FM.w()), state.u[node.u] = w.z();
         break;
-      case Kind::slider: {
-        const Vec3 line = p_B + q_B * node.p_body - above.p, moved = q_F.conjugate() * line;
-        state.q[node.q] = moved.x() - (node.q_parent.conjugate() * node.p_parent).x();
-        const Vec3 speed = v_B + w_B.cross(q_B * node.p_body) - above.v - above.w.cross(line);
-        state.u[node.u] = (q_F.conjugate() * speed).x();
+      case Kind::cylinder:
+        state.q.segment<2>(node.q) << angle(q_FM.z(), q_FM.w()), moved().z();
+        state.u.segment<2>(node.u) << w.z(), speed().z();
         break;
-      }
+      case Kind::slider:
+        state.q[node.q] = moved().x(), state.u[node.u] = speed().x();
+        break;
       case Kind::universal: {  // q_FM = (about x)(about y) = (c1 + s1 i)(c2 + s2 j) = c1 c2 + s1 c2 i + c1 s2 j + s1 s2
                                // k
         const double first = angle(q_FM.x(), q_FM.w());
@@ -129,6 +136,10 @@ void SimbodyCoordinates::place(const State& state, std::size_t n) {
     case Kind::pin:
       H(2, 0) = 1;
       q_FM = about(Vec3::UnitZ(), state.q[node.q]);
+      break;
+    case Kind::cylinder:
+      H(2, 0) = 1, H(5, 1) = 1;
+      q_FM = about(Vec3::UnitZ(), state.q[node.q]), p_FM.z() = state.q[node.q + 1];
       break;
     case Kind::slider:
       H(3, 0) = 1;

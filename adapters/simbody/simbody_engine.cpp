@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "adapters/option_values.h"
+#include "adapters/common/engine_row.h"
+#include "adapters/common/option_values.h"
+#include "adapters/simbody/simbody_calls.h"
+#include "adapters/simbody/simbody_twin.h"
 #include "adapters/simbody/simbody_world.h"
 #include "core/engine/run_name.h"
 
@@ -56,8 +59,8 @@ EngineInfo SimbodyEngine::info() const {
           .version = simbody_version(),
           .precision = "double",
           .features = {"spring", "timed-force", "fixed-body", "joint:ball", "joint:distance", "joint:fixed",
-                       "joint:hinge", "joint:slider", "joint:universal", "joint-spring", "joint-damper",
-                       "joints-with-dampers", "motor:effort"},
+                       "joint:cylindrical", "joint:hinge", "joint:slider", "joint:universal", "joint-spring",
+                       "joint-damper", "joints-with-dampers", "motor:effort"},
           .methods = methods()};
 }
 
@@ -73,5 +76,7 @@ std::string SimbodyEngine::twin(const Settings& settings) const {
       !method.adaptive && (settings.track == Track::matched || method.name == "semi-explicit-euler");
   return takes_fixed_steps ? fmt::format("core:simbody-{}-twin", method.name) : "";
 }
+
+EngineRow simbody_row() { return {make_engine<SimbodyEngine>, simbody_twins, simbody_calls}; }
 
 }  // namespace rigor

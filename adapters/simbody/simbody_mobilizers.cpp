@@ -1,6 +1,6 @@
 #include "adapters/simbody/simbody_mobilizers.h"
 
-#include "adapters/spanning_tree.h"
+#include "adapters/common/spanning_tree.h"
 
 namespace rigor {
 namespace {
@@ -9,20 +9,30 @@ Mobilizer mobilizer_of(const Scene& scene, int body, const SpanningTree::Link& l
   if (link.joint < 0) return {MobilizerKind::free, body, kWorld, Mat3::Identity(), Vec3::Zero()};
   const Joint& joint = scene.joints[link.joint];
   const Mat3 straight = Mat3::Identity();
-  if (const auto* ball = std::get_if<BallJoint>(&joint.type))
-    return {MobilizerKind::ball, body, link.parent, straight, ball->anchor};
-  if (const auto* hinge = std::get_if<HingeJoint>(&joint.type))
-    return {MobilizerKind::pin, body, link.parent, axes_with(2, hinge->axis), hinge->anchor};
-  if (const auto* slider = std::get_if<SliderJoint>(&joint.type))
-    return {MobilizerKind::slider, body, link.parent, axes_with(0, slider->axis), scene.bodies[body].position};
-  if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-    const bool hangs_as_b = joint.b == body;  // x is fixed in the parent, y in what hangs on it
-    const Vec3 x = hangs_as_b ? universal->axis : universal->axis2, y = hangs_as_b ? universal->axis2 : universal->axis;
-    Mat3 axes;
-    axes.col(0) = x, axes.col(1) = (y - y.dot(x) * x).normalized(), axes.col(2) = x.cross(axes.col(1));
-    return {MobilizerKind::universal, body, link.parent, axes, universal->anchor};
-  }
-  return {MobilizerKind::weld, body, link.parent, straight, scene.bodies[body].position};
+  const Vec3& centre = scene.bodies[body].position;
+  const auto made = [&](MobilizerKind kind, const Mat3& axes, const Vec3& origin) {
+    return Mobilizer{kind, body, link.parent, axes, origin};
+  };
+  return std::visit(
+      ForJoints{
+          [&](const BallJoint& ball) { return made(MobilizerKind::ball, straight, ball.anchor); },
+          [&](const CylindricalJoint& cylinder) {
+            return made(MobilizerKind::cylinder, axes_with(2, cylinder.axis), cylinder.anchor);
+          },
+          // A distance joint always closes a loop, and hangs nothing.
+          [&](const DistanceJoint&) { return made(MobilizerKind::free, straight, centre); },
+          [&](const FixedJoint&) { return made(MobilizerKind::weld, straight, centre); },
+          [&](const HingeJoint& hinge) { return made(MobilizerKind::pin, axes_with(2, hinge.axis), hinge.anchor); },
+          [&](const SliderJoint& slider) { return made(MobilizerKind::slider, axes_with(0, slider.axis), centre); },
+          [&](const UniversalJoint& universal) {
+            const bool hangs_as_b = joint.b == body;  // x is fixed in the parent, y in what hangs on it
+            const Vec3 x = hangs_as_b ? universal.axis : universal.axis2,
+                       y = hangs_as_b ? universal.axis2 : universal.axis;
+            Mat3 axes;
+            axes.col(0) = x, axes.col(1) = (y - y.dot(x) * x).normalized(), axes.col(2) = x.cross(axes.col(1));
+            return made(MobilizerKind::universal, axes, universal.anchor);
+          }},
+      joint.type);
 }
 
 }  // namespace

@@ -7,10 +7,11 @@
 
 namespace rigor {
 
-enum class MobilizerKind { free, ball, pin, slider, universal, weld };
+enum class MobilizerKind { free, ball, cylinder, pin, slider, universal, weld };
 
 // Its two frames, F in the parent and M in the body, coincide at t = 0, where they have these axes and this origin. A
-// pin turns about their z, a slider moves along x, a universal joint turns about F's x, then about M's y.
+// pin turns about their z, a cylinder turns about z and moves along it, a slider moves along x, a universal joint turns
+// about F's x, then about M's y.
 struct Mobilizer {
   MobilizerKind kind;
   int body;

@@ -1,20 +1,19 @@
 #include "adapters/simbody/simbody_reactions.h"
 
-#include "adapters/spanning_tree.h"
+#include "adapters/common/spanning_tree.h"
 
 namespace rigor {
 namespace {
 
-// The point that a joint's couple is about: where it has none, the body's own centre.
+// The point that a joint's couple is about. Without an anchor it is the body's own centre.
 Vec3 arm_of(const Scene& scene, const Joint& joint, int body) {
   const BodyPose pose = scene.pose(body);
-  const auto seen = [&](const Vec3& point) -> Vec3 { return pose.orientation.conjugate() * (point - pose.position); };
-  if (const auto* ball = std::get_if<BallJoint>(&joint.type)) return seen(ball->anchor);
-  if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) return seen(hinge->anchor);
-  if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) return seen(universal->anchor);
-  if (const auto* distance = std::get_if<DistanceJoint>(&joint.type))
-    return joint.a == body ? distance->point_a : distance->point_b;
-  return Vec3::Zero();
+  Vec3 arm = Vec3::Zero();
+  for_each_vector(joint.type, [&](const char*, JointVector kind, const Vec3& vector) {
+    if (kind == JointVector::point) arm = pose.orientation.conjugate() * (vector - pose.position);
+    if (kind == (joint.a == body ? JointVector::point_of_a : JointVector::point_of_b)) arm = vector;
+  });
+  return arm;
 }
 
 Vec3 from_simbody(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }

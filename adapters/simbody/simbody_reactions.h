@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "adapters/hanging_joint.h"
+#include "adapters/common/hanging_joint.h"
 #include "adapters/simbody/simbody_system.h"
 
 namespace rigor {

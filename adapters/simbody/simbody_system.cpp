@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "adapters/spanning_tree.h"
+#include "adapters/common/spanning_tree.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 #include "core/scene/validate.h"
@@ -103,6 +103,8 @@ void SimbodySystem::add(const Mobilizer& joint) {
         return MobilizedBody::Free(above, SimTK::Transform(), rigid, SimTK::Transform());
       case MobilizerKind::ball:
         return MobilizedBody::Ball(above, in_parent, rigid, in_body);
+      case MobilizerKind::cylinder:
+        return MobilizedBody::Cylinder(above, in_parent, rigid, in_body);
       case MobilizerKind::pin:
         return MobilizedBody::Pin(above, in_parent, rigid, in_body);
       case MobilizerKind::slider:
@@ -171,29 +173,34 @@ void SimbodySystem::add_constraints(const Joint& joint) {
   const auto share_point = [&](const Vec3& point) {
     Constraint::Ball(a, point_in(joint.a, point), b, point_in(joint.b, point));
   };
-  if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-    share_point(ball->anchor);
-  } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-    const Mat3 axes = axes_with(2, hinge->axis);
-    share_point(hinge->anchor);
-    at_right_angles(axes.col(0), hinge->axis), at_right_angles(axes.col(1), hinge->axis);
-  } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-    share_point(universal->anchor);
-    at_right_angles(universal->axis, universal->axis2);
-  } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
-    const Vec3 centre = scene_.pose(joint.b).position;
-    same_orientation();
-    Constraint::PointOnLine(a, direction_in(joint.a, slider->axis), point_in(joint.a, centre), b,
-                            point_in(joint.b, centre));
-  } else if (const auto* distance = std::get_if<DistanceJoint>(&joint.type)) {
-    const BodyPose pose_a = scene_.pose(joint.a), pose_b = scene_.pose(joint.b);
-    const Vec3 end_a = pose_a.position + pose_a.orientation * distance->point_a,
-               end_b = pose_b.position + pose_b.orientation * distance->point_b;
-    Constraint::Rod(a, point_in(joint.a, end_a), b, point_in(joint.b, end_b), (end_b - end_a).norm());
-  } else {
-    Constraint::Weld(a, frame_in(joint.a, straight, scene_.pose(joint.b).position), b,
-                     frame_in(joint.b, straight, scene_.pose(joint.b).position));
-  }
+  const auto share_axis = [&](const Vec3& axis) {
+    const Mat3 axes = axes_with(2, axis);
+    at_right_angles(axes.col(0), axis), at_right_angles(axes.col(1), axis);
+  };
+  const auto share_line = [&](const Vec3& axis, const Vec3& point) {
+    Constraint::PointOnLine(a, direction_in(joint.a, axis), point_in(joint.a, point), b, point_in(joint.b, point));
+  };
+  const BodyPose pose_a = scene_.pose(joint.a), pose_b = scene_.pose(joint.b);
+  std::visit(ForJoints{[&](const BallJoint& ball) { share_point(ball.anchor); },
+                       [&](const CylindricalJoint& cylinder) {
+                         share_line(cylinder.axis, cylinder.anchor), share_axis(cylinder.axis);
+                       },
+                       [&](const DistanceJoint& distance) {
+                         const Vec3 end_a = pose_a.position + pose_a.orientation * distance.point_a,
+                                    end_b = pose_b.position + pose_b.orientation * distance.point_b;
+                         Constraint::Rod(a, point_in(joint.a, end_a), b, point_in(joint.b, end_b),
+                                         (end_b - end_a).norm());
+                       },
+                       [&](const FixedJoint&) {
+                         Constraint::Weld(a, frame_in(joint.a, straight, pose_b.position), b,
+                                          frame_in(joint.b, straight, pose_b.position));
+                       },
+                       [&](const HingeJoint& hinge) { share_point(hinge.anchor), share_axis(hinge.axis); },
+                       [&](const SliderJoint& slider) { same_orientation(), share_line(slider.axis, pose_b.position); },
+                       [&](const UniversalJoint& universal) {
+                         share_point(universal.anchor), at_right_angles(universal.axis, universal.axis2);
+                       }},
+             joint.type);
 }
 
 // The velocity of M in F, in F's axes; a mobilizer with fewer than six speeds takes its part of them.

@@ -11,9 +11,9 @@
 #include "adapters/simbody/simbody_reactions.h"
 #include "adapters/simbody/simbody_system.h"
 #include "core/engine/clock.h"
+#include "core/engine/engine.h"
 #include "core/engine/engine_failure.h"
 #include "core/engine/option_values.h"
-#include "core/engine/spared_reactions.h"
 
 namespace rigor {
 namespace {
@@ -68,7 +68,7 @@ double largest_in(const SimTK::Vector& numbers) {  // infinite if one is not fin
   return largest;
 }
 
-class SimbodyWorld : public World, public ReportsReactions, public SparesReactions {
+class SimbodyWorld : public World, public ReportsReactions {
  public:
   SimbodyWorld(const Scene& scene, const Settings& settings)
       : system_(scene),
@@ -103,6 +103,11 @@ class SimbodyWorld : public World, public ReportsReactions, public SparesReactio
     }
   }
 
+  Capabilities capabilities() override {
+    Capabilities can;
+    can.reactions = this;
+    return can;
+  }
   void ask_for_reactions() override {
     if (moves_) reactions_.emplace(system_);
   }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "adapters/calls.h"
+#include "adapters/engines.h"
 #include "cases/analysis/tuning/tuning.h"
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/commands.h"

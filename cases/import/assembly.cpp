@@ -179,10 +179,10 @@ class Assembler {
         if (!is_all) model_.left_out.add(row.where, "the joint", "changes no motion: both its links stand still");
         continue;
       }
-      if (auto* distance = std::get_if<DistanceJoint>(&joint.type)) {
-        distance->point_a = in_body(row.joint.a, distance->point_a),
-        distance->point_b = in_body(row.joint.b, distance->point_b);
-      }
+      for_each_vector(joint.type, [&](const char*, JointVector kind, Vec3& vector) {
+        if (kind == JointVector::point_of_a) vector = in_body(row.joint.a, vector);
+        if (kind == JointVector::point_of_b) vector = in_body(row.joint.b, vector);
+      });
       if (const auto fault = fault_of(joint, scene_))
         throw InputError(fmt::format("{}: {}{}{}", row.where, fault->key, fault->key.empty() ? "" : ": ", fault->what));
       place[k] = static_cast<int>(scene_.joints.size());

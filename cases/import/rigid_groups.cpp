@@ -160,11 +160,10 @@ BodyPose turned_about(const Vec3& anchor, const Vec3& axis, double angle) {
 
 // The motion of the joint's b at its start, with all joints before it at zero.
 BodyPose motion_at_start(const LinkJoint& row) {
-  if (const auto* hinge = std::get_if<HingeJoint>(&row.joint.type))
-    return turned_about(hinge->anchor, hinge->axis, row.start);
-  if (const auto* slider = std::get_if<SliderJoint>(&row.joint.type))
-    return {row.start * slider->axis, Quat::Identity()};
-  return {};
+  const Vec3* axis = free_axis(row.joint);
+  if (!axis) return {};
+  if (turns(row.joint)) return turned_about(*anchor_of(row.joint), *axis, row.start);
+  return {row.start * *axis, Quat::Identity()};
 }
 
 void move(const BodyPose& by, Link& link) {
@@ -174,13 +173,10 @@ void move(const BodyPose& by, Link& link) {
 }
 
 void move(const BodyPose& by, Joint& joint) {
-  const auto turn = [&](Vec3& axis) { axis = (by.orientation * axis).normalized(); };
-  const auto take = [&](Vec3& anchor) { anchor = by.position + by.orientation * anchor; };
-  if (auto* ball = std::get_if<BallJoint>(&joint.type)) take(ball->anchor);
-  if (auto* hinge = std::get_if<HingeJoint>(&joint.type)) take(hinge->anchor), turn(hinge->axis);
-  if (auto* slider = std::get_if<SliderJoint>(&joint.type)) turn(slider->axis);
-  if (auto* universal = std::get_if<UniversalJoint>(&joint.type))
-    take(universal->anchor), turn(universal->axis), turn(universal->axis2);
+  for_each_vector(joint.type, [&](const char*, JointVector kind, Vec3& vector) {
+    if (kind == JointVector::point) vector = by.position + by.orientation * vector;
+    if (kind == JointVector::direction) vector = (by.orientation * vector).normalized();
+  });
 }
 
 void choose_start(LinkJoint& row, LeftOut& left_out) {

@@ -255,10 +255,10 @@ class UrdfReader {
 
   void place(Link& link, const BodyPose& pose, LinkJoint& row) {
     place_at(link, pose);
-    if (auto* hinge = std::get_if<HingeJoint>(&row.joint.type))
-      hinge->anchor = pose.position, hinge->axis = (pose.orientation * hinge->axis).normalized();
-    if (auto* slider = std::get_if<SliderJoint>(&row.joint.type))
-      slider->axis = (pose.orientation * slider->axis).normalized();
+    for_each_vector(row.joint.type, [&](const char*, JointVector kind, Vec3& vector) {
+      if (kind == JointVector::point) vector = pose.position;
+      if (kind == JointVector::direction) vector = (pose.orientation * vector).normalized();
+    });
   }
 
   void keep(const LinkJoint& row, const std::string& type) {

@@ -10,7 +10,7 @@
 #include "cases/metrics/metric.h"
 #include "cases/metrics/stability.h"
 #include "cases/results/spread.h"
-#include "core/engine/reduced_order.h"
+#include "core/engine/capabilities.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {

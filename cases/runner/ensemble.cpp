@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
 #include "core/engine/simulation.h"
 
 namespace rigor {

@@ -10,10 +10,8 @@
 #include <utility>
 
 #include "core/dynamics/model/system.h"
+#include "core/engine/engine.h"
 #include "core/engine/engine_failure.h"
-#include "core/engine/remote.h"
-#include "core/engine/spared_reactions.h"
-#include "core/engine/sub_step.h"
 
 namespace rigor {
 namespace {
@@ -25,8 +23,8 @@ double cpu_seconds_so_far() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The same, plus the time that an engine in another process spent on this world.
-double cpu_seconds_so_far(const World& world) { return cpu_seconds_so_far() + remote_cpu_seconds(world); }
+// The same, with what an engine in another process has spent for this world.
+double cpu_seconds_so_far(World& world) { return cpu_seconds_so_far() + remote_cpu_seconds(world); }
 
 // What a pair of clock readings measures of itself: it would otherwise be a good part of a small scene's step.
 double cost_of_reading_the_clock() {
@@ -45,7 +43,7 @@ double cost_of_reading_the_clock() {
 
 // CPU seconds of one step, read on the clock before and after it.
 template <typename Step>
-double seconds_of_step(const World& world, const Step& step) {
+double seconds_of_step(World& world, const Step& step) {
   const double begin = cpu_seconds_so_far(world);
   step();
   return std::max(0.0, cpu_seconds_so_far(world) - begin - cost_of_reading_the_clock());

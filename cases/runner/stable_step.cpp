@@ -10,7 +10,7 @@
 #include "cases/metrics/measures/tunnelling.h"
 #include "cases/metrics/stability.h"
 #include "core/dynamics/model/energy.h"
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
 #include "core/engine/simulation.h"
 #include "core/scene/contact_laws.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "cases/metrics/measures/measuring.h"
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
 #include "core/scene/contact_laws.h"
 #include "core/scene/turned.h"
 

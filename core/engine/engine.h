@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/engine/body_table.h"
+#include "core/engine/capabilities.h"
 #include "core/scene/features.h"
 #include "core/scene/scene.h"
 
@@ -100,7 +101,35 @@ class World {
   virtual SettingsInForce settings_in_force() const = 0;
   // Why the last step did not do what its method promises (an iteration that did not converge, say); empty if it did.
   virtual std::string solver_warning() const = 0;
+  virtual Capabilities capabilities() { return {}; }
 };
+
+// The capabilities of a world, where it has them.
+inline void expect_steps(World& world, double dt, long steps, long every) {
+  if (RemoteRuns* remote = world.capabilities().remote) remote->expect(dt, steps, every);
+}
+inline double remote_cpu_seconds(World& world) {
+  const RemoteRuns* remote = world.capabilities().remote;
+  return remote ? remote->remote_cpu_seconds() : 0;
+}
+inline std::optional<ReducedOrder> reduced_order_of(World& world) {
+  const MayReduceOrder* may = world.capabilities().reduced_order;
+  return may ? may->reduced_order() : std::nullopt;
+}
+inline std::optional<double> sub_step_of(World& world) {
+  const auto* divided = world.capabilities().divided_steps;
+  return divided ? divided->sub_step() : std::nullopt;
+}
+inline void ask_for_reactions(World& world) {
+  if (ReportsReactions* reports = world.capabilities().reactions) reports->ask_for_reactions();
+}
+inline std::vector<ReportedReaction> reported_reactions(World& world) {
+  const ReportsReactions* reports = world.capabilities().reactions;
+  return reports ? reports->reactions() : std::vector<ReportedReaction>();
+}
+inline void report_reactions(World& world, bool are_read) {
+  if (ReportsReactions* reports = world.capabilities().reactions) reports->report_reactions(are_read);
+}
 
 class Engine {
  public:
@@ -111,6 +140,10 @@ class Engine {
   // settings;
   // "" for an engine that is its own scheme.
   virtual std::string twin(const Settings& settings) const = 0;
+  // Whether its worlds live in another process (Capabilities::remote).
+  virtual bool is_remote() const { return false; }
+  // Ends its process if no world uses it. The next load starts it again.
+  virtual void rest() const {}
 };
 
 // Why this engine cannot run this scene at this dt; empty if it can. The sentence names the feature and what in the

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "core/engine/capabilities.h"
 #include "core/engine/engine.h"
-#include "core/engine/reduced_order.h"
 #include "core/engine/trajectory.h"
 
 namespace rigor {

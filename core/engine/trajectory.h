@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/engine/body_table.h"
-#include "core/engine/reported_reactions.h"
+#include "core/engine/capabilities.h"
 
 namespace rigor {
 

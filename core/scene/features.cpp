@@ -114,7 +114,7 @@ void add_joint(const Scene& scene, std::size_t k, NeedList& needs) {
   // A joint whose angle counts from -pi to pi never reaches such a limit.
   const bool beyond = (std::isfinite(joint.lower) && joint.lower < -std::numbers::pi) ||
                       (std::isfinite(joint.upper) && joint.upper > std::numbers::pi);
-  if (beyond && std::holds_alternative<HingeJoint>(joint.type)) needs.add("joint-limit:beyond-half-turn", because);
+  if (beyond && turns(joint)) needs.add("joint-limit:beyond-half-turn", because);
 }
 
 bool is_damped(const Scene& scene) {
@@ -138,6 +138,12 @@ Features contacts_of_all_shapes() {
     for (const std::string& other : solids) contacts.insert(contact_feature(solid, other));
   }
   return contacts;
+}
+
+Features joints_of_all_types() {
+  Features joints;
+  for (const JointTypeInfo& type : joint_types()) joints.insert("joint:" + type.word);
+  return joints;
 }
 
 Features joined(Features a, const Features& b) {

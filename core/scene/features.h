@@ -32,6 +32,9 @@ std::string contact_feature(const std::string& shape_a, const std::string& shape
 // The contacts of every two shapes that can meet: spheres, boxes and capsules with each other, and each with a plane.
 Features contacts_of_all_shapes();
 
+// "joint:ball" and the like, for every joint type.
+Features joints_of_all_types();
+
 // `a` and `b` together.
 Features joined(Features a, const Features& b);
 

@@ -23,33 +23,39 @@ struct Motion {
 
 Vec3 across(const Vec3& v, const Vec3& axis) { return v - axis.dot(v) * axis; }
 
+// The speeds along the motions that the joint locks.
 struct RatesOf {
+  const Joint& joint;
   Motion a, b;
 
-  double speed_at(const Vec3& anchor) const { return (b.velocity_at(anchor) - a.velocity_at(anchor)).norm(); }
-  Vec3 turning() const { return b.angular_velocity - a.angular_velocity; }
-
-  JointRates operator()(const BallJoint& joint) const { return {speed_at(joint.anchor), 0}; }
-  JointRates operator()(const HingeJoint& joint) const {
-    return {speed_at(joint.anchor), across(turning(), joint.axis).norm()};
+  JointRates operator()(const UniversalJoint& universal) const {
+    return {speed_at(universal.anchor).norm(), std::abs(turning().dot(universal.axis.cross(universal.axis2)))};
   }
-  JointRates operator()(const UniversalJoint& joint) const {
-    return {speed_at(joint.anchor), std::abs(turning().dot(joint.axis.cross(joint.axis2)))};
-  }
-  JointRates operator()(const SliderJoint& joint) const {
-    return {across(b.velocity - a.velocity_at(b.position), joint.axis).norm(), turning().norm()};
-  }
-  JointRates operator()(const FixedJoint&) const { return {speed_at(b.position), turning().norm()}; }
-  JointRates operator()(const DistanceJoint& joint) const {
-    const Vec3 from = a.in_world(joint.point_a), to = b.in_world(joint.point_b);
+  JointRates operator()(const DistanceJoint& distance) const {
+    const Vec3 from = a.in_world(distance.point_a), to = b.in_world(distance.point_b);
     return {std::abs((to - from).stableNormalized().dot(b.velocity_at(to) - a.velocity_at(from))), 0};
+  }
+  template <typename Type>
+  JointRates operator()(const Type&) const {
+    constexpr unsigned locks = Type::descriptor().locks.value();
+    const Vec3 *anchor = anchor_of(joint), *axis = axis_of(joint);
+    return {locked_part(speed_at(anchor ? *anchor : b.position), axis, locks & Lock::shifts, Lock::across),
+            locked_part(turning(), axis, locks & Lock::turns, Lock::tilt)};
+  }
+
+ private:
+  Vec3 speed_at(const Vec3& point) const { return b.velocity_at(point) - a.velocity_at(point); }
+  Vec3 turning() const { return b.angular_velocity - a.angular_velocity; }
+  static double locked_part(const Vec3& rate, const Vec3* axis, unsigned locks, unsigned across_axis) {
+    if (locks == 0) return 0;
+    return (locks == across_axis ? across(rate, *axis) : rate).norm();
   }
 };
 
 }  // namespace
 
 JointRates initial_rates(const Scene& scene, const Joint& joint) {
-  return std::visit(RatesOf{Motion(scene, joint.a), Motion(scene, joint.b)}, joint.type);
+  return std::visit(RatesOf{joint, Motion(scene, joint.a), Motion(scene, joint.b)}, joint.type);
 }
 
 std::string why_rates_break(const Scene& scene, const Joint& joint) {

@@ -36,6 +36,14 @@ struct SolidInertia {
   }
 };
 
+const Vec3* first_of_kind(const Joint& joint, JointVector wanted) {
+  const Vec3* found = nullptr;
+  for_each_vector(joint.type, [&](const char*, JointVector kind, const Vec3& vector) {
+    if (!found && kind == wanted) found = &vector;
+  });
+  return found;
+}
+
 }  // namespace
 
 ContactLaw Scene::contact_law(int a, int b) const {
@@ -62,15 +70,16 @@ std::string shape_name(const Shape& shape) {
   return kNames[shape.index()];
 }
 
-std::string joint_type_name(const Joint& joint) {
-  constexpr const char* kNames[] = {"ball", "hinge", "slider", "fixed", "distance", "universal"};
-  return kNames[joint.type.index()];
-}
+std::string joint_type_name(const Joint& joint) { return joint_types()[joint.type.index()].word; }
+
+bool turns(const Joint& joint) { return joint_types()[joint.type.index()].coordinate == FreeCoordinate::angle; }
+
+const Vec3* anchor_of(const Joint& joint) { return first_of_kind(joint, JointVector::point); }
+
+const Vec3* axis_of(const Joint& joint) { return first_of_kind(joint, JointVector::direction); }
 
 const Vec3* free_axis(const Joint& joint) {
-  if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) return &hinge->axis;
-  if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) return &slider->axis;
-  return nullptr;
+  return joint_types()[joint.type.index()].coordinate == FreeCoordinate::none ? nullptr : axis_of(joint);
 }
 
 }  // namespace rigor

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/scene/joint_types.h"
 
 namespace rigor {
 
@@ -56,37 +57,13 @@ struct Spring {
   double rest_length = 0;       // m
 };
 
-// Constraints between two bodies. They have 3, 5, 5, 6, 1 and 4 rows; any method may satisfy them.
-struct BallJoint {
-  Vec3 anchor;  // m, in W at t = 0: a point that both share
-};
-struct HingeJoint {
-  Vec3 anchor;  // m, in W at t = 0
-  Vec3 axis;    // unit, in W at t = 0: a direction that both share
-};
-// b does not turn against a, and its centre keeps its offset across the axis, which is fixed in a.
-struct SliderJoint {
-  Vec3 axis;  // unit, in W at t = 0
-};
-struct FixedJoint {};
-// The distance of the two points stays what it is at t = 0.
-struct DistanceJoint {
-  Vec3 point_a, point_b;  // m, in the bodies' frames
-};
-// axis is fixed in a, axis2 in b, and they stay at right angles.
-struct UniversalJoint {
-  Vec3 anchor;  // m, in W at t = 0
-  Vec3 axis;    // unit, in W at t = 0
-  Vec3 axis2;   // unit, in W at t = 0
-};
-
 // A hinge's angle [rad] is that by which b has turned against a about the axis since t = 0: springs take it from -pi to
 // pi, limits count whole turns. A slider's displacement [m] is how far b's centre has come along it. Spring, damper and
 // limits act on that coordinate x alone:
 //   effort on b = -stiffness (x - rest) - damping x',   the opposite on a.
 struct Joint {
   int a = kWorld, b = kWorld;
-  std::variant<BallJoint, HingeJoint, SliderJoint, FixedJoint, DistanceJoint, UniversalJoint> type;
+  JointType type;
   std::string name = "";                                    // as motors call it; see Scene::joint_name()
   double stiffness = 0;                                     // N m/rad, N/m
   double damping = 0;                                       // N m s/rad, N s/m
@@ -159,10 +136,17 @@ Mat3 inertia_of(const Shape& shape, double mass);
 // "sphere", "box", "capsule", "plane": the word the case file uses.
 std::string shape_name(const Shape& shape);
 
-// "ball", "hinge", "slider", "fixed", "distance", "universal": the word the case file uses.
+// The word of the joint's type in case files: "hinge".
 std::string joint_type_name(const Joint& joint);
 
-// A hinge's or slider's axis, in W at t = 0; null for a joint without one coordinate of its own.
+// Whether the joint's free coordinate is an angle.
+bool turns(const Joint& joint);
+
+// The joint's anchor and its first axis, in W at t = 0. Null for a type that has none.
+const Vec3* anchor_of(const Joint& joint);
+const Vec3* axis_of(const Joint& joint);
+
+// The axis of the joint's free coordinate, in W at t = 0. Null for a joint without a coordinate of its own.
 const Vec3* free_axis(const Joint& joint);
 
 }  // namespace rigor

@@ -12,19 +12,6 @@ void turn_body(Body& body, const Quat& turn) {
   if (auto* plane = std::get_if<Plane>(&*body.shape)) plane->normal = turn * plane->normal;
 }
 
-// Of a joint only what is given in W turns.
-struct TurnJoint {
-  const Quat& turn;
-  void operator()(BallJoint& joint) const { joint.anchor = turn * joint.anchor; }
-  void operator()(HingeJoint& joint) const { joint.anchor = turn * joint.anchor, joint.axis = turn * joint.axis; }
-  void operator()(SliderJoint& joint) const { joint.axis = turn * joint.axis; }
-  void operator()(UniversalJoint& joint) const {
-    joint.anchor = turn * joint.anchor, joint.axis = turn * joint.axis, joint.axis2 = turn * joint.axis2;
-  }
-  void operator()(FixedJoint&) const {}
-  void operator()(DistanceJoint&) const {}
-};
-
 }  // namespace
 
 Scene turned(Scene scene, const Quat& turn) {
@@ -35,11 +22,11 @@ Scene turned(Scene scene, const Quat& turn) {
     if (spring.b == kWorld) spring.point_b = turn * spring.point_b;
   }
   for (Joint& joint : scene.joints) {
-    std::visit(TurnJoint{turn}, joint.type);
-    if (auto* distance = std::get_if<DistanceJoint>(&joint.type)) {
-      if (joint.a == kWorld) distance->point_a = turn * distance->point_a;
-      if (joint.b == kWorld) distance->point_b = turn * distance->point_b;
-    }
+    for_each_vector(joint.type, [&](const char*, JointVector kind, Vec3& vector) {
+      const bool is_in_body = (kind == JointVector::point_of_a && joint.a != kWorld) ||
+                              (kind == JointVector::point_of_b && joint.b != kWorld);
+      if (!is_in_body) vector = turn * vector;
+    });
   }
   for (TimedForce& force : scene.forces) force.force = turn * force.force, force.torque = turn * force.torque;
   return scene;

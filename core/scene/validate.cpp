@@ -63,17 +63,22 @@ double distance(int a, const Vec3& point_a, int b, const Vec3& point_b, const Sc
   return (pose_b.position + pose_b.orientation * point_b - pose_a.position - pose_a.orientation * point_a).stableNorm();
 }
 
+Fault fault_of_vectors(const Joint& joint) {
+  Fault fault;
+  for_each_vector(joint.type, [&](const char* key, JointVector kind, const Vec3& vector) {
+    if (fault) return;
+    if (kind == JointVector::point && !vector.allFinite()) fault = SceneFault{key, "it is not finite"};
+    if (kind == JointVector::direction && !is_unit(vector.squaredNorm()))
+      fault = SceneFault{key, "it is no unit vector"};
+  });
+  return fault;
+}
+
+// Faults that the vectors of a joint have together.
 struct JointFault {
   const Joint& joint;
   const Scene& scene;
 
-  Fault operator()(const BallJoint& type) const { return not_finite("anchor", type.anchor); }
-  Fault operator()(const HingeJoint& type) const {
-    const Fault anchor = not_finite("anchor", type.anchor);
-    return anchor ? anchor : no_direction("axis", type.axis);
-  }
-  Fault operator()(const SliderJoint& type) const { return no_direction("axis", type.axis); }
-  Fault operator()(const FixedJoint&) const { return {}; }
   Fault operator()(const DistanceJoint& type) const {
     const double apart = distance(joint.a, type.point_a, joint.b, type.point_b, scene);
     if (!(apart > 0)) {
@@ -84,22 +89,16 @@ struct JointFault {
     return {};
   }
   Fault operator()(const UniversalJoint& type) const {
-    for (const auto& [key, axis] : {std::pair{"axis", type.axis}, {"axis2", type.axis2}}) {
-      if (const Fault none = no_direction(key, axis)) return none;
-    }
     // Six digits written of each component leave so much of a right angle.
     constexpr double kRight = 1e-5;
     const double cosine = type.axis.dot(type.axis2);
-    if (std::abs(cosine) <= kRight) return not_finite("anchor", type.anchor);
+    if (std::abs(cosine) <= kRight) return {};
     return SceneFault{"axis2", fmt::format("found an angle of {:.6g}° to axis; allowed: a right angle",
                                            std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / M_PI)};
   }
-
-  static Fault not_finite(const char* key, const Vec3& v) {
-    return v.allFinite() ? Fault() : SceneFault{key, "it is not finite"};
-  }
-  static Fault no_direction(const char* key, const Vec3& v) {
-    return is_unit(v.squaredNorm()) ? Fault() : SceneFault{key, "it is no unit vector"};
+  template <typename Other>
+  Fault operator()(const Other&) const {
+    return {};
   }
 };
 
@@ -189,6 +188,7 @@ Fault fault_of(const Spring& spring, const Scene& scene) {
 
 Fault fault_of(const Joint& joint, const Scene& scene) {
   if (Fault ends = fault_of_ends(joint.a, joint.b, "joint", scene)) return ends;
+  if (Fault vector = fault_of_vectors(joint)) return vector;
   if (Fault type = std::visit(JointFault{joint, scene}, joint.type)) return type;
   for (const auto& [key, value] : {std::pair{"stiffness", joint.stiffness}, {"damping", joint.damping}}) {
     if (Fault negative = not_at_least_zero(key, value)) return negative;
@@ -201,7 +201,7 @@ Fault fault_of(const Motor& motor, const Scene& scene) {
   if (motor.joint < 0 || motor.joint >= static_cast<int>(scene.joints.size()))
     return SceneFault{"joint", fmt::format("there is no joint number {}", motor.joint)};
   if (!free_axis(scene.joints[motor.joint]))
-    return SceneFault{"joint", fmt::format("is a {} joint, which has no axis to drive; allowed: a hinge or a slider",
+    return SceneFault{"joint", fmt::format("is a {} joint, which has no coordinate of its own to drive; allowed: a hinge or a slider",
                                            joint_type_name(scene.joints[motor.joint]))};
   if (!std::isfinite(motor.effort) || !std::isfinite(motor.speed.value_or(0)))
     return SceneFault{"", "what it drives by is not finite"};

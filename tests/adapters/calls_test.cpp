@@ -1,10 +1,9 @@
 // The calls to paste: no option of an engine that has calls at all is lost in them.
-#include "adapters/calls.h"
+#include "adapters/engines.h"
 
 #include <boost/test/unit_test.hpp>
 #include <set>
 
-#include "adapters/engines.h"
 
 using namespace rigor;
 

@@ -31,6 +31,7 @@ inline Scene hung_by(const Joint& joint) {
 inline std::vector<Joint> joints_of_each_kind() {
   const Vec3 anchor(1, 0.1, 0), axis = Vec3(0.2, 1, 0.3).normalized(), across = Vec3(1, -0.2, 0).normalized();
   return {{.type = BallJoint{anchor}},
+          {.type = CylindricalJoint{anchor, axis}},
           {.type = HingeJoint{anchor, axis}, .stiffness = 3, .damping = 0.2, .rest = 0.3},
           {.type = SliderJoint{axis}, .stiffness = 40, .damping = 1.5, .rest = -0.1},
           {.type = FixedJoint{}},

@@ -37,9 +37,9 @@ double difference(const States& a, const States& b) {
 Scene tree() {
   Scene scene;
   scene.gravity = {0.5, -1, -9.81};
-  const Vec3 places[] = {{0.3, 0, -0.2},    {0.7, 0.1, -0.4}, {1.1, 0, -0.9},
-                         {0.4, -0.5, -0.3}, {1.3, 0.4, -0.9}, {0.9, 0.6, -0.5}};
-  for (int i = 0; i < 6; ++i) {
+  const Vec3 places[] = {{0.3, 0, -0.2},   {0.7, 0.1, -0.4}, {1.1, 0, -0.9},   {0.4, -0.5, -0.3},
+                         {1.3, 0.4, -0.9}, {0.9, 0.6, -0.5}, {0.6, -0.8, -0.2}};
+  for (int i = 0; i < 7; ++i) {
     Body body = test::body("body " + std::to_string(i), 1 + 0.3 * i, {0.05, 0.06, 0.08}, places[i]);
     body.inertia(0, 1) = body.inertia(1, 0) = 0.01;
     body.orientation = Quat(0.8, 0.2 + 0.1 * i, -0.4, 0.4).normalized();
@@ -51,7 +51,8 @@ Scene tree() {
                   {.a = 1, .b = 2, .type = BallJoint{{0.9, 0, -0.6}}},
                   {.a = 0, .b = 3, .type = SliderJoint{axis2}},
                   {.a = 2, .b = 4, .type = FixedJoint{}},
-                  {.a = 1, .b = 5, .type = DistanceJoint{{0.1, 0, 0}, {0, 0.05, 0}}}};
+                  {.a = 1, .b = 5, .type = DistanceJoint{{0.1, 0, 0}, {0, 0.05, 0}}},
+                  {.a = 3, .b = 6, .type = CylindricalJoint{{0.5, -0.6, -0.2}, axis}}};
   return scene;
 }
 

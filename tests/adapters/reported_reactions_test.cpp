@@ -1,11 +1,10 @@
-// The joint loads that engines report, where statics determines them.
-#include "core/engine/reported_reactions.h"
+// What engines themselves say their joints carry, where statics says it.
+#include "core/engine/engine.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
 #include "core/engine/run_name.h"
-#include "core/engine/spared_reactions.h"
 #include "tests/adapters/ode/jointed_scenes.h"
 #include "tests/adapters/seam_runs.h"
 

@@ -34,8 +34,10 @@ struct Relation {
   std::shared_ptr<NewtonEulerJointR> operator()(const FixedJoint&) const {
     return placed(std::make_shared<FixedJointR>(), nullptr, nullptr);
   }
-  template <typename Other>
-  std::shared_ptr<NewtonEulerJointR> operator()(const Other&) const {
+  std::shared_ptr<NewtonEulerJointR> operator()(const CylindricalJoint&) const { return lacking(); }
+  std::shared_ptr<NewtonEulerJointR> operator()(const DistanceJoint&) const { return lacking(); }
+  std::shared_ptr<NewtonEulerJointR> operator()(const UniversalJoint&) const { return lacking(); }
+  static std::shared_ptr<NewtonEulerJointR> lacking() {
     throw std::logic_error("a joint that is not among the features");
   }
   static std::shared_ptr<NewtonEulerJointR> placed(std::shared_ptr<NewtonEulerJointR> joint, const Vec3* point,

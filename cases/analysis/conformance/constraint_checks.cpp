@@ -33,6 +33,12 @@ std::vector<Joined> joined_rods() {
     keeps_anchor(is, rod);
     is.vector("the hinge's axis along", rod.orientation * y, y, kSlack);
   };
+  const auto turns_and_slides_along_y = [=](Comparison& is, const BodyState& rod) {
+    const Vec3 anchor = anchor_of(rod);
+    is.vector("the anchor, across the axis, at", Vec3(anchor.x(), 0, anchor.z()), Vec3::Zero(), kSlack);
+    is.vector("the axis along", rod.orientation * y, y, kSlack);
+    is.number("along the axis at", anchor.y(), 0.5 * 0.5 * 0.25, kSlack);
+  };
   const auto slides = [](Comparison& is, const BodyState& rod) {
     is.vector("across the axis at", Vec3(rod.position.x(), rod.position.y(), 0), {0.5, 0, 0}, kSlack);
     is.orientation(rod.orientation, Quat::Identity(), kSlack);
@@ -46,6 +52,7 @@ std::vector<Joined> joined_rods() {
     is.number("distance", rod.position.norm(), 0.5, kSlack);
   };
   return {{"ball", BallJoint{origin}, keeps_anchor},
+          {"cylindrical", CylindricalJoint{origin, y}, turns_and_slides_along_y},
           {"hinge", HingeJoint{origin, y}, swings_about_y},
           {"slider", SliderJoint{z}, slides},
           {"fixed", FixedJoint{}, stays},

@@ -6,7 +6,7 @@
 
 #include "cases/analysis/conformance/trial.h"
 #include "core/base/near_match.h"
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
 
 namespace rigor::conformance {
 namespace {
@@ -17,8 +17,7 @@ std::vector<std::string> known_features() {
                                     "friction:none",  "friction:coulomb",     "friction:infinite",   "joint-spring",
                                     "joint-damper",   "joint-limit",          "motor:effort",        "motor:speed",
                                     "contact-filter", "joints-with-contacts", "joints-with-dampers", "wrench"};
-  for (const char* type : {"ball", "distance", "fixed", "hinge", "slider", "universal"})
-    words.push_back(std::string("joint:") + type);
+  for (const JointTypeInfo& type : joint_types()) words.push_back("joint:" + type.word);
   for (const std::string& contact : contacts_of_all_shapes()) words.push_back(contact);
   return words;
 }
@@ -151,7 +150,7 @@ CheckResult run_is_as_many_steps(const Trial& trial) {
   constexpr int kSteps = 50, kEvery = 7;
   const BodyTable stepped = TriedWorld(trial, scene).step(1e-2, kSteps).state();
   const auto world = trial.engine.load(scene, trial.settings);
-  auto* remote = dynamic_cast<RemoteWorld*>(world.get());
+  RemoteRuns* remote = world->capabilities().remote;
   if (!remote) return not_asked("it is in this process");
   remote->expect(1e-2, kSteps, kEvery);
   for (int n = 0; n < kSteps; ++n) world->step(1e-2);

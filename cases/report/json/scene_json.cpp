@@ -33,22 +33,8 @@ Json json_of_body(const Body& body) {
 }
 
 Json json_of_joint(const Joint& joint, const Scene& scene) {
-  Json json = {{"a", scene.body_name(joint.a)}, {"b", scene.body_name(joint.b)}};
-  if (const auto* ball = std::get_if<BallJoint>(&joint.type))
-    json["type"] = "ball", json["anchor"] = list(ball->anchor);
-  if (const auto* hinge = std::get_if<HingeJoint>(&joint.type))
-    json["type"] = "hinge", json["anchor"] = list(hinge->anchor), json["axis"] = list(hinge->axis);
-  if (const auto* slider = std::get_if<SliderJoint>(&joint.type))
-    json["type"] = "slider", json["axis"] = list(slider->axis);
-  if (std::holds_alternative<FixedJoint>(joint.type)) json["type"] = "fixed";
-  if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-    json["type"] = "universal", json["anchor"] = list(universal->anchor);
-    json["axis"] = list(universal->axis), json["axis2"] = list(universal->axis2);
-  }
-  if (const auto* distance = std::get_if<DistanceJoint>(&joint.type)) {
-    json["type"] = "distance";
-    json["point_a"] = list(distance->point_a), json["point_b"] = list(distance->point_b);
-  }
+  Json json = {{"a", scene.body_name(joint.a)}, {"b", scene.body_name(joint.b)}, {"type", joint_type_name(joint)}};
+  for_each_vector(joint.type, [&](const char* key, JointVector, const Vec3& vector) { json[key] = list(vector); });
   return json;
 }
 

@@ -114,25 +114,25 @@ class SdfWriter {
 
   void add_joint(std::size_t index) {
     const Joint& joint = scene_.joints[index];
-    if (std::holds_alternative<DistanceJoint>(joint.type))
-      return leave_out(scene_.joint_name(index), "the joint", "SDF has no joint of a distance");
-    static const std::map<std::string, std::string> kTypes = {{"ball", "ball"},
-                                                              {"fixed", "fixed"},
-                                                              {"hinge", "revolute"},
-                                                              {"slider", "prismatic"},
-                                                              {"universal", "universal"}};
+    const char* type = std::visit(
+        ForJoints{[](const BallJoint&) { return "ball"; }, [](const CylindricalJoint&) { return ""; },
+                  [](const DistanceJoint&) { return ""; }, [](const FixedJoint&) { return "fixed"; },
+                  [](const HingeJoint&) { return "revolute"; }, [](const SliderJoint&) { return "prismatic"; },
+                  [](const UniversalJoint&) { return "universal"; }},
+        joint.type);
+    if (!*type)
+      return leave_out(scene_.joint_name(index), "the joint",
+                       std::holds_alternative<DistanceJoint>(joint.type)
+                           ? "SDF has no joint of a distance"
+                           : fmt::format("SDF has no {} joint", joint_type_name(joint)));
     // The world hangs on nothing: a joint from a body to it is one from it to the body, the other way round.
     const bool is_swapped = end_of(joint.b) == "world";
     const double sign = is_swapped ? -1 : 1;
     const std::string name = joint.name.empty() ? fmt::format("joint{}", index) : sdf_escaped(joint.name);
-    add("      <joint name=\"{}\" type=\"{}\">\n        <parent>{}</parent>\n        <child>{}</child>\n", name,
-        kTypes.at(joint_type_name(joint)), end_of(is_swapped ? joint.b : joint.a),
-        end_of(is_swapped ? joint.a : joint.b));
-    Vec3 anchor = Vec3::Zero();
-    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) anchor = ball->anchor;
-    if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) anchor = hinge->anchor;
-    if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) anchor = universal->anchor;
-    add("        <pose relative_to=\"__model__\">{} 0 0 0</pose>\n", sdf_numbers(anchor));
+    add("      <joint name=\"{}\" type=\"{}\">\n        <parent>{}</parent>\n        <child>{}</child>\n", name, type,
+        end_of(is_swapped ? joint.b : joint.a), end_of(is_swapped ? joint.a : joint.b));
+    const Vec3* anchor = anchor_of(joint);
+    add("        <pose relative_to=\"__model__\">{} 0 0 0</pose>\n", sdf_numbers(anchor ? *anchor : Vec3::Zero()));
     if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
       add_axis("axis", is_swapped ? universal->axis2 : universal->axis, "");
       add_axis("axis2", is_swapped ? universal->axis : universal->axis2, "");

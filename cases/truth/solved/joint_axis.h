@@ -28,8 +28,8 @@ struct JointAxis {
 
   JointAxis(const Scene& scene, std::size_t index) : joint(index) {
     const Joint& row = scene.joints[index];
-    is_hinge = std::holds_alternative<HingeJoint>(row.type);
-    const Vec3& axis = is_hinge ? std::get<HingeJoint>(row.type).axis : std::get<SliderJoint>(row.type).axis;
+    is_hinge = turns(row);
+    const Vec3& axis = *free_axis(row);
     const auto rotation = [&](int body) {
       if (body == kWorld) return Matrix(Matrix::Identity());
       return Matrix(scene.bodies[body].orientation.template cast<Real>().normalized().toRotationMatrix());

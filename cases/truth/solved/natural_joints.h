@@ -1,7 +1,7 @@
 // The joints of a scene in natural coordinates (natural_coordinates.h). Each is a set of polynomials of degree two in
 // its bodies' coordinates, kept at their values at t = 0:
 //   shared point   p_b - p_a                  dot product   u_a . u_b
-//   dot offset     u_a . (x_b - x_a)          squared       (p_b - p_a)^2 / 2
+//   dot offset     u_a . (p_b - x_a)          squared       (p_b - p_a)^2 / 2
 // and the rate of a joint's own coordinate, of a hinge n . (w_b - w_a) with w = 1/2 sum d_i x d_i'.
 #pragma once
 
@@ -28,40 +28,7 @@ class NaturalJoints {
 
   // The bodies are as in `start`.
   void add(const Joint& joint, const std::vector<Frame>& start) {
-    const Frame &a = frame(start, joint.a), &b = frame(start, joint.b);
-    const auto share = [&](const Vector& point) {
-      points_.push_back({joint.a, joint.b, a.R.transpose() * (point - a.x), b.R.transpose() * (point - b.x)});
-    };
-    const auto in_a = [&](const Vector& u) { return Vector(a.R.transpose() * u); };
-    const auto in_b = [&](const Vector& u) { return Vector(b.R.transpose() * u); };
-    // The same turn: d_i of a against d_j of b, as at the start.
-    const auto keep_turn = [&] {
-      const Vector e[] = {in_b(a.R.col(0)), in_b(a.R.col(1)), in_b(a.R.col(2))};
-      keep_dot(joint, start, Vector::Unit(1), e[0]), keep_dot(joint, start, Vector::Unit(2), e[1]);
-      keep_dot(joint, start, Vector::Unit(0), e[2]);
-    };
-    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-      share(ball->anchor.template cast<Real>());
-    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-      share(hinge->anchor.template cast<Real>());
-      const Vector axis = hinge->axis.template cast<Real>().normalized();
-      for (const Vector& u : beside(axis)) keep_dot(joint, start, in_a(axis), in_b(u));
-    } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-      share(universal->anchor.template cast<Real>());
-      keep_dot(joint, start, in_a(universal->axis.template cast<Real>()), in_b(universal->axis2.template cast<Real>()));
-    } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
-      keep_turn();
-      for (const Vector& u : beside(slider->axis.template cast<Real>().normalized())) {
-        offsets_.push_back({joint.a, joint.b, in_a(u), u.dot(b.x - a.x)});
-      }
-    } else if (std::holds_alternative<FixedJoint>(joint.type)) {
-      keep_turn();
-      share((a.x + b.x) / 2);
-    } else {
-      const auto& distance = std::get<DistanceJoint>(joint.type);
-      const Vector at_a = distance.point_a.template cast<Real>(), at_b = distance.point_b.template cast<Real>();
-      squares_.push_back({joint.a, joint.b, at_a, at_b, (b.point(at_b) - a.point(at_a)).squaredNorm()});
-    }
+    std::visit([&](const auto& type) { add(joint, type, frame(start, joint.a), frame(start, joint.b)); }, joint.type);
   }
 
   void add_rows(const std::vector<Frame>& frames, std::vector<Row>& rows) const {
@@ -76,7 +43,7 @@ class NaturalJoints {
     const Frame &a = frame(frames, joint.a), &b = frame(frames, joint.b);
     if (!axis.is_hinge) {
       std::vector<Row> rows;
-      add_row(DotOffset{joint.a, joint.b, axis.direction_a, axis.way_start}, frames, rows);
+      add_row(DotOffset{joint.a, joint.b, axis.direction_a, Vector::Zero(), axis.way_start}, frames, rows);
       return rows.front();
     }
     const Vector n = a.R * axis.direction_a;
@@ -102,9 +69,9 @@ class NaturalJoints {
     Vector of_a, of_b;
     Real kept;
   };
-  struct DotOffset {  // of a direction of a with the way from a's centre to b's
+  struct DotOffset {  // of a direction of a with the way from a's centre to a point of b
     int a, b;
-    Vector of_a;
+    Vector of_a, at_b;
     Real kept;
   };
   struct Squared {  // of the way between two points
@@ -118,8 +85,44 @@ class NaturalJoints {
     return body == kWorld ? world : frames[body];
   }
 
-  void keep_dot(const Joint& joint, const std::vector<Frame>& start, const Vector& of_a, const Vector& of_b) {
-    const Vector u = frame(start, joint.a).R * of_a, v = frame(start, joint.b).R * of_b;
+  // A joint that a mask of locked motions describes. Without an anchor a shared point is halfway between the centres.
+  template <typename Type>
+  void add(const Joint& joint, const Type&, const Frame& a, const Frame& b) {
+    constexpr unsigned locks = Type::descriptor().locks.value();
+    const Vec3 *anchor = anchor_of(joint), *axis = axis_of(joint);
+    const Vector along = axis ? Vector(axis->template cast<Real>().normalized()) : Vector(Vector::Unit(2));
+    if constexpr ((locks & Lock::shifts) == Lock::shifts) {
+      share(joint, anchor ? Vector(anchor->template cast<Real>()) : Vector((a.x + b.x) / 2), a, b);
+    } else if constexpr ((locks & Lock::shifts) == Lock::across) {
+      const Vector point = anchor ? Vector(anchor->template cast<Real>()) : b.x;
+      for (const Vector& u : beside(along))
+        offsets_.push_back(
+            {joint.a, joint.b, a.R.transpose() * u, b.R.transpose() * (point - b.x), u.dot(point - a.x)});
+    }
+    if constexpr ((locks & Lock::turns) == Lock::turns) {  // d_i of a against d_j of b, as at the start
+      for (int k = 0; k < 3; ++k) keep_dot(joint, Vector::Unit((k + 1) % 3), b.R.transpose() * a.R.col(k), a, b);
+    } else if constexpr ((locks & Lock::turns) == Lock::tilt) {
+      for (const Vector& u : beside(along)) keep_dot(joint, a.R.transpose() * along, b.R.transpose() * u, a, b);
+    }
+  }
+
+  void add(const Joint& joint, const UniversalJoint& type, const Frame& a, const Frame& b) {
+    share(joint, type.anchor.template cast<Real>(), a, b);
+    keep_dot(joint, a.R.transpose() * type.axis.template cast<Real>(),
+             b.R.transpose() * type.axis2.template cast<Real>(), a, b);
+  }
+
+  void add(const Joint& joint, const DistanceJoint& type, const Frame& a, const Frame& b) {
+    const Vector at_a = type.point_a.template cast<Real>(), at_b = type.point_b.template cast<Real>();
+    squares_.push_back({joint.a, joint.b, at_a, at_b, (b.point(at_b) - a.point(at_a)).squaredNorm()});
+  }
+
+  void share(const Joint& joint, const Vector& point, const Frame& a, const Frame& b) {
+    points_.push_back({joint.a, joint.b, a.R.transpose() * (point - a.x), b.R.transpose() * (point - b.x)});
+  }
+
+  void keep_dot(const Joint& joint, const Vector& of_a, const Vector& of_b, const Frame& a, const Frame& b) {
+    const Vector u = a.R * of_a, v = b.R * of_b;
     dots_.push_back({joint.a, joint.b, of_a, of_b, u.dot(v)});
   }
 
@@ -168,9 +171,10 @@ class NaturalJoints {
     const Frame &a = frame(frames, offset.a), &b = frame(frames, offset.b);
     const Vector n = a.R * offset.of_a;
     Row& row = rows.emplace_back();
-    set(row, 0, offset.a, -n, offset.of_a, b.x - a.x), set(row, 1, offset.b, n, Vector::Zero(), n);
-    row.gap = n.dot(b.x - a.x) - offset.kept;
-    row.bias = 2 * (a.dR * offset.of_a).dot(b.dx - a.dx);
+    const Vector apart = b.point(offset.at_b) - a.x;
+    set(row, 0, offset.a, -n, offset.of_a, apart), set(row, 1, offset.b, n, offset.at_b, n);
+    row.gap = n.dot(apart) - offset.kept;
+    row.bias = 2 * (a.dR * offset.of_a).dot(b.rate_of(offset.at_b) - a.dx);
   }
 
   void add_row(const Squared& squared, const std::vector<Frame>& frames, std::vector<Row>& rows) const {

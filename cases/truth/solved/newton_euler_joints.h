@@ -3,8 +3,8 @@
 // Mechanical Systems, 1989, chapter 9):
 //   shared point    p_b - p_a = 0                   bias  w_b x (w_b x r_b) - w_a x (w_a x r_a)
 //   right angle     u_a . u_b = c                   bias  (w_a x (w_a x u_a)) . u_b + 2 (w_a x u_a) . (w_b x u_b) + ..
-//   no way across   n_a . (x_b - x_a) = c           bias  (w_a x (w_a x n)) . d + 2 (w_a x n) . d'
-//   distance        (d . d - L^2) / 2 = 0           bias  d' . d' + d . (centripetal accelerations)
+//   no way across   n_a . (p_b - x_a) = c           bias  (w_a x (w_a x n)) . d + 2 (w_a x n) . d' + n . (w_b x (w_b x
+//   r_b)) distance        (d . d - L^2) / 2 = 0           bias  d' . d' + d . (centripetal accelerations)
 // and, where a limit or a motor keeps the coordinate of a joint (axis_modes.h),
 //   an angle        n . (w_b - w_a) = speed         bias  (w_a x n) . w_b
 //   a way           as no way across, with the slider's axis
@@ -32,43 +32,7 @@ class NewtonEulerJoints {
 
   // The bodies are as in `start`.
   void add(const Joint& joint, const std::vector<Pose>& start) {
-    const Pose &a = pose(start, joint.a), &b = pose(start, joint.b);
-    const auto in = [](const Pose& body, const Vector& point) {
-      return Vector(body.R.transpose() * (point - body.position));
-    };
-    const auto share = [&](const Vec3& anchor) {
-      const Vector point = anchor.template cast<Real>();
-      points_.push_back({joint.a, joint.b, in(a, point), in(b, point)});
-    };
-    const auto keep_angle = [&](const Vector& u, const Vector& v) {
-      angles_.push_back({joint.a, joint.b, a.R.transpose() * u, b.R.transpose() * v, u.dot(v)});
-    };
-    const auto keep_turn = [&] {  // of b against a: each of three axes of one at right angles to one of the other
-      for (int k = 0; k < 3; ++k) keep_angle(Vector::Unit(k), Vector::Unit((k + 1) % 3));
-    };
-    if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-      share(ball->anchor);
-    } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-      share(hinge->anchor);
-      const Vector axis = hinge->axis.template cast<Real>().normalized();
-      for (const Vector& u : across(axis)) keep_angle(u, axis);
-    } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-      share(universal->anchor);
-      keep_angle(universal->axis.template cast<Real>(), universal->axis2.template cast<Real>());
-    } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
-      keep_turn();
-      for (const Vector& u : across(slider->axis.template cast<Real>().normalized())) {
-        offsets_.push_back({joint.a, joint.b, a.R.transpose() * u, u.dot(b.position - a.position)});
-      }
-    } else if (std::holds_alternative<FixedJoint>(joint.type)) {
-      keep_turn();
-      points_.push_back({joint.a, joint.b, in(a, b.position), Vector::Zero()});
-    } else {
-      const auto& distance = std::get<DistanceJoint>(joint.type);
-      const Vector at_a = distance.point_a.template cast<Real>(), at_b = distance.point_b.template cast<Real>();
-      const Real length = (b.position + b.R * at_b - a.position - a.R * at_a).norm();
-      distances_.push_back({joint.a, joint.b, at_a, at_b, length});
-    }
+    std::visit([&](const auto& type) { add(joint, type, pose(start, joint.a), pose(start, joint.b)); }, joint.type);
   }
 
   void add_rows(const std::vector<Pose>& poses, std::vector<Row>& rows) const {
@@ -84,7 +48,7 @@ class NewtonEulerJoints {
     const Pose &a = pose(poses, joint.a), &b = pose(poses, joint.b);
     if (!axis.is_hinge) {
       std::vector<Row> rows;
-      add_row(Across{joint.a, joint.b, axis.direction_a, axis.way_start}, poses, rows);
+      add_row(Across{joint.a, joint.b, axis.direction_a, Vector::Zero(), axis.way_start}, poses, rows);
       return rows.front();
     }
     const Vector n = a.R * axis.direction_a;
@@ -108,7 +72,7 @@ class NewtonEulerJoints {
   };
   struct Across {
     int a, b;
-    Vector of_a;
+    Vector of_a, at_b;  // in the bodies' frames
     Real offset;
   };
   struct Distance {
@@ -116,6 +80,46 @@ class NewtonEulerJoints {
     Vector at_a, at_b;
     Real length;
   };
+
+  // A joint that a mask of locked motions describes.
+  template <typename Type>
+  void add(const Joint& joint, const Type&, const Pose& a, const Pose& b) {
+    constexpr unsigned locks = Type::descriptor().locks.value();
+    const Vec3 *anchor = anchor_of(joint), *axis = axis_of(joint);
+    const Vector point = anchor ? Vector(anchor->template cast<Real>()) : b.position;
+    const Vector along = axis ? Vector(axis->template cast<Real>().normalized()) : Vector(Vector::Unit(2));
+    if constexpr ((locks & Lock::shifts) == Lock::shifts)
+      share(joint, point, a, b);
+    else if constexpr ((locks & Lock::shifts) == Lock::across)
+      for (const Vector& u : across(along))
+        offsets_.push_back({joint.a, joint.b, a.R.transpose() * u, in(b, point), u.dot(point - a.position)});
+    if constexpr ((locks & Lock::turns) ==
+                  Lock::turns)  // each of three axes of one at right angles to one of the other
+      for (int k = 0; k < 3; ++k) keep_angle(joint, Vector::Unit(k), Vector::Unit((k + 1) % 3), a, b);
+    else if constexpr ((locks & Lock::turns) == Lock::tilt)
+      for (const Vector& u : across(along)) keep_angle(joint, u, along, a, b);
+  }
+
+  void add(const Joint& joint, const UniversalJoint& type, const Pose& a, const Pose& b) {
+    share(joint, type.anchor.template cast<Real>(), a, b);
+    keep_angle(joint, type.axis.template cast<Real>(), type.axis2.template cast<Real>(), a, b);
+  }
+
+  void add(const Joint& joint, const DistanceJoint& type, const Pose& a, const Pose& b) {
+    const Vector at_a = type.point_a.template cast<Real>(), at_b = type.point_b.template cast<Real>();
+    const Real length = (b.position + b.R * at_b - a.position - a.R * at_a).norm();
+    distances_.push_back({joint.a, joint.b, at_a, at_b, length});
+  }
+
+  static Vector in(const Pose& body, const Vector& point) { return body.R.transpose() * (point - body.position); }
+
+  void share(const Joint& joint, const Vector& point, const Pose& a, const Pose& b) {
+    points_.push_back({joint.a, joint.b, in(a, point), in(b, point)});
+  }
+
+  void keep_angle(const Joint& joint, const Vector& u, const Vector& v, const Pose& a, const Pose& b) {
+    angles_.push_back({joint.a, joint.b, a.R.transpose() * u, b.R.transpose() * v, u.dot(v)});
+  }
 
   static const Pose& pose(const std::vector<Pose>& poses, int body) {
     static const Pose world;
@@ -162,12 +166,13 @@ class NewtonEulerJoints {
 
   void add_row(const Across& offset, const std::vector<Pose>& poses, std::vector<Row>& rows) const {
     const Pose &a = pose(poses, offset.a), &b = pose(poses, offset.b);
-    const Vector n = a.R * offset.of_a, apart = b.position - a.position;
+    const Vector n = a.R * offset.of_a, arm_b = b.R * offset.at_b, apart = b.position + arm_b - a.position,
+                 rate = b.velocity + b.w.cross(arm_b) - a.velocity;
     Row& row = rows.emplace_back();
     set(row, 0, offset.a, -n, n.cross(apart));
-    set(row, 1, offset.b, n, Vector::Zero());
+    set(row, 1, offset.b, n, arm_b.cross(n));
     row.gap = n.dot(apart) - offset.offset;
-    row.bias = centripetal(a, n).dot(apart) + 2 * a.w.cross(n).dot(b.velocity - a.velocity);
+    row.bias = centripetal(a, n).dot(apart) + 2 * a.w.cross(n).dot(rate) + n.dot(centripetal(b, arm_b));
   }
 
   void add_row(const Distance& distance, const std::vector<Pose>& poses, std::vector<Row>& rows) const {

@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "core/base/content_hash.h"
-#include "core/scene/contact_laws.h"
+#include "core/scene/toml/scene_writer.h"
 #include "solver_fingerprints.h"
 
 namespace rigor {
@@ -38,9 +38,7 @@ class Writer {
     add(next);
     add(static_cast<double>(number - next));
   }
-  void add(int number) { add(static_cast<std::uint64_t>(number)); }
   void add(bool flag) { add(std::uint64_t{flag}); }
-  void add(const Vec3& v) { add(v.x()), add(v.y()), add(v.z()); }
   void add(const std::string& text) {
     add(text.size());
     bytes_ += text;
@@ -166,60 +164,17 @@ bool is_sound(const ReferenceSolution& s) {
          (s.phases.times.empty() ? s.phases.modes.empty() : s.phases.modes.size() % s.phases.times.size() == 0);
 }
 
-void add_shape(Writer& content, const Sphere& sphere) { content.add(sphere.radius); }
-void add_shape(Writer& content, const Box& box) { content.add(box.size); }
-void add_shape(Writer& content, const Capsule& capsule) { content.add(capsule.radius), content.add(capsule.length); }
-void add_shape(Writer& content, const Plane& plane) { content.add(plane.normal), content.add(plane.offset); }
-
-void add_joint(Writer& content, const BallJoint& ball) { content.add(ball.anchor); }
-void add_joint(Writer& content, const HingeJoint& hinge) { content.add(hinge.anchor), content.add(hinge.axis); }
-void add_joint(Writer& content, const SliderJoint& slider) { content.add(slider.axis); }
-void add_joint(Writer&, const FixedJoint&) {}
-void add_joint(Writer& content, const DistanceJoint& distance) {
-  content.add(distance.point_a), content.add(distance.point_b);
-}
-void add_joint(Writer& content, const UniversalJoint& universal) {
-  content.add(universal.anchor), content.add(universal.axis), content.add(universal.axis2);
-}
-
-}  // namespace
-
-namespace {
-
-// The moving bodies, and the duration.
-std::string motion_content(const Scene& scene, double duration) {
+// The scene as JSON without names, and without what no motion of this kind depends on.
+std::string motion_content(Scene scene, double duration, bool can_touch) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    Body& body = scene.bodies[i];
+    body.name = std::to_string(i), body.collides = body.collides && can_touch;
+    if (!body.collides) body.shape.reset();
+  }
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) scene.joints[k].name = std::to_string(k);
+  if (!can_touch) scene.contact_pairs.clear(), scene.contact_default = {};
   Writer content;
-  content.add(duration), content.add(scene.gravity);
-  content.add(scene.bodies.size());
-  for (const Body& body : scene.bodies) {
-    content.add(body.fixed), content.add(body.mass);
-    for (int k = 0; k < 9; ++k) content.add(body.inertia(k / 3, k % 3));
-    content.add(body.position);
-    content.add(body.orientation.w()), content.add(Vec3(body.orientation.vec()));
-    content.add(body.velocity), content.add(body.angular_velocity);
-  }
-  content.add(scene.springs.size());
-  for (const Spring& spring : scene.springs) {
-    content.add(spring.a), content.add(spring.b), content.add(spring.point_a), content.add(spring.point_b);
-    content.add(spring.stiffness), content.add(spring.damping), content.add(spring.rest_length);
-  }
-  content.add(scene.joints.size());
-  for (const Joint& joint : scene.joints) {
-    content.add(joint.a), content.add(joint.b), content.add(joint.type.index());
-    std::visit([&](const auto& type) { add_joint(content, type); }, joint.type);
-    content.add(joint.stiffness), content.add(joint.damping), content.add(joint.rest);
-    content.add(joint.lower), content.add(joint.upper), content.add(joint.restitution);
-  }
-  content.add(scene.motors.size());
-  for (const Motor& motor : scene.motors) {
-    content.add(motor.joint), content.add(motor.effort), content.add(motor.from), content.add(motor.until);
-    content.add(motor.speed.has_value()), content.add(motor.speed.value_or(0)), content.add(motor.most);
-  }
-  content.add(scene.forces.size());
-  for (const TimedForce& force : scene.forces) {
-    content.add(force.body), content.add(force.force), content.add(force.torque), content.add(force.point);
-    content.add(force.from), content.add(force.until);
-  }
+  content.add(duration), content.add(scene_json(scene));
   return content.bytes();
 }
 
@@ -227,7 +182,7 @@ std::string motion_content(const Scene& scene, double duration) {
 
 std::string reference_content(const Scene& scene, double duration, const std::string& made_by) {
   Writer content;
-  content.add(made_by), content.add(motion_content(scene, duration));
+  content.add(made_by), content.add(motion_content(scene, duration, false));
   return content.bytes();
 }
 
@@ -241,21 +196,7 @@ std::string events_content(const Scene& scene, double duration) {
 
 std::string events_content(const Scene& scene, double duration, const std::string& made_by) {
   Writer content;
-  content.add(std::string("events")), content.add(made_by), content.add(motion_content(scene, duration));
-  for (const Body& body : scene.bodies) {
-    content.add(body.collides);
-    if (!body.collides) continue;
-    content.add(body.shape->index());
-    std::visit([&](const auto& shape) { add_shape(content, shape); }, *body.shape);
-  }
-  constexpr double kNoContact = -1;  // no restitution has this value
-  const ContactLaws laws(scene);
-  for (int a = 0; a < static_cast<int>(scene.bodies.size()); ++a) {
-    for (int b = 0; b < a; ++b) {
-      const ContactLaw& law = laws.of(a, b);
-      content.add(law.collides ? law.restitution : kNoContact), content.add(law.friction);
-    }
-  }
+  content.add(std::string("events")), content.add(made_by), content.add(motion_content(scene, duration, true));
   return content.bytes();
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/dynamics/integrators/integrator.h"
-#include "core/engine/reduced_order.h"
+#include "core/engine/capabilities.h"
 #include "core/scene/features.h"
 #include "core/scene/scene.h"
 

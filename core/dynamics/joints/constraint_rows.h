@@ -67,14 +67,17 @@ inline void keep_right_angle(const EndMotion& a, const Vec3& t, const EndMotion&
   *out = {joined(Vec3::Zero(), -turn), joined(Vec3::Zero(), turn), t.dot(n), bias};
 }
 
-// The component of the line d from a's centre to b's along t, which is fixed in a, stays: t · d = offset.
-inline void keep_offset(const EndMotion& a, const Vec3& t, const EndMotion& b, double offset, double* gap) {
-  *gap = t.dot(b.position - a.position) - offset;
+// The component of the line d from a's centre to a point of b along t, which is fixed in a, stays: t · d = offset.
+inline void keep_offset(const EndMotion& a, const Vec3& t, const EndMotion& b, const Vec3& arm_b, double offset,
+                        double* gap) {
+  *gap = t.dot((b.position - a.position) + arm_b) - offset;
 }
-inline void keep_offset(const EndMotion& a, const Vec3& t, const EndMotion& b, double offset, ConstraintRow* out) {
-  const Vec3 d = b.position - a.position;
-  const double bias = 2 * a.angular_velocity.cross(t).dot(b.velocity - a.velocity) + a.centripetal(t).dot(d);
-  *out = {joined(-t, t.cross(d)), joined(t, Vec3::Zero()), t.dot(d) - offset, bias};
+inline void keep_offset(const EndMotion& a, const Vec3& t, const EndMotion& b, const Vec3& arm_b, double offset,
+                        ConstraintRow* out) {
+  const Vec3 d = (b.position - a.position) + arm_b;
+  const double bias = 2 * a.angular_velocity.cross(t).dot(b.velocity_at(arm_b) - a.velocity) + a.centripetal(t).dot(d) +
+                      t.dot(b.centripetal(arm_b));
+  *out = {joined(-t, t.cross(d)), joined(t, arm_b.cross(t)), t.dot(d) - offset, bias};
 }
 
 // The distance of the points at the two arms stays.

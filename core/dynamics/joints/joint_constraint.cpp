@@ -11,19 +11,21 @@ EndMotion at_start(const Scene& scene, int body) {
 }
 
 struct Make {
+  const Joint& joint;
   EndsAtStart ends;
-  std::unique_ptr<JointConstraint> operator()(const BallJoint& joint) const { return make_ball(joint, ends); }
-  std::unique_ptr<JointConstraint> operator()(const DistanceJoint& joint) const { return make_distance(joint, ends); }
-  std::unique_ptr<JointConstraint> operator()(const FixedJoint& joint) const { return make_fixed(joint, ends); }
-  std::unique_ptr<JointConstraint> operator()(const HingeJoint& joint) const { return make_hinge(joint, ends); }
-  std::unique_ptr<JointConstraint> operator()(const SliderJoint& joint) const { return make_slider(joint, ends); }
-  std::unique_ptr<JointConstraint> operator()(const UniversalJoint& joint) const { return make_universal(joint, ends); }
+  std::unique_ptr<JointConstraint> operator()(const DistanceJoint& type) const { return make_distance(type, ends); }
+  std::unique_ptr<JointConstraint> operator()(const UniversalJoint& type) const { return make_universal(type, ends); }
+  template <typename Type>
+  std::unique_ptr<JointConstraint> operator()(const Type&) const {
+    constexpr unsigned mask = Type::descriptor().locks.value();
+    return make_masked(mask, anchor_of(joint), axis_of(joint), ends);
+  }
 };
 
 }  // namespace
 
 std::unique_ptr<JointConstraint> make_constraint(const Scene& scene, const Joint& joint) {
-  return std::visit(Make{{at_start(scene, joint.a), at_start(scene, joint.b)}}, joint.type);
+  return std::visit(Make{joint, {at_start(scene, joint.a), at_start(scene, joint.b)}}, joint.type);
 }
 
 }  // namespace rigor

@@ -1,5 +1,6 @@
-// A joint as the rows that it puts on its two ends. One kind of joint, one file; joint_constraint.cpp is the table.
-// What a joint holds is taken from the scene's poses at t = 0, so that its gap is zero there.
+// A joint as the rows that it puts on its two ends. masked_constraint.cpp has the rows of every joint that a mask of
+// locked motions describes; each other type has its own file. The scene's poses at t = 0 define the held pose, so that
+// the gap is zero there.
 #pragma once
 
 #include <memory>
@@ -39,11 +40,11 @@ struct EndsAtStart {
   Vec3 direction_in_b(const Vec3& v) const { return b.R.transpose() * v; }
 };
 
-std::unique_ptr<JointConstraint> make_ball(const BallJoint& joint, const EndsAtStart& ends);
+// Locks the motions of `mask` (joint_descriptor.h) at an anchor and about an axis, both in W at t = 0. Without an
+// anchor the point is b's centre. The axis may be null where the mask needs none.
+std::unique_ptr<JointConstraint> make_masked(unsigned mask, const Vec3* anchor, const Vec3* axis,
+                                             const EndsAtStart& ends);
 std::unique_ptr<JointConstraint> make_distance(const DistanceJoint& joint, const EndsAtStart& ends);
-std::unique_ptr<JointConstraint> make_fixed(const FixedJoint& joint, const EndsAtStart& ends);
-std::unique_ptr<JointConstraint> make_hinge(const HingeJoint& joint, const EndsAtStart& ends);
-std::unique_ptr<JointConstraint> make_slider(const SliderJoint& joint, const EndsAtStart& ends);
 std::unique_ptr<JointConstraint> make_universal(const UniversalJoint& joint, const EndsAtStart& ends);
 
 std::unique_ptr<JointConstraint> make_constraint(const Scene& scene, const Joint& joint);

@@ -31,8 +31,7 @@ Joints::Joints(const Scene& scene, const System& system)
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     names_.push_back(scene.joint_name(k));
     const Joint& joint = scene.joints[k];
-    if (joint.stiffness > 0 && std::holds_alternative<HingeJoint>(joint.type))
-      sprung_.push_back({JointCoordinate(scene, joint), k, 0});
+    if (joint.stiffness > 0 && turns(joint)) sprung_.push_back({JointCoordinate(scene, joint), k, 0});
   }
   total_.resize(kWrenchColumns, system.size());
   list_components();

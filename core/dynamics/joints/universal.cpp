@@ -10,7 +10,7 @@ class Universal : public JointOf<Universal> {
       : arm_a_(ends.in_a(joint.anchor)),
         arm_b_(ends.in_b(joint.anchor)),
         axis_a_(ends.direction_in_a(joint.axis)),
-        axis_b_(ends.direction_in_b((joint.axis2 - joint.axis2.dot(joint.axis) * joint.axis).normalized())) {}
+        axis_b_(ends.direction_in_b(joint.square_axis2())) {}
 
   int rows() const override { return 4; }
   template <typename Row>

@@ -21,7 +21,7 @@ struct EndState {
 }  // namespace
 
 JointCoordinate::JointCoordinate(const Scene& scene, const Joint& joint)
-    : a_(joint.a), b_(joint.b), turns_(std::holds_alternative<HingeJoint>(joint.type)) {
+    : a_(joint.a), b_(joint.b), turns_(rigor::turns(joint)) {
   const BodyPose a = scene.pose(joint.a), b = scene.pose(joint.b);
   const Vec3 axis = *free_axis(joint), across = axis.unitOrthogonal();
   axis_a_ = a.orientation.conjugate() * axis;

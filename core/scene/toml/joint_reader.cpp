@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/base/near_match.h"
 #include "core/scene/joint_rates.h"
@@ -11,48 +12,18 @@
 namespace rigor {
 namespace {
 
-using JointType = decltype(Joint::type);
-
-struct JointRow {
-  std::string name;
-  Keys keys;  // beside those of every joint
-  JointType (*read)(const TableReader& row, const Ends& ends);
-};
-
 const Keys kOfEvery = {"type", "name", "a", "b"};
 const Keys kOfCoordinate = {"stiffness", "damping", "rest", "lower", "upper", "restitution"};
 
-Vec3 anchor_of(const TableReader& row, const Ends& ends) { return row.at("anchor").vector() + ends.offset; }
-
-JointType read_distance(const TableReader& row, const Ends& ends) {
-  const auto point = [&](const char* key, int body) -> Vec3 {
-    return row.at(key).vector() + (body == kWorld ? ends.offset : Vec3::Zero());
-  };
-  return DistanceJoint{point("point_a", ends.a), point("point_b", ends.b)};
-}
-
-JointType read_universal(const TableReader& row, const Ends& ends) {
-  return UniversalJoint{anchor_of(row, ends), row.at("axis").direction(), row.at("axis2").direction()};
-}
-
-const std::vector<JointRow>& joint_rows() {
-  static const std::vector<JointRow> rows = {
-      {"ball",
-       {"anchor"},
-       [](const TableReader& row, const Ends& ends) -> JointType { return BallJoint{anchor_of(row, ends)}; }},
-      {"distance", {"point_a", "point_b"}, read_distance},
-      {"fixed", {}, [](const TableReader&, const Ends&) -> JointType { return FixedJoint{}; }},
-      {"hinge",
-       {"anchor", "axis"},
-       [](const TableReader& row, const Ends& ends) -> JointType {
-         return HingeJoint{anchor_of(row, ends), row.at("axis").direction()};
-       }},
-      {"slider",
-       {"axis"},
-       [](const TableReader& row, const Ends&) -> JointType { return SliderJoint{row.at("axis").direction()}; }},
-      {"universal", {"anchor", "axis", "axis2"}, read_universal},
-  };
-  return rows;
+JointType read_type(const TableReader& row, const Ends& ends, JointType type) {
+  for_each_vector(type, [&](const char* key, JointVector kind, Vec3& vector) {
+    const TomlValue value = row.at(key);
+    vector = kind == JointVector::direction ? value.direction() : value.vector();
+    const bool is_in_W = kind == JointVector::point || (kind == JointVector::point_of_a && ends.a == kWorld) ||
+                         (kind == JointVector::point_of_b && ends.b == kWorld);
+    if (is_in_W) vector += ends.offset;
+  });
+  return type;
 }
 
 void read_limits(const TableReader& row, Joint& joint) {
@@ -88,8 +59,15 @@ std::size_t find_joint(const TomlValue& value, const Scene& scene) {
 }  // namespace
 
 const Keys& joint_keys() {
-  static const Keys keys = {"type",    "name",      "a",       "b",    "anchor", "axis",  "axis2",      "point_a",
-                            "point_b", "stiffness", "damping", "rest", "lower",  "upper", "restitution"};
+  static const Keys keys = [] {
+    Keys all = kOfEvery;
+    for (const JointTypeInfo& type : joint_types()) {
+      std::copy_if(type.keys.begin(), type.keys.end(), std::back_inserter(all),
+                   [&](const std::string& key) { return std::find(all.begin(), all.end(), key) == all.end(); });
+    }
+    all.insert(all.end(), kOfCoordinate.begin(), kOfCoordinate.end());
+    return all;
+  }();
   return keys;
 }
 
@@ -100,14 +78,14 @@ const Keys& motor_keys() {
 
 Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool check_velocities) {
   Keys names;
-  for (const JointRow& type : joint_rows()) names.push_back(type.name);
+  for (const JointTypeInfo& type : joint_types()) names.push_back(type.word);
   const std::string name = row.at("type").choice(names);
-  const auto type =
-      std::find_if(joint_rows().begin(), joint_rows().end(), [&](const JointRow& r) { return r.name == name; });
+  const auto type = std::find_if(joint_types().begin(), joint_types().end(),
+                                 [&](const JointTypeInfo& info) { return info.word == name; });
   Joint joint;
   joint.a = ends.a, joint.b = ends.b;
-  joint.type = type->read(row, ends);
-  const bool has_coordinate = free_axis(joint) != nullptr;
+  joint.type = read_type(row, ends, type->prototype);
+  const bool has_coordinate = type->coordinate != FreeCoordinate::none;
   Keys keys = kOfEvery;
   keys.insert(keys.end(), type->keys.begin(), type->keys.end());
   if (has_coordinate) keys.insert(keys.end(), kOfCoordinate.begin(), kOfCoordinate.end());
@@ -132,7 +110,8 @@ Motor read_motor(const TableReader& row, const Scene& scene) {
   motor.joint = static_cast<int>(joint);
   const std::string type = joint_type_name(scene.joints[joint]);
   if (!free_axis(scene.joints[joint])) refuse_if(fault_of(motor, scene), row);
-  const std::string effort = type == "hinge" ? "torque" : "force", other = type == "hinge" ? "force" : "torque";
+  const bool is_angle = turns(scene.joints[joint]);
+  const std::string effort = is_angle ? "torque" : "force", other = is_angle ? "force" : "torque";
   if (const auto wrong = row.find(other)) wrong->refuse(fmt::format("a {} takes a {}", type, effort));
   const auto given = row.find(effort), speed = row.find("speed"), most = row.find("most");
   if (given.has_value() == speed.has_value())

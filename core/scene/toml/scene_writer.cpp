@@ -52,26 +52,11 @@ Json row_of(const Spring& spring, const Scene& scene) {
           {"rest_length", spring.rest_length}};
 }
 
-struct JointJson {
-  Json operator()(const BallJoint& joint) const { return {{"anchor", list(joint.anchor)}}; }
-  Json operator()(const HingeJoint& joint) const {
-    return {{"anchor", list(joint.anchor)}, {"axis", list(joint.axis)}};
-  }
-  Json operator()(const SliderJoint& joint) const { return {{"axis", list(joint.axis)}}; }
-  Json operator()(const FixedJoint&) const { return Json::object(); }
-  Json operator()(const DistanceJoint& joint) const {
-    return {{"point_a", list(joint.point_a)}, {"point_b", list(joint.point_b)}};
-  }
-  Json operator()(const UniversalJoint& joint) const {
-    return {{"anchor", list(joint.anchor)}, {"axis", list(joint.axis)}, {"axis2", list(joint.axis2)}};
-  }
-};
-
 Json row_of(const Joint& joint, const Scene& scene) {
   Json row = {{"type", joint_type_name(joint)}};
   if (!joint.name.empty()) row["name"] = joint.name;
   row["a"] = scene.body_name(joint.a), row["b"] = scene.body_name(joint.b);
-  row.update(std::visit(JointJson(), joint.type));
+  for_each_vector(joint.type, [&](const char* key, JointVector, const Vec3& vector) { row[key] = list(vector); });
   if (!free_axis(joint)) return row;
   row["stiffness"] = joint.stiffness, row["damping"] = joint.damping;
   if (joint.stiffness > 0) row["rest"] = joint.rest;
@@ -92,7 +77,7 @@ Json row_of(const Motor& motor, const Scene& scene) {
   if (motor.speed) {
     row["speed"] = *motor.speed, row["most"] = motor.most;
   } else {
-    row[std::holds_alternative<HingeJoint>(joint.type) ? "torque" : "force"] = motor.effort;
+    row[turns(joint) ? "torque" : "force"] = motor.effort;
   }
   add_times(row, motor.from, motor.until);
   return row;

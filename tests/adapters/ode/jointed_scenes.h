@@ -62,6 +62,7 @@ inline std::vector<JointedScene> jointed_scenes() {
   const Vec3 anchor(0.3, 0.1, 0.2), axis = Vec3(2, -1, 2) / 3, across = Vec3(1, 2, 0).normalized();
   const std::pair<const char*, decltype(Joint::type)> types[] = {
       {"ball", BallJoint{anchor}},
+      {"cylindrical", CylindricalJoint{anchor, axis}},
       {"hinge", HingeJoint{anchor, axis}},
       {"slider", SliderJoint{axis}},
       {"fixed", FixedJoint{}},

@@ -12,8 +12,8 @@
 #include "adapters/plugin/plugins.h"
 #include "adapters/plugin/process_engine.h"
 #include "core/base/error.h"
+#include "core/engine/engine.h"
 #include "core/engine/engine_failure.h"
-#include "core/engine/remote.h"
 #include "tests/folder.h"
 #include "tests/scenes.h"
 
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(a_run_of_many_steps_is_as_many_steps) {
       const auto stepped = engine.load(scene, settings_of(engine)), run = engine.load(scene, settings_of(engine));
       for (const int every : {1, 33, kSteps}) {
         const auto bulk = engine.load(scene, settings_of(engine));
-        dynamic_cast<RemoteWorld&>(*bulk).expect(1e-3, kSteps, every);
+        bulk->capabilities().remote->expect(1e-3, kSteps, every);
         Snapshot now;
         for (int n = 1; n <= kSteps; ++n) {
           bulk->step(1e-3);
@@ -246,7 +246,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_diverges_is_kept_to_its_last_finite_step) {
   Scene scene = test::tumbling_body({1, 1, 1});
   scene.gravity = {1e307, 0, 0};
   const auto world = engine.load(scene, settings_of(engine));
-  dynamic_cast<RemoteWorld&>(*world).expect(1, 100, 1);
+  world->capabilities().remote->expect(1, 100, 1);
   Snapshot now;
   int steps = 0;
   for (; steps < 100; ++steps) {

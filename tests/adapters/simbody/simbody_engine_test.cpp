@@ -5,7 +5,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "adapters/calls.h"
+#include "adapters/engines.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 #include "tests/adapters/free_body_measures.h"
@@ -86,6 +86,10 @@ std::vector<Scene> rings() {
                             {.type = UniversalJoint{{0.1, 0, 1}, y, x}},
                             {.type = UniversalJoint{{1.2, 0, 1.1}, x, z}},
                             {.type = UniversalJoint{{1, 0.2, 0}, y, x}}}),
+          ring_of(centres, {{.type = CylindricalJoint{{0, 0, 0}, y}},
+                            {.type = CylindricalJoint{{0.1, 0, 1}, x}},
+                            {.type = CylindricalJoint{{1.2, 0, 1.1}, z}},
+                            {.type = BallJoint{{1, 0.2, 0}}}}),
           ring_of({{0, 0, 0.5}, {0.6, 0.1, 1}},
                   {{.type = SliderJoint{x}}, {.type = SliderJoint{z}}, {.type = SliderJoint{(x + z).normalized()}}})};
 }

@@ -6,7 +6,7 @@
 #include "cases/runner/simulate.h"
 #include "cases/runner/stable_step.h"
 #include "cases/runner/twin_run.h"
-#include "core/engine/remote.h"
+#include "core/engine/engine.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/scripted_engine.h"
 
@@ -36,7 +36,7 @@ class NotedEngine : public test::ScriptedEngine {
   mutable std::vector<int> steps;  // of each world, one after the other
 
  private:
-  class NotedWorld : public RemoteWorld, public MayReduceOrder {
+  class NotedWorld : public World, public RemoteRuns, public MayReduceOrder {
    public:
     NotedWorld(const NotedEngine& engine, const Scene& scene) : engine_(engine), inner_(engine.script_, scene) {
       engine.steps.push_back(0);
@@ -48,6 +48,7 @@ class NotedEngine : public test::ScriptedEngine {
     void read(Snapshot& out) const override { inner_.read(out); }
     SettingsInForce settings_in_force() const override { return {{"steps", std::to_string(steps_)}}; }
     std::string solver_warning() const override { return inner_.solver_warning(); }
+    Capabilities capabilities() override { return {.remote = this, .reduced_order = this}; }
     void expect(double dt, long steps, long every) override {
       every_ = every, engine_.expected.push_back({dt, steps, every});
     }

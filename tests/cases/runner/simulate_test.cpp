@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "core/dynamics/model/system.h"
+#include "core/engine/engine.h"
 #include "core/engine/engine_failure.h"
-#include "core/engine/spared_reactions.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/scripted_engine.h"
 
@@ -15,7 +15,7 @@ using namespace rigor;
 namespace {
 
 // A world that notes the steps of which what its joints carry is to be reported.
-class SparedWorld : public test::ScriptedWorld, public ReportsReactions, public SparesReactions {
+class SparedWorld : public test::ScriptedWorld, public ReportsReactions {
  public:
   SparedWorld(const test::Script& script, const Scene& scene, std::vector<int>& reported)
       : ScriptedWorld(script, scene), reported_(reported) {}
@@ -24,6 +24,7 @@ class SparedWorld : public test::ScriptedWorld, public ReportsReactions, public 
     ++steps_;
     if (are_read_) reported_.push_back(steps_);
   }
+  Capabilities capabilities() override { return {.reactions = this}; }
   void ask_for_reactions() override {}
   void report_reactions(bool are_read) override { are_read_ = are_read; }
   std::vector<ReportedReaction> reactions() const override { return {{0, Vec3::Constant(steps_), Vec3::Zero()}}; }

@@ -40,20 +40,18 @@ void JointGeometry::set_ends(const BodyPose& pose_a, const BodyPose& pose_b, con
   const auto axes = [&](const Vec3& of_a, const Vec3& of_b) {
     a_.axis = pose_a.orientation.conjugate() * of_a, b_.axis = pose_b.orientation.conjugate() * of_b;
   };
-  if (const auto* ball = std::get_if<BallJoint>(&joint.type)) {
-    share(ball->anchor);
-  } else if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-    share(hinge->anchor), axes(hinge->axis, hinge->axis), holds_ = Angle::axis;
-  } else if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-    share(universal->anchor), axes(universal->axis, universal->axis2), holds_ = Angle::right_angle;
-  } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
-    share(pose_b.position), axes(slider->axis, slider->axis), holds_ = Angle::all, place_ = Place::line;
-  } else if (std::holds_alternative<FixedJoint>(joint.type)) {
-    share(pose_b.position), holds_ = Angle::all;
-  } else {
-    const auto& distance = std::get<DistanceJoint>(joint.type);
-    a_.point = distance.point_a, b_.point = distance.point_b, place_ = Place::distance;
-  }
+  const ForJoints set{
+      [&](const UniversalJoint& type) { share(type.anchor), axes(type.axis, type.axis2), holds_ = Angle::right_angle; },
+      [&](const DistanceJoint& type) { a_.point = type.point_a, b_.point = type.point_b, place_ = Place::distance; },
+      [&]<typename Type>(const Type&) {
+        constexpr unsigned locks = Type::descriptor().locks.value(), turns = locks & Lock::turns;
+        const Vec3 *anchor = anchor_of(joint), *axis = axis_of(joint);
+        share(anchor ? *anchor : pose_b.position);
+        if (axis) axes(*axis, *axis);
+        holds_ = turns == Lock::turns ? Angle::all : turns == Lock::tilt ? Angle::axis : Angle::none;
+        place_ = (locks & Lock::shifts) == Lock::across ? Place::line : Place::point;
+      }};
+  std::visit(set, joint.type);
 }
 
 double JointGeometry::gap(BodyColumns bodies) const {
@@ -69,7 +67,7 @@ double JointGeometry::gap_rate(BodyColumns bodies) const {
     const Vec3 apart = b.point() - a.point(), rate = b.point_velocity() - a.point_velocity();
     return apart.isZero(0) ? rate.norm() : std::abs(apart.normalized().dot(rate));
   }
-  const bool is_in_frame_of_a = holds_ == Angle::all;
+  const bool is_in_frame_of_a = holds_ == Angle::all || place_ == Place::line;
   const Vec3 rate = b.point_velocity() - (is_in_frame_of_a ? a.velocity_at(b.point()) : a.point_velocity());
   return place_ == Place::line ? a.axis.cross(rate).norm() : rate.norm();
 }

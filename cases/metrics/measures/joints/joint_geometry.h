@@ -39,10 +39,11 @@ class JointGeometry {
   const JointEnd& a() const { return a_; }
   const JointEnd& b() const { return b_; }
   bool holds_angle() const { return holds_ != Angle::none; }
+  bool slides() const { return place_ == Place::line; }  // b's point moves along a line of a
 
-  // m: between the points; across the axis for a slider; of a distance joint ||d| - d0|.
+  // m: between the points; across the axis where b's point slides along a line; of a distance joint ||d| - d0|.
   double gap(BodyColumns bodies) const;
-  // m/s: of the points against each other, in a's frame for slider and fixed; of a distance joint |d'| along it.
+  // m/s: of the points against each other, in a's frame for sliding and fixed ones; of a distance joint |d'| along it.
   double gap_rate(BodyColumns bodies) const;
   // rad: between a hinge's axes; of the turn of b against a since t = 0 for slider and fixed; by which a universal
   // joint's axes miss the angle of t = 0, a right one. 0 where no angle is held.

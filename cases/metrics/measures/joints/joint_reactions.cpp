@@ -64,8 +64,7 @@ void JointReactions::add_row(std::size_t joint, const MovingEnd& a, const Moving
     row.body[end] = order_[body];
     row.block[end] << sign * force, sign * (arm.cross(force) + couple);
   };
-  const bool is_slider = std::holds_alternative<SliderJoint>(scene_.joints[joint].type);
-  set(0, scene_.joints[joint].a, -1, is_slider ? Vec3(b.point() - a.centre) : a.arm);
+  set(0, scene_.joints[joint].a, -1, joints_[joint].slides() ? Vec3(b.point() - a.centre) : a.arm);
   set(1, scene_.joints[joint].b, 1, b.arm);
   row.bias = bias;
   rows_.push_back(row);
@@ -86,29 +85,35 @@ void JointReactions::add_angle_row(std::size_t joint, const MovingEnd& a, const 
 void JointReactions::add_rows_of(std::size_t joint, BodyColumns bodies) {
   const JointGeometry& geometry = joints_[joint];
   const MovingEnd a = end_motion(geometry.a(), bodies), b = end_motion(geometry.b(), bodies);
-  const auto& type = scene_.joints[joint].type;
-  const Vec3 apart = b.point() - a.point();
-  if (std::holds_alternative<DistanceJoint>(type)) {
-    const Vec3 n = apart.normalized(), rate = b.point_velocity() - a.point_velocity();
+  const auto add_distance_row = [&](const DistanceJoint&) {
+    const Vec3 apart = b.point() - a.point(), n = apart.normalized(), rate = b.point_velocity() - a.point_velocity();
     const double turning = (rate - n.dot(rate) * n).squaredNorm() / apart.norm();
     add_row(joint, a, b, n, Vec3::Zero(), turning + n.dot(centripetal(b, b.arm) - centripetal(a, a.arm)));
-    return;
-  }
-  if (std::holds_alternative<SliderJoint>(type)) {
-    const Vec3 offset = b.point() - a.centre, rate = b.velocity - a.velocity;
-    for (const Vec3& n : across(a.axis))
-      add_row(joint, a, b, n, Vec3::Zero(), centripetal(a, n).dot(offset) + 2 * a.w.cross(n).dot(rate));
-  } else {
+  };
+  const auto share_point = [&] {
     for (int k = 0; k < 3; ++k) add_point_row(joint, a, b, Vec3::Unit(k));
-  }
-  if (std::holds_alternative<HingeJoint>(type)) {
-    for (const Vec3& u : across(a.axis)) add_angle_row(joint, a, b, u, b.axis);
-  } else if (std::holds_alternative<UniversalJoint>(type)) {
+  };
+  const auto add_universal_rows = [&](const UniversalJoint&) {
+    share_point();
     add_angle_row(joint, a, b, a.axis, b.axis);
-  } else if (geometry.holds_angle()) {  // three axes of one at right angles to one each of the other, as at t = 0
+  };
+  const auto add_masked_rows = [&]<typename Type>(const Type&) {
+    constexpr unsigned locks = Type::descriptor().locks.value(), turns = locks & Lock::turns;
+    if ((locks & Lock::shifts) == Lock::shifts) share_point();
+    if ((locks & Lock::shifts) == Lock::across) {
+      const Vec3 offset = b.point() - a.centre, rate = b.point_velocity() - a.velocity;
+      for (const Vec3& n : across(a.axis))
+        add_row(joint, a, b, n, Vec3::Zero(),
+                centripetal(a, n).dot(offset) + 2 * a.w.cross(n).dot(rate) + n.dot(centripetal(b, b.arm)));
+    }
+    if (turns == Lock::tilt)
+      for (const Vec3& u : across(a.axis)) add_angle_row(joint, a, b, u, b.axis);
+    if (turns != Lock::turns) return;
+    // Three axes of one stay at right angles to one each of the other, as at t = 0.
     const Mat3 like_a = b.R * geometry.start_turn().conjugate().toRotationMatrix();
     for (int k = 0; k < 3; ++k) add_angle_row(joint, a, b, a.R.col(k), like_a.col((k + 1) % 3));
-  }
+  };
+  std::visit(ForJoints{add_distance_row, add_universal_rows, add_masked_rows}, scene_.joints[joint].type);
 }
 
 void JointReactions::find_rows(BodyColumns bodies) {

@@ -11,6 +11,7 @@ namespace {
 
 const std::vector<decltype(Joint::type)> kTypes = {
     BallJoint{{0.3, -0.2, 0.5}},
+    CylindricalJoint{{0.3, -0.2, 0.5}, Vec3(1, 2, -2).normalized()},
     HingeJoint{{0.3, -0.2, 0.5}, Vec3(1, 2, -2).normalized()},
     SliderJoint{Vec3(2, -1, 2).normalized()},
     FixedJoint{},
@@ -90,6 +91,27 @@ BOOST_AUTO_TEST_CASE(every_joint_holds_at_the_start_whatever_the_poses) {
       for (int k = 0; k < joint->rows(); ++k) BOOST_TEST(std::abs(rows[k].gap) < 1e-15);
     }
   }
+}
+
+// Of a joint that a mask describes: a motion that the mask leaves free keeps every row at zero.
+BOOST_AUTO_TEST_CASE(a_cylindrical_joint_lets_b_slide_along_its_axis_and_turn_about_it) {
+  const Scene scene = two_bodies();
+  const CylindricalJoint type{{0.3, -0.2, 0.5}, Vec3(1, 2, -2).normalized()};
+  const auto joint = make_constraint(scene, {0, 1, type});
+  BOOST_TEST(joint->rows() == 4);
+  EndMotion a, b;
+  a.position = scene.bodies[0].position, a.R = matrix_of(scene.bodies[0].orientation);
+  const Quat turn = rotation_by(0.8 * type.axis);
+  b.position = type.anchor + turn * (scene.bodies[1].position - type.anchor) + 0.6 * type.axis;
+  b.R = matrix_of(turn * scene.bodies[1].orientation);
+  double gaps[kMostRows];
+  const auto largest = [&] {
+    joint->find_gaps(a, b, gaps);
+    return *std::max_element(gaps, gaps + 4, [](double x, double y) { return std::abs(x) < std::abs(y); });
+  };
+  BOOST_TEST(std::abs(largest()) < 1e-15);  // roundings of numbers below 1
+  b.position += 0.1 * type.axis.unitOrthogonal();
+  BOOST_TEST(std::abs(largest()) > 0.05);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

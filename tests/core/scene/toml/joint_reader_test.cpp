@@ -22,6 +22,9 @@ body = [
 
 const std::string kHinge =
     "[[scene.joint]]\nname = 'knee'\ntype = 'hinge'\na = 'world'\nb = 'rod'\nanchor = [0, 0, 0]\n";
+const std::string kCylinder =
+    "[[scene.joint]]\ntype = 'cylindrical'\nname = 'sleeve'\na = 'world'\nb = 'rod'\nanchor = [0, 0, 0]\n"
+    "axis = [0, 0, 1]\n";
 const std::string kMotor = kHinge + "axis = [0, 0, 1]\n[[scene.motor]]\n";
 const std::string kChain = "[[scene.array]]\nbody = 'link'\ncount = [3, 1, 2]\nspacing = 2\n";
 
@@ -37,6 +40,11 @@ const std::vector<Refusal> kBadJoints = {
     {"[[scene.joint]]\ntype = 'ball'\na = 'world'\nb = 'rod'\nanchor = [0, 0, 0]\ndamping = 1",
      "12:1: scene.joint.damping: a ball joint has no such key",
      {}},
+    {kCylinder + "damping = 1", "14:1: scene.joint.damping: a cylindrical joint has no such key", {"anchor, axis"}},
+    {kCylinder + "lower = -1", "14:1: scene.joint.lower: a cylindrical joint has no such key", {}},
+    {kCylinder + "[[scene.motor]]\njoint = 'sleeve'\nspeed = 1\nmost = 1",
+     "15:9: scene.motor.joint: ",
+     {"a cylindrical joint", "no coordinate of its own", "a hinge or a slider"}},
     {"[[scene.joint]]\ntype = 'universal'\na = 'world'\nb = 'rod'\nanchor = [0, 0, 0]\naxis = [1, 0, 0]\naxis2 = [1, "
      "0, 1]",
      "13:9: scene.joint.axis2: ",

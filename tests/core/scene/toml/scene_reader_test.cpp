@@ -68,7 +68,7 @@ const std::vector<Refusal> kBadRelations = {
     {"[[scene.joint]]\na = 'world'\nb = 'cube'", "9:1: scene.joint.type: missing", {}},
     {"[[scene.joint]]\ntype = 'hing'\na = 'world'\nb = 'cube'",
      "10:8: scene.joint.type: ",
-     {"found 'hing'", "'hinge'", "ball, distance, fixed, hinge, slider, universal"}},
+     {"found 'hing'", "'hinge'", "ball, cylindrical, distance, fixed, hinge, slider, universal"}},
     {"[[scene.joint]]\ntype = 'ball'\na = 'world'\nb = 'cube'", "9:1: scene.joint.anchor: missing", {}},
     {"[[scene.joint]]\ntype = 'ball'\na = 'world'\nb = 'cube'\nanchor = [0, 0, 0]\naxis = [1, 0, 0]",
      "14:1: scene.joint.axis: a ball joint has no such key",
@@ -183,8 +183,9 @@ BOOST_AUTO_TEST_CASE(every_joint_is_read) {
                "[[scene.joint]]\ntype = 'hinge'\nanchor = [1, 2, 3]\naxis = [0, 0, 2]\n" + ends +
                "[[scene.joint]]\ntype = 'slider'\naxis = [0, -3, 0]\n" + ends + "[[scene.joint]]\ntype = 'fixed'\n" +
                ends + "[[scene.joint]]\ntype = 'distance'\npoint_a = [1, 0, 0]\npoint_b = [0, 1, 0]\n" + ends +
-               "[[scene.joint]]\ntype = 'universal'\nanchor = [1, 2, 3]\naxis = [0, 0, 2]\naxis2 = [0, 4, 0]\n" + ends);
-  BOOST_TEST(scene.joints.size() == 6u);
+               "[[scene.joint]]\ntype = 'universal'\nanchor = [1, 2, 3]\naxis = [0, 0, 2]\naxis2 = [0, 4, 0]\n" + ends +
+               "[[scene.joint]]\ntype = 'cylindrical'\nanchor = [1, 2, 3]\naxis = [0, 0, 2]\n" + ends);
+  BOOST_TEST(scene.joints.size() == 7u);
   BOOST_TEST((std::get<BallJoint>(scene.joints[0].type).anchor == Vec3(1, 2, 3)));
   BOOST_TEST((std::get<HingeJoint>(scene.joints[1].type).anchor == Vec3(1, 2, 3)));
   BOOST_TEST((std::get<HingeJoint>(scene.joints[1].type).axis == Vec3(0, 0, 1)));
@@ -194,6 +195,8 @@ BOOST_AUTO_TEST_CASE(every_joint_is_read) {
   BOOST_TEST((std::get<DistanceJoint>(scene.joints[4].type).point_b == Vec3(0, 1, 0)));
   BOOST_TEST((std::get<UniversalJoint>(scene.joints[5].type).axis == Vec3(0, 0, 1)));
   BOOST_TEST((std::get<UniversalJoint>(scene.joints[5].type).axis2 == Vec3(0, 1, 0)));
+  BOOST_TEST((std::get<CylindricalJoint>(scene.joints[6].type).anchor == Vec3(1, 2, 3)));
+  BOOST_TEST((std::get<CylindricalJoint>(scene.joints[6].type).axis == Vec3(0, 0, 1)));
   for (const Joint& joint : scene.joints) {
     BOOST_TEST(joint.a == kWorld);
     BOOST_TEST(joint.b == 1);

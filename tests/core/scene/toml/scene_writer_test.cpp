@@ -59,6 +59,7 @@ class Fields {
     add(joint.stiffness), add(joint.damping), add(joint.rest);
     add(joint.lower), add(joint.upper), add(joint.restitution);
     if (const auto* ball = std::get_if<BallJoint>(&joint.type)) add(ball->anchor);
+    if (const auto* cylinder = std::get_if<CylindricalJoint>(&joint.type)) add(cylinder->anchor), add(cylinder->axis);
     if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) add(hinge->anchor), add(hinge->axis);
     if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) add(slider->axis);
     if (const auto* rod = std::get_if<DistanceJoint>(&joint.type)) add(rod->point_a), add(rod->point_b);

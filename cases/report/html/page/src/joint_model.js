@@ -19,7 +19,7 @@ export function jointsOf(scene) {
       pointA: within(bodyA, anchor),
       pointB: within(bodyB, anchor),
       axes: axes.filter(Boolean),
-      slides: joint.type === "slider",
+      slides: ["cylindrical", "slider"].includes(joint.type),
     };
   });
 }
@@ -52,7 +52,7 @@ export function jointSegments(joints, poses, size, seen) {
     for (const axis of axes) marks.push([add(q, axis, -2.5 * size), add(q, axis, 2.5 * size)]);
     const between = q.map((v, k) => v - p[k]);
     const along = joint.slides ? axes[0].reduce((sum, v, k) => sum + v * between[k], 0) : 0;
-    const from = joint.slides ? add(p, axes[0], along) : p; // a slider's free direction is no gap
+    const from = joint.slides ? add(p, axes[0], along) : p; // motion along a free axis is no gap
     if (!joint.isRod && Math.hypot(...q.map((v, k) => v - from[k])) > seen) gaps.push([from, q]);
   }
   return { marks, gaps };

@@ -27,6 +27,7 @@ struct Row {
   decltype(Joint::type) type;
 };
 const Row kJoints[] = {{"ball", BallJoint{{0.5, 0.1, 0.4}}},
+                       {"cylindrical", CylindricalJoint{{0.5, 0.1, 0.4}, kAxis}},
                        {"hinge", HingeJoint{{0.5, 0.1, 0.4}, kAxis}},
                        {"slider", SliderJoint{kAxis}},
                        {"fixed", FixedJoint{}},

@@ -4,7 +4,7 @@
 
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/energy.h"
-#include "core/engine/reduced_order.h"
+#include "core/engine/engine.h"
 #include "tests/core/dynamics/contact/contact_runs.h"
 #include "tests/core/dynamics/joints/jointed_run.h"
 

@@ -1,4 +1,4 @@
-#include "adapters/twin_joint_solver.h"
+#include "adapters/common/twin_joint_solver.h"
 
 #include "core/base/factors.h"
 

@@ -1,4 +1,4 @@
-#include "adapters/hanging_joint.h"
+#include "adapters/common/hanging_joint.h"
 
 namespace rigor {
 
@@ -6,8 +6,7 @@ HangingJoint::HangingJoint(const Scene& scene, int joint, int body) : body_(body
   const Joint& of = scene.joints[static_cast<std::size_t>(joint)];
   if (free_axis(of)) coordinate_.emplace(scene, of);
   const BodyPose pose = scene.pose(body);
-  if (const auto* hinge = std::get_if<HingeJoint>(&of.type))
-    anchor_ = pose.orientation.conjugate() * (hinge->anchor - pose.position);
+  if (turns(of)) anchor_ = pose.orientation.conjugate() * (*anchor_of(of) - pose.position);
 }
 
 ReportedReaction HangingJoint::reaction(BodyColumns start, Vec3 force, Vec3 torque) const {

@@ -1,4 +1,4 @@
-#include "adapters/spanning_tree.h"
+#include "adapters/common/spanning_tree.h"
 
 #include <algorithm>
 #include <numeric>
@@ -29,10 +29,13 @@ class Clusters {
   std::vector<int> of_;
 };
 
-int rank_of(const Joint& joint) {  // the least is taken first
-  const std::string type = joint_type_name(joint);
-  const std::vector<std::string> order = {"slider", "universal", "hinge", "fixed", "ball"};
-  return static_cast<int>(std::find(order.begin(), order.end(), type) - order.begin());
+// The least is taken first. A distance joint is never part of the tree.
+int rank_of(const Joint& joint) {
+  return std::visit(ForJoints{[](const SliderJoint&) { return 0; }, [](const CylindricalJoint&) { return 1; },
+                              [](const UniversalJoint&) { return 2; }, [](const HingeJoint&) { return 3; },
+                              [](const FixedJoint&) { return 4; }, [](const BallJoint&) { return 5; },
+                              [](const DistanceJoint&) { return 6; }},
+                    joint.type);
 }
 
 bool moves(const Scene& scene, int body) { return body != kWorld && !scene.bodies[body].fixed; }
@@ -123,18 +126,27 @@ std::vector<double> hanging_speeds(const Scene& scene, const SpanningTree& tree,
   const Joint& joint = scene.joints[link.joint];
   const StartingMotion own = starting_motion(scene, body), above = starting_motion(scene, link.parent);
   const Vec3 w = own.turning - above.turning;
-  if (const auto* universal = std::get_if<UniversalJoint>(&joint.type)) {
-    return joint.b == body ? speeds_about(universal->axis, universal->axis2, w)
-                           : speeds_about(universal->axis2, universal->axis, w);
-  }
-  if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
-    const Vec3 carried = above.velocity + above.turning.cross(own.position - above.position);
-    return {slider->axis.dot(own.velocity - carried)};
-  }
-  if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) return {hinge->axis.dot(w)};
-  if (std::holds_alternative<FixedJoint>(joint.type)) return {};
-  const Vec3 in_body = matrix_of(scene.bodies[body].orientation).transpose() * w;
-  return {in_body.x(), in_body.y(), in_body.z()};
+  using Speeds = std::vector<double>;
+  const auto speed_along = [&](const Vec3& axis, const Vec3& point) {
+    const Vec3 carried = above.velocity + above.turning.cross(point - above.position);
+    return axis.dot(own.velocity + own.turning.cross(point - own.position) - carried);
+  };
+  return std::visit(
+      ForJoints{[&](const BallJoint&) -> Speeds {
+                  const Vec3 in_body = matrix_of(scene.bodies[body].orientation).transpose() * w;
+                  return {in_body.x(), in_body.y(), in_body.z()};
+                },
+                [&](const CylindricalJoint& cylinder) -> Speeds {
+                  return {speed_along(cylinder.axis, cylinder.anchor), cylinder.axis.dot(w)};
+                },
+                [](const DistanceJoint&) -> Speeds { return {}; }, [](const FixedJoint&) -> Speeds { return {}; },
+                [&](const HingeJoint& hinge) -> Speeds { return {hinge.axis.dot(w)}; },
+                [&](const SliderJoint& slider) -> Speeds { return {speed_along(slider.axis, own.position)}; },
+                [&](const UniversalJoint& universal) -> Speeds {
+                  return joint.b == body ? speeds_about(universal.axis, universal.axis2, w)
+                                         : speeds_about(universal.axis2, universal.axis, w);
+                }},
+      joint.type);
 }
 
 }  // namespace rigor

@@ -19,12 +19,12 @@ struct SpanningTree {
   std::vector<int> loops;               // Scene::joints that close a loop, and all distance joints
 };
 
-// A spanning forest. Joints that engines cannot close a loop with (slider, universal) are taken first.
+// A spanning forest. Joints that engines cannot close a loop with (slider, cylindrical, universal) are taken first.
 SpanningTree spanning_tree(const Scene& scene);
 
 // At t = 0, the speeds of the joint that hangs `body` on its parent, of the body against the parent: along or about the
-// axis of a slider or hinge [m/s, rad/s]; about the parent's, then the body's own axis of a universal joint; a ball's
-// turning in the body's frame; none of a fixed joint.
+// axis of a slider or hinge [m/s, rad/s]; along, then about a cylindrical joint's axis; about the parent's, then the
+// body's own axis of a universal joint; a ball's turning in the body's frame; none of a fixed joint.
 std::vector<double> hanging_speeds(const Scene& scene, const SpanningTree& tree, int body);
 
 }  // namespace rigor

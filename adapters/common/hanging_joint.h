@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/dynamics/model/joint_coordinate.h"
-#include "core/engine/reported_reactions.h"
+#include "core/engine/capabilities.h"
 
 namespace rigor {
 

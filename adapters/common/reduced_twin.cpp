@@ -1,6 +1,6 @@
-#include "adapters/reduced_twin.h"
+#include "adapters/common/reduced_twin.h"
 
-#include "adapters/spanning_tree.h"
+#include "adapters/common/spanning_tree.h"
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/kernels/kernels.h"
 #include "core/engine/columns.h"
@@ -38,6 +38,22 @@ Motion hang(const Ends& ends, const Vec3& arm_parent, const Vec3& arm_child, con
   child.angular_velocity = above.angular_velocity + turning;
   child.velocity = above.velocity + above.angular_velocity.cross(to_point) + child.angular_velocity.cross(from_point);
   return child;
+}
+
+// Of a point of the child that moves along an axis of the parent.
+struct Slide {
+  Vec3 line_then;      // m, from the parent's centre to the point, at the step's end
+  Vec3 velocity_then;  // m/s, of the point
+};
+Slide slide_of(const Ends& ends, const Vec3& point, const Vec3& velocity, const Vec3& acceleration,
+               const Vec3& axis_parent) {
+  const Motion &above = ends.parent, &then = ends.parent_then;
+  const Vec3 axis = above.q * axis_parent, line = point - above.position, relative_velocity = velocity - above.velocity;
+  const Vec3 carried = ends.of_parent.angular.cross(line) + above.angular_velocity.cross(relative_velocity);
+  const double rate = axis.dot(relative_velocity - above.angular_velocity.cross(line)) +
+                      ends.dt * axis.dot(acceleration - ends.of_parent.linear - carried);
+  const Vec3 line_then = then.q * (above.q.conjugate() * line + ends.dt * rate * axis_parent);
+  return {line_then, then.velocity + then.angular_velocity.cross(line_then) + rate * (then.q * axis_parent)};
 }
 
 class JointStep {
@@ -107,19 +123,40 @@ class SliderStep : public JointStep {
  public:
   explicit SliderStep(const Vec3& axis_parent) : axis_(axis_parent) {}
   Motion child_after(const Ends& ends) const override {
-    const Motion &above = ends.parent, &then = ends.parent_then;
-    const Vec3 axis = above.q * axis_, line = ends.child.position - above.position,
-               relative_velocity = ends.child.velocity - above.velocity;
-    const Vec3 carried = ends.of_parent.angular.cross(line) + above.angular_velocity.cross(relative_velocity);
-    const double rate = axis.dot(relative_velocity - above.angular_velocity.cross(line)) +
-                        ends.dt * axis.dot(ends.of_child.linear - ends.of_parent.linear - carried);
-    const Vec3 line_then = then.q * (above.q.conjugate() * line + ends.dt * rate * axis_);
-    return {then.position + line_then, (then.q * ends.between()).normalized(),
-            then.velocity + then.angular_velocity.cross(line_then) + rate * (then.q * axis_), then.angular_velocity};
+    const Slide slide = slide_of(ends, ends.child.position, ends.child.velocity, ends.of_child.linear, axis_);
+    const Motion& then = ends.parent_then;
+    return {then.position + slide.line_then, (then.q * ends.between()).normalized(), slide.velocity_then,
+            then.angular_velocity};
   }
 
  private:
   Vec3 axis_;  // unit, in the parent's frame
+};
+
+// A slide and a turn, two coordinates about one axis.
+class CylinderStep : public JointStep {
+ public:
+  CylinderStep(const Vec3& arm_child, const Vec3& axis_parent, const Vec3& axis_child)
+      : arm_(arm_child), axis_(axis_parent), axis_child_(axis_child) {}
+  Motion child_after(const Ends& ends) const override {
+    const Motion &child = ends.child, &then = ends.parent_then;
+    const Vec3 arm = child.q * arm_, w = child.angular_velocity;
+    const Slide slide =
+        slide_of(ends, child.position + arm, child.velocity + w.cross(arm),
+                 ends.of_child.linear + ends.of_child.angular.cross(arm) + w.cross(w.cross(arm)), axis_);
+    const Vec3 axis = child.q * axis_child_;
+    const double rate = axis.dot(ends.turning()) + ends.dt * axis.dot(ends.turning_rate());
+    Motion after{.q = (then.q * ends.between() * rotation_by(ends.dt * rate * axis_child_)).normalized()};
+    const Vec3 from_point = -(after.q * arm_);
+    after.position = then.position + slide.line_then + from_point;
+    after.angular_velocity = then.angular_velocity + rate * (then.q * axis_);
+    after.velocity = slide.velocity_then + after.angular_velocity.cross(from_point);
+    return after;
+  }
+
+ private:
+  Vec3 arm_;                // m, from the child's centre to the anchor, in its frame
+  Vec3 axis_, axis_child_;  // unit, in each frame
 };
 
 struct MakeStep {
@@ -143,11 +180,14 @@ struct MakeStep {
     return std::make_unique<SliderStep>(in_parent(joint.axis));
   }
   std::unique_ptr<JointStep> operator()(const UniversalJoint& joint) const {
-    const Vec3 axis2 = (joint.axis2 - joint.axis2.dot(joint.axis) * joint.axis).normalized();
+    const Vec3 axis2 = joint.square_axis2();
     return child_is_b ? std::make_unique<UniversalStep>(arms(joint.anchor), in_parent(joint.axis), in_child(axis2))
                       : std::make_unique<UniversalStep>(arms(joint.anchor), in_parent(axis2), in_child(joint.axis));
   }
-  std::unique_ptr<JointStep> operator()(const DistanceJoint&) const { return nullptr; }  // lacked
+  std::unique_ptr<JointStep> operator()(const CylindricalJoint& joint) const {
+    return std::make_unique<CylinderStep>(arms(joint.anchor).child, in_parent(joint.axis), in_child(joint.axis));
+  }
+  std::unique_ptr<JointStep> operator()(const DistanceJoint&) const { return nullptr; }
 };
 
 class ReducedTwin : public Stepper {

@@ -1,4 +1,4 @@
-#include "adapters/external_loads.h"
+#include "adapters/common/external_loads.h"
 
 namespace rigor {
 

@@ -1,0 +1,30 @@
+// A row of the table of engines (adapters/engines.cpp). Each engine's folder defines its own: EngineRow NAME_row().
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/integrators/integrator.h"
+#include "core/engine/engine.h"
+#include "core/scene/link_model.h"
+
+namespace rigor {
+
+struct EngineRow {
+  std::unique_ptr<Engine> (*make)();
+  // The core's methods that repeat the engine's scheme (twins); null for none.
+  std::vector<Integrator> (*twins)() = nullptr;
+  // See engine_calls() in adapters/engines.h; null for none.
+  std::vector<std::string> (*calls)(const Settings& settings, const std::string& dt) = nullptr;
+  // The engine's own format of models, see adapters/models.h; null for none.
+  LinkModel (*read_model)(const std::string& path, const std::string& keyframe) = nullptr;
+  std::string (*write_model)(const Scene& scene, LeftOut& left_out) = nullptr;
+};
+
+template <typename Kind>
+std::unique_ptr<Engine> make_engine() {
+  return std::make_unique<Kind>();
+}
+
+}  // namespace rigor
