@@ -11,8 +11,8 @@
 #include "core/base/error.h"
 #include "core/engine/engine.h"
 
-// CMake names the engines whose library it found, as ROW(bullet) ROW(core) ..., in alphabetical order, and the packages
-// of those that it did not find (adapters/CMakeLists.txt).
+// CMake lists the engines whose library it found, as ROW(bullet) ROW(core) ..., in alphabetical order, and the packages
+// of the others (adapters/CMakeLists.txt).
 #ifndef RIGOR_ENGINE_ROWS
 #define RIGOR_ENGINE_ROWS ROW(core)
 #define RIGOR_MISSING_ENGINES
@@ -66,7 +66,7 @@ std::vector<std::string> engine_calls(const RunName& run, const std::string& dt)
 
 namespace {
 
-// MJCF is MuJoCo's; `does` says what is done with it.
+// MJCF needs MuJoCo; `does` names the action.
 const EngineRow& row_for_mjcf(const std::string& does) {
   for (const NamedRow& named : rows())
     if (named.row.read_model && named.row.write_model) return named.row;

@@ -39,7 +39,7 @@ struct AddLinks {
   void operator()(const BallJoint&) const {
     tree.setupSpherical(link, mass, moments, parent, turn(), from_parent(), to_child(), !kCollidesWithParent);
   }
-  // Two links, as of a universal joint: a slide, then a turn of what has the mass.
+  // Two links, as for a universal joint: a slide, then a rotation of the link with the mass.
   void operator()(const CylindricalJoint& joint) const {
     const btVector3 nothing(0, 0, 0), axis = child.seen(joint.axis);
     tree.setupPrismatic(link, 0, nothing, parent, turn(), axis, from_parent(), nothing, !kCollidesWithParent);

@@ -1,5 +1,5 @@
-// Springs and timed forces for an engine that has none: recomputed by the core's own law from the engine's current
-// state before each step, and handed over as constant forces for that step.
+// Springs and timed forces for an engine that has none. Before each step they are computed by the core's own law from
+// the engine's current state, and passed as constant forces for that step.
 #pragma once
 
 #include "core/dynamics/model/loads.h"

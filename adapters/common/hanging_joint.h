@@ -1,6 +1,6 @@
-// What the joint of a tree puts on the body that hangs by it, of an engine in the joints' coordinates. What such an
-// engine says passes there is all of it, also what springs, dampers and motors do along the joint's free axis: that is
-// taken away, for they are loads and no reactions (reported_reactions.h).
+// The load of a tree's joint on its child body, for an engine in joint coordinates. The engine reports the whole
+// transmitted load, including springs, dampers and motors along the joint's free axis. These are subtracted, because
+// they are loads and not reactions.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,8 @@ class HangingJoint {
   HangingJoint(const Scene& scene, int joint, int body);
 
   int body() const { return body_; }
-  // Of what passes to the body, at the bodies of the step's start: force [N] and torque about its centre [N m], in W.
+  // The part of the load on the body, at the bodies' poses of the step's start: force [N] and torque about its centre
+  // [N m], in W.
   ReportedReaction reaction(BodyColumns start, Vec3 force, Vec3 torque) const;
 
  private:

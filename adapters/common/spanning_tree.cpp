@@ -112,7 +112,7 @@ StartingMotion starting_motion(const Scene& scene, int body) {
   return {b.position, b.velocity, b.angular_velocity};
 }
 
-// A universal joint's two speeds: those whose turning is nearest to w, which is w but for its part along the normal.
+// A universal joint's two speeds: those whose rotation is nearest to w, which is w without its part along the normal.
 std::vector<double> speeds_about(const Vec3& first, const Vec3& second, const Vec3& w) {
   const Vec3 normal = first.cross(second);
   const double squared = normal.squaredNorm();

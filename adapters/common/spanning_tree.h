@@ -1,5 +1,5 @@
-// Which joints of a scene an engine in reduced coordinates holds as joints of its trees of bodies, exactly, and which
-// it closes loops with, by constraints.
+// Divides the joints of a scene for an engine in reduced coordinates: exact joints of its trees of bodies, and
+// constraints that close loops.
 #pragma once
 
 #include <vector>
@@ -22,9 +22,9 @@ struct SpanningTree {
 // A spanning forest. Joints that engines cannot close a loop with (slider, cylindrical, universal) are taken first.
 SpanningTree spanning_tree(const Scene& scene);
 
-// At t = 0, the speeds of the joint that hangs `body` on its parent, of the body against the parent: along or about the
-// axis of a slider or hinge [m/s, rad/s]; along, then about a cylindrical joint's axis; about the parent's, then the
-// body's own axis of a universal joint; a ball's turning in the body's frame; none of a fixed joint.
+// The speeds at t = 0 of the joint between `body` and its parent, relative to the parent. Slider or hinge: along or
+// about the axis [m/s, rad/s]. Cylindrical joint: along, then about the axis. Universal joint: about the parent's axis,
+// then the body's. Ball: the angular velocity in the body's frame. Fixed joint: none.
 std::vector<double> hanging_speeds(const Scene& scene, const SpanningTree& tree, int body);
 
 }  // namespace rigor

@@ -1,9 +1,9 @@
-// The impulses of joints as the direct solvers of ODE 0.16 (worldstep) and Bullet 3.24 (MLCP) find them, for their
-// twins. With J the rows of all joints as the engine writes them, e what is missing along each (m, rad), v the
-// velocities that loads and the gyroscopic term have made of the step's, M and J at the step's start:
+// The joint impulses of the direct solvers of ODE 0.16 (worldstep) and Bullet 3.24 (MLCP), for their twins. J holds the
+// rows of all joints in the engine's form, e their errors (m, rad), v the velocities after the step's loads and
+// gyroscopic term; M and J are those of the step's start:
 //   (J M⁻¹ Jᵀ + cfm/dt) p = erp/dt e - J v,   v <- v + M⁻¹ Jᵀ p
-// so that a share erp of each gap is closed in a step, by a speed that stays. Without limits nothing is one-sided:
-// there is nothing to choose, and Dantzig's pivoting comes to the same as any factorisation.
+// A share erp of each gap is thus closed in a step, by a speed that stays. Without limits no row is one-sided, and
+// Dantzig's pivoting gives the same result as any factorisation.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -23,7 +23,7 @@ class TwinJointSolver {
   TwinJointSolver(const System& system, double erp, std::optional<double> cfm, double softness)
       : system_(system), erp_(erp), cfm_(cfm), softness_(softness) {}
 
-  // A row's parts on the (v, w) of its bodies, each an index or kWorld, and what is missing along it.
+  // A row's parts on the (v, w) of its bodies, each an index or kWorld, and its error.
   void add_row(int a, const Vec6& on_a, int b, const Vec6& on_b, double missing);
   // Changes the velocities of a state whose poses are those of the step's start, and forgets the rows.
   void push(MutableBodyColumns state, double dt);

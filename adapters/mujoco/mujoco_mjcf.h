@@ -20,8 +20,8 @@ inline constexpr int kDeepestBody = 95;
 // The attributes of a shape.
 std::string mjcf_shape(const Shape& shape);
 
-// The elements by which a joint hangs a body on its parent, of MuJoCo's types "ball", "hinge" and "slide". Of several
-// the first moves with the parent. A fixed joint has none.
+// The elements of the joint between a body and its parent, with MuJoCo's types "ball", "hinge" and "slide". The first
+// of several moves with the parent. A fixed joint has none.
 struct MjcfJoint {
   const char* type;
   const Vec3* point;  // m, in W; null: the body's centre

@@ -14,8 +14,8 @@ namespace rigor {
 class RemoteRuns {
  public:
   virtual ~RemoteRuns() = default;
-  // The next `steps` steps are all of dt. Only each `every`-th of them is read, and the last. So many steps can be one
-  // request. The caller asks for nothing else before they are done.
+  // The next `steps` steps all have length dt. Only every `every`-th of them, and the last, are read, so one request
+  // can cover many steps. Any other call before they are done is a bug.
   virtual void expect(double dt, long steps, long every) = 0;
   // CPU seconds that the other process has spent, less those that this one spent in waiting for it.
   virtual double remote_cpu_seconds() const = 0;
@@ -31,7 +31,7 @@ struct ReducedOrder {
 class MayReduceOrder {
  public:
   virtual ~MayReduceOrder() = default;
-  // Of the run so far; none if its method made every step.
+  // The time from which the run used a lower order; empty if it never did.
   virtual std::optional<ReducedOrder> reduced_order() const = 0;
 };
 

@@ -146,7 +146,7 @@ bool turns(const Joint& joint);
 const Vec3* anchor_of(const Joint& joint);
 const Vec3* axis_of(const Joint& joint);
 
-// The axis of the joint's free coordinate, in W at t = 0. Null for a joint without a coordinate of its own.
+// The axis of the joint's free coordinate, in W at t = 0; null if the joint has none.
 const Vec3* free_axis(const Joint& joint);
 
 }  // namespace rigor

@@ -164,7 +164,7 @@ bool is_sound(const ReferenceSolution& s) {
          (s.phases.times.empty() ? s.phases.modes.empty() : s.phases.modes.size() % s.phases.times.size() == 0);
 }
 
-// The scene as JSON without names, and without what no motion of this kind depends on.
+// The scene as JSON without names, and without data that cannot affect a motion of this kind.
 std::string motion_content(Scene scene, double duration, bool can_touch) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     Body& body = scene.bodies[i];

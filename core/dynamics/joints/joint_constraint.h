@@ -1,6 +1,5 @@
-// A joint as the rows that it puts on its two ends. masked_constraint.cpp has the rows of every joint that a mask of
-// locked motions describes; each other type has its own file. The scene's poses at t = 0 define the held pose, so that
-// the gap is zero there.
+// A joint as rows on its two ends. masked_constraint.cpp has the rows of every joint that a mask of locked motions
+// describes; other types have their own files. The scene's poses at t = 0 define the held pose, where the gap is zero.
 #pragma once
 
 #include <memory>
