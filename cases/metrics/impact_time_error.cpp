@@ -3,7 +3,7 @@
 // run.
 #include <cmath>
 
-#include "cases/metrics/measures/impacts.h"
+#include "cases/metrics/measures/contact/impacts.h"
 #include "cases/metrics/measures/measuring.h"
 #include "core/scene/contact_laws.h"
 

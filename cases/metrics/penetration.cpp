@@ -2,8 +2,8 @@
 // overlaps at the start is not the engine's doing and is taken off.
 #include <fmt/format.h>
 
+#include "cases/metrics/measures/contact/overlaps.h"
 #include "cases/metrics/measures/measuring.h"
-#include "cases/metrics/measures/overlaps.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
