@@ -2,7 +2,7 @@
 // samples at the same instants). A missing impact is late by the rest of the run.
 #include <cmath>
 
-#include "cases/metrics/measures/impacts.h"
+#include "cases/metrics/measures/contact/impacts.h"
 #include "cases/metrics/measures/measuring.h"
 #include "core/scene/contact_laws.h"
 

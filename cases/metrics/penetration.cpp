@@ -2,8 +2,8 @@
 // start is subtracted, because the engine did not cause it.
 #include <fmt/format.h>
 
+#include "cases/metrics/measures/contact/overlaps.h"
 #include "cases/metrics/measures/measuring.h"
-#include "cases/metrics/measures/overlaps.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {

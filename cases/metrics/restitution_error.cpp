@@ -2,7 +2,7 @@
 // truth.
 #include <cmath>
 
-#include "cases/metrics/measures/impacts.h"
+#include "cases/metrics/measures/contact/impacts.h"
 #include "cases/metrics/measures/measuring.h"
 
 namespace rigor {

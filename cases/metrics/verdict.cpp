@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "cases/metrics/measures/built_at_rest.h"
+#include "cases/metrics/measures/contact/overlaps.h"
+#include "cases/metrics/measures/contact/tunnelling.h"
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/metrics/measures/internal_energy.h"
 #include "cases/metrics/measures/measuring.h"
-#include "cases/metrics/measures/overlaps.h"
 #include "cases/metrics/measures/shape_gap.h"
-#include "cases/metrics/measures/tunnelling.h"
 #include "core/base/error.h"
 #include "core/scene/contact_laws.h"
 

@@ -17,7 +17,7 @@ namespace rigor {
 //   what
 //                is in play: asked where bodies can touch, and where dampers act and no truth says what they take
 //   collapsed    what the truth says stands where it was built has fallen (built_at_rest.h)
-//   tunnelled    two bodies have passed through each other (measures/tunnelling.h)
+//   tunnelled    two bodies have passed through each other (measures/contact/tunnelling.h)
 //   blown up     see stability.h
 // What is in play, and what the energy should be: energy_series.h.
 enum class Verdict { stable, drifting, overlapping, gaining, collapsed, tunnelled, blown_up };

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "cases/metrics/measures/energy_series.h"
-#include "cases/metrics/measures/tunnelling.h"
+#include "cases/metrics/measures/contact/tunnelling.h"
 #include "cases/metrics/stability.h"
 #include "core/dynamics/model/energy.h"
 #include "core/engine/engine.h"

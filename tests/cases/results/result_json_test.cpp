@@ -28,16 +28,16 @@ BOOST_AUTO_TEST_CASE(every_number_comes_back_with_its_bits) {
     MetricValue& metric = cell.metrics["position_error"];
     metric.value = metric.first_second = metric.compared_until = number;
     metric.worst.time = metric.worst.found = metric.worst.expected = number;
-    cell.reduced_order = ReducedOrder{number, "by short steps"};
+    cell.reduced_order = ReducedOrder{number, "by short steps"}, cell.sub_step = number;
     cell.cpu_seconds = cell.wall_seconds = cell.stability.time = number;
     apply_message(result, message_of_cell(1, cell, scene));
     const Cell& back = result.cells[1];
     const MetricValue& its = back.metrics.at("position_error");
-    BOOST_TEST_REQUIRE(back.reduced_order.has_value());
+    BOOST_TEST_REQUIRE((back.reduced_order.has_value() && back.sub_step.has_value()));
     BOOST_TEST(back.reduced_order->how == "by short steps");
     for (const double came :
-         {back.reduced_order->from, its.value, its.first_second, its.compared_until, its.worst.time, its.worst.found,
-          its.worst.expected, back.cpu_seconds, back.wall_seconds, back.stability.time})
+         {back.reduced_order->from, *back.sub_step, its.value, its.first_second, its.compared_until, its.worst.time,
+          its.worst.found, its.worst.expected, back.cpu_seconds, back.wall_seconds, back.stability.time})
       BOOST_TEST(same_bits(came, number), came << " for " << number);
     apply_message(result, message_of_truth({number, number, number, number}));
     BOOST_TEST(same_bits(result.truth->error_at_end, number));

@@ -3,7 +3,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "cases/metrics/measures/overlaps.h"
+#include "cases/metrics/measures/contact/overlaps.h"
 #include "core/dynamics/model/energy.h"
 #include "tests/cases/truth/closed_form/contact/contact_scenes.h"
 

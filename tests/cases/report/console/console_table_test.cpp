@@ -197,4 +197,15 @@ BOOST_AUTO_TEST_CASE(a_run_of_reduced_order_has_a_mark_and_a_warning_that_says_f
   BOOST_TEST(gate_summary(results).find("warning: 1 of them held by runs") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_run_that_divides_its_steps_has_a_mark_and_a_note_of_the_step_really_taken) {
+  Results results = sample_results();
+  BOOST_TEST(console_table(results).find("÷") == std::string::npos);
+  results.cases.front().cells[0].sub_step = 1.0 / 960;
+  const std::string text = console_table(results);
+  BOOST_TEST(line_with(text, "  good ").ends_with("stable ÷"), text);
+  BOOST_TEST(text.find("good (÷) takes sub-steps of 1/960 s") != std::string::npos, text);
+  results.cases.front().cells[0].sub_step = 0.0123;
+  BOOST_TEST(console_table(results).find("good (÷) takes sub-steps of 0.0123 s") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,4 +1,4 @@
-#include "cases/metrics/measures/overlaps.h"
+#include "cases/metrics/measures/contact/overlaps.h"
 
 #include "cases/metrics/measures/shape_gap.h"
 #include "core/dynamics/model/system.h"

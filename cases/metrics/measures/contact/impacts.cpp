@@ -1,4 +1,4 @@
-#include "cases/metrics/measures/impacts.h"
+#include "cases/metrics/measures/contact/impacts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The impacts found in recorded runs whose every impact is known.
-#include "cases/metrics/measures/impacts.h"
+#include "cases/metrics/measures/contact/impacts.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -65,7 +65,7 @@ void check(const ImpactSpeeds& found, double time, double before, double after) 
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_impacts)
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_contact_impacts)
 
 BOOST_AUTO_TEST_CASE(a_bouncing_ball_is_followed_down_to_a_tenth_of_its_fastest_impact) {
   const Scene scene = balls_over_ground({0});

@@ -1,4 +1,4 @@
-#include "cases/metrics/measures/tunnelling.h"
+#include "cases/metrics/measures/contact/tunnelling.h"
 
 #include <algorithm>
 #include <cmath>
