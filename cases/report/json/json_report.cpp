@@ -3,6 +3,7 @@
 #include "cases/report/json/json_report.h"
 
 #include "cases/report/json/comparison_json.h"
+#include "cases/report/json/frontier_json.h"
 #include "cases/report/json/leave_out_details.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/json/scene_json.h"
@@ -10,6 +11,7 @@
 #include "cases/report/wording/explanation.h"
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/verdict_matrix.h"
+#include "cases/results/main_error.h"
 #include "cases/results/result_json.h"
 #include "cases/truth/provenance.h"
 #include "core/base/json.h"
@@ -137,6 +139,8 @@ Json results_json(const Results& results) {
                {"wall_seconds", results.wall_seconds},
                {"headline_dt", headline_dt(results).text},
                {"findings", findings_json(results)},
+               {"recommendation", recommendation_json(results)},
+               {"frontier", frontier_json(results)},
                {"metrics", metrics_json()},
                {"engines", Json::array()},
                {"cases", Json::array()},

@@ -9,10 +9,6 @@
 
 namespace rigor {
 
-// The error that a case is about: its runs' largest position error; where nothing moves away, the orientation's;
-// without a truth, the energy's drift.
-std::string main_error(const CaseResult& result);
-
 // At headline_dt(); a case that has no such step is shown at its coarsest, which its row says.
 // With `Words::few` what is stable or unsupported is told by its sign alone, for where many cases stand.
 enum class Words { all, few };

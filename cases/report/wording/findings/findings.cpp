@@ -16,6 +16,7 @@
 #include "cases/report/wording/run_names.h"
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/report/wording/wording.h"
+#include "cases/results/main_error.h"
 
 namespace rigor {
 namespace {

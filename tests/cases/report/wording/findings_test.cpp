@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "cases/report/wording/verdict_matrix.h"
+#include "cases/results/main_error.h"
 #include "tests/cases/priced_results.h"
 #include "tests/cases/report/sample_results.h"
 

@@ -175,6 +175,12 @@ export function judgement(cell) {
 export const warningOf = (cell) =>
   cell?.reduced_order ? `from ${digits(cell.reduced_order.from)} s on stepped ${cell.reduced_order.how}` : "";
 
+// s: when the cell's motion blew up, collapsed or otherwise failed; null if it did not, or not at an instant.
+export function failedAt(cell) {
+  const { word, time } = cell?.verdict ?? {};
+  return ["blown up", "collapsed"].includes(word) && isNumber(time) ? time : null;
+}
+
 // Why a cell ended as it did, and what to know beside it; for where the mouse rests.
 export const asideOf = (cell) => [cell.reason, warningOf(cell)].filter(Boolean).map((text) => ` – ${text}`).join("");
 
@@ -186,12 +192,13 @@ const verdictKinds = {
   collapsed: { kind: "bad", sign: "↓" },
 };
 
-// How dark a cell of the matrix is: its position error in decades of the case's size, from 0 at 1e-4 of it to 1 at the
-// size itself. Nothing where there is no such error, or more to say than how large it is.
-export function shadeOf(one, cell) {
-  const error = cell?.status === "pass" ? metricOf(cell, "position_error") : null;
-  if (error === null || !(one.size > 0)) return null;
-  return Math.min(1, Math.max(0, (Math.log10(error / one.size) + 4) / 4));
+// A cell's error in decades of the tolerance, from 0 (a hundredth of it or less) to 5 (more than a hundred times it).
+// Level 2 is still within. Null where there is no such error, or where the motion failed as a whole.
+export function levelOf(one, cell, tolerance) {
+  if (!cell || judgement(cell).kind === "bad") return null;
+  const error = one.main.startsWith("energy") ? null : metricOf(cell, one.main);
+  if (error === null) return null;
+  return Math.min(5, Math.max(0, Math.ceil(Math.log10(Math.max(error, 1e-300) / tolerance) - 1e-9) + 2));
 }
 
 export const hasNumbers = (cell) => cell && cell.status !== "diverged" && Object.keys(cell.metrics ?? {}).length > 0;
@@ -238,11 +245,14 @@ export function stepFor(one, engine, metric, tolerance) {
 export const stableText = (stable) =>
   `${stable.is_cap ? "≥ " : stable.is_floor ? "< " : ""}${quantity(stable.dt, "s")}`;
 
+// Of two values in the middle the larger: the worse of two errors.
 export function median(values) {
   if (!values.length) return null;
   const sorted = [...values].sort((a, b) => a - b);
   return sorted[Math.floor(sorted.length / 2)];
 }
+// Of two values in the middle the smaller: the worse of two steps.
+export const smallerMedian = (values) => (values.length ? -median(values.map((v) => -v)) : null);
 
 export const order = (one, engine, metric) =>
   one.observed_order.find((o) => o.engine === engine && o.metric === metric);
