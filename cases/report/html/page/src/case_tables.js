@@ -72,8 +72,7 @@ export function numbersTable({ results, one, dt }) {
 
 function numbersGrid({ results, one, rows, names, shown, stable, millimetre }) {
   return el(
-    "div.scroll",
-    {},
+    "div.scroll", { tabindex: 0 },
     el(
       "table.plain.numbers",
       {},
@@ -188,8 +187,7 @@ export function gatesTable({ results, one }) {
           el("span.because", {}, gate.because),
         ),
         el(
-          "div.scroll",
-          {},
+          "div.scroll", { tabindex: 0 },
           el(
             "table.plain",
             {},

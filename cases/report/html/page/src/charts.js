@@ -256,7 +256,7 @@ export function stabilityMap({ one, shown, results }) {
   });
   const reasons = new Set(engines.map((e) => one.stable.get(e.name)).filter((s) => !isNumber(s.dt)).map((s) => s.reason));
   return [
-    el("div.scroll", {}, root),
+    el("div.scroll", { tabindex: 0 }, root),
     [...reasons].filter(Boolean).map((reason) => el("p.fine", {}, `No largest dt: ${reason}.`)),
   ];
 }

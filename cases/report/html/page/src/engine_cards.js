@@ -67,7 +67,7 @@ export class EngineCards {
         onmouseenter: () => this.focus(engine),
         onmouseleave: () => this.focus(null),
       },
-      el("h3", {}, engine, isBest ? el("span.best", {}, "cheapest") : null),
+      el("h2", {}, engine, isBest ? el("span.best", {}, "cheapest") : null),
       this.stepLine(curve),
       this.strengthLine(curve),
       this.problemLine(curve),

@@ -175,9 +175,9 @@ export class FrontierChart {
         role: "slider",
         "aria-label": "Tolerance",
         "aria-orientation": "vertical",
-        "aria-valuemin": this.range[0],
-        "aria-valuemax": this.range[1],
-        "aria-valuenow": this.tolerance,
+        "aria-valuemin": Math.log10(this.range[0]).toFixed(2), // decades: the axis is logarithmic
+        "aria-valuemax": Math.log10(this.range[1]).toFixed(2),
+        "aria-valuenow": Math.log10(this.tolerance).toFixed(2),
         "aria-valuetext": lengthOrAngle(this.tolerance),
         onpointerdown: (event) => this.drag(event),
         onkeydown: (event) => this.nudge(event),

@@ -14,10 +14,11 @@ export function problems(results) {
     text.split(/([\w.-]+(?:\/[\w.-]*\w)+)/).map((part) => (results.caseById.has(part) ? link(part) : part));
   const problem = ({ topic, text, more }) =>
     el(
-      "details.answer",
+      "section.answer",
       {},
-      el("summary", {}, el("h3", {}, topic), el("p.text", {}, linked(text))),
-      more ? el("p.more", {}, linked(more)) : null,
+      el("h3", {}, topic),
+      el("p.text", {}, linked(text)),
+      more ? el("details", {}, el("summary", {}, "why, and who else"), el("p.more", {}, linked(more))) : null,
     );
   const rest = findings.slice(shownAtFirst);
   return el(
