@@ -13,6 +13,9 @@ namespace rigor {
 // The exponent p of value = c dt^p, fitted by least squares to the logarithms. Two points or more.
 double fitted_order(const std::vector<double>& dt, const std::vector<double>& values);
 
+// Whether a cell's numbers are the engine's: not if it blew up, crashed, timed out or broke its method's promise.
+bool came_to_a_result(const Cell& cell);
+
 // One cell of a run: what it cost and how wrong it was.
 struct ErrorPoint {
   StepSize dt;

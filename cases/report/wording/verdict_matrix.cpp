@@ -97,12 +97,6 @@ std::string shade_of(const CaseResult& result, const Cell& cell) {
   return share < 1e-2 ? "░" : share < 1e-1 ? "▒" : share < 1 ? "▓" : "█";
 }
 
-StepSize matrix_dt(const CaseResult& result, const StepSize& headline) {
-  const auto& steps = result.definition.dt;
-  const auto own = std::find(steps.begin(), steps.end(), headline);
-  return own != steps.end() ? *own : coarsest_dt(result);
-}
-
 std::vector<std::size_t> readable_columns(const Results& results, const std::vector<std::size_t>& runs) {
   if (runs.size() <= kMostMatrixColumns) return runs;
   std::vector<std::size_t> firsts;

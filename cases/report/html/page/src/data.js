@@ -220,26 +220,23 @@ export function errorPoints(one, engine, metric) {
     .sort((a, b) => b.seconds - a.seconds);
 }
 
-// The largest step at which an engine's error is at most `tolerance`, read off the straight line, in logarithms, through
-// its cells. `mark`: "≥" it holds at the largest step tried already; "~" extrapolated below the finest of them, off the
-// line through the last two, if the error falls there at all and no further than a factor of 30; "<" not even there.
-export function stepFor(one, engine, metric, tolerance) {
-  const furthest = 30,
-    falls = 0.5; // order
-  const points = errorPoints(one, engine, metric).filter((p) => !isHeldToItself(p.cell, metric));
-  if (!points.length) return null;
-  const within = points.findIndex((p) => p.error <= tolerance);
-  if (within === 0) return { mark: points[0].seconds === one.coarsest.seconds ? "≥" : "", seconds: points[0].seconds };
-  const isBeyond = within < 0,
-    finest = { mark: "<", seconds: points.at(-1).seconds };
-  if (isBeyond && points.length < 2) return finest;
-  const [a, b] = isBeyond ? points.slice(-2) : points.slice(within - 1);
-  if (!(b.error > 0)) return { mark: "", seconds: b.seconds };
-  const slope = Math.log(a.error / b.error) / Math.log(a.seconds / b.seconds);
-  const seconds = b.seconds * (tolerance / b.error) ** (1 / slope);
-  if (isBeyond && !(slope >= falls && seconds * furthest >= b.seconds)) return finest;
-  return { mark: isBeyond ? "~" : "", seconds };
+// The tolerance of results.json that is at or below the one asked for, or the smallest.
+export const tabulated = (results, tolerance) =>
+  (results.tolerances ?? []).filter((t) => t <= 1.001 * tolerance).at(-1) ?? results.tolerances?.[0] ?? tolerance;
+
+// An entry of step_needed or step_over_cases at a tolerance, in words. Null where there is none.
+function stepText(results, row, tolerance) {
+  const at = (results.tolerances ?? []).indexOf(tabulated(results, tolerance));
+  if (!row || at < 0 || row.found[at] === undefined) return null;
+  const mark = { coarsest: "≥ ", beyond: "~ " }[row.found[at]] ?? "";
+  return isNumber(row.dt[at]) ? `${mark}${quantity(row.dt[at], "s")}` : "none";
 }
+
+// The largest step that keeps a run's main error within the tolerance: in one case, and in the median case.
+export const stepFor = (results, one, engine, tolerance) =>
+  stepText(results, one.step_needed?.find((row) => row.engine === engine), tolerance);
+export const medianStep = (results, engine, tolerance) =>
+  stepText(results, results.step_over_cases?.find((row) => row.engine === engine), tolerance);
 
 // The largest stable step in words: at the largest or the smallest that was tried it is a bound.
 export const stableText = (stable) =>
@@ -251,8 +248,5 @@ export function median(values) {
   const sorted = [...values].sort((a, b) => a - b);
   return sorted[Math.floor(sorted.length / 2)];
 }
-// Of two values in the middle the smaller: the worse of two steps.
-export const smallerMedian = (values) => (values.length ? -median(values.map((v) => -v)) : null);
-
 export const order = (one, engine, metric) =>
   one.observed_order.find((o) => o.engine === engine && o.metric === metric);

@@ -8,13 +8,13 @@ import {
   isHeldToItself,
   judgement,
   median,
+  medianStep,
   metricOf,
-  smallerMedian,
   levelOf,
   signedMetric,
   stableText,
   stepFor,
-  witnessed,
+  tabulated,
 } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
 import { digits, engineParts, isNumber, percent, quantity, singleTitle, words } from "./format.js";
@@ -127,7 +127,9 @@ export class Matrix {
   caption() {
     const what = shownAside[state.show] ?? words(state.show);
     const tolerance =
-      state.show === "step" ? ` of ${quantity(state.tolerance, "m")} or ${quantity(state.tolerance, "rad")}` : "";
+      state.show === "step"
+        ? ` of ${["m", "rad"].map((unit) => quantity(tabulated(this.results, state.tolerance), unit)).join(" or ")}`
+        : "";
     const main =
       "position error; orientation error where nothing moves away; energy drift where there is no truth; (in brackets) the truth comes from the run's own code";
     return [
@@ -199,33 +201,14 @@ export class Matrix {
       cases
         .map((one) => cellOf(one, engine.name, dtOf(one, this.dt.text).text))
         .filter((c) => c && c.status !== "unsupported");
-    const typical = cases.map((one) =>
-      median(
-        engines.map((e) => witnessed(cellOf(one, e.name, dtOf(one, this.dt.text).text), one.main)).filter((v) => v > 0),
-      ),
-    );
+    // Computed over all cases, see results.json.
+    const isAll = cases.length === this.results.cases.length;
     const ratio = (engine) => {
-      const logs = cases
-        .map((one, i) => {
-          const cell = cellOf(one, engine.name, dtOf(one, this.dt.text).text),
-            value = hasNumbers(cell) ? witnessed(cell, one.main) : null;
-          return value > 0 && typical[i] > 0 ? Math.log(Math.max(value / typical[i], 1e-6)) : null;
-        })
-        .filter((v) => v !== null);
-      return logs.length ? `× ${digits(Math.exp(logs.reduce((a, b) => a + b) / logs.length), 2)}` : "–";
+      const found = this.results.relative_errors?.find((r) => r.engine === engine.name && r.dt === this.dt.text);
+      if (!isAll || !found) return "–";
+      return isNumber(found.ratio) ? `× ${digits(found.ratio, 2)}` : "failed";
     };
-    const middleStep = (engine) => {
-      const steps = cases
-        .filter((one) => one.main !== "energy_drift_synchronised")
-        .filter((one) => one.cells.some((c) => c.engine === engine.name && c.status !== "unsupported"))
-        .map((one) => stepFor(one, engine.name, one.main, state.tolerance) ?? this.noStep(one, engine))
-        .filter(Boolean);
-      if (!steps.length) return "–";
-      const middle = smallerMedian(steps.map((s) => (s.mark === "<" ? 0 : s.seconds)));
-      return middle > 0
-        ? quantity(middle, "s")
-        : el("span.fine", { title: "smaller than the steps that were tried" }, "smaller");
-    };
+    const middleStep = (engine) => (isAll && medianStep(this.results, engine.name, state.tolerance)) || "–";
     const failures = (engine) => {
       const ran = cells(engine),
         bad = ran.filter((c) => judgement(c).kind === "bad").length;
@@ -241,21 +224,15 @@ export class Matrix {
       ),
       line(
         "error ÷ median engine",
-        "geometric mean over the cases: the main error divided by the median engine's; below 1 is better than most. Failed cells are left out and counted above",
+        "median over all cases: the main error divided by the median engine's; below 1 is better than most. A failed cell counts as worse than any error",
         ratio,
       ),
       line(
-        `dt for ${quantity(state.tolerance, "m")}`,
-        "median of the cases: the largest step that keeps the main error within the tolerance; a failed case counts as no step at all",
+        `dt for ${quantity(tabulated(this.results, state.tolerance), "m")}`,
+        "median over all cases: the largest step that keeps the main error within the tolerance; a failed case counts as no step at all",
         middleStep,
       ),
     );
-  }
-
-  // A case in which every cell of the engine failed; nothing where its truth is no witness.
-  noStep(one, engine) {
-    const ran = one.cells.filter((c) => c.engine === engine.name && c.status !== "unsupported");
-    return ran.every((c) => judgement(c).kind === "bad") ? { mark: "<", seconds: 0 } : null;
   }
 
   row(one, engines) {
@@ -328,8 +305,7 @@ export class Matrix {
     }
     if (state.show === "step") {
       if (one.main === "energy_drift_synchronised") return ["–", "no truth"];
-      const step = stepFor(one, engine.name, one.main, state.tolerance);
-      return step ? [`${step.mark} ${quantity(step.seconds, "s")}`.trim()] : ["–"];
+      return [stepFor(this.results, one, engine.name, state.tolerance) ?? "–"];
     }
     if (!hasNumbers(cell)) return [""];
     if (state.show === "cost")
