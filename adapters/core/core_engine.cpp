@@ -12,6 +12,7 @@
 #include "core/dynamics/joints/singular_passages.h"
 #include "core/engine/clock.h"
 #include "core/scene/contact_laws.h"
+#include "core/scene/joint_loops.h"
 
 namespace rigor {
 namespace {
@@ -33,7 +34,7 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
     system_.constants.use_threads(static_cast<int>(number_option(settings, "threads", 1)));
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
-    if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_);
+    if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_), on_loop_ = joints_on_loops(scene);
     if (anything_can_touch(scene)) {
       if (JointStops::has_speed_motors(scene))
         motors_ = std::make_unique<JointStops>(scene, system_, system_.loads, *joints_, JointStops::Of::motors);
@@ -57,7 +58,10 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
     if (joints_) joints_->end_step(state_.columns());
     clock_.advance(dt);
     if (contact_ && !contact_->was_smooth()) passages_.interrupt();
-    if (joints_) passages_.note(clock_.time(), joints_->smallest_pivot());
+    if (joints_ && on_loop_[joints_->joint_of_smallest_pivot()])
+      passages_.note(clock_.time(), joints_->smallest_pivot());
+    else
+      passages_.interrupt();
   }
 
   void read(Snapshot& out) const override {
@@ -109,6 +113,7 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
   BodyTable state_;
   std::unique_ptr<Joints> joints_;      // null where there are none
   std::unique_ptr<JointStops> motors_;  // of given speed, where bodies can touch; null where there are none
+  std::vector<bool> on_loop_;           // by joint: no other joint can be in a singular position
   SingularPassages passages_;
   std::unique_ptr<Stepper> stepper_;
   Clock clock_;

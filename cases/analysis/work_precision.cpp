@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cases/analysis/cell_error.h"
+
 namespace rigor {
 namespace {
 
@@ -86,7 +88,7 @@ std::optional<BestOfCore> best_of_core(const Results& results, const CaseResult&
                                        const std::string& metric) {
   std::optional<BestOfCore> best;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
-    if (!is_in_house(results, run)) continue;
+    if (!is_in_house(results, run) || is_reference_method(results, run)) continue;
     const BestOfCore here{metric, at_equal_cost(result, run, baseline, metric)};
     if (here.compared() == 0) continue;
     const bool is_better = !best || here.compared() > best->compared() ||

@@ -39,8 +39,8 @@ std::vector<std::size_t> baselines(const Results& results);
 std::vector<EqualCost> at_equal_cost(const CaseResult& result, std::size_t run, std::size_t baseline,
                                      const std::string& metric);
 
-// The method of the core that can be compared with most cells of a baseline and, of those, gains most in the geometric
-// mean. One point a cell of the baseline, in their order.
+// The core's method with the largest geometric mean gain, among those comparable with the most cells of a baseline.
+// Adaptive reference methods do not compete. One point a cell of the baseline, in their order.
 struct BestOfCore {
   std::string metric;
   std::vector<EqualCost> points;

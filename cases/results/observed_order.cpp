@@ -15,11 +15,6 @@ const MetricValue* value_of(const Cell& cell, const std::string& metric) {
   return found != cell.metrics.end() && found->second.not_applicable.empty() ? &found->second : nullptr;
 }
 
-bool came_to_a_result(const Cell& cell) {
-  return cell.status == Status::pass || cell.status == Status::fail || cell.status == Status::known_deviation ||
-         cell.status == Status::unexpected_pass;
-}
-
 // Of a cell whose steps were not timed the cost is 0.
 std::vector<ErrorPoint> all_points(const CaseResult& result, std::size_t run, const std::string& metric) {
   std::vector<ErrorPoint> points;
@@ -33,6 +28,11 @@ std::vector<ErrorPoint> all_points(const CaseResult& result, std::size_t run, co
 }
 
 }  // namespace
+
+bool came_to_a_result(const Cell& cell) {
+  return cell.status == Status::pass || cell.status == Status::fail || cell.status == Status::known_deviation ||
+         cell.status == Status::unexpected_pass;
+}
 
 double fitted_order(const std::vector<double>& dt, const std::vector<double>& values) {
   double mean_x = 0, mean_y = 0, xy = 0, xx = 0;

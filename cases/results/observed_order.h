@@ -13,7 +13,10 @@ namespace rigor {
 // The exponent p of value = c dt^p, fitted by least squares to the logarithms. Two points or more.
 double fitted_order(const std::vector<double>& dt, const std::vector<double>& values);
 
-// One cell of a run: its cost and its error.
+// Whether a cell's numbers are the engine's: not if it blew up, crashed, timed out or broke its method's promise.
+bool came_to_a_result(const Cell& cell);
+
+// One cell of a run: what it cost and how wrong it was.
 struct ErrorPoint {
   StepSize dt;
   double error;  // in the metric's unit; at least the uncertainty of the case's truth, see error_floor

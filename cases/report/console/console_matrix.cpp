@@ -10,6 +10,7 @@
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/report/wording/wording.h"
+#include "cases/results/main_error.h"
 
 namespace rigor {
 namespace {

@@ -10,7 +10,7 @@
 #include "cases/report/console/layout.h"
 #include "cases/report/wording/comparison.h"
 #include "cases/report/wording/explained_error.h"
-#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/explanations/explanation.h"
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/wording.h"
 #include "cases/truth/provenance.h"
@@ -186,9 +186,9 @@ std::string block(const Results& results, const CaseResult& result) {
   for (const std::string& warning : cell_warnings(results, result, dt))
     text += "  " + wrapped("warning: " + warning, 4) + "\n";
   text += explained_text(explained_rows(results, result, dt));
-  for (const std::string& sentence : explanations(results, result)) text += "  " + wrapped(sentence, 2) + "\n";
-  for (const std::string& sentence : work_precision_sentences(results, result))
-    text += "  " + wrapped(sentence, 2) + "\n";
+  for (const Message& message : explanations(results, result)) text += "  " + wrapped(message.text, 2) + "\n";
+  for (const Message& message : work_precision_messages(results, result))
+    text += "  " + wrapped(message.text, 2) + "\n";
   return text + gate_lines(result, true);
 }
 

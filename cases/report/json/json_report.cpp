@@ -2,14 +2,19 @@
 // change.
 #include "cases/report/json/json_report.h"
 
+#include "cases/analysis/step_needed.h"
+#include "cases/report/json/claims_json.h"
 #include "cases/report/json/comparison_json.h"
+#include "cases/report/json/frontier_json.h"
 #include "cases/report/json/leave_out_details.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/json/scene_json.h"
+#include "cases/report/json/steps_json.h"
 #include "cases/report/reports.h"
-#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/explanations/explanation.h"
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/verdict_matrix.h"
+#include "cases/results/main_error.h"
 #include "cases/results/result_json.h"
 #include "cases/truth/provenance.h"
 #include "core/base/json.h"
@@ -98,14 +103,21 @@ Json case_json(const Results& results, const CaseResult& result) {
   json["work_precision"] = work_precision_json(results, result);
   json["spread"] = spreads_json(results, result);
   json["gates"] = gates_json(result);
-  json["explanations"] = result.stable_steps.empty() ? Json::array() : Json(explanations(results, result));
+  json["explanations"] = json["explanation_claims"] = json["step_needed"] = Json::array();
+  if (result.stable_steps.empty()) return json;
+  for (const Message& message : explanations(results, result)) {
+    json["explanations"].push_back(message.text);
+    json["explanation_claims"].push_back({{"topic", message.topic}, {"claims", claims_json(message.claims)}});
+  }
+  json["step_needed"] = steps_needed_json(results, result);
   return json;
 }
 
 Json findings_json(const Results& results) {
   Json rows = Json::array();
   for (const Finding& found : findings(results)) {
-    rows.push_back({{"topic", found.topic}, {"text", found.text}, {"more", found.more}});
+    rows.push_back(
+        {{"topic", found.topic}, {"text", found.text}, {"more", found.more}, {"claims", claims_json(found.claims)}});
   }
   return rows;
 }
@@ -137,6 +149,11 @@ Json results_json(const Results& results) {
                {"wall_seconds", results.wall_seconds},
                {"headline_dt", headline_dt(results).text},
                {"findings", findings_json(results)},
+               {"tolerances", kTolerances},
+               {"step_over_cases", steps_over_cases_json(results)},
+               {"relative_errors", relative_errors_json(results)},
+               {"recommendation", recommendation_json(results)},
+               {"frontier", frontier_json(results)},
                {"metrics", metrics_json()},
                {"engines", Json::array()},
                {"cases", Json::array()},

@@ -109,6 +109,7 @@ void leave_out_details(Json& results) {
   drop_rows_that([](const Json& row) { return row.at("reason") == "not asked for"; }, results.at("stable_dt"));
   for (Json& one : results.at("cases")) {
     one.at("spread").clear();
+    one.at("explanation_claims").clear();
     drop_rows_that([](const Json& order) { return order.at("value").is_null(); }, one.at("observed_order"));
     for (Json& order : one.at("observed_order")) order.erase("errors");
     for (Json& gate : one.at("gates")) {

@@ -16,7 +16,7 @@
 #include "cases/report/reports.h"
 #include "cases/report/wording/comparison.h"
 #include "cases/report/wording/explained_error.h"
-#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/explanations/explanation.h"
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/printed_command.h"
 #include "cases/report/wording/verdict_matrix.h"
@@ -118,8 +118,8 @@ std::string headline(const Results& results, const CaseResult& result, SaidBefor
   std::string text = fmt::format("## {}: {}\n\n{}\n\n", plain(result.definition.id), plain(result.definition.title),
                                  told(plain(truth_sentence(result))));
   if (!is_long) text += table(results, result, coarsest_dt(result)) + "\n";
-  for (const std::string& sentence : explanations(results, result)) text += told(plain(sentence)) + "\n\n";
-  for (const std::string& sentence : work_precision_sentences(results, result)) text += told(plain(sentence)) + "\n\n";
+  for (const Message& message : explanations(results, result)) text += told(plain(message.text)) + "\n\n";
+  for (const Message& message : work_precision_messages(results, result)) text += told(plain(message.text)) + "\n\n";
   for (const std::string& line : is_long ? answers_in_short(result) : answers_in_full(result))
     text += told(line) + "\n";
   return text + diagnosis_line(result);

@@ -17,11 +17,10 @@ std::string kind_of(const std::string& metric) { return metric.substr(0, metric.
 std::string unit_of(const std::string& metric) { return metric == "position_error" ? "m" : "rad"; }
 
 // ~: extrapolated to a longer step; >=: it could spend the rest of the time on smaller ones.
+const char* mark_of(Reach reach) { return reach == Reach::extrapolated ? "~" : reach == Reach::at_most ? ">=" : ""; }
+
 std::string times_text(const EqualCost& point) {
-  if (!point.of_run) return kNone;
-  const Reach reach = point.of_run->reach;
-  const char* mark = reach == Reach::extrapolated ? "~" : reach == Reach::at_most ? ">=" : "";
-  return fmt::format("{}{:.2g}", mark, point.times_less());
+  return point.of_run ? fmt::format("{}{:.2g}", mark_of(point.of_run->reach), point.times_less()) : kNone;
 }
 
 TextTable errors_and_costs(const Results& results, const CaseResult& result, const std::string& metric) {
@@ -98,22 +97,52 @@ TextTable spread_table(const Results& results, const CaseResult& result) {
   return table;
 }
 
-std::string sentence(const Results& results, const BestOfCore& best) {
-  const EqualCost* coarsest = nullptr;  // of those that can be compared
-  std::string all;
+// The comparable cell of the baseline with the coarsest step.
+const EqualCost& coarsest_of(const BestOfCore& best) {
+  const EqualCost* coarsest = nullptr;
   for (const EqualCost& point : best.points) {
-    const bool is_coarser = !coarsest || point.of_baseline.dt.seconds > coarsest->of_baseline.dt.seconds;
-    if (point.of_run && is_coarser) coarsest = &point;
-    all += fmt::format("{}{} at {}", all.empty() ? "" : ", ", times_text(point), point.of_baseline.dt.text);
+    if (point.of_run && (!coarsest || point.of_baseline.dt.seconds > coarsest->of_baseline.dt.seconds))
+      coarsest = &point;
   }
+  return *coarsest;
+}
+
+std::string gains_text(const Results& results, const CaseResult& result, const BestOfCore& best, Claims& claims) {
+  std::string text;
+  for (const EqualCost& point : best.points) {
+    std::string number = kNone;
+    if (point.of_run) {
+      const std::string& core = results.runs[point.run].text;
+      const std::string part = best.metric + " " + results.runs[point.baseline].text;
+      const Claim claim{"times less at equal cost", result.definition.id, core, point.of_baseline.dt.text, part,
+                        point.times_less()};
+      number = mark_of(point.of_run->reach) + claims.quantity(claim, "");
+    }
+    text += fmt::format("{}{} at {}{} s", text.empty() ? "" : ", ", number, text.empty() ? "dt = " : "",
+                        point.of_baseline.dt.text);
+  }
+  return text;
+}
+
+Message message_of(const Results& results, const CaseResult& result, const BestOfCore& best) {
+  const EqualCost& coarsest = coarsest_of(best);
   const std::string unit = unit_of(best.metric);
-  const ErrorPoint& of_baseline = coarsest->of_baseline;
-  return fmt::format(
-      "At the cost of {} at dt = {} s ({:.3g} ns a step, {} error {:.2g} {}) {} has an error of {}{:.2g} {}; "
-      "times less at equal cost: {}.",
-      results.runs[coarsest->baseline].text, of_baseline.dt.text, 1e9 * of_baseline.cost * of_baseline.dt.seconds,
-      kind_of(best.metric), of_baseline.error, unit, results.runs[coarsest->run].text,
-      coarsest->of_run->reach == Reach::extrapolated ? "~" : "", coarsest->of_run->error, unit, all);
+  const ErrorPoint& point = coarsest.of_baseline;
+  const std::string &baseline = results.runs[coarsest.baseline].text, &core = results.runs[coarsest.run].text;
+  const auto claim = [&](const std::string& quantity, const std::string& run, double value, const std::string& part) {
+    return Claim{quantity, result.definition.id, run, point.dt.text, part, value};
+  };
+  Claims claims;
+  const std::string kind = kind_of(best.metric);
+  std::string text =
+      fmt::format("{} at dt = {} s takes {} a step; its {} error is {}.", baseline, point.dt.text,
+                  claims.quantity(claim("cost of a step", baseline, point.cost * point.dt.seconds, ""), "s"), kind,
+                  claims.quantity(claim("error of " + best.metric, baseline, point.error, ""), unit));
+  text += fmt::format(
+      " At the same cost {} has {}{}.", core, coarsest.of_run->reach == Reach::extrapolated ? "~" : "",
+      claims.quantity(claim("error at equal cost", core, coarsest.of_run->error, best.metric + " " + baseline), unit));
+  text += fmt::format(" Times less error at equal cost: {}.", gains_text(results, result, best, claims));
+  return {"equal cost", text, "", claims.take()};
 }
 
 }  // namespace
@@ -129,17 +158,17 @@ std::vector<TextTable> comparison_tables(const Results& results, const CaseResul
   return tables;
 }
 
-std::vector<std::string> work_precision_sentences(const Results& results, const CaseResult& result) {
-  std::vector<std::string> sentences;
+std::vector<Message> work_precision_messages(const Results& results, const CaseResult& result) {
+  std::vector<Message> messages;
   for (const std::size_t baseline : baselines(results)) {
     std::optional<BestOfCore> tightest;
     for (const std::string& metric : errors_worth_comparing(result)) {
       const auto best = best_of_core(results, result, baseline, metric);
       if (best && (!tightest || best->mean() < tightest->mean())) tightest = best;
     }
-    if (tightest) sentences.push_back(sentence(results, *tightest));
+    if (tightest) messages.push_back(message_of(results, result, *tightest));
   }
-  return sentences;
+  return messages;
 }
 
 }  // namespace rigor

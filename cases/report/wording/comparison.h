@@ -1,9 +1,10 @@
-// What the cells of a case say of each other, as tables of text and sentences: orders, work and precision, spread.
+// Runs of a case beside each other, as tables of text and sentences: orders, work and precision, spread.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
 namespace rigor {
@@ -18,8 +19,11 @@ struct TextTable {
 // below.
 std::vector<TextTable> comparison_tables(const Results& results, const CaseResult& result);
 
-// One sentence a baseline: what the best method of the core makes of the same CPU time, in whichever error it gains
-// less.
-std::vector<std::string> work_precision_sentences(const Results& results, const CaseResult& result);
+// One message a baseline: the error of the core's best method at the same CPU time, for the error in which it gains
+// less. The quantities that it states beside metrics, of the baseline's cell `dt`:
+//   cost of a step            s
+//   error at equal cost       of the core's method, `part`: the metric
+//   times less at equal cost  likewise; `of_run` is the core's method, and `part` names metric and baseline
+std::vector<Message> work_precision_messages(const Results& results, const CaseResult& result);
 
 }  // namespace rigor

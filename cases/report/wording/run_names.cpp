@@ -34,13 +34,19 @@ std::string RunNames::all(const std::vector<std::size_t>& runs) const {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string RunNames::brief(const std::vector<std::size_t>& runs, std::size_t all_ours) const {
+std::string RunNames::brief(const std::vector<std::size_t>& runs, std::size_t all_ours, const std::string& what,
+                            Claims& claims) const {
   std::vector<std::size_t> named;
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(named), [&](std::size_t run) { return !is_ours(run); });
   const std::size_t ours = runs.size() - named.size();
   if (ours <= kFewOfOurs) return all(runs);
-  const std::string count = ours == all_ours ? fmt::format("all {} of the core's methods", ours)
-                                             : fmt::format("{} of the core's {} methods", ours, all_ours);
+  const auto counted = [&](const std::string& of, std::size_t count) {
+    return claims.count({of + what, "", "", "", "", static_cast<double>(count)});
+  };
+  const std::string total = counted("core methods in all: ", all_ours);
+  const std::string count = ours == all_ours
+                                ? fmt::format("all {} core methods", total)
+                                : fmt::format("{} of {} core methods", counted("core methods: ", ours), total);
   return named.empty() ? count : all(named) + ", " + count;
 }
 

@@ -9,6 +9,7 @@
 #include "cases/metrics/measures/shape_gap.h"
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/wording.h"
+#include "cases/results/main_error.h"
 
 namespace rigor {
 namespace {
@@ -17,12 +18,6 @@ namespace {
 double value_of(const Cell& cell, const std::string& name) {
   const auto found = cell.metrics.find(name);
   return found == cell.metrics.end() || !found->second.not_applicable.empty() ? std::nan("") : found->second.value;
-}
-
-double worst_of(const CaseResult& result, const std::string& name) {
-  double worst = 0;
-  for (const Cell& cell : result.cells) worst = std::max(worst, value_of(cell, name));  // not a number never wins
-  return worst;
 }
 
 bool is_stable(const Cell& cell) { return cell.status == Status::pass && cell.stability.verdict == Verdict::stable; }
@@ -102,22 +97,6 @@ std::string shade_of(const CaseResult& result, const Cell& cell) {
   const double share = value_of(cell, "position_error") / size_of(result.definition.scene);
   if (cell.status == Status::diverged || !(share >= 1e-3)) return " ";
   return share < 1e-2 ? "░" : share < 1e-1 ? "▒" : share < 1 ? "▓" : "█";
-}
-
-StepSize matrix_dt(const CaseResult& result, const StepSize& headline) {
-  const auto& steps = result.definition.dt;
-  const auto own = std::find(steps.begin(), steps.end(), headline);
-  return own != steps.end() ? *own : coarsest_dt(result);
-}
-
-std::string main_error(const CaseResult& result) {
-  constexpr double kMoves = 1e-9;  // m and rad: less is rounding
-  for (const char* name : {"position_error", "orientation_error"}) {
-    if (worst_of(result, name) > kMoves) return name;
-  }
-  const bool has_truth = std::any_of(result.cells.begin(), result.cells.end(),
-                                     [](const Cell& cell) { return !std::isnan(value_of(cell, "position_error")); });
-  return has_truth && worst_of(result, "energy_drift") < kMoves ? "position_error" : "energy_drift_synchronised";
 }
 
 std::vector<std::size_t> readable_columns(const Results& results, const std::vector<std::size_t>& runs) {

@@ -4,14 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "cases/analysis/cell_error.h"
 #include "cases/report/wording/comparison.h"
 #include "cases/results/results.h"
 
 namespace rigor {
-
-// The error that a case is about: its runs' largest position error; where nothing moves away, the orientation's;
-// without a truth, the energy's drift.
-std::string main_error(const CaseResult& result);
 
 // At headline_dt(); a case that has no such step is shown at its coarsest, which its row says.
 // With `Words::few` what is stable or unsupported is told by its sign alone, for where many cases stand.
@@ -23,9 +20,6 @@ TextTable verdict_matrix(const Results& results, Words words, const std::vector<
 // Up to so many columns are read at a glance; of more runs, the first of each engine, grouped as they come.
 inline constexpr std::size_t kMostMatrixColumns = 7;
 std::vector<std::size_t> readable_columns(const Results& results, const std::vector<std::size_t>& runs);
-
-// The step whose cells stand in a case's row: the headline's if the case has it, else its coarsest.
-StepSize matrix_dt(const CaseResult& result, const StepSize& headline);
 
 // One character for how a cell ended: of one that passed, its verdict's.
 std::string sign_of(const Cell& cell);

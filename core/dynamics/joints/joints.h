@@ -65,6 +65,7 @@ class Joints : public ConstraintForces {
 
   // That of the last factorisation; see block_cholesky.h.
   double smallest_pivot() const { return factor_.smallest_pivot(); }
+  std::size_t joint_of_smallest_pivot() const { return factor_.joint_of_smallest_pivot(); }
 
   double size() const { return size_; }  // m: the longest arm of an end that moves, what gaps are small against
   // Rows of all joints, and their rank.

@@ -8,7 +8,11 @@
 
 namespace rigor {
 
-// Of these runs, in this order, at that step. None where no case has joints.
+// The quantities that this finding states:
+//   worst joint gap over size   of a run, over all cases it did not blow up in
+//   worst joint gap             m, in the case where that ratio is largest
+//   joint size                  m, of that case's scene: see joint_diagnosis.h
+// `runs`: the runs to report, in this order. Empty where no case has joints.
 std::optional<Finding> joints_finding(const Results& results, const std::vector<std::size_t>& runs, const StepSize& dt);
 
 }  // namespace rigor

@@ -93,6 +93,11 @@ export class Browser {
   run(script, ...args) {
     return this.post("/execute/sync", { script, args });
   }
+  // What a promise comes to.
+  callLater(expression) {
+    const script = `const done = arguments[arguments.length - 1]; (${expression}).then(done, (e) => done({ violations: [{ id: "failed", help: String(e), nodes: [] }] }))`;
+    return this.post("/execute/async", { script, args: [] });
+  }
   // `script` is an expression; waits until it is true, and returns it.
   async until(script, what = script, seconds = 20) {
     const end = Date.now() + 1000 * seconds;

@@ -1,5 +1,5 @@
-// The first screen: the matrix, the findings, and what can be asked of it.
-import { check, equal, expect, open, quiet, results, spring } from "./report_page.mjs";
+// The first screen: its answer and picture, the problems found, and the matrix.
+import { boxOf, check, equal, expect, open, quiet, results, spring } from "./report_page.mjs";
 
 export async function firstScreen(browser) {
   await check("the page is ready within 2 s of being opened", async () => {
@@ -50,27 +50,81 @@ export async function firstScreen(browser) {
     );
     equal(text, `${Number((1000 * cell.metrics.position_error.value).toPrecision(3))} mm`, "position error");
   });
-  await check("findings are the sentences of results.json", async () => {
+  await check("problems are the sentences of results.json", async () => {
     const texts = await browser.run(
-      "return [...document.querySelectorAll('.intro .answer')].map(a => [a.querySelector('h2').textContent, a.querySelector('.text').textContent, a.querySelector('.more')?.textContent ?? ''])",
+      "return [...document.querySelectorAll('.problems .answer')].map(a => [a.querySelector('h3').textContent, a.querySelector('.text').textContent, a.querySelector('.more')?.textContent ?? ''])",
     );
     equal(JSON.stringify(texts), JSON.stringify(results.findings.map((f) => [f.topic, f.text, f.more])), "sentences");
     expect(texts.length > 0, "there are none");
-    const longest = Math.max(...texts.map(([, text]) => text.length));
-    expect(longest < 700, `one is ${longest} characters long before it is asked for more`);
-  });
-  await check("the matrix's row of steps for 1 mm says what the finding says", async () => {
-    const { text } = results.findings.find(({ topic }) => topic === "step size");
-    const said = [...text.matchAll(/(ode|bullet) ~?([0-9.e-]+) ms/g)].map(([, who, ms]) => [who, Number(ms) / 1000]);
-    expect(said.length > 0, `no step in "${text}"`);
-    const [names, steps] = await browser.run(
-      "return [[...document.querySelectorAll('.matrix thead .engine')].map(t => t.title.split(':')[0]), [...document.querySelectorAll('.summaries tr')].at(-1).querySelectorAll('td')].map((list) => [...list].map((x) => x.textContent ?? x))",
+    const open = await browser.run(
+      "return [...document.querySelectorAll('.problems .answer')].filter(a => !a.closest('.more-problems:not([open])')).length",
     );
-    for (const [who, seconds] of said) {
-      const [value, unit] = steps[names.indexOf(who)].split(" ");
-      const shown = Number(value) * { s: 1, ms: 1e-3, µs: 1e-6 }[unit];
-      expect(Math.abs(shown / seconds - 1) < 0.06, `${who}: ${steps[names.indexOf(who)]}, and ${seconds} s in words`);
+    expect(open <= 6, `${open} are shown at first`);
+  });
+  await check("the answer is the recommendation of results.json", async () => {
+    const { external, core, reference } = results.recommendation;
+    const [title, beside] = await browser.run(
+      "return [...document.querySelectorAll('.answer-first h1, .answer-first .beside')].map(e => e.textContent)",
+    );
+    if (external) {
+      expect(title.includes(external.engine) && title.includes(`${external.dt} s`), `found "${title}"`);
+      expect(beside.includes(`${external.failed || "none"} failed`), `failures are not said: "${beside}"`);
+    } else expect(title.startsWith("No engine stays within"), `found "${title}"`);
+    for (const choice of [core, reference])
+      if (choice) expect(beside.includes(`${choice.engine} at ${choice.dt} s`), `"${beside}" lacks ${choice.engine}`);
+  });
+  await check("each main engine has a curve and a card, and a run that fails is never called the cheapest", async () => {
+    const cards = await browser.run("return [...document.querySelectorAll('.card')].map(c => c.innerText)");
+    const names = await browser.run("return [...document.querySelectorAll('.curve-name')].map(t => t.textContent)");
+    const external = new Set(results.engines.filter((e) => !e.name.startsWith("core")).map((e) => e.name.split(/[:@,]/)[0]));
+    for (const name of external) {
+      expect(names.some((n) => n.startsWith(name)), `${name} has no curve`);
+      expect(cards.some((c) => c.startsWith(name)), `${name} has no card`);
     }
+    for (const card of cards.filter((c) => c.includes("cheapest"))) expect(!card.includes("no step within"), card);
+  });
+  await check("the tolerance is moved by keys and by hand, and stands in the address", async () => {
+    const now = () => browser.run("return document.querySelector('.tolerance').getAttribute('aria-valuenow')");
+    const before = Number(await now());
+    await browser.run("document.querySelector('.tolerance').focus()");
+    await browser.keys("\uE013", "\uE013", "\uE013");
+    const after = Number(await now());
+    expect(Math.abs(after - before - 0.3) < 0.05, `from 10^${before} to 10^${after}`);
+    await browser.until("location.hash.includes('tolerance=')");
+    const grip = await boxOf(browser, ".tolerance .grip");
+    await browser.drag([[grip.x + 20, grip.y + 10], [grip.x + 20, grip.y + 60], [grip.x + 20, grip.y + 90]]);
+    expect(Number(await now()) < after, "dragging down did not lower it");
+    await browser.run("location.hash = '#/'");
+    await browser.until("document.querySelector('.tolerance').getAttribute('aria-valuenow') === '-3.00'", "the default");
+  });
+  await check("sorting and filters change the rows and stand in the address", async () => {
+    const rows = () => browser.run("return [...document.querySelectorAll('.matrix th.case a')].map(a => a.getAttribute('href').slice(2).split('?')[0])");
+    const choose = (label, value) =>
+      browser.run(
+        "const c = [...document.querySelectorAll('.control')].find(l => l.firstChild.textContent === arguments[0]).querySelector('select'); c.value = arguments[1]; c.dispatchEvent(new Event('change'))",
+        label,
+        value,
+      );
+    const all = await rows();
+    await choose("Family", "springs");
+    equal((await rows()).every((id) => id.startsWith("springs/")), true, "only springs");
+    await browser.until("location.hash.includes('family=springs')");
+    await choose("Family", "");
+    await choose("Sort", "error");
+    equal([...(await rows())].sort().join(), [...all].sort().join(), "the same cases");
+    await browser.until("location.hash.includes('sort=error')");
+    await choose("Sort", "name");
+    await choose("Verdict", "bad");
+    const failing = await rows();
+    expect(failing.length > 0 && failing.length < all.length, `${failing.length} of ${all.length} fail`);
+    await choose("Verdict", "");
+    equal((await rows()).length, all.length, "all again");
+  });
+  await check("a cell that failed is never marked as stable", async () => {
+    const wrong = await browser.run(
+      "return [...document.querySelectorAll('.matrix td.cell.is-bad')].filter(c => /stable|✓/.test(c.innerText)).map(c => c.innerText)",
+    );
+    equal(wrong.length, 0, `cells: ${wrong.join()}`);
   });
   await check("the matrix shows the step that a tolerance needs, and the address says so", async () => {
     await browser.run(

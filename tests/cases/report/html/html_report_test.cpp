@@ -42,7 +42,7 @@ bool succeeds(const std::string& command, const Folder& folder) {
 bool opens_well(const std::string& script, const Folder& folder, const std::string& page, const std::string& results,
                 const std::string& name) {
   const std::string shots = RIGOR_BUILD_DIR "/screenshots/" + name;
-  return succeeds("node " + kHere + script + " " + page + " " + results + " " + shots, folder);
+  return succeeds("RIGOR_PAGE_MODULES=" + kModules + " node " + kHere + script + " " + page + " " + results + " " + shots, folder);
 }
 
 bool is_valid(const std::string& results, const Folder& folder) {

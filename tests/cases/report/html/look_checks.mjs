@@ -1,5 +1,5 @@
 // How the page looks in light and dark, on a phone, in print and without WebGL; screenshots are kept.
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
 import { Browser } from "./browser.mjs";
@@ -17,6 +17,8 @@ import {
   shots,
   spring,
 } from "./report_page.mjs";
+
+const modules = process.env.RIGOR_PAGE_MODULES;
 
 export async function looks() {
   for (const [name, options, address] of [
@@ -78,9 +80,15 @@ export async function looks() {
         const { data } = await browser.devtools("Page.printToPDF", { printBackground: true, preferCSSPageSize: true });
         writeFileSync(join(shots, "first.pdf"), Buffer.from(data, "base64"));
         expect(data.length > 10000, "the PDF is all but empty");
-        equal(await browser.run("return document.querySelectorAll('.answers details:not([open])').length"), 0, "folded");
+        equal(await browser.run("return document.querySelectorAll('.frontier svg, .cards .card, .matrix tr').length > 3"), true, "picture, cards and matrix");
       });
     }
+    await check(`${name}: axe-core finds nothing`, async () => {
+      await browser.run(readFileSync(join(modules, "axe-core/axe.min.js"), "utf8") + "; window.axe = axe;");
+      const found = await browser.callLater("axe.run(document, {resultTypes: ['violations']})");
+      const told = found.violations.map((v) => `${v.id}: ${v.help}\n        ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 120)).join("\n        ")}`);
+      expect(!told.length, told.join("\n      "));
+    });
     await browser.close();
   }
 }

@@ -1,9 +1,9 @@
-#include "cases/report/wording/explanation.h"
+#include "cases/report/wording/explanations/explanation.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "cases/analysis/stiffest_frequency.h"
+#include "cases/analysis/small_motions/stiffest_frequency.h"
 
 using namespace rigor;
 

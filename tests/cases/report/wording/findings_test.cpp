@@ -1,8 +1,11 @@
 #include "cases/report/wording/findings/findings.h"
 
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include "cases/report/wording/verdict_matrix.h"
+#include "cases/results/main_error.h"
 #include "tests/cases/priced_results.h"
 #include "tests/cases/report/sample_results.h"
 
@@ -39,34 +42,50 @@ BOOST_AUTO_TEST_SUITE(cases_report_wording_findings)
 
 BOOST_AUTO_TEST_CASE(who_blows_up_is_named_with_its_cases) {
   const auto sentences = findings(sample_results());
-  BOOST_TEST(
-      has(sentences, "At dt = 1/10 s these blow up: wild in 1 of 1. Never: good. | Blown up: wild in family/case. "),
-      all(sentences));
+  BOOST_TEST(has(sentences,
+                 "Blow-ups at dt = 1/10 s: wild in 1 of 1 case. No blow-up: good. | Blown up: wild in family/case. "),
+             all(sentences));
 }
 
 BOOST_AUTO_TEST_CASE(lost_energy_is_laid_to_the_scheme_as_far_as_that_shows_it) {
-  const std::string loss = "Energy at dt = 1/10 s: good loses 50 % of that of family/case in 0.5 s";
+  const std::string loss = "Energy loss at dt = 1/10 s: good -50 % on family/case in 0.5 s";
   const auto gyroscopic = findings(drifting_results(0.5, 0.001));
-  BOOST_TEST(has(gyroscopic, loss + ", all by the gyroscopic part of the scheme."), all(gyroscopic));
+  BOOST_TEST(has(gyroscopic, loss + ", by the scheme's gyroscopic term."), all(gyroscopic));
   const auto scheme = findings(drifting_results(0.5, 0.4));
-  BOOST_TEST(has(scheme, loss + ", all by the scheme:"), all(scheme));
-  const auto part = findings(drifting_results(0.125, 0.4));
-  BOOST_TEST(has(part, loss + ", 25 % of it by the scheme."), all(part));
+  BOOST_TEST(has(scheme, loss + ", by the scheme."), all(scheme));
+  for (const auto& [by_scheme, share] : {std::pair{0.125, "25"}, {0.25, "50"}, {0.49, "98"}}) {
+    const auto part = findings(drifting_results(by_scheme, 0.4));
+    BOOST_TEST(has(part, fmt::format("{}, {} % of it by the scheme.", loss, share)), all(part));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_worst_case_is_told_and_not_the_mildest) {
+  for (const bool worst_is_first : {true, false}) {
+    Results grid = drifting_results(0.5, 0.4);
+    grid.cases.push_back(grid.cases[0]);
+    grid.cases[0].definition.id = worst_is_first ? "worst" : "mild";
+    grid.cases[1].definition.id = worst_is_first ? "mild" : "worst";
+    grid.cases[worst_is_first ? 1 : 0].cells[0].metrics["energy_drift"].value = 0.2;
+    const auto found = findings(grid);
+    BOOST_TEST(has(found, "good -50 % on worst in"), all(found));
+    BOOST_TEST(!has(found, "-20 %"), all(found));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(energy_that_dampers_take_is_not_called_lost) {
   Results grid = drifting_results(0.5, 0.4);
-  BOOST_TEST(has(findings(grid), "good loses"));
+  BOOST_TEST(has(findings(grid), "Energy loss"));
   Scene& scene = grid.cases[0].definition.scene;
   scene.springs = {{.a = kWorld, .b = 0, .point_a = Vec3(0, 1, 0), .stiffness = 1, .damping = 1}};
-  BOOST_TEST(!has(findings(grid), "good loses"));
+  BOOST_TEST(!has(findings(grid), "Energy loss"));
 }
 
 BOOST_AUTO_TEST_CASE(what_no_scheme_explains_is_the_largest_of_the_runs_that_held) {
   const auto sentences = findings(sample_results());
   // The blown-up cell has a twin too, and does not count.
-  BOOST_TEST(has(sentences, "Beside 1 runs"), all(sentences));
-  BOOST_TEST(has(sentences, "unexplained is 0.01 m, by good on family/case."), all(sentences));
+  BOOST_TEST(
+      has(sentences, "beside 1 run. The largest position error left unexplained is 10 mm (good on family/case)."),
+      all(sentences));
 }
 
 BOOST_AUTO_TEST_CASE(friction_is_told_a_pyramid_from_a_cone_by_its_spread) {
@@ -74,14 +93,15 @@ BOOST_AUTO_TEST_CASE(friction_is_told_a_pyramid_from_a_cone_by_its_spread) {
   Results grid = sample_results();
   grid.cases[0].cells[0].metrics["friction_anisotropy"] = sample_metric(0.293, {0.3, 0, "distance", 1.8, 2.5});
   auto sentences = findings(grid);
-  BOOST_TEST(has(sentences, "diagonals: good (29 %). A cone, as Coulomb's: none."), all(sentences));
+  BOOST_TEST(has(sentences, "(a pyramid): good (29 %). Equal in all directions (a cone): none."), all(sentences));
   grid.cases[0].cells[0].metrics["friction_anisotropy"] = sample_metric(1e-3, {0.3, 0, "distance", 2.5, 2.5});
   sentences = findings(grid);
-  BOOST_TEST(has(sentences, "diagonals: none. A cone, as Coulomb's: good."), all(sentences));
+  BOOST_TEST(has(sentences, "(a pyramid): none. Equal in all directions (a cone): good."), all(sentences));
   grid.cases[0].cells[0].metrics["friction_anisotropy"] = sample_metric(0.16, {0.3, 0, "distance", 2.9, 2.5});
   sentences = findings(grid);
-  BOOST_TEST(has(sentences, "diagonals: none. A cone, as Coulomb's: none. Uneven, but no pyramid: good (16 %)."),
-             all(sentences));
+  BOOST_TEST(
+      has(sentences, "(a pyramid): none. Equal in all directions (a cone): none. Uneven, but no pyramid: good (16 %)."),
+      all(sentences));
 }
 
 BOOST_AUTO_TEST_CASE(a_millimetre_is_read_off_the_line_through_the_cells) {
@@ -92,8 +112,36 @@ BOOST_AUTO_TEST_CASE(a_millimetre_is_read_off_the_line_through_the_cells) {
                                                     {"fourth", {{0.1, 4e-3, 1}, {0.05, 0.25e-3, 2}}},
                                                     {"level", {{0.1, 4e-3, 1}, {0.05, 4e-3, 2}}},
                                                     {"far", {{0.1, 128e-3, 1}, {0.05, 64e-3, 2}}}}));
-  BOOST_TEST(has(found, "cases: fourth 71 ms, first ~25 ms, level less than was tried, far less than was tried."),
+  BOOST_TEST(has(found, "Median step for 1 mm: fourth 71 ms, first ~25 ms, level none, far none."), all(found));
+}
+
+// Of issue: a method that blows up in one of two cases must not win, and no tie is broken by the order of a table.
+BOOST_AUTO_TEST_CASE(a_blow_up_is_no_step_a_tie_names_both_and_a_reference_stands_apart) {
+  Results grid;
+  grid.engines = engines().infos();
+  const std::vector<std::string> names = {"core:explicit-euler", "core:rk4", "core:velocity-verlet",
+                                          "core:dormand-prince", "ode"};
+  for (const std::string& name : names) grid.runs.push_back(parse_run_name(name, grid.engines));
+  const std::vector<std::vector<double>> errors = {{-1, 1e-4, 1e-4, 1e-9, 5e-4}, {1e-4, 1e-4, 1e-4, 1e-9, 5e-4}};
+  for (const auto& row : errors) {
+    CaseResult result = sample_results().cases[0];
+    result.definition.id = "case" + std::to_string(grid.cases.size()), result.cells.clear();
+    for (std::size_t run = 0; run < names.size(); ++run) {
+      Cell cell;
+      cell.run = run, cell.dt = result.definition.dt[0], cell.status = Status::pass, cell.reason = "";
+      cell.metrics["position_error"] = sample_metric(std::abs(row[run]), {});
+      if (row[run] < 0) cell.status = Status::diverged, cell.stability = {Verdict::blown_up, 0.1, 0, ""};
+      result.cells.push_back(cell);
+    }
+    result.stable_steps.assign(names.size(), {});
+    grid.cases.push_back(result);
+  }
+  const auto found = findings(grid);
+  BOOST_TEST(has(found,
+                 "Median step for 1 mm: ode ≥ 100 ms; best of 3 core methods: core:rk4, core:velocity-verlet ≥ 100 "
+                 "ms; adaptive reference: core:dormand-prince ≥ 100 ms."),
              all(found));
+  BOOST_TEST(has(found, "core:explicit-euler none"), all(found));
 }
 
 BOOST_AUTO_TEST_CASE(stiff_springs_are_those_whose_omega_dt_is_above_one) {
@@ -106,11 +154,24 @@ BOOST_AUTO_TEST_CASE(stiff_springs_are_those_whose_omega_dt_is_above_one) {
     scene.springs[0].stiffness = scene.bodies[0].mass * std::pow(omega_dt / 0.1, 2);
     const auto found = findings(grid);
     BOOST_TEST_CONTEXT(omega_dt) {
-      BOOST_TEST(has(found, "on springs with omega dt above 1. Stable: good. Blown up: wild in 1 of 1. | ") == is_stiff,
-                 all(found));
-      BOOST_TEST(has(found, "Blown up: wild in 1 of 1. The cases: family/case.") == is_stiff, all(found));
+      BOOST_TEST(
+          has(found,
+              "Springs with ω dt of 1 or more at dt = 1/10 s. Stable: good. Blown up: wild in 1 of 1 case. | ") ==
+              is_stiff,
+          all(found));
+      BOOST_TEST(has(found, "Blown up: wild. The cases: family/case.") == is_stiff, all(found));
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_gains_energy_on_stiff_springs_is_not_called_stable) {
+  Results grid = sample_results();
+  Scene& scene = grid.cases[0].definition.scene;
+  scene.springs = {{.a = kWorld, .b = 0, .point_a = Vec3(0, 1, 0), .stiffness = 1e3 * scene.bodies[0].mass}};
+  scene.bodies[0].position = Vec3::Zero();
+  grid.cases[0].cells[0].stability.verdict = Verdict::gaining;
+  const auto found = findings(grid);
+  BOOST_TEST(has(found, "Stable: none. Bounded, but not stable: good."), all(found));
 }
 
 BOOST_AUTO_TEST_CASE(our_own_methods_are_counted_at_a_glance_and_named_behind_it) {
@@ -127,12 +188,11 @@ BOOST_AUTO_TEST_CASE(our_own_methods_are_counted_at_a_glance_and_named_behind_it
     result.stable_steps.push_back(result.stable_steps[0]);
   }
   auto found = findings(grid);
-  BOOST_TEST(has(found, "Never: good, all 4 of the core's methods. | "), all(found));
+  BOOST_TEST(has(found, "No blow-up: good, all 4 core methods. | "), all(found));
   BOOST_TEST(has(found, "Never: good, core:a, core:b, core:c, core:d."), all(found));
   result.cells.back().stability = {Verdict::blown_up, 0.4, 0, ""};
   found = findings(grid);
-  BOOST_TEST(has(found, "blow up: wild in 1 of 1; core:d in 1 of 1. Never: good, core:a, core:b, core:c. | "),
-             all(found));
+  BOOST_TEST(has(found, "wild, core:d in 1 of 1 case. No blow-up: good, core:a, core:b, core:c. | "), all(found));
 }
 
 BOOST_AUTO_TEST_CASE(what_contacts_do_wrong_is_told_with_its_worst_case_and_the_engines_own_reason) {
@@ -147,18 +207,20 @@ BOOST_AUTO_TEST_CASE(what_contacts_do_wrong_is_told_with_its_worst_case_and_the_
     result.cells[1].metrics["restitution_error"] = sample_metric(i ? 0.4 : 0.2, {0.5, 0, "restitution", 0.5, 1});
   }
   auto found = findings(grid);
-  BOOST_TEST(has(found, "do not converge as dt falls: good (worse: restitution off by 0.01 at 1/10, 0.4 at"),
-             all(found));
+  BOOST_TEST(
+      has(found, "Restitution errors that do not fall with dt: good (worst: good on worse, 0.01 at dt = 1/10 s, 0.4"),
+      all(found));
   BOOST_TEST(has(found, "good: Its setting \"restitution\": across a gap"), all(found));
   grid.cases[1].cells[1].metrics["restitution_error"] = sample_metric(7, {0.5, 0, "restitution", 8, 1});
   found = findings(grid);  // more than all of the speed: no restitution
-  BOOST_TEST(has(found, "good (family/case: restitution off by 0.01 at 1/10, 0.2 at"), all(found));
+  BOOST_TEST(has(found, "good (worst: good on family/case, 0.01 at dt = 1/10 s, 0.2 at"), all(found));
   for (CaseResult& result : grid.cases)
     result.cells[1].metrics["restitution_error"] = sample_metric(0.14, {0.5, 0, "restitution", 0.14, 0});
   found = findings(grid);
-  BOOST_TEST(has(found, "pop apart: good (family/case: 0.14 of the speed"), all(found));
+  BOOST_TEST(has(found, "Overlaps pushed out as speed: good (worst: good on family/case, 14 % of the approach speed"),
+             all(found));
   BOOST_TEST(has(found, "0.2 of it"), all(found));
-  BOOST_TEST(!has(found, "do not converge"), all(found));
+  BOOST_TEST(!has(found, "do not fall"), all(found));
 }
 
 BOOST_AUTO_TEST_CASE(energy_that_only_the_reading_loses_is_called_so) {
@@ -167,7 +229,7 @@ BOOST_AUTO_TEST_CASE(energy_that_only_the_reading_loses_is_called_so) {
   metrics["energy_drift"] = sample_metric(0.034, {0.3, kWorld, "energy", 10, 15});
   metrics["energy_drift_synchronised"] = sample_metric(4e-4, {0.3, kWorld, "energy", 15, 15});
   auto found = findings(grid);
-  BOOST_TEST(has(found, "good: in family/case it strays by 3.4 % as read, by 0.04 % with both at one instant."),
+  BOOST_TEST(has(found, "sampling, at dt = 1/10 s: good 3.4 % as read, 0.04 % at one instant (family/case)."),
              all(found));
   metrics["energy_drift_synchronised"] = sample_metric(0.03, {0.3, kWorld, "energy", 10, 15});
   found = findings(grid);  // it is lost indeed
@@ -196,6 +258,16 @@ BOOST_AUTO_TEST_CASE(the_matrix_has_a_word_and_a_number_in_each_cell) {
       (matrix.rows[1] == std::vector<std::string>{"family/case (dt 1/20)", "✓ stable 0.25 m ▓", "– unsupported"}));
   matrix = verdict_matrix(grid, Words::few);
   BOOST_TEST((matrix.rows[1] == std::vector<std::string>{"family/case (dt 1/20)", "✓ 0.25 m ▓", "–"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_stable_cell_that_was_stepped_in_part_at_a_lower_order_has_its_mark) {
+  Results grid = sample_results();
+  Cell& cell = grid.cases[0].cells[0];
+  BOOST_TEST(verdict_matrix(grid).rows[1][1].starts_with("✓"));
+  cell.reduced_order = ReducedOrder{0.1, "by other steps"};
+  BOOST_TEST(verdict_matrix(grid).rows[1][1].starts_with("◐"));
+  cell.stability.verdict = Verdict::drifting;
+  BOOST_TEST(verdict_matrix(grid).rows[1][1].starts_with("≈"));
 }
 
 BOOST_AUTO_TEST_CASE(a_cells_sign_and_word_are_its_verdict_and_its_shade_is_the_decade_of_its_error) {

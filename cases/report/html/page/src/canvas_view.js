@@ -90,7 +90,8 @@ export class CanvasView {
     const { pen } = this,
       { shapes, springs, size } = this.context,
       { poses, engine } = layer;
-    pen.strokeStyle = engine ? engine.hex[isDark() ? 1 : 0] : colour("--truth-solid");
+    const own = engine ? engine.hex[isDark() ? 1 : 0] : colour("--truth-solid");
+    pen.strokeStyle = layer.hasFailed ? colour("--bad-solid") : own;
     (pen.globalAlpha = engine ? 1 : 0.5), (pen.lineWidth = 1.5);
     const areFew = shapes.length <= 30; // more, and trails and large points hide them
     for (const shape of shapes) this.shape(shape, poses);

@@ -24,7 +24,7 @@ const usual = [
 ];
 
 const stepForTitle =
-  "the largest step that keeps the error that matters within it, read off the line through the cells; ≥ at the largest step tried already, ~ extrapolated below the smallest, < not even there";
+  "the largest step that keeps the main error within this tolerance; ≥ at the coarsest step already, ~ extrapolated below the finest";
 
 export function numbersTable({ results, one, dt }) {
   const rows = results.engines.map((engine) => [engine, cellOf(one, engine.name, dt.text)]).filter(([, cell]) => cell);
@@ -58,8 +58,7 @@ export function numbersTable({ results, one, dt }) {
   };
   const millimetre = (engine) => {
     if (one.main === "energy_drift_synchronised") return "–";
-    const step = stepFor(one, engine.name, one.main, 1e-3);
-    return step ? `${step.mark} ${quantity(step.seconds, "s")}` : "–";
+    return stepFor(results, one, engine.name, 1e-3) ?? "–";
   };
   const warnings = rows
     .filter(([, cell]) => cell.reduced_order)
@@ -72,8 +71,7 @@ export function numbersTable({ results, one, dt }) {
 
 function numbersGrid({ results, one, rows, names, shown, stable, millimetre }) {
   return el(
-    "div.scroll",
-    {},
+    "div.scroll", { tabindex: 0 },
     el(
       "table.plain.numbers",
       {},
@@ -188,8 +186,7 @@ export function gatesTable({ results, one }) {
           el("span.because", {}, gate.because),
         ),
         el(
-          "div.scroll",
-          {},
+          "div.scroll", { tabindex: 0 },
           el(
             "table.plain",
             {},

@@ -6,6 +6,8 @@ import { convergence, stabilityMap, workPrecision } from "./charts.js";
 import { gatesTable, numbersTable, sceneFile, settingsTable } from "./case_tables.js";
 import { frictionFan } from "./friction_chart.js";
 import { loadCase } from "./playback_data.js";
+import { cheapest, curvesOfCase, isCoreMethod, isExternal, isTimed } from "./frontier.js";
+import { FrontierChart, lengthOrAngle } from "./frontier_chart.js";
 import { Player } from "./player.js";
 import { schemeSplit } from "./scheme_tables.js";
 import { Stage } from "./stage.js";
@@ -28,9 +30,16 @@ export class CaseView {
     this.chips = el("div.chips", { role: "group", "aria-label": "Engines shown" });
     this.stageBox = el("section.stage", { "aria-label": "Playback" });
     this.plotsBox = el("section.plots", { "aria-label": "Quantities over time" });
+    this.answer = el("div.answer-first", {});
+    this.chart = new FrontierChart({
+      timed: isTimed(results),
+      isOneCase: true,
+      pickTolerance: (tolerance) => set({ tolerance }),
+    });
     (this.across = el("div.across")), (this.fan = el("div.fan"));
     this.steps = el("div.segments", { role: "group", "aria-label": "Step size" });
-    replace(root, this.heading(), this.bar(), el("div.motion", {}, this.stageBox, this.plotsBox), this.across);
+    replace(root, this.heading(), this.bar(), el("div.motion", {}, this.stageBox, el("div.beside-motion", {}, this.chart.root, this.plotsBox)), this.across);
+    this.drawAnswer();
     this.stop = onChange((changed) => this.follow(changed));
     this.load();
   }
@@ -103,16 +112,88 @@ export class CaseView {
         one.id,
         el("span.steps", {}, step(at - 1, "‹", "The case before"), step(at + 1, "›", "The next case")),
       ),
-      el("h1", {}, one.title || one.id),
-      el("p.truth", {}, truthText, provenanceText, one.source ? el("span.source", {}, ` Source: ${one.source}.`) : null),
+      el("p.question", {}, one.title || one.id),
+      this.answer,
       one.error ? el("p.error", {}, one.error) : null,
+      el(
+        "details.about-truth",
+        {},
+        el("summary", {}, truthText),
+        el("p.truth", {}, provenanceText, one.source ? el("span.source", {}, ` Source: ${one.source}.`) : null),
+      ),
       one.explanations.length
         ? el(
-            "ul.findings",
-            {},
-            one.explanations.map((text) => el("li", {}, text)),
+            "details.why",
+            { open: true },
+            el("summary", {}, el("h2", {}, "Why")),
+            el(
+              "ul.findings",
+              {},
+              one.explanations.map((text) => el("li", {}, text)),
+            ),
           )
         : null,
+    );
+  }
+
+  // The engine and step to take in this case, and who fails at the step shown.
+  drawAnswer() {
+    const { tolerance } = state,
+      curves = curvesOfCase(this.results, this.one);
+    const best = cheapest(curves, tolerance, isExternal),
+      own = cheapest(curves, tolerance, isCoreMethod);
+    const within = lengthOrAngle(tolerance);
+    const isComparable = curves.length > 0 && !this.one.main.startsWith("energy");
+    const title = !isComparable
+      ? "No error can be compared in this case"
+      : best
+        ? ["For ", el("b", {}, within), " take ", el("b", {}, best.curve.engine), " at ", el("b", {}, `${best.point.dt} s`)]
+        : curves.some(isExternal)
+          ? `No engine stays within ${within} at the steps tried`
+          : own
+            ? ["Within ", el("b", {}, within), ": ", el("b", {}, own.curve.engine), " at ", el("b", {}, `${own.point.dt} s`)]
+            : `Nothing stays within ${within} at the steps tried`;
+    const bad = this.engines
+      .map((engine) => ({ engine, verdict: judgement(cellOf(this.one, engine.name, this.dt.text)) }))
+      .filter(({ verdict }) => verdict.kind === "bad");
+    const fails = bad.map(({ engine, verdict }) => `${engine.name} (${verdict.word})`);
+    const few = fails.slice(0, 4).join(", ") + (fails.length > 4 ? ` and ${fails.length - 4} more` : "");
+    replace(
+      this.answer,
+      el("h1", {}, title),
+      el(
+        "p.beside",
+        {},
+        own && best ? `Rigor's core: ${own.curve.engine} at ${own.point.dt} s. ` : "",
+        bad.length ? `Failed at ${this.dt.text} s: ${few}.` : `Nothing fails at ${this.dt.text} s.`,
+      ),
+    );
+    this.chart.root.hidden = !isComparable;
+    if (isComparable) this.chart.draw({ curves, tolerance, chosen: best ?? own, focus: null });
+  }
+
+  // What a reader can paste to see the same, and to look for a better setting.
+  commands() {
+    const engines = this.shown.filter((e) => !e.core).map((e) => e.name),
+      first = engines[0] ?? this.shown[0]?.name;
+    const chosen = this.shown.map((e) => ` --engine ${e.name}`).join("");
+    const rows = [
+      ["Run it again", `rigor run ${this.one.id} --dt ${this.dt.text}${chosen}`],
+      first ? ["Find the cheapest setting", `rigor tune ${this.one.id} --engine ${first.split(/[:@,]/)[0]} --within ${1000 * state.tolerance}mm`] : null,
+      first ? ["Keep its motion", `rigor trace ${this.one.id} --engine ${first} --dt ${this.dt.text} > run.csv`] : null,
+    ].filter(Boolean);
+    return el(
+      "dl.commands",
+      {},
+      rows.map(([label, command]) => [
+        el("dt", {}, label),
+        el(
+          "dd",
+          {},
+          el("code", {}, command),
+          el("button.quiet", { type: "button", onclick: () => navigator.clipboard?.writeText(command) }, "copy"),
+        ),
+      ]),
     );
   }
 
@@ -186,7 +267,7 @@ export class CaseView {
 
   async load() {
     const wanted = this.dt.text;
-    this.drawBar(), this.drawAcross();
+    this.drawBar(), this.drawAcross(), this.drawAnswer();
     const data = await loadCase(this.results, this.one, wanted);
     if (this.closed || wanted !== this.dt.text) return;
     this.data = data;
@@ -254,6 +335,7 @@ export class CaseView {
         "Each bar reaches to the largest dt that does not blow up within 30 s; dots are the runs.",
         stabilityMap(context),
       ),
+      part("commands", "Reproduce and repair", "`rigor tune` prints the engine's own calls for the setting that it finds.", this.commands()),
       part("gates", "Gates", null, gatesTable(context)),
       part("settings", "Settings in force", "As read back from each engine in this case.", settingsTable(context)),
       part("file", "The case file", null, sceneFile(this.one)),
@@ -263,6 +345,7 @@ export class CaseView {
 
   follow(changed) {
     if (changed.has("case")) return;
+    if (changed.has("tolerance")) this.drawAnswer(), this.drawAcross();
     if (changed.has("dt") && dtOf(this.one, state.dt).text !== this.dt.text) {
       this.dt = dtOf(this.one, state.dt);
       this.load();

@@ -187,9 +187,10 @@ export function stabilityMap({ one, shown, results }) {
   );
   const known = engines.map((e) => one.stable.get(e.name).dt).filter(isNumber);
   const all = [...known, ...one.dt.map((dt) => dt.seconds), 1 / 30].filter((v) => v > 0);
-  const width = 860,
-    left = 210,
-    right = 96,
+  const longest = Math.max(...engines.map((e) => e.name.length), 10);
+  const left = Math.min(420, 24 + 6.9 * longest),
+    right = 110,
+    width = 650 + left,
     row = 22,
     top = 26,
     height = top + row * engines.length + 12;
@@ -255,7 +256,7 @@ export function stabilityMap({ one, shown, results }) {
   });
   const reasons = new Set(engines.map((e) => one.stable.get(e.name)).filter((s) => !isNumber(s.dt)).map((s) => s.reason));
   return [
-    el("div.scroll", {}, root),
+    el("div.scroll", { tabindex: 0 }, root),
     [...reasons].filter(Boolean).map((reason) => el("p.fine", {}, `No largest dt: ${reason}.`)),
   ];
 }

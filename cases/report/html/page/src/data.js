@@ -173,14 +173,15 @@ export function judgement(cell) {
 
 // What a cell's verdict and numbers do not say.
 export const warningOf = (cell) =>
-  [
-    cell?.sub_step ? `takes sub-steps of ${digits(cell.sub_step)} s` : "",
-    cell?.reduced_order ? `from ${digits(cell.reduced_order.from)} s on stepped ${cell.reduced_order.how}` : "",
-  ]
-    .filter(Boolean)
-    .join("; ");
+  cell?.reduced_order ? `from ${digits(cell.reduced_order.from)} s on stepped ${cell.reduced_order.how}` : "";
 
-// The reason of a cell's status, with notes; for the mouse pointer.
+// s: when the cell's motion blew up, collapsed or otherwise failed; null if it did not, or not at an instant.
+export function failedAt(cell) {
+  const { word, time } = cell?.verdict ?? {};
+  return ["blown up", "collapsed"].includes(word) && isNumber(time) ? time : null;
+}
+
+// Why a cell ended as it did, and what to know beside it; for where the mouse rests.
 export const asideOf = (cell) => [cell.reason, warningOf(cell)].filter(Boolean).map((text) => ` – ${text}`).join("");
 
 const verdictKinds = {
@@ -192,12 +193,13 @@ const verdictKinds = {
   tunnelled: { kind: "bad", sign: "»" },
 };
 
-// The shade of a matrix cell: its position error in decades of the case's size, from 0 at 1e-4 of the size to 1 at the
-// size. Empty without such an error, or if the status says more than the size of the error.
-export function shadeOf(one, cell) {
-  const error = cell?.status === "pass" ? metricOf(cell, "position_error") : null;
-  if (error === null || !(one.size > 0)) return null;
-  return Math.min(1, Math.max(0, (Math.log10(error / one.size) + 4) / 4));
+// A cell's error in decades of the tolerance, from 0 (a hundredth of it or less) to 5 (more than a hundred times it).
+// Level 2 is still within. Null where there is no such error, or where the motion failed as a whole.
+export function levelOf(one, cell, tolerance) {
+  if (!cell || judgement(cell).kind === "bad") return null;
+  const error = one.main.startsWith("energy") ? null : metricOf(cell, one.main);
+  if (error === null) return null;
+  return Math.min(5, Math.max(0, Math.ceil(Math.log10(Math.max(error, 1e-300) / tolerance) - 1e-9) + 2));
 }
 
 export const hasNumbers = (cell) => cell && cell.status !== "diverged" && Object.keys(cell.metrics ?? {}).length > 0;
@@ -219,36 +221,33 @@ export function errorPoints(one, engine, metric) {
     .sort((a, b) => b.seconds - a.seconds);
 }
 
-// The largest step at which an engine's error is at most `tolerance`, from the straight line, in logarithms, through
-// its cells. `mark`: "≥" means that it holds at the largest tried step. "~" means extrapolated below the finest step
-// along the line through the last two, if the error falls there, by at most a factor of 30. "<" means not even there.
-export function stepFor(one, engine, metric, tolerance) {
-  const furthest = 30,
-    falls = 0.5; // order
-  const points = errorPoints(one, engine, metric).filter((p) => !isHeldToItself(p.cell, metric));
-  if (!points.length) return null;
-  const within = points.findIndex((p) => p.error <= tolerance);
-  if (within === 0) return { mark: points[0].seconds === one.coarsest.seconds ? "≥" : "", seconds: points[0].seconds };
-  const isBeyond = within < 0,
-    finest = { mark: "<", seconds: points.at(-1).seconds };
-  if (isBeyond && points.length < 2) return finest;
-  const [a, b] = isBeyond ? points.slice(-2) : points.slice(within - 1);
-  if (!(b.error > 0)) return { mark: "", seconds: b.seconds };
-  const slope = Math.log(a.error / b.error) / Math.log(a.seconds / b.seconds);
-  const seconds = b.seconds * (tolerance / b.error) ** (1 / slope);
-  if (isBeyond && !(slope >= falls && seconds * furthest >= b.seconds)) return finest;
-  return { mark: isBeyond ? "~" : "", seconds };
+// The tolerance of results.json that is at or below the one asked for, or the smallest.
+export const tabulated = (results, tolerance) =>
+  (results.tolerances ?? []).filter((t) => t <= 1.001 * tolerance).at(-1) ?? results.tolerances?.[0] ?? tolerance;
+
+// An entry of step_needed or step_over_cases at a tolerance, in words. Null where there is none.
+function stepText(results, row, tolerance) {
+  const at = (results.tolerances ?? []).indexOf(tabulated(results, tolerance));
+  if (!row || at < 0 || row.found[at] === undefined) return null;
+  const mark = { coarsest: "≥ ", beyond: "~ " }[row.found[at]] ?? "";
+  return isNumber(row.dt[at]) ? `${mark}${quantity(row.dt[at], "s")}` : "none";
 }
+
+// The largest step that keeps a run's main error within the tolerance: in one case, and in the median case.
+export const stepFor = (results, one, engine, tolerance) =>
+  stepText(results, one.step_needed?.find((row) => row.engine === engine), tolerance);
+export const medianStep = (results, engine, tolerance) =>
+  stepText(results, results.step_over_cases?.find((row) => row.engine === engine), tolerance);
 
 // The largest stable step in words: at the largest or the smallest that was tried it is a bound.
 export const stableText = (stable) =>
   `${stable.is_cap ? "≥ " : stable.is_floor ? "< " : ""}${quantity(stable.dt, "s")}`;
 
+// Of two values in the middle the larger: the worse of two errors.
 export function median(values) {
   if (!values.length) return null;
   const sorted = [...values].sort((a, b) => a - b);
   return sorted[Math.floor(sorted.length / 2)];
 }
-
 export const order = (one, engine, metric) =>
   one.observed_order.find((o) => o.engine === engine && o.metric === metric);

@@ -1,4 +1,5 @@
-// The verdict matrix: cases by engines at one step, sorted by family, with a summary of each engine's column.
+// The matrix: cases by engines at one step. A cell's colour is its error in decades of the tolerance; its icon is the
+// verdict on the motion as a whole. The two never stand for each other.
 import {
   asideOf,
   cellOf,
@@ -7,18 +8,19 @@ import {
   isHeldToItself,
   judgement,
   median,
+  medianStep,
   metricOf,
-  shadeOf,
+  levelOf,
   signedMetric,
   stableText,
   stepFor,
-  witnessed,
+  tabulated,
 } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
 import { digits, engineParts, isNumber, percent, quantity, singleTitle, words } from "./format.js";
 import { address, openCase, state } from "./state.js";
 
-// The views that are no metric.
+// Shown beside the metrics.
 export const shownAside = {
   main: "the error that matters",
   stable: "largest stable dt",
@@ -26,7 +28,9 @@ export const shownAside = {
   cost: "CPU time",
 };
 
-// Up to so many columns are read at a glance; of more, each engine's first stands for it until it is opened.
+export const sortings = { name: "by family and name", error: "largest error first", cost: "most expensive first" };
+
+// Up to so many columns can be read at once. With more, each engine shows its first run until it is opened.
 const readableColumns = 7;
 const engineOf = (run) => run.name.split(/[:@,]/)[0];
 
@@ -48,19 +52,35 @@ export class Matrix {
 
   toggle(name) {
     if (!this.opened.delete(name)) this.opened.add(name);
-    this.draw(this.dt, this.filter);
+    this.draw(this.dt);
     [...this.root.querySelectorAll("button.open-engine")].find((button) => button.dataset.engine === name)?.focus();
   }
 
-  draw(dt, filter) {
-    (this.dt = dt), (this.filter = filter);
-    const cases = this.results.cases.filter((c) => !filter || `${c.id} ${c.title}`.toLowerCase().includes(filter));
-    const runs = this.results.engines.filter((e) => this.results.cells.some((c) => c.engine === e.name));
+  // Words of the filter that name an engine choose columns; the others choose cases.
+  draw(dt) {
+    this.dt = dt;
+    const ran = this.results.engines.filter((e) => this.results.cells.some((c) => c.engine === e.name));
+    const words = state.filter.split(/\s+/).filter(Boolean);
+    const isOfEngine = (word) => ran.some((e) => e.name.toLowerCase().startsWith(word));
+    const engineWords = words.filter(isOfEngine),
+      caseWords = words.filter((word) => !isOfEngine(word));
+    const runs = engineWords.length
+      ? ran.filter((e) => engineWords.some((word) => e.name.toLowerCase().startsWith(word)))
+      : ran;
+    const cases = this.results.cases.filter(
+      (one) =>
+        (!state.family || one.family === state.family) &&
+        caseWords.every((word) => `${one.id} ${one.title}`.toLowerCase().includes(word)) &&
+        this.hasVerdict(one, runs),
+    );
     const groups = this.groups(runs),
       engines = groups.flatMap((group) => group.shown);
     const rare = engines.filter((e) => e.isRare).length;
     const families = new Map();
-    for (const one of cases) families.set(one.family, [...(families.get(one.family) ?? []), one]);
+    for (const one of this.sorted(cases, runs)) {
+      const key = state.sort === "name" ? one.family : sortings[state.sort];
+      families.set(key, [...(families.get(key) ?? []), one]);
+    }
     const table = el(
       "table.matrix",
       { "aria-label": `Cases by engines at dt = ${dt.text} s` },
@@ -68,7 +88,7 @@ export class Matrix {
       this.head(engines, runs.length > readableColumns ? groups : null),
       this.summary(cases, engines),
     );
-    for (const [family, members] of [...families].sort((a, b) => (a[0] < b[0] ? -1 : 1))) {
+    for (const [family, members] of families) {
       table.append(
         el(
           "tbody",
@@ -83,15 +103,35 @@ export class Matrix {
         ),
       );
     }
-    replace(this.root, cases.length ? table : el("p", {}, "No case has that in its name."));
+    replace(this.root, cases.length ? table : el("p.nothing", {}, "No case matches these filters."));
+  }
+
+  cellAt = (one, engine) => cellOf(one, engine.name, dtOf(one, this.dt.text).text);
+
+  hasVerdict(one, runs) {
+    if (!state.verdict) return true;
+    const kinds = runs.map((e) => judgement(this.cellAt(one, e)).kind).filter((kind) => kind !== "none");
+    return state.verdict === "good" ? kinds.every((k) => k === "good") : kinds.includes(state.verdict);
+  }
+
+  sorted(cases, runs) {
+    if (state.sort === "name") return [...cases].sort((a, b) => (a.id < b.id ? -1 : 1));
+    const of = (one) => {
+      const cells = runs.map((e) => this.cellAt(one, e)).filter(Boolean);
+      const values = cells.map((c) => (state.sort === "cost" ? c.cpu_seconds / one.duration : metricOf(c, one.main)));
+      return median(values.filter((v) => v !== null)) ?? -1;
+    };
+    return [...cases].sort((a, b) => of(b) - of(a));
   }
 
   caption() {
     const what = shownAside[state.show] ?? words(state.show);
     const tolerance =
-      state.show === "step" ? ` of ${quantity(state.tolerance, "m")} or ${quantity(state.tolerance, "rad")}` : "";
+      state.show === "step"
+        ? ` of ${["m", "rad"].map((unit) => quantity(tabulated(this.results, state.tolerance), unit)).join(" or ")}`
+        : "";
     const main =
-      "the position's; the orientation's where nothing moves away; the energy's drift where there is no truth; (in brackets) held to a truth that its own code makes";
+      "position error; orientation error where nothing moves away; energy drift where there is no truth; (in brackets) the truth comes from the run's own code";
     return [
       el("b", {}, `dt = ${this.dt.text} s: ${what}${tolerance}`),
       " ",
@@ -161,33 +201,15 @@ export class Matrix {
       cases
         .map((one) => cellOf(one, engine.name, dtOf(one, this.dt.text).text))
         .filter((c) => c && c.status !== "unsupported");
-    const typical = cases.map((one) =>
-      median(
-        engines.map((e) => witnessed(cellOf(one, e.name, dtOf(one, this.dt.text).text), one.main)).filter((v) => v > 0),
-      ),
-    );
+    // Computed over all cases, see results.json.
+    const isAll = cases.length === this.results.cases.length;
     const ratio = (engine) => {
-      const logs = cases
-        .map((one, i) => {
-          const cell = cellOf(one, engine.name, dtOf(one, this.dt.text).text),
-            value = hasNumbers(cell) ? witnessed(cell, one.main) : null;
-          return value > 0 && typical[i] > 0 ? Math.log(Math.max(value / typical[i], 1e-6)) : null;
-        })
-        .filter((v) => v !== null);
-      return logs.length ? `× ${digits(Math.exp(logs.reduce((a, b) => a + b) / logs.length), 2)}` : "–";
+      const found = this.results.relative_errors?.find((r) => r.engine === engine.name && r.dt === this.dt.text);
+      if (!isAll || !found) return "–";
+      return isNumber(found.ratio) ? `× ${digits(found.ratio, 2)}` : "failed";
     };
-    const middleStep = (engine) => {
-      const steps = cases
-        .filter((one) => one.main !== "energy_drift_synchronised")
-        .map((one) => stepFor(one, engine.name, one.main, state.tolerance))
-        .filter(Boolean);
-      if (!steps.length) return "–";
-      const middle = median(steps.map((s) => (s.mark === "<" ? 0 : s.seconds)));
-      return middle > 0
-        ? quantity(middle, "s")
-        : el("span.fine", { title: "smaller than the steps that were tried" }, "smaller");
-    };
-    const blown = (engine) => {
+    const middleStep = (engine) => (isAll && medianStep(this.results, engine.name, state.tolerance)) || "–";
+    const failures = (engine) => {
       const ran = cells(engine),
         bad = ran.filter((c) => judgement(c).kind === "bad").length;
       return ran.length ? el("span", { class: bad ? "some-bad" : "" }, `${bad} of ${ran.length}`) : "–";
@@ -196,18 +218,18 @@ export class Matrix {
       "tbody.summaries",
       {},
       line(
-        "bad verdict or failed",
-        "cells at this step that blew up, fell, gained energy, overlapped, crashed or failed a gate, of those that ran",
-        blown,
+        "failed",
+        "cells at this step that blew up, collapsed, gained energy, overlapped, crashed or failed a gate, of those that ran",
+        failures,
       ),
       line(
-        "error ÷ the middle engine's",
-        "geometric mean, over the cases, of the error that matters divided by that of the engine in the middle; below 1 is better than most",
+        "error ÷ median engine",
+        "median over all cases: the main error divided by the median engine's; below 1 is better than most. A failed cell counts as worse than any error",
         ratio,
       ),
       line(
-        `dt for ${quantity(state.tolerance, "m")}`,
-        "the middle one of the cases: the largest step that keeps the error that matters within the tolerance, extrapolated where it is below the steps that were tried",
+        `dt for ${quantity(tabulated(this.results, state.tolerance), "m")}`,
+        "median over all cases: the largest step that keeps the main error within the tolerance; a failed case counts as no step at all",
         middleStep,
       ),
     );
@@ -258,16 +280,17 @@ export class Matrix {
     const rare = engine.isRare ? ".is-rare" : "";
     if (!cell) return el(`td.cell.is-absent${rare}`, {}, "");
     const title = `${one.id}, ${engine.name}, dt = ${dt.text} s: ${verdict.word}${asideOf(cell)}`;
-    const shade = shadeOf(one, cell),
-      style = shade === null ? {} : { "--shade": `${Math.round(100 * shade)}%` };
+    const level = levelOf(one, cell, state.tolerance);
+    const isPlain = verdict.kind === "good" && !note;
     return el(
-      `td.cell.is-${verdict.kind}${shade === null ? "" : ".has-shade"}${rare}`,
+      `td.cell.is-${verdict.kind}${level === null ? "" : `.level-${level}`}${rare}`,
       {},
       el(
         "a",
-        { href: address(changes), title, style, onclick: (event) => this.go(event, one, changes) },
+        { href: address(changes), title, onclick: (event) => this.go(event, one, changes) },
+        el("span.mark", { "aria-hidden": "true" }, verdict.sign),
         el("span.value", {}, value),
-        el("span.word", {}, note ?? `${verdict.sign} ${verdict.word}`),
+        el(`span.word${isPlain ? ".visually-hidden" : ""}`, {}, note ?? verdict.word),
       ),
     );
   }
@@ -282,8 +305,7 @@ export class Matrix {
     }
     if (state.show === "step") {
       if (one.main === "energy_drift_synchronised") return ["–", "no truth"];
-      const step = stepFor(one, engine.name, one.main, state.tolerance);
-      return step ? [`${step.mark} ${quantity(step.seconds, "s")}`.trim()] : ["–"];
+      return [stepFor(this.results, one, engine.name, state.tolerance) ?? "–"];
     }
     if (!hasNumbers(cell)) return [""];
     if (state.show === "cost")

@@ -1,24 +1,52 @@
-// The first screen: the findings, and the matrix of cases by engines.
+// The first screen: which engine and step to take, the picture that says why, the problems found, and the matrix.
 import { metricOf } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
+import { EngineCards } from "./engine_cards.js";
 import { digits, quantity, words } from "./format.js";
-import { Matrix, shownAside } from "./matrix.js";
-import { address, onChange, openCase, set, state } from "./state.js";
+import { cheapest, curvesOf, engineOf, families, isCoreMethod, isExternal, isReference, isTimed } from "./frontier.js";
+import { FrontierChart, lengthOrAngle } from "./frontier_chart.js";
+import { Matrix, shownAside, sortings } from "./matrix.js";
+import { problems } from "./problems.js";
+import { onChange, set, state } from "./state.js";
 
 export class Overview {
   constructor(results, root) {
-    (this.results = results), (this.root = root), (this.filter = "");
+    (this.results = results), (this.root = root);
     this.matrix = new Matrix(results);
-    replace(root, this.intro(), this.controls(), this.matrix.root, this.legend(), this.details());
+    this.chart = new FrontierChart({
+      timed: isTimed(results),
+      pickTolerance: (tolerance) => set({ tolerance }),
+      pickRun: (run) => ((this.focused = this.focused === run ? null : run), this.drawFirst()),
+    });
+    this.cards = new EngineCards(results, {
+      focus: (run) => ((this.focused = run), this.drawChart()),
+    });
+    this.answer = el("div.answer-first", {});
+    replace(
+      root,
+      this.answer,
+      this.hasCurves ? el("div.first", {}, this.chart.root, this.cards.root) : null,
+      this.meanings(),
+      problems(results),
+      el("section.part", { id: "matrix" }, el("h2", {}, "Every case"), this.controls(), this.matrix.root, this.legend()),
+      this.details(),
+    );
     this.draw();
     this.stop = onChange((changed) => {
-      if (["dt", "show", "tolerance"].some((key) => changed.has(key))) this.draw();
+      if (["tolerance", "family", "dt"].some((key) => changed.has(key))) this.drawFirst();
+      if (["dt", "show", "tolerance", "family", "sort", "filter", "verdict"].some((key) => changed.has(key))) this.drawMatrix();
     });
   }
   close() {
     this.stop();
   }
 
+  get hasCurves() {
+    return curvesOf(this.results, "").length > 0;
+  }
+  get family() {
+    return families(this.results).includes(state.family) ? state.family : "";
+  }
   get dt() {
     return (
       this.results.dts.find((dt) => dt.text === state.dt) ??
@@ -27,48 +55,84 @@ export class Overview {
     );
   }
 
-  intro() {
-    const { findings, cells } = this.results;
-    const counts = new Map();
-    for (const cell of cells) counts.set(cell.status, (counts.get(cell.status) ?? 0) + 1);
-    const status = [...counts].map(([word, n]) => `${n} ${word}`).join(", ");
-    return el(
-      "section.intro",
-      {},
-      el("h1", {}, "How right each engine was"),
-      findings.length ? this.findings(findings) : null,
-      el("p.fine", {}, `${cells.length} cells: ${status}.`),
-    );
+  draw() {
+    this.drawFirst(), this.drawMatrix();
+  }
+  drawMatrix() {
+    this.matrix.draw(this.dt);
   }
 
-  // The findings: a card for each of the first topics, with details on a click; the others behind their names. The
-  // names of cases are links.
-  findings(findings) {
-    const cards = 4;
-    const link = (id) =>
-      el("a", { href: address({ case: id }), onclick: (event) => (event.preventDefault(), openCase(id)) }, id);
-    const linked = (text) =>
-      text.split(/([\w.-]+(?:\/[\w.-]*\w)+)/).map((part) => (this.results.caseById.has(part) ? link(part) : part));
-    const card = ({ topic, text, more }) =>
-      el(
-        "section.answer",
-        {},
-        el("h2", {}, topic),
-        el("p.text", {}, linked(text)),
-        more ? el("details", {}, el("summary", {}, "why, and who else"), el("p.more", {}, linked(more))) : null,
+  drawFirst() {
+    this.curves = curvesOf(this.results, this.family);
+    replace(this.answer, this.sentence());
+    if (!this.hasCurves) return;
+    this.drawChart();
+    this.cards.draw({ family: this.family, dt: this.dt, tolerance: state.tolerance });
+  }
+
+  drawChart() {
+    const { tolerance } = state;
+    const chosen = cheapest(this.curves, tolerance, isExternal) ?? cheapest(this.curves, tolerance, isCoreMethod);
+    this.chart.draw({ curves: this.curves, tolerance, chosen, focus: this.focused });
+  }
+
+  // One sentence: the engine and step to take; then who else is within the tolerance, and what the core does.
+  sentence() {
+    const { cases } = this.results,
+      { tolerance } = state;
+    const counted = this.family ? cases.filter((c) => c.family === this.family).length : cases.length;
+    const scope = counted === 1 ? "this case" : `these ${counted} cases`;
+    const of = (choice) => `${choice.curve.engine} at ${choice.point.dt} s`;
+    const best = cheapest(this.curves, tolerance, isExternal);
+    const title = !this.hasCurves
+      ? "No error can be compared here"
+      : best
+        ? ["For ", el("b", {}, lengthOrAngle(tolerance)), " take ", el("b", {}, best.curve.engine), " at ", el("b", {}, `${best.point.dt} s`)]
+        : `No engine stays within ${lengthOrAngle(tolerance)} at the steps tried`;
+    const beside = [];
+    if (best) {
+      const { cases: compared, failed } = best.point;
+      beside.push(
+        `Cheapest engine whose typical error stays within ${lengthOrAngle(tolerance)} in ${scope}; ${compared} can be compared, ${failed || "none"} failed.`,
       );
-    const folded = ({ topic, text, more }) =>
-      el(
-        "details.answer",
-        {},
-        el("summary", {}, el("h2", {}, topic)),
-        el("p.text", {}, linked(text)),
-        more ? el("p.more", {}, linked(more)) : null,
-      );
+    }
+    const others = this.othersWithin(best, tolerance);
+    if (others.length) beside.push(`Also within: ${others.slice(0, 3).map(of).join(", ")}.`);
+    const own = cheapest(this.curves, tolerance, isCoreMethod),
+      reference = cheapest(this.curves, tolerance, isReference);
+    if (own) beside.push(`Rigor's core: ${of(own)}.`);
+    if (reference) beside.push(`Reference: ${of(reference)}.`);
     return [
-      el("div.answers", {}, findings.slice(0, cards).map(card)),
-      el("div.answers", {}, findings.slice(cards).map(folded)),
+      el("h1", {}, title),
+      el(
+        "p.beside",
+        {},
+        beside.join(" "),
+        this.family ? el("button.quiet", { type: "button", onclick: () => set({ family: "" }) }, "all families") : null,
+      ),
     ];
+  }
+
+  // The cheapest step within the tolerance of each other engine, cheapest first.
+  othersWithin(best, tolerance) {
+    const names = new Set(this.curves.filter(isExternal).map(engineOf));
+    if (best) names.delete(engineOf(best.curve));
+    return [...names]
+      .map((name) => cheapest(this.curves, tolerance, (c) => isExternal(c) && engineOf(c) === name))
+      .filter(Boolean)
+      .sort((a, b) => a.point.cost - b.point.cost);
+  }
+
+  meanings() {
+    return el(
+      "p.meanings",
+      {},
+      el("b", {}, "Two marks, two meanings. "),
+      el("b", {}, "Error"),
+      " is the distance from the true motion. ",
+      el("b", {}, "Stable"),
+      " only says that the motion does not blow up, fall apart or drift in energy: a stable run can still be far from the truth.",
+    );
   }
 
   controls() {
@@ -86,7 +150,7 @@ export class Overview {
     const measured = this.results.metrics
       .map((m) => m.name)
       .filter((name) => this.results.cells.some((c) => metricOf(c, name) !== null));
-    const tolerances = [1e-4, 1e-3, 1e-2, 1e-1];
+    const tolerances = [...new Set([1e-4, 1e-3, 1e-2, 1e-1, state.tolerance])].sort((a, b) => a - b);
     return el(
       "div.controls",
       {},
@@ -108,17 +172,30 @@ export class Overview {
         tolerances.map((t) => [String(t), `${quantity(t, "m")} or ${quantity(t, "rad")}`]),
         (t) => set({ tolerance: Number(t) }),
       ),
+      families(this.results).length > 1
+        ? select(
+            "Family",
+            this.family,
+            [["", "all families"], ...families(this.results).map((f) => [f, f])],
+            (family) => set({ family }),
+          )
+        : null,
+      select("Sort", state.sort, Object.entries(sortings), (sort) => set({ sort })),
+      select(
+        "Verdict",
+        state.verdict,
+        [["", "any"], ["bad", "something fails"], ["drift", "something drifts"], ["good", "all stable"]],
+        (verdict) => set({ verdict }),
+      ),
       el(
         "label.control",
         {},
-        el("span", {}, "Cases"),
+        el("span", {}, "Cases and engines"),
         el("input", {
           type: "search",
           placeholder: "filter by name",
-          oninput: (event) => {
-            this.filter = event.target.value.toLowerCase();
-            this.draw();
-          },
+          value: state.filter,
+          oninput: (event) => set({ filter: event.target.value.toLowerCase() }),
         }),
       ),
     );
@@ -126,24 +203,24 @@ export class Overview {
 
   legend() {
     const item = (kind, sign, text) => el("span.key", {}, el(`span.swatch.is-${kind}`, {}, sign), text);
+    const shade = (level) => el(`span.swatch.level-${level}`, {}, " ");
     return el(
       "p.legend",
       {},
+      el("span.key", {}, "error: ", [0, 1, 2, 3, 4, 5].map(shade), " within a hundredth of the tolerance … 1000 × beyond it"),
       item("good", "✓", "stable"),
-      item("drift", "≈", "drifting: its mean energy moved by more than 1 %, or an unexpected pass"),
-      item("bad", "∩", "two bodies overlap by a body's own size"),
-      item("bad", "↑", "gaining energy that nothing gives it"),
-      item("bad", "↓", "collapsed: it had to stand"),
-      item("bad", "»", "tunnelled: bodies passed through each other"),
-      item("bad", "✕", "blown up, crashed, or a gate failed"),
+      item("drift", "≈", "drifts in energy"),
+      item("bad", "✕", "failed: blown up, collapsed ↓, gains energy ↑, overlaps ∩, crashed !"),
       item("known", "◆", "known deviation"),
-      item("none", "–", "cannot be run on this engine"),
-      el("span.key", {}, "A cell's colour: its position error beside the case's size, green at 1e-4 of it, red at all of it."),
+      item("none", "–", "unsupported"),
     );
   }
 
   details() {
-    const { machine, program, engines, wall_seconds: wall } = this.results;
+    const { machine, program, engines, wall_seconds: wall, cells } = this.results;
+    const counts = new Map();
+    for (const cell of cells) counts.set(cell.status, (counts.get(cell.status) ?? 0) + 1);
+    const status = [...counts].map(([word, n]) => `${n} ${word}`).join(", ");
     return el(
       "details.about",
       {},
@@ -151,11 +228,11 @@ export class Overview {
       el(
         "p",
         {},
-        `rigor ${program.version} on ${machine.cpu} (${machine.cores} cores), ${machine.compiler}, ${machine.build_type} build; ${digits(wall)} s.`,
+        `rigor ${program.version} on ${machine.cpu} (${machine.cores} cores), ${machine.compiler}, ${machine.build_type} build; ${digits(wall)} s. ${cells.length} cells: ${status}.`,
       ),
       el(
         "div.scroll",
-        {},
+        { tabindex: 0, role: "region", "aria-label": "Versions and methods" },
         el(
           "table.plain",
           {},
@@ -182,13 +259,9 @@ export class Overview {
       el(
         "p.fine",
         {},
-        "The settings in force, as read back from each engine, stand in every case. The full precision of each run is in trajectories/*.csv, everything shown here in results.json.",
+        "Each case shows the settings in force, as read back from the engine. The folder trajectories/ holds each run in full precision; results.json holds everything shown here.",
       ),
     );
-  }
-
-  draw() {
-    this.matrix.draw(this.dt, this.filter);
   }
 
   key(event) {

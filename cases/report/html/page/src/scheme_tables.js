@@ -57,7 +57,7 @@ export function schemeSplit({ results, one, dt }) {
   return el(
     "div.figures",
     {},
-    [...tables, energySplit(cells)].filter(Boolean).map((table) => el("div.scroll", {}, table)),
+    [...tables, energySplit(cells)].filter(Boolean).map((table) => el("div.scroll", { tabindex: 0 }, table)),
   );
 }
 

@@ -1,7 +1,7 @@
 // The picture: each engine's bodies as it moves them, with the truth as a ghost; overlaid, or one pane an engine.
 import { Camera, moveByHand } from "./camera.js";
 import { CanvasView } from "./canvas_view.js";
-import { cellOf, judgement } from "./data.js";
+import { cellOf, failedAt, judgement } from "./data.js";
 import { el, replace } from "./dom.js";
 import { digits, quantity } from "./format.js";
 import { jointSegments, jointsOf } from "./joint_model.js";
@@ -65,7 +65,7 @@ export class Stage {
       this.view = new CanvasView(this.surface, context);
       this.note = isLarge
         ? "This browser has no GPU for WebGL, so the picture of so many bodies is drawn with lines."
-        : "WebGL is not to be had in this browser, so the picture is drawn with lines.";
+        : "This browser has no WebGL, so the picture is drawn with lines.";
     }
     this.surface.dataset.kind = this.view.kind;
     moveByHand(this.camera, this.surface, () => this.invalidate());
@@ -101,6 +101,7 @@ export class Stage {
     });
     const step = (by, sign, title) =>
       el("button.quiet", { type: "button", title, "aria-label": title, onclick: () => this.player.step(by) }, sign);
+    this.failures = el("div.failures", { "aria-hidden": "true" });
     this.notes = el("p.fine.stage-note");
     replace(
       this.root,
@@ -111,7 +112,7 @@ export class Stage {
         step(-1, "‹", "one step back"),
         this.play,
         step(1, "›", "one step on"),
-        this.slider,
+        el("div.timeline", {}, this.slider, this.failures),
         this.clock,
         this.speed,
       ),
@@ -176,6 +177,7 @@ export class Stage {
 
   show(engines) {
     this.engines = engines;
+    this.markFailures();
     this.arrange();
   }
   arrange() {
@@ -188,7 +190,25 @@ export class Stage {
     this.arrange();
   }
 
-  // The content of each pane.
+  // On the time line, a mark where a run that is shown blew up or collapsed.
+  markFailures() {
+    const marks = this.engines
+      .map((engine) => [engine, failedAt(this.cell(engine))])
+      .filter(([, time]) => time !== null && time <= this.one.duration)
+      .map(([engine, time]) =>
+        el(
+          "span",
+          {
+            style: { left: `${(100 * time) / this.one.duration}%`, "--engine": `var(--e${engine.index})` },
+            title: `${engine.name}: ${judgement(this.cell(engine)).word}`,
+          },
+          "✕",
+        ),
+      );
+    replace(this.failures, marks);
+  }
+
+  // What each pane shows.
   arrangement() {
     const layers = this.engines.map((e) => this.layers.get(e.name)).filter(Boolean);
     const ghost = this.flags.truth ? this.layers.get("truth") : null;
@@ -231,7 +251,8 @@ export class Stage {
   draw() {
     const { time } = this.player,
       near = 0.004 * this.bounds().radius,
-      gone = [];
+      gone = [],
+      failed = [];
     const panes = this.arrangement();
     for (const layer of new Set(panes.flatMap((p) => p.layers))) {
       layer.motion.posesAt(time, layer.poses);
@@ -241,6 +262,9 @@ export class Stage {
         this.flags.contacts && !layer.isGone && layer.name !== "truth" ? contacts(this.shapes, layer.poses, near) : [];
       layer.jointed = this.jointed(layer);
       layer.key = layer.motion.keyAt(time);
+      const failure = layer.engine ? failedAt(this.cell(layer.engine)) : null;
+      layer.hasFailed = failure !== null && time >= failure;
+      if (layer.hasFailed) failed.push(`${layer.name} at ${failure.toFixed(2)} s`);
       if (layer.isGone) gone.push(`${layer.name} at ${layer.motion.end.toFixed(2)} s`);
     }
     const width = this.surface.clientWidth,
@@ -253,8 +277,9 @@ export class Stage {
       past = this.flags.truth && this.layers.has("truth") && horizon !== undefined && time > horizon + 1e-9;
     const text = [
       this.note,
+      failed.length ? `✕ Failed, drawn in red: ${failed.join(", ")}.` : "",
       gone.length ? `Out of the picture: ${gone.join(", ")}.` : "",
-      kept.length ? `No motion kept of ${kept.map((e) => e.name).join(", ")}.` : "",
+      kept.length ? `No motion was kept of ${kept.map((e) => e.name).join(", ")}.` : "",
       past ? `The truth is past its horizon of ${horizon.toFixed(1)} s.` : "",
       this.gapsNow(time),
     ]

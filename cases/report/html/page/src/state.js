@@ -5,8 +5,12 @@ export const state = {
   dt: "", // as written
   engines: null, // names that are shown; null: the choice the page makes
   time: 0, // s, of the playback and the plots' cursor
-  show: "main", // the metric or view of the matrix
-  tolerance: 1e-3, // m, for "dt for"
+  show: "main", // what the matrix shows
+  tolerance: 1e-3, // m or rad
+  family: "", // of cases; "": all
+  sort: "name", // of the matrix: name, error, cost
+  verdict: "", // rows with this kind of verdict: bad, drift, good; "": any
+  filter: "", // words in names of cases and engines
   layout: "overlay",
   log: true,
   zoom: null, // [from, to] in s
@@ -37,6 +41,7 @@ export function address(changes = {}) {
   if (view.dt !== defaults.dt) query.set("dt", view.dt);
   if (view.show !== defaults.show) query.set("show", view.show);
   if (view.tolerance !== defaults.tolerance) query.set("tolerance", view.tolerance);
+  for (const key of ["family", "sort", "verdict", "filter"]) if (view[key] !== defaults[key]) query.set(key, view[key]);
   if (view.case) {
     if (view.engines) query.set("engines", [...view.engines].join("~"));
     if (view.time > 0) query.set("t", Number(view.time.toFixed(4)));
@@ -81,6 +86,10 @@ function fromAddress() {
     time: Math.max(0, number(given.get("t"), 0)),
     show: given.get("show") ?? "main",
     tolerance: Math.abs(number(given.get("tolerance"), 1e-3)) || 1e-3,
+    family: given.get("family") ?? "",
+    sort: ["error", "cost"].includes(given.get("sort")) ? given.get("sort") : "name",
+    verdict: ["bad", "drift", "good"].includes(given.get("verdict")) ? given.get("verdict") : "",
+    filter: (given.get("filter") ?? "").toLowerCase(),
     layout: given.get("layout") === "side" ? "side" : "overlay",
     log: given.get("log") !== "0",
     zoom: zoom.length === 2 && zoom[1] > zoom[0] ? zoom : null,

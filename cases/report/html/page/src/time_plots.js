@@ -1,5 +1,6 @@
 // Quantities over time, one plot a quantity, all with one cursor, which is the playback's time, and one zoom.
 import uPlot from "uplot";
+import { failedAt } from "./data.js";
 import { el, replace } from "./dom.js";
 import { percent, quantity, words } from "./format.js";
 import { valueAt } from "./playback_data.js";
@@ -69,9 +70,9 @@ export class TimePlots {
           this.more ? "fewer" : `${this.others.length} more`,
         )
       : null;
-    replace(this.root, el("div.plot-bar", {}, el("span.fine", {}, "over time"), scale, whole, more), holders);
+    replace(this.root, el("div.plot-bar", {}, el("span.fine", {}, "over time"), scale, whole, more), this.coinciding(), holders);
     if (!this.data.runs.size)
-      replace(this.root, el("p.fine", {}, "Of no run at this step size is there anything to plot."));
+      replace(this.root, el("p.fine", {}, "No run at this step size has anything to plot."));
     this.fit();
     this.movePlayheads();
   }
@@ -204,7 +205,7 @@ export class TimePlots {
       hooks: {
         setCursor: [(u) => this.hover(u)],
         setSelect: [(u) => this.zoomed(u)],
-        draw: [() => this.movePlayheads()],
+        draw: [(u) => this.markFailures(u), () => this.movePlayheads()],
       },
     };
     const chart = new uPlot(options, joined, holder);
@@ -215,7 +216,42 @@ export class TimePlots {
     return figure;
   }
 
-  // The range of the truth and of runs that did not blow up. Blown-up runs would make the others invisible.
+  // A dashed line where a shown run blew up or collapsed.
+  markFailures(chart) {
+    const { ctx, bbox } = chart;
+    for (const engine of this.engines) {
+      const time = failedAt(this.one.cells.find((c) => c.engine === engine.name && c.dt === this.dt));
+      if (time === null || time < chart.scales.x.min || time > chart.scales.x.max) continue;
+      const x = Math.round(chart.valToPos(time, "x", true));
+      ctx.save();
+      ctx.strokeStyle = engine.hex[isDark() ? 1 : 0];
+      ctx.fillStyle = colour("--bad-solid");
+      ctx.setLineDash([4, 3]);
+      ctx.beginPath(), ctx.moveTo(x, bbox.top), ctx.lineTo(x, bbox.top + bbox.height), ctx.stroke();
+      ctx.font = `${Math.round(11 * devicePixelRatio)}px system-ui, sans-serif`;
+      ctx.fillText("✕", x - 5 * devicePixelRatio, bbox.top + 10 * devicePixelRatio);
+      ctx.restore();
+    }
+  }
+
+  // Engines whose error is the same within 1 % at every kept instant hide each other: they are named.
+  coinciding() {
+    const errors = this.engines
+      .map((e) => [e.name, this.data.runs.get(e.name).series[this.names[0]]])
+      .filter(([, c]) => c && c.values.length);
+    const alike = (a, b) =>
+      a.values.length === b.values.length &&
+      a.values.every((v, i) => Math.abs(v - b.values[i]) <= 0.01 * Math.max(Math.abs(v), Math.abs(b.values[i]), 1e-12));
+    const groups = [];
+    for (const [name, course] of errors) {
+      const group = groups.find((g) => alike(g.course, course));
+      group ? group.names.push(name) : groups.push({ course, names: [name] });
+    }
+    const told = groups.filter((g) => g.names.length > 1).map((g) => g.names.join(" = "));
+    return told.length ? el("p.fine.coinciding", {}, `Curves that coincide: ${told.join("; ")}.`) : null;
+  }
+
+  // What the runs that did not blow up and the truth span: those that did would leave nothing of the others to be seen.
   tameRange(series, truth) {
     let low = Infinity,
       high = -Infinity;

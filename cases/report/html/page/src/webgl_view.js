@@ -147,13 +147,19 @@ export class WebglView {
       (grid.material.opacity = isDark() ? 0.28 : 0.32), grid.material.color.set(isDark() ? 0x8899aa : 0xffffff);
   }
 
+  // Bodies of a run that has failed by now are red.
+  tint(layer) {
+    const { material } = this.groups.get(layer.name);
+    material.color.set(layer.hasFailed ? colour("--bad-solid") : layer.engine ? layer.engine.hex[isDark() ? 1 : 0] : colour("--truth-solid"));
+  }
+
   draw(panes, { trails, width, height }) {
     const { renderer, eye } = this,
       { camera } = this.context;
     renderer.setPixelRatio(this.ratio);
     renderer.setSize(width, height, false);
     const layers = new Set(panes.flatMap((p) => p.layers));
-    for (const layer of layers) this.place(this.groups.get(layer.name), trails);
+    for (const layer of layers) this.place(this.groups.get(layer.name), trails), this.tint(layer);
     eye.position.set(...camera.eye());
     eye.up.set(...camera.axes().up);
     eye.lookAt(...camera.target);

@@ -1,4 +1,4 @@
-#include "cases/analysis/stiffest_frequency.h"
+#include "cases/analysis/small_motions/stiffest_frequency.h"
 
 #include <cmath>
 #include <tuple>

@@ -1,0 +1,164 @@
+#include "cases/analysis/frontier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "cases/results/main_error.h"
+#include "cases/results/observed_order.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Outcome {
+  double error;  // infinite if the cell failed
+  double cost;   // 0 if it was not measured
+};
+
+bool has_failed(const Cell& cell) {
+  switch (cell.status) {
+    case Status::crashed:
+    case Status::diverged:
+    case Status::invalid:
+    case Status::timed_out:
+      return true;
+    default:
+      return cell.stability.verdict != Verdict::stable && cell.stability.verdict != Verdict::drifting;
+  }
+}
+
+// None where the cell says nothing about the run: it was not run, or there is no truth independent of it.
+std::optional<Outcome> outcome_of(const CaseResult& result, const Cell& cell, const std::string& metric) {
+  if (cell.status == Status::unsupported) return {};
+  const auto value = cell.metrics.find(metric);
+  const bool has_value = value != cell.metrics.end() && value->second.not_applicable.empty();
+  if (has_value && value->second.is_held_to_itself) return {};
+  if (has_failed(cell)) return Outcome{kInfinity, 0};
+  if (!has_value || !std::isfinite(value->second.value)) return {};
+  const auto cost = cell.metrics.find("cost");
+  const bool is_timed = cost != cell.metrics.end() && cost->second.not_applicable.empty() && cost->second.value > 0;
+  return Outcome{std::max(value->second.value, error_floor(result)), is_timed ? cost->second.value : 0};
+}
+
+// The smallest value that at least this share of them do not exceed.
+double percentile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+double geometric_mean(const std::vector<double>& values) {
+  double logarithms = 0;
+  for (const double value : values) logarithms += std::log(value);
+  return values.empty() ? kInfinity : std::exp(logarithms / static_cast<double>(values.size()));
+}
+
+FrontierPoint point_of(const StepSize& dt, const std::vector<Outcome>& outcomes) {
+  std::vector<double> all, finite, costs;
+  for (const Outcome& outcome : outcomes) {
+    all.push_back(outcome.error);
+    if (std::isfinite(outcome.error)) finite.push_back(outcome.error);
+    if (outcome.cost > 0) costs.push_back(outcome.cost);
+  }
+  FrontierPoint point{dt, all.size(), all.size() - finite.size()};
+  point.mean = geometric_mean(finite);
+  point.low = percentile(all, 0.1), point.high = percentile(all, 0.9);
+  point.cost = costs.empty() ? 0 : geometric_mean(costs);
+  return point;
+}
+
+// Only lengths and angles: a drift of energy has no tolerance in metres.
+bool has_comparable_error(const std::string& metric) {
+  return metric == "position_error" || metric == "orientation_error";
+}
+
+std::vector<FrontierPoint> points_of(const Results& results, const std::string& family, std::size_t run) {
+  std::map<double, std::pair<StepSize, std::vector<Outcome>>, std::greater<>> by_step;
+  for (const CaseResult& result : results.cases) {
+    const std::string metric = main_error(result);
+    if (!has_comparable_error(metric) || (!family.empty() && !result.definition.id.starts_with(family + "/"))) continue;
+    for (const Cell& cell : result.cells) {
+      if (cell.run != run) continue;
+      const std::optional<Outcome> outcome = outcome_of(result, cell, metric);
+      if (!outcome) continue;
+      auto& [dt, outcomes] = by_step[cell.dt.seconds];
+      dt = cell.dt, outcomes.push_back(*outcome);
+    }
+  }
+  std::vector<FrontierPoint> points;
+  for (const auto& [seconds, at_step] : by_step) points.push_back(point_of(at_step.first, at_step.second));
+  std::size_t most = 0;
+  for (const FrontierPoint& point : points) most = std::max(most, point.cases);
+  std::erase_if(points, [&](const FrontierPoint& point) { return 2 * point.cases < most; });
+  return points;
+}
+
+bool is_adaptive(const Results& results, std::size_t run) {
+  const RunName& name = results.runs[run];
+  for (const EngineInfo& engine : results.engines)
+    if (engine.name == name.engine) return method_of(engine, name.settings).adaptive;
+  return false;
+}
+
+bool is_candidate(const Results& results, const Frontier& frontier, Candidates candidates) {
+  const bool is_core = is_in_house(results, frontier.run);
+  switch (candidates) {
+    case Candidates::engines:
+      return !is_core;
+    case Candidates::core_methods:
+      return is_core && !frontier.is_reference;
+    case Candidates::references:
+      return frontier.is_reference;
+  }
+  return false;
+}
+
+std::size_t most_cases(const Frontier& frontier) {
+  std::size_t most = 0;
+  for (const FrontierPoint& point : frontier.points) most = std::max(most, point.cases);
+  return most;
+}
+
+// What a point costs; where nothing was timed, how many steps it takes.
+double work_of(const FrontierPoint& point, bool is_timed) { return is_timed ? point.cost : 1 / point.dt.seconds; }
+
+bool is_any_timed(const std::vector<Frontier>& frontiers) {
+  for (const Frontier& frontier : frontiers)
+    for (const FrontierPoint& point : frontier.points)
+      if (point.cost > 0) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<Frontier> frontiers(const Results& results, const std::string& family) {
+  std::vector<Frontier> all;
+  for (std::size_t run = 0; run < results.runs.size(); ++run) {
+    Frontier frontier{run, is_in_house(results, run) && is_adaptive(results, run), points_of(results, family, run)};
+    if (!frontier.points.empty()) all.push_back(std::move(frontier));
+  }
+  return all;
+}
+
+std::optional<Choice> cheapest_within(const Results& results, const std::vector<Frontier>& frontiers, double tolerance,
+                                      Candidates candidates) {
+  std::size_t most = 0;
+  for (const Frontier& frontier : frontiers) most = std::max(most, most_cases(frontier));
+  const bool is_timed = is_any_timed(frontiers);
+  std::optional<Choice> best;
+  for (const Frontier& frontier : frontiers) {
+    if (!is_candidate(results, frontier, candidates)) continue;
+    for (const FrontierPoint& point : frontier.points) {
+      const auto cases = static_cast<double>(point.cases);
+      const bool is_within = point.mean <= tolerance && static_cast<double>(point.failed) <= kMostFailed * cases;
+      if (!is_within || 2 * point.cases < most || (is_timed && !(point.cost > 0))) continue;
+      if (!best || work_of(point, is_timed) < work_of(best->point, is_timed)) best = Choice{frontier.run, point};
+    }
+  }
+  return best;
+}
+
+}  // namespace rigor

@@ -1,0 +1,53 @@
+// Error against cost over many cases: one curve per run, one point per step size. The report's first picture shows the
+// curves; the recommendation is read off them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/results/results.h"
+
+namespace rigor {
+
+// What a run did at one step size, over the cases of a scope.
+struct FrontierPoint {
+  StepSize dt;
+  std::size_t cases = 0;   // with an error to compare, or failed
+  std::size_t failed = 0;  // of these: no result, or a motion that is wrong as a whole (blown up, collapsed, ...)
+  // m, or rad in cases where nothing moves away: over the cases that did not fail. `low` and `high` are the 10th and
+  // the 90th percentile over all cases; a failed case counts as infinite.
+  double mean = 0;  // geometric
+  double low = 0, high = 0;
+  double cost = 0;  // s of CPU time per simulated second, geometric mean; 0 where nothing was timed
+};
+
+struct Frontier {
+  std::size_t run = 0;                // index in Results::runs
+  bool is_reference = false;          // an adaptive method of the core: no engine that a user could take instead
+  std::vector<FrontierPoint> points;  // coarse to fine; steps that fewer than half of the run's cases have are left out
+};
+
+// Of the cases whose id begins with `family` and a slash, or of all cases if it is empty. A case counts where it has a
+// truth that is independent of the run. Runs without a point are left out.
+std::vector<Frontier> frontiers(const Results& results, const std::string& family = "");
+
+inline constexpr double kRecommendedTolerance = 1e-3;  // m or rad: what a first answer is for
+
+// The share of failed cases up to which a point may be recommended: one case in twenty.
+inline constexpr double kMostFailed = 0.05;
+
+struct Choice {
+  std::size_t run = 0;
+  FrontierPoint point;
+};
+
+// Who may be recommended.
+enum class Candidates { engines, core_methods, references };
+
+// The cheapest point whose mean error is within the tolerance, of runs that compare at least half as many cases as the
+// run that compares most. Where nothing was timed, the point with the largest step. None if there is no such point.
+std::optional<Choice> cheapest_within(const Results& results, const std::vector<Frontier>& frontiers, double tolerance,
+                                      Candidates candidates);
+
+}  // namespace rigor

@@ -1,0 +1,78 @@
+#include "cases/report/wording/explanations/contact_explanation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+// The step at which a diagnosis has its value.
+const StepSize& step_of_value(const Diagnosis& found) {
+  for (const auto& [dt, value] : found.over) {
+    if (value == found.value) return dt;
+  }
+  return found.over.front().first;
+}
+
+std::string overlap_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
+  const StepSize& dt = found.over.front().first;
+  return fmt::format(
+      "Why: {} pushes an overlap out as speed. After an impact without bounce bodies part at {} of their approach "
+      "speed, "
+      "at dt = {} s.",
+      name, claims.percent(claim_of(results, found, dt, "worst found of restitution_error", found.value)), dt.text);
+}
+
+std::string unconverged_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
+  Claim grows = claim_of(results, found, step_of_value(found), "restitution_error", found.value);
+  grows.relation = Relation::above, grows.bound = found.over.front().second;
+  claims.state(grows);
+  return fmt::format("Why: the restitution error of {} does not fall with dt: {}.", name,
+                     text_over_steps(results, found, "restitution_error", "", claims));
+}
+
+std::string friction_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
+  const StepSize& dt = step_of_value(found);
+  return fmt::format(
+      "Why: the friction of {} depends on direction. Stopping distances that should be equal differ by {} at dt = {} "
+      "s. "
+      "The worst body stops after {} instead of {}.",
+      name, claims.percent(claim_of(results, found, dt, "friction_anisotropy", found.value)), dt.text,
+      claims.quantity(claim_of(results, found, dt, "worst found of friction_anisotropy", found.worst.found), "m"),
+      claims.quantity(claim_of(results, found, dt, "worst expected of friction_anisotropy", found.worst.expected),
+                      "m"));
+}
+
+}  // namespace
+
+Claim claim_of(const Results& results, const Diagnosis& found, const StepSize& dt, const std::string& quantity,
+               double value) {
+  return {quantity, found.of_case, results.runs[found.runs.front()].text, dt.text, "", value};
+}
+
+std::string text_over_steps(const Results& results, const Diagnosis& found, const std::string& metric,
+                            const std::string& unit, Claims& claims) {
+  std::string list;
+  for (const auto& [dt, value] : found.over) {
+    list += fmt::format("{}{} at {}{} s", list.empty() ? "" : ", ",
+                        claims.quantity(claim_of(results, found, dt, metric, value), unit), list.empty() ? "dt = " : "",
+                        dt.text);
+  }
+  return list;
+}
+
+std::vector<Message> contact_explanations(const Results& results, const CaseResult& result) {
+  std::vector<Message> messages;
+  for (const Diagnosis& found : contact_diagnoses(result)) {
+    const std::string& name = results.runs[found.runs.front()].text;
+    Claims claims;
+    const std::string text = found.topic == kOverlapGivenBack ? overlap_text(results, found, name, claims)
+                             : found.topic == kUnconverged    ? unconverged_text(results, found, name, claims)
+                                                              : friction_text(results, found, name, claims);
+    messages.push_back({found.topic, found.cause.empty() ? text : text + " " + found.cause, "", claims.take()});
+  }
+  return messages;
+}
+
+}  // namespace rigor

@@ -1,0 +1,34 @@
+#include "cases/results/main_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+// Not a number where the cell has no such value.
+double main_value_of(const Cell& cell, const std::string& name) {
+  const auto found = cell.metrics.find(name);
+  return found == cell.metrics.end() || !found->second.not_applicable.empty() ? std::nan("") : found->second.value;
+}
+
+double worst_of(const CaseResult& result, const std::string& name) {
+  double worst = 0;
+  for (const Cell& cell : result.cells) worst = std::max(worst, main_value_of(cell, name));  // ignores not-a-number
+  return worst;
+}
+
+}  // namespace
+
+std::string main_error(const CaseResult& result) {
+  constexpr double kMoves = 1e-9;  // m and rad: less is rounding
+  for (const char* name : {"position_error", "orientation_error"}) {
+    if (worst_of(result, name) > kMoves) return name;
+  }
+  const bool has_truth = std::any_of(result.cells.begin(), result.cells.end(), [](const Cell& cell) {
+    return !std::isnan(main_value_of(cell, "position_error"));
+  });
+  return has_truth && worst_of(result, "energy_drift") < kMoves ? "position_error" : "energy_drift_synchronised";
+}
+
+}  // namespace rigor
