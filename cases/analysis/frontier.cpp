@@ -5,8 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "cases/results/main_error.h"
-#include "cases/results/observed_order.h"
+#include "cases/analysis/cell_error.h"
 
 namespace rigor {
 namespace {
@@ -18,29 +17,20 @@ struct Outcome {
   double cost;   // 0 if it was not measured
 };
 
-bool has_failed(const Cell& cell) {
-  switch (cell.status) {
-    case Status::crashed:
-    case Status::diverged:
-    case Status::invalid:
-    case Status::timed_out:
-      return true;
-    default:
-      return cell.stability.verdict != Verdict::stable && cell.stability.verdict != Verdict::drifting;
-  }
+// A motion that is wrong as a whole, though its numbers are finite.
+bool is_wrong_as_a_whole(const Cell& cell) {
+  return !cell.metrics.empty() && cell.stability.verdict != Verdict::stable &&
+         cell.stability.verdict != Verdict::drifting;
 }
 
 // None where the cell says nothing about the run: it was not run, or there is no truth independent of it.
 std::optional<Outcome> outcome_of(const CaseResult& result, const Cell& cell, const std::string& metric) {
-  if (cell.status == Status::unsupported) return {};
-  const auto value = cell.metrics.find(metric);
-  const bool has_value = value != cell.metrics.end() && value->second.not_applicable.empty();
-  if (has_value && value->second.is_held_to_itself) return {};
-  if (has_failed(cell)) return Outcome{kInfinity, 0};
-  if (!has_value || !std::isfinite(value->second.value)) return {};
+  const MainErrorOfCell error = main_error_of(result, cell, metric);
+  if (error.kind == MainErrorOfCell::Kind::none) return {};
+  if (error.kind == MainErrorOfCell::Kind::failed || is_wrong_as_a_whole(cell)) return Outcome{kInfinity, 0};
   const auto cost = cell.metrics.find("cost");
   const bool is_timed = cost != cell.metrics.end() && cost->second.not_applicable.empty() && cost->second.value > 0;
-  return Outcome{std::max(value->second.value, error_floor(result)), is_timed ? cost->second.value : 0};
+  return Outcome{error.value, is_timed ? cost->second.value : 0};
 }
 
 // The smallest value that at least this share of them do not exceed.
@@ -70,19 +60,14 @@ FrontierPoint point_of(const StepSize& dt, const std::vector<Outcome>& outcomes)
   return point;
 }
 
-// Only lengths and angles: a drift of energy has no tolerance in metres.
-bool has_comparable_error(const std::string& metric) {
-  return metric == "position_error" || metric == "orientation_error";
-}
-
 std::vector<FrontierPoint> points_of(const Results& results, const std::string& family, std::size_t run) {
   std::map<double, std::pair<StepSize, std::vector<Outcome>>, std::greater<>> by_step;
   for (const CaseResult& result : results.cases) {
-    const std::string metric = main_error(result);
-    if (!has_comparable_error(metric) || (!family.empty() && !result.definition.id.starts_with(family + "/"))) continue;
+    if (!has_main_error_of_truth(result) || (!family.empty() && !result.definition.id.starts_with(family + "/")))
+      continue;
     for (const Cell& cell : result.cells) {
       if (cell.run != run) continue;
-      const std::optional<Outcome> outcome = outcome_of(result, cell, metric);
+      const std::optional<Outcome> outcome = outcome_of(result, cell, main_error(result));
       if (!outcome) continue;
       auto& [dt, outcomes] = by_step[cell.dt.seconds];
       dt = cell.dt, outcomes.push_back(*outcome);
@@ -94,13 +79,6 @@ std::vector<FrontierPoint> points_of(const Results& results, const std::string& 
   for (const FrontierPoint& point : points) most = std::max(most, point.cases);
   std::erase_if(points, [&](const FrontierPoint& point) { return 2 * point.cases < most; });
   return points;
-}
-
-bool is_adaptive(const Results& results, std::size_t run) {
-  const RunName& name = results.runs[run];
-  for (const EngineInfo& engine : results.engines)
-    if (engine.name == name.engine) return method_of(engine, name.settings).adaptive;
-  return false;
 }
 
 bool is_candidate(const Results& results, const Frontier& frontier, Candidates candidates) {
@@ -137,7 +115,7 @@ bool is_any_timed(const std::vector<Frontier>& frontiers) {
 std::vector<Frontier> frontiers(const Results& results, const std::string& family) {
   std::vector<Frontier> all;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
-    Frontier frontier{run, is_in_house(results, run) && is_adaptive(results, run), points_of(results, family, run)};
+    Frontier frontier{run, is_reference_method(results, run), points_of(results, family, run)};
     if (!frontier.points.empty()) all.push_back(std::move(frontier));
   }
   return all;

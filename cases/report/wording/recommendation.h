@@ -1,0 +1,15 @@
+// The first answer of each report: which engine and which step to take.
+#pragma once
+
+#include <optional>
+
+#include "cases/report/wording/message.h"
+#include "cases/results/results.h"
+
+namespace rigor {
+
+// "For 1 mm take simbody at 1/30 s", and in `more` what else is within the tolerance. None where no error can be
+// compared.
+std::optional<Message> recommendation(const Results& results);
+
+}  // namespace rigor
