@@ -137,11 +137,13 @@ std::string diagnose_text(const CommandLine& line, const std::vector<Failure>& r
                      same_sources(line));
 }
 
+Detail detail_of(const CommandLine& line) { return line.verbose ? Detail::full : Detail::brief; }
+
 int answer_of_gate(const GridRun& run, int ending) {
   std::vector<Failure> rows = failures(run.grid);
   const std::vector<Failure> unmet = unmet_of_whole_suite(run.line, run.grid);
   rows.insert(rows.end(), unmet.begin(), unmet.end());
-  print_table(console_table(run.grid) + left_out_text(run) + gate_summary(run.grid) +
+  print_table(console_table(run.grid, detail_of(run.line)) + left_out_text(run) + gate_summary(run.grid) +
               failures_text(rows, diagnose_text(run.line, rows)));
   tell_the_runner(run.grid, rows);
   return ending == kGood && !(all_gates_hold(run.grid) && unmet.empty()) ? int{kGateFailed} : ending;
@@ -252,7 +254,7 @@ int ending_of(const Results& grid, bool is_whole) {
 int answer(const GridRun& run, bool is_whole) {
   const int ending = ending_of(run.grid, is_whole);
   if (is_gate(run.line)) return answer_of_gate(run, ending);
-  print_table(console_table(run.grid) + left_out_text(run));
+  print_table(console_table(run.grid, detail_of(run.line)) + left_out_text(run));
   return ending;
 }
 

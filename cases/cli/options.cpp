@@ -61,6 +61,7 @@ struct Options {
     add("--timeout", typed.limit, "CPU time that a cell or a truth may take, in s; default: 120", "S");
     add("--shard", typed.shard, "run only the K-th of N parts of the grid; rigor merge joins them", "K/N");
     add_flag("--resume", line.resume, "continue an interrupted run in the same folder");
+    add_flag("--verbose", line.verbose, "print every table and every reason");
     add_flag("--quick", line.quick, "check only gates whose cells are fast");
   }
 

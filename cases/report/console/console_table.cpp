@@ -12,6 +12,7 @@
 #include "cases/report/wording/explained_error.h"
 #include "cases/report/wording/explanations/explanation.h"
 #include "cases/report/wording/findings/findings.h"
+#include "cases/report/wording/recommendation.h"
 #include "cases/report/wording/wording.h"
 #include "cases/truth/provenance.h"
 
@@ -175,21 +176,57 @@ std::string unsupported_lines(const Results& results, const CaseResult& result, 
   return text;
 }
 
-std::string block(const Results& results, const CaseResult& result) {
-  const StepSize dt = coarsest_dt(result);
-  std::string text = wrapped(fmt::format("{}: {}", result.definition.id, result.definition.title), 2) + "\n";
-  text += "  " + wrapped(truth_sentence(result), 2) + "\n" + header(dt);
+// The table of one case at its coarsest step.
+std::string table_of(const Results& results, const CaseResult& result, const StepSize& dt) {
+  std::string text = header(dt);
   for (const Cell& cell : result.cells) {
     if (cell.dt == dt && cell.status != Status::unsupported) text += row_line(row_text(results, result, cell));
   }
   text += unsupported_lines(results, result, dt);
   for (const std::string& warning : cell_warnings(results, result, dt))
     text += "  " + wrapped("warning: " + warning, 4) + "\n";
-  text += explained_text(explained_rows(results, result, dt));
+  return text;
+}
+
+std::string title_of(const CaseResult& result) {
+  return wrapped(fmt::format("{}: {}", result.definition.id, result.definition.title), 2) + "\n";
+}
+
+std::string full_block(const Results& results, const CaseResult& result) {
+  const StepSize dt = coarsest_dt(result);
+  std::string text = title_of(result) + "  " + wrapped(truth_sentence(result), 2) + "\n";
   for (const Message& message : explanations(results, result)) text += "  " + wrapped(message.text, 2) + "\n";
+  text += table_of(results, result, dt) + explained_text(explained_rows(results, result, dt));
   for (const Message& message : work_precision_messages(results, result))
     text += "  " + wrapped(message.text, 2) + "\n";
   return text + gate_lines(result, true);
+}
+
+// The first reason, then the table: a screen.
+std::string brief_block(const Results& results, const CaseResult& result) {
+  const std::vector<Message> reasons = explanations(results, result);
+  std::string text = title_of(result);
+  if (!result.error.empty() || !result.truth) text += "  " + wrapped(truth_sentence(result), 2) + "\n";
+  if (!reasons.empty()) text += "  " + wrapped(reasons.front().text, 2) + "\n";
+  text += table_of(results, result, coarsest_dt(result)) + gate_lines(result, true);
+  if (reasons.size() > 1)
+    text += fmt::format("  {} more reason{}: --verbose\n", reasons.size() - 1, reasons.size() == 2 ? "" : "s");
+  return text;
+}
+
+// Which engine and step to take, then the problems found.
+std::string answers_text(const Results& results, Detail detail) {
+  constexpr std::size_t kMostInBrief = 6;
+  std::string text;
+  if (const auto first = recommendation(results))
+    text += wrapped(first->text + (first->more.empty() ? "" : " " + first->more), 2) + "\n";
+  if (results.cases.size() < 2) return text.empty() ? "" : text + "\n";
+  const std::vector<Finding> found = findings(results);
+  const std::size_t shown = detail == Detail::full ? found.size() : std::min(found.size(), kMostInBrief);
+  for (std::size_t i = 0; i < shown; ++i)
+    text += "- " + wrapped(fmt::format("{}: {}", found[i].topic, found[i].text), 2) + "\n";
+  if (shown < found.size()) text += fmt::format("- {} more: --verbose\n", found.size() - shown);
+  return text.empty() ? "" : text + "\n";
 }
 
 std::string count_line(const Results& results) {
@@ -323,19 +360,18 @@ std::string gate_summary(const Results& results) {
          unjudged_text(results);
 }
 
-std::string console_table(const Results& results) {
+std::string console_table(const Results& results, Detail detail) {
   constexpr std::size_t kMostInFull = 6;  // cases: a few screens
-  const bool is_in_full = results.cases.size() <= kMostInFull;
-  std::string text = is_in_full ? "" : console_matrix(results) + "\n";
+  const bool has_blocks = results.cases.size() <= kMostInFull;
+  std::string text = answers_text(results, detail);
+  if (!has_blocks) text += console_matrix(results) + "\n";
   for (const CaseResult& result : results.cases) {
-    if (is_in_full) text += block(results, result) + "\n";
-    const std::string short_of = is_in_full ? "" : what_is_wrong(result);
+    if (has_blocks)
+      text += (detail == Detail::full ? full_block(results, result) : brief_block(results, result)) + "\n";
+    const std::string short_of = has_blocks ? "" : what_is_wrong(result);
     if (!short_of.empty()) text += result.definition.id + "\n" + short_of;
   }
-  if (!is_in_full) text += "each case in full: report.html, report.md, or `rigor run CASE`\n\n";
-  if (results.cases.size() > 1) {
-    for (const Finding& found : findings(results)) text += wrapped(found.topic + ": " + found.text, 2) + "\n";
-  }
+  if (!has_blocks) text += "each case in full: report.html, report.md, or `rigor run CASE`\n";
   return text + count_line(results);
 }
 

@@ -1,5 +1,5 @@
-// The output of `rigor run`: one block per case with one row per engine, in at most 100 columns of plain text. For many
-// cases it is the matrix of cases and engines.
+// The output of `rigor run`, in at most 100 columns of plain text: which engine and step to take, the problems found, then
+// one block per case with one row per engine. For many cases a matrix of cases and engines stands in place of the blocks.
 #pragma once
 
 #include <string>
@@ -10,7 +10,9 @@
 
 namespace rigor {
 
-std::string console_table(const Results& results);
+// brief: one case fits on a screen. full: with the truth's provenance, explained errors, every reason and every finding.
+enum class Detail { brief, full };
+std::string console_table(const Results& results, Detail detail = Detail::full);
 
 // The failures, one paragraph each, worst first.
 std::string failures_text(const std::vector<Failure>& rows, const std::string& diagnose);

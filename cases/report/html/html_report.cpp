@@ -81,7 +81,7 @@ std::string html_report(const Results& results) {
   std::string page =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" + policy() +
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Rigor: how right each engine was</title>\n<style>\n";
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Rigor: which engine, which step, and why</title>\n<style>\n";
   page += kPageStyle;
   page +=
       "</style>\n</head>\n<body>\n<main id=\"page\"><p class=\"loading\">Unpacking the results …</p>"

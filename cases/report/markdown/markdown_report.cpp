@@ -18,7 +18,7 @@
 #include "cases/report/wording/explained_error.h"
 #include "cases/report/wording/explanations/explanation.h"
 #include "cases/report/wording/findings/findings.h"
-#include "cases/report/wording/printed_command.h"
+#include "cases/report/wording/recommendation.h"
 #include "cases/report/wording/verdict_matrix.h"
 
 namespace rigor {
@@ -240,7 +240,9 @@ std::string matrices(const Results& results, Words words) {
 }  // namespace
 
 std::string markdown_report(const Results& results) {
-  std::string text = "# Rigor: how right each engine was\n\n";
+  std::string text = "# Rigor: which engine, which step, and why\n\n";
+  if (const auto first = recommendation(results))
+    text += fmt::format("**{}** {}\n\n", plain(first->text), plain(first->more));
   for (const Finding& found : findings(results)) {
     text += fmt::format("- **{}:** {}\n", found.topic, plain(found.text));
     if (!found.more.empty()) text += fmt::format("  <br>{}\n", plain(found.more));
