@@ -1,6 +1,6 @@
 // One case: the truth, the runs in motion, their series over time, and the summary over all step sizes.
 import { asideOf, cellOf, dtOf, judgement, hasNumbers } from "./data.js";
-import { el, replace } from "./dom.js";
+import { el, replace, typeset } from "./dom.js";
 import { digits, quantity } from "./format.js";
 import { convergence, stabilityMap, workPrecision } from "./charts.js";
 import { gatesTable, numbersTable, sceneFile, settingsTable } from "./case_tables.js";
@@ -129,7 +129,7 @@ export class CaseView {
             el(
               "ul.findings",
               {},
-              one.explanations.map((text) => el("li", {}, text)),
+              one.explanations.map((text) => el("li", {}, typeset(text))),
             ),
           )
         : null,

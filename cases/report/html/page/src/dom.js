@@ -48,3 +48,12 @@ export const tableHead = (...labels) =>
       labels.flat().map((label) => (label instanceof Node ? label : el("th", { scope: "col" }, label))),
     ),
   );
+
+// Formulas of plain text as they are set: powers raised, Greek letters, products of two symbols set apart.
+export function typeset(text) {
+  const greek = { omega: "ω", theta: "θ", mu: "µ" };
+  return text
+    .replace(/\b(omega|theta|mu)\b/g, (word) => greek[word])
+    .split(/(\^(?:-?\d+|\([^)]*\)))/)
+    .map((part) => (part.startsWith("^") ? el("sup", {}, part.slice(1).replace(/^\(|\)$/g, "").replace("-", "−")) : part));
+}

@@ -26,7 +26,10 @@ function header(results) {
     el(
       "span.tagline",
       {},
-      `${count(cases.length, "case")} · ${count(engines.length, "engine")} · how right each one was`,
+      `${count(cases.length, "case")} · ${count(new Set(engines.map((e) => e.name.split(/[:@,]/)[0])).size, "engine")} · ${count(engines.length, "method and setting")}`.replace(
+        "method and settings",
+        "methods and settings",
+      ),
     ),
     el("span.spacer"),
     el("button.quiet", { type: "button", title: "Keys (?)", onclick: openHelp, "aria-label": "Keys and help" }, "?"),
