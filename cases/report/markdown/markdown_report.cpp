@@ -18,6 +18,7 @@
 #include "cases/report/wording/explained_error.h"
 #include "cases/report/wording/explanations/explanation.h"
 #include "cases/report/wording/findings/findings.h"
+#include "cases/report/wording/printed_command.h"
 #include "cases/report/wording/recommendation.h"
 #include "cases/report/wording/verdict_matrix.h"
 
