@@ -170,6 +170,16 @@ BOOST_AUTO_TEST_CASE(the_ends_of_a_joint_may_be_exchanged) {
   for_each_core_run(scene, [&](const Run& run) {
     const bool has_stages_beside = run.settings.method.starts_with("rk");
     const double apart = difference(end_of(run, scene), end_of(run, other));
+    // Explicit Euler leaves its joints by the square of the step, and its way back differs by the square of that gap:
+    // the third power of the step in all.
+    if (run.settings.method == "explicit-euler") {
+      const auto after_half_steps = [&](const Scene& told) {
+        return states_of(state_after(*run.load(told), kStep / 2, 2 * kSteps));
+      };
+      BOOST_TEST(apart < 1e-7);
+      BOOST_TEST(difference(after_half_steps(scene), after_half_steps(other)) < apart / 6);
+      return;
+    }
     BOOST_TEST(apart <= (has_stages_beside ? 1e-8 : tolerance(run, scene)));
     if (has_stages_beside) BOOST_TEST(apart > tolerance(run, scene), "it keeps the law: its exception is to go");
   });

@@ -27,12 +27,12 @@ struct Row {
   decltype(Joint::type) type;
 };
 const Row kJoints[] = {{"ball", BallJoint{{0.5, 0.1, 0.4}}},
-                       {"cylindrical", CylindricalJoint{{0.5, 0.1, 0.4}, kAxis}},
                        {"hinge", HingeJoint{{0.5, 0.1, 0.4}, kAxis}},
                        {"slider", SliderJoint{kAxis}},
                        {"fixed", FixedJoint{}},
                        {"distance", DistanceJoint{{0.1, 0.2, 0.3}, {-0.2, 0.1, 0.1}}},
-                       {"universal", UniversalJoint{{0.5, 0.1, 0.4}, kAxis, kAxis2}}};
+                       {"universal", UniversalJoint{{0.5, 0.1, 0.4}, kAxis, kAxis2}},
+                       {"cylindrical", CylindricalJoint{{0.5, 0.1, 0.4}, kAxis}}};
 
 BodyTable at_start(const Scene& scene) {
   BodyTable bodies(scene.bodies.size());
@@ -130,7 +130,10 @@ BOOST_AUTO_TEST_CASE(each_joint_lets_free_what_it_lets_free_and_holds_the_rest) 
                         {3, 0.004 * askew.normalized(), 0.02 * askew.normalized(), 0.004, 0.02},
                         {5, about(0.6 * kAxis2), 0.6 * kAxis2, 0, 0},
                         {5, about(0.6 * kAxis), 0.6 * kAxis, 0, 0},
-                        {5, about(0.01 * kAxis.cross(kAxis2)), 0.01 * kAxis.cross(kAxis2), 0, 0.01}};
+                        {5, about(0.01 * kAxis.cross(kAxis2)), 0.01 * kAxis.cross(kAxis2), 0, 0.01},
+                        {6, about(0.7 * kAxis) + 0.4 * kAxis, 0.7 * kAxis, 0, 0},
+                        {6, 0.4 * kAxis + 0.003 * across, Vec3::Zero(), 0.003, 0},
+                        {6, about(0.01 * across), 0.01 * across, 0, 0.01}};
   for (const Move& move : moves) {
     const Scene scene = pair_with(kJoints[move.joint].type);
     const JointGeometry joint(scene, scene.joints[0]);
