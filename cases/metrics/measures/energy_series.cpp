@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cases/metrics/measures/energy_in_play.h"
-#include "cases/metrics/measures/limit_bounces.h"
+#include "cases/metrics/measures/joints/limit_bounces.h"
 #include "cases/metrics/measures/measuring.h"
 #include "cases/metrics/measures/synchronised.h"
 #include "core/dynamics/model/energy.h"

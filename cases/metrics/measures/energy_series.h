@@ -22,7 +22,7 @@ struct EnergySeries {
 //   nothing takes or gives energy                        what it was at the start
 //   a truth whose energy stays what it was               likewise (an elastic bounce, say)
 //   timed forces, or dampers, and a truth                its own start plus the truth's change, up to its horizon;
-//                                                        bounces at limits in step (limit_bounces.h)
+//                                                        bounces at limits in step (joints/limit_bounces.h)
 //   timed forces without a truth                         nothing
 //   contact that may lose energy, or dampers             at most the lowest so far: only gains count
 EnergySeries energy_series(const JudgedRun& run, double stagger);

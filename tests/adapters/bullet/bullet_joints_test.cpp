@@ -337,6 +337,40 @@ BOOST_AUTO_TEST_CASE(a_hinge_reports_what_it_carries_from_the_first_step_on) {
   }
 }
 
+// Two links on oblique axes, the second with limits that it meets within 2 s, and the mirror image (x is -x) of that.
+Scene limited_links(bool mirrored, bool turns, double restitution) {
+  const double s = mirrored ? -1 : 1;
+  const auto polar = [&](double x, double y, double z) { return Vec3(s * x, y, z); };
+  const auto axial = [&](double x, double y, double z) { return Vec3(x, s * y, s * z).normalized(); };
+  Scene scene;
+  scene.gravity = {0, 0, -9.81};
+  scene.bodies = {test::body("one", 1, {0.02, 0.05, 0.04}, polar(0.5, 0.1, 0)),
+                  test::body("two", 1, {0.02, 0.05, 0.04}, polar(1.2, 0.2, -0.1))};
+  for (Body& body : scene.bodies) body.orientation = Quat(0.8, 0.2, s * 0.3, s * -0.4).normalized();
+  scene.joints = {{kWorld, 0, HingeJoint{polar(0, 0, 0), axial(0.2, 0.9, 0.3)}}};
+  Joint limited{.a = 0, .b = 1, .type = HingeJoint{polar(0.8, 0.15, 0.05), axial(0.3, 0.8, -0.4)}};
+  if (!turns) limited.type = SliderJoint{polar(0.3, 0.8, -0.4).normalized()};
+  limited.lower = -0.5, limited.upper = 0.4, limited.restitution = restitution;
+  scene.joints.push_back(limited);
+  return scene;
+}
+
+BOOST_AUTO_TEST_CASE(limits_act_in_a_scene_as_in_its_mirror_image) {
+  for (const std::string way : {"bullet", "bullet@stock", "bullet:mlcp", kReduced}) {
+    for (const bool turns : {true, false}) {
+      const double restitution = way == kReduced ? 0 : 0.5;
+      const BodyTable as_is = end_of(way, limited_links(false, turns, restitution), 1.0 / 240, 480),
+                      image = end_of(way, limited_links(true, turns, restitution), 1.0 / 240, 480);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Vec3 p = as_is.columns().position(i), q = image.columns().position(i);
+        // All arithmetic is mirrored exactly.
+        BOOST_TEST((p - Vec3(-q.x(), q.y(), q.z())).norm() == 0, way << (turns ? ", hinge" : ", slider"));
+        BOOST_TEST((p - limited_links(false, turns, restitution).bodies[i].position).norm() > 0.01);  // it moves
+      }
+    }
+  }
+}
+
 // btSliderConstraint's own limit looks for its bounce on the way out.
 BOOST_AUTO_TEST_CASE(bullets_own_sliders_limit_never_bounces) {
   btEmptyShape shape;

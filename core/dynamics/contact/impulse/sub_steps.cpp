@@ -28,14 +28,40 @@ constexpr double kContactUpdateInterval = 0.1;
 constexpr double kDampingRatio = 10;              // zeta of the soft constraint
 constexpr double kContactHertzPerSubStep = 0.25;  // its frequency, of that of the sub-steps
 constexpr double kMaxPushSpeed = 2;               // of the scene's speed sqrt(g L); no bound where it has none
-// A gap of this share of the scene's length touches. A point that lands closes its gap to zero but for rounding, and
-// rounding must not decide whether the next sub-step takes it for closed.
-constexpr double kTouching = 1e-7;
+// Of the scene's length: a smaller gap is none. A point that lands closes its gap to zero but for rounding, and rounding
+// must not decide whether the next sub-step takes it for soft.
+constexpr double kTouching = 1e-10;
 
 // An approach faster than gravity causes in this many sub-steps is an impact.
 constexpr double kSubStepsOfFall = 4;
 constexpr int kMaxImpactSweeps = 30;       // over the points of an impact, of which few bodies have more than four
 constexpr double kImpactTolerance = 1e-3;  // of the restitution threshold
+
+// Without gravity: the acceleration by which the fastest speed counts, in v²/L.
+constexpr double kShareOfSpeed = 2;
+
+struct Volume {
+  double operator()(const Sphere& s) const { return 4 * std::numbers::pi / 3 * s.radius * s.radius * s.radius; }
+  double operator()(const Box& b) const { return b.size.prod(); }
+  double operator()(const Capsule& c) const {
+    return (4.0 / 3 * c.radius + c.length) * std::numbers::pi * c.radius * c.radius;
+  }
+  double operator()(const Plane&) const { return 0; }
+};
+
+// m/s²; a moment counts by the torque's acceleration of a point at the distance `length`.
+double largest_load(const Scene& scene, double length) {
+  double most = 0;
+  const auto add = [&](int body, double force) {
+    if (body != kWorld && !scene.bodies[static_cast<std::size_t>(body)].fixed)
+      most = std::max(most, force / scene.bodies[static_cast<std::size_t>(body)].mass);
+  };
+  for (const TimedForce& force : scene.forces) add(force.body, force.force.norm() + force.torque.norm() / length);
+  for (const Spring& spring : scene.springs) {
+    for (const int body : {spring.a, spring.b}) add(body, spring.stiffness * length);
+  }
+  return most;
+}
 
 bool has_uneven_masses(const Scene& scene) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
@@ -46,6 +72,23 @@ bool has_uneven_masses(const Scene& scene) {
 }
 
 }  // namespace
+
+SceneScales scales_of(const Scene& scene) {
+  double sum = 0, fastest = 0;
+  int count = 0;
+  for (const Body& body : scene.bodies) {
+    if (body.fixed || !body.collides) continue;
+    sum += 0.5 * std::cbrt(std::visit(Volume(), *body.shape)), ++count;
+  }
+  const double length = count > 0 ? sum / count : 1;
+  for (const Body& body : scene.bodies) {
+    if (!body.fixed) fastest = std::max(fastest, body.velocity.norm() + length * body.angular_velocity.norm());
+  }
+  double acceleration = scene.gravity.norm();
+  if (acceleration == 0) acceleration = kShareOfSpeed * fastest * fastest / length;
+  if (acceleration == 0) acceleration = largest_load(scene, length);
+  return {length, std::sqrt(length / acceleration)};
+}
 
 int rounded_up(double count) { return static_cast<int>(std::ceil(count - 1e-9)); }
 

@@ -2,13 +2,21 @@
 #pragma once
 
 #include "core/dynamics/contact/contact_method.h"
-#include "core/dynamics/contact/impulse/scene_scales.h"
 #include "core/dynamics/kernels/contact_rows.h"
 
 namespace rigor {
 
 // What is a whole number but for rounding is not made one more.
 int rounded_up(double count);
+
+// The length and the time by which a scene is measured, so that no threshold depends on units.
+struct SceneScales {
+  double length;  // m: half the edge of a cube of a body's volume, the mean over the moving bodies that collide
+  double time;    // s: in which a body at rest starts to cross its own length; infinite if nothing moves it
+  double speed() const { return length / time; }  // m/s
+};
+
+SceneScales scales_of(const Scene& scene);
 
 class SubSteps {
  public:

@@ -1,4 +1,4 @@
-#include "cases/metrics/measures/limit_bounces.h"
+#include "cases/metrics/measures/joints/limit_bounces.h"
 
 #include <algorithm>
 #include <functional>
