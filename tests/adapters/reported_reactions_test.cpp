@@ -1,9 +1,9 @@
 // What engines themselves say their joints carry, where statics says it.
-#include "core/engine/engine.h"
-
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
+#include "adapters/engines.h"
+#include "adapters/faults/broken_engine.h"
 #include "core/engine/run_name.h"
 #include "tests/adapters/ode/jointed_scenes.h"
 #include "tests/adapters/seam_runs.h"
@@ -255,6 +255,18 @@ BOOST_AUTO_TEST_CASE(an_engine_that_has_no_report_has_none) {
   ask_for_reactions(*world);
   world->step(kStep);
   BOOST_TEST(reported_reactions(*world).empty());
+}
+
+// A decorator returns the capabilities of the world that it wraps.
+BOOST_AUTO_TEST_CASE(an_engine_with_a_fault_reports_as_the_engine_does) {
+  const Scene scene = held(BallJoint{{0, 0.5, 0}}, {0, 0, 0}, true);
+  const BrokenEngine broken(find_engine(engines(), "ode"), Fault{.name = "none"});
+  const auto world = broken.load(scene, parse_run_name("ode", infos_of(engines())).settings);
+  ask_for_reactions(*world);
+  world->step(kStep);
+  const auto found = reported_reactions(*world);
+  BOOST_REQUIRE(found.size() == 1u);
+  BOOST_TEST((found[0].force - after_one_step("ode", scene).force).norm() == 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
