@@ -38,7 +38,7 @@ constexpr int kMaxImpactSweeps = 30;       // over the points of an impact, of w
 constexpr double kImpactTolerance = 1e-3;  // of the restitution threshold
 
 // Without gravity: the acceleration by which the fastest speed counts, in v²/L.
-constexpr double kShareOfSpeed = 2;
+constexpr double kShareOfSpeed = 0.01;
 
 struct Volume {
   double operator()(const Sphere& s) const { return 4 * std::numbers::pi / 3 * s.radius * s.radius * s.radius; }
