@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/dynamics/integrators/integrator.h"
@@ -16,6 +17,12 @@ namespace rigor {
 
 class JointStops;
 
+// Bodies that meet in one instant, where the result depends on which pair meets first.
+struct ContactTie {
+  double time = 0;                         // s
+  std::vector<std::pair<int, int>> pairs;  // of bodies
+};
+
 class ContactStepper : public Stepper {
  public:
   // What is in force beside the method's name.
@@ -26,6 +33,9 @@ class ContactStepper : public Stepper {
   virtual long work() const { return 0; }
   // From when on it did not keep the integrator's order in contact, if it says so.
   virtual std::optional<ReducedOrder> reduced_order() const { return {}; }
+  // Asks it to look for ties from now on. A method that does not look finds none.
+  virtual void watch_ties() {}
+  virtual std::vector<ContactTie> ties() const { return {}; }
 };
 
 // What a contact stepper is made from. Outlives it.
