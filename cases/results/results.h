@@ -102,6 +102,7 @@ struct TruthFacts {
   double largest_kinetic_energy = 0;  // J
   double largest_energy_change = 0;   // J, from its start
   Recordings recordings = {};
+  std::string caveat = {};  // see Truth::caveat()
 };
 inline constexpr double kHorizonTolerance = 1e-6;  // m and rad
 

@@ -82,6 +82,7 @@ TruthFacts facts_of(const Case& definition, const Truth* truth) {
   if (truth) {
     facts.error_at_end = truth->error(definition.duration);
     facts.horizon = horizon(*truth, kHorizonTolerance, definition.duration);
+    facts.caveat = truth->caveat();
   }
   return facts;
 }

@@ -20,6 +20,8 @@ class Truth {
   // Estimated error of at(t): the largest over all bodies of the position's [m] and the orientation's [rad]. Never
   // falls as t grows.
   virtual double error(double t) const = 0;
+  // A sentence on what no computation of this motion can decide; empty if there is nothing of the kind.
+  virtual std::string caveat() const { return ""; }
 };
 
 // The last instant in [0, duration] up to which the truth's own error stays within `tolerance`.

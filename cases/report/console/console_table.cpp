@@ -255,7 +255,8 @@ std::string truth_sentence(const CaseResult& result) {
   if (definition.truth == "none") return "truth: none; only stability and what is conserved are judged.";
   if (!result.truth) return fmt::format("truth: {}, not found.", definition.truth);
   const TruthFacts& facts = *result.truth;
-  const std::string brackets = has_run_held_to_itself(result) ? " What it finds of these stands in brackets." : "";
+  const std::string brackets = (has_run_held_to_itself(result) ? " What it finds of these stands in brackets." : "") +
+                               std::string(facts.caveat.empty() ? "" : " ") + facts.caveat;
   if (facts.horizon >= definition.duration) {
     return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s; it is {}.{}", definition.truth,
                        facts.error_at_end, definition.duration, provenance_of(definition.truth), brackets);

@@ -95,6 +95,7 @@ Json case_json(const Results& results, const CaseResult& result) {
     json["truth"]["error_at_end"] = result.truth->error_at_end;
     json["truth"]["horizon"] = result.truth->horizon;
     json["truth"]["horizon_tolerance"] = kHorizonTolerance;
+    if (!result.truth->caveat.empty()) json["truth"]["caveat"] = result.truth->caveat;
   }
   if (result.truth) json["largest_kinetic_energy"] = result.truth->largest_kinetic_energy;
   json["size"] = size_of(definition.scene);

@@ -1,6 +1,6 @@
-// The motion of a scene with contacts for which there is no closed form, by the core's contact by events, solved in
-// several ways (events_solver.h): the finest is the truth, and how far the next is from it is its error. A solution is
-// computed once and kept (solution_cache.h).
+// The motion of a scene with contacts for which there is no closed form, by the core's contact by events. It is solved
+// in several ways (events_solver.h): the finest is the truth, and the distance of the others is its error. A solution
+// is computed once and kept (solution_cache.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,14 +14,14 @@
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/dynamics/contact/event/impacts.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
 
-// m/s and rad/s: the greater of the two speeds below which its solutions let nothing rebound. What is slower lies
-// still.
-constexpr double kAtRest = 2e-7;
+// In the scene's units of speed: below the restitution threshold of the truth's run a body lies still.
+constexpr double kAtRest = kRestitutionThreshold;
 
 ReferenceSolution events_solution(const Scene& scene, double duration) {
   return kept_or_solved(events_content(scene, duration), [&] { return solve_events(scene, duration); });
@@ -29,12 +29,14 @@ ReferenceSolution events_solution(const Scene& scene, double duration) {
 
 class Events final : public Truth {
  public:
-  Events(const Scene& scene, double duration) : scene_(scene), solution_(events_solution(scene, duration)) {}
+  Events(const Scene& scene, double duration)
+      : scene_(scene), scales_(contact_scales(scene)), solution_(events_solution(scene, duration)) {}
 
   void at(double t, MutableBodyColumns out) const override {
     state_at(solution_, scene_, t, out);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      if (out.velocity(i).norm() > kAtRest || out.angular_velocity(i).norm() > kAtRest) continue;
+      const double spin = scales_.length * out.angular_velocity(i).norm();
+      if (std::max(out.velocity(i).norm(), spin) > kAtRest * scales_.speed()) continue;
       out.set_velocity(i, Vec3::Zero());
       out.set_angular_velocity(i, Vec3::Zero());
     }
@@ -48,8 +50,20 @@ class Events final : public Truth {
     return is_end ? solution_.errors.back() : std::numeric_limits<double>::infinity();
   }
 
+  std::string caveat() const override {
+    if (solution_.ties.empty()) return "";
+    const ContactTie& tie = solution_.ties.front();
+    std::string pairs;
+    for (const auto& [a, b] : tie.pairs)
+      pairs += fmt::format("{}'{}' and '{}'", pairs.empty() ? "" : ", ", scene_.body_name(a), scene_.body_name(b));
+    return fmt::format(
+        "At {:.4g} s several pairs meet in one instant: {}. Which pair meets first decides what follows.", tie.time,
+        pairs);
+  }
+
  private:
   Scene scene_;
+  ContactScales scales_;
   ReferenceSolution solution_;
 };
 

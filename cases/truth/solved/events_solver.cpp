@@ -1,7 +1,7 @@
-// Solutions with steps of 1/60 s, 1/120 s, ... until two in a row agree. Both integrators are of fourth order, with
-// held contacts too, so that the finer of two errs by a fifteenth of their distance between events; kSafety times the
-// whole of it is said. Ways of even and odd number differ in more than the step: the integrator, and the speed below
-// which nothing rebounds.
+// The truth is one run of an adaptive method. Three others judge it: two of the same method, looser or with other
+// thresholds, and one of another integrator in fixed steps, which are halved until the two agree. Each sees the scene
+// mirrored, turned or with its bodies in reverse order, so that a tie that is broken by order or direction shows. All
+// are in units of the scene's own, so that no threshold depends on the user's units.
 #include "cases/truth/solved/events_solver.h"
 
 #include <algorithm>
@@ -9,81 +9,32 @@
 #include <utility>
 
 #include "cases/truth/distance.h"
+#include "cases/truth/solved/events_stepping.h"
 #include "cases/truth/solved/pose_interpolation.h"
-#include "core/dynamics/contact/contact_method.h"
-#include "core/dynamics/joints/joint_stops.h"
 
 namespace rigor {
 namespace {
 
-struct Way {
-  const char* integrator;
-  const char* restitution_threshold;  // m/s
+const EventsWay kFinest = {"dormand-prince", "1e-12", "0.05", {}};
+const EventsWay kJudges[] = {
+    {"dormand-prince", "1e-11", "1.5", {true, Quat(0.8, 0.2, -0.4, 0.4), true}},
+    {"dormand-prince", "3e-12", "0.1", {false, Quat(0.5, -0.1, 0.7, 0.5), false}},
 };
-constexpr Way kWays[] = {{"rkmk4", "2e-7"}, {"rk4", "1e-7"}};
+const EventsWay kInSteps = {"rkmk4", nullptr, "0.2", {true, Quat::Identity(), true}};
 
-constexpr double kFirstStep = 1.0 / 60;  // s
-constexpr int kMostHalvings = 7;
+// In own units of time: a node that is this far from the next leaves the cubic between them right to some 1e-9.
+constexpr double kNodeDistance = 1.0 / 64, kLongestNodeDistance = 1;
+constexpr int kMostHalvings = 4;
 constexpr double kWantedEventsError = 1e-8;  // m and rad; metrics ask for a hundred times that
 constexpr double kUseful = 1e-6;             // m and rad, what metrics ask for
+constexpr double kInterpolation = 1e-9;      // m and rad: nodes are nearer to each other where the cubic misses more
 constexpr double kMostWork = 2e5;            // steps of a body, of some 20 µs each where it touches others
-constexpr const char* kPatience = "10";      // what a run takes in inelastic steps is found event by event here
-constexpr double kSafety = 3;
-// What both ways have in common: gaps that count as closed [m], and speeds of separating or sliding that count as none
-// [m/s]; see event.cpp and contact_modes.h.
-constexpr double kClosed = 1e-10, kStill = 1e-9;
-
-// Makes steps of one scene in one way; each begins afresh, for the state is all there is.
-class Stepping {
- public:
-  Stepping(const Scene& scene, const Way& way)
-      : scene_(scene), system_(scene), integrator_(integrator(way.integrator)) {
-    if (!integrator_.default_orientation.empty()) orientation_ = &orientation_update(integrator_.default_orientation);
-    Settings settings;
-    settings.method = way.integrator;
-    settings.options["restitution-threshold"] = way.restitution_threshold;
-    settings.options["patience"] = kPatience;
-    if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_);
-    if (JointStops::has_speed_motors(scene))
-      motors_ = std::make_unique<JointStops>(scene, system_, system_.loads, *joints_, JointStops::Of::motors);
-    stepper_ = contact_method("event").make(
-        scene, {system_, integrator_, orientation_, settings, joints_.get(), motors_.get()});
-  }
-
-  BodyTable start() const {
-    BodyTable state(scene_.bodies.size(), keeps_matrix());
-    set_initial_state(scene_, state.columns());
-    return state;
-  }
-  // A state for it, of the thirteen columns that a node has.
-  BodyTable state_of(const double* node) const {
-    BodyTable state(scene_.bodies.size(), keeps_matrix());
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      for (int c = 0; c < kRotation; ++c) state.columns().column(c)[i] = node[c * state.size() + i];
-      if (keeps_matrix()) state.columns().set_rotation(i, matrix_of(state.columns().orientation(i)));
-    }
-    return state;
-  }
-  // Returns whether the method and the joints have nothing to say against it.
-  bool step(MutableBodyColumns state, double t, double dt) {
-    if (joints_) joints_->begin_step();
-    stepper_->step(state, t, dt);
-    if (joints_) joints_->end_step(state);
-    return stepper_->solver_warning().empty() && (!joints_ || joints_->warning().empty());
-  }
-  const ContactStepper& stepper() const { return *stepper_; }
-
- private:
-  bool keeps_matrix() const { return orientation_ && orientation_->keeps_matrix; }
-
-  const Scene& scene_;
-  System system_;
-  const Integrator& integrator_;
-  const OrientationUpdate* orientation_ = nullptr;
-  std::unique_ptr<Joints> joints_;      // null where there are none
-  std::unique_ptr<JointStops> motors_;  // of given speed; null where there are none
-  std::unique_ptr<ContactStepper> stepper_;
-};
+constexpr double kShareOfNodes = 20;         // nodes take a twentieth of the work at most, events the rest
+constexpr double kSafety = 3;                // the distance of the ways is a sample of the error
+// All ways share the gaps that count as closed, and the speeds of separating or sliding that count as none.
+constexpr double kClosed = 1e-10, kStill = 1e-10;  // m and rad; own units of length for each unit of time
+// From a tie on: m and rad. The other outcome is as right as the one that was found.
+constexpr double kUnknown = 1;
 
 void add_node(ReferenceSolution& solution, double t, BodyColumns state) {
   solution.times.push_back(t);
@@ -92,90 +43,186 @@ void add_node(ReferenceSolution& solution, double t, BodyColumns state) {
   solution.states.push_back(0);
 }
 
-// Ends early where the method warns, or when the work, in steps of a body, is more than is allowed.
-ReferenceSolution solve(const Scene& scene, double duration, const Way& way, double dt, double& work) {
-  Stepping stepping(scene, way);
-  BodyTable state = stepping.start();
-  ReferenceSolution solution;
-  solution.dimension = kRotation * state.size() + 1;
-  add_node(solution, 0, std::as_const(state).columns());
-  const auto steps = static_cast<long>(std::ceil(duration / dt - 1e-9));
-  for (long n = 0; n < steps; ++n) {
-    const bool is_sound = stepping.step(state.columns(), static_cast<double>(n) * dt, dt);
-    work = static_cast<double>(stepping.stepper().work()) * static_cast<double>(state.size());
-    if (!is_sound || work > kMostWork) return solution;
-    solution.states.back() = stepping.stepper().was_smooth() ? 1 : 0;
-    add_node(solution, static_cast<double>(n + 1) * dt, std::as_const(state).columns());
-  }
-  solution.complete = true;
-  return solution;
-}
+struct Nodes {
+  long count;     // intervals between them
+  double length;  // s
+  double at(long n) const { return static_cast<double>(n) * length; }
+};
 
-// Into `fine`: its error at each of its nodes as long as `coarse` goes.
-void note_errors(ReferenceSolution& fine, const ReferenceSolution& coarse, const Scene& scene) {
-  fine.error_times.clear(), fine.errors.clear();
-  BodyTable a(scene.bodies.size()), b(scene.bodies.size());
-  double largest = 0;
-  for (std::size_t i = 0; i < fine.times.size() && fine.times[i] <= coarse.times.back(); ++i) {
-    const auto t = static_cast<double>(fine.times[i]);
-    state_at(fine, scene, t, a.columns());
-    state_at(coarse, scene, t, b.columns());
-    largest = std::max(largest, distance_between(std::as_const(a).columns(), std::as_const(b).columns()));
-    fine.error_times.push_back(t);
-    fine.errors.push_back(kSafety * largest + kClosed + kStill * t);
-  }
-}
+class Solver {
+ public:
+  Solver(const Scene& scene, double duration)
+      : scene_(scene), duration_(duration), units_(own_units(scene)), nodes_(nodes_at(kNodeDistance)) {}
 
-// s, until which the error is at most so much.
-double reach(const ReferenceSolution& solution, double error) {
-  double last = 0;
-  for (std::size_t i = 0; i < solution.errors.size() && solution.errors[i] <= error; ++i)
-    last = solution.error_times[i];
-  return last;
-}
+  ReferenceSolution solve() {
+    best_ = solve(kFinest, 1);
+    place_nodes_closer();
+    note_interpolation();
+    // Another partition of time finds other steps, and may find another event.
+    const int parts = 6 * work_ < kMostWork ? 3 : 1;
+    take_into_account(distances_from(solve(kJudges[0], 1)));
+    take_into_account(distances_from(solve(kJudges[1], parts)));
+    take_into_account(distances_in_steps());
+    note_errors();
+    return std::move(best_);
+  }
+
+ private:
+  using Distances = std::vector<double>;  // by node, as far as they are known; they never fall
+
+  Nodes nodes_at(double distance) const {
+    const double own = duration_ * units_.time, bodies = static_cast<double>(scene_.bodies.size());
+    const double afforded = kShareOfNodes * own * bodies / kMostWork;
+    const double length = std::max(distance, std::min(afforded, kLongestNodeDistance));
+    const long count = std::max(1L, static_cast<long>(std::ceil(own / length - 1e-9)));
+    return {count, duration_ / static_cast<double>(count)};
+  }
+
+  // In `parts` steps from node to node. Ends early where the method warns, or when the work is more than is allowed.
+  ReferenceSolution solve(const EventsWay& way, int parts) {
+    EventsStepping stepping(scene_, way, units_);
+    BodyTable state(scene_.bodies.size());
+    stepping.start(state.columns());
+    ReferenceSolution solution;
+    solution.dimension = kRotation * state.size() + 1;
+    add_node(solution, 0, std::as_const(state).columns());
+    solution.complete = true;
+    for (long n = 0; n < nodes_.count && solution.complete; ++n) {
+      bool is_smooth = true;
+      for (int k = 0; k < parts && solution.complete; ++k) {
+        const double from = nodes_.at(n) + k * nodes_.length / parts;
+        solution.complete = stepping.step(state.columns(), from, nodes_.length / parts);
+        work_ = static_cast<double>(stepping.work()) * static_cast<double>(state.size());
+        solution.complete = solution.complete && work_ <= kMostWork;
+        is_smooth = is_smooth && stepping.was_smooth();
+      }
+      if (!solution.complete) break;
+      solution.states.back() = is_smooth ? 1 : 0;
+      add_node(solution, nodes_.at(n + 1), std::as_const(state).columns());
+    }
+    solution.ties = stepping.ties();
+    return solution;
+  }
+
+  BodyColumns node(const ReferenceSolution& of, std::size_t n) const {
+    const std::size_t bodies = scene_.bodies.size();
+    return {&of.states[n * of.dimension], bodies, bodies, false};
+  }
+
+  // From the node n over `over` of them: how far the cubic between its ends is from the node in the middle.
+  double missed_by_cubic(std::size_t n) const {
+    const auto is_smooth = [&](std::size_t k) { return best_.states[(k + 1) * best_.dimension - 1] == 1; };
+    if (!is_smooth(n) || !is_smooth(n + 1)) return 0;
+    const BodyColumns from = node(best_, n), middle = node(best_, n + 1), to = node(best_, n + 2);
+    BodyTable cubic(from.size());
+    for (std::size_t b = 0; b < from.size(); ++b)
+      cubic.columns().set_body(b, between(from.body(b), to.body(b), 2 * nodes_.length, 0.5));
+    return distance_between(std::as_const(cubic).columns(), middle);
+  }
+
+  // Half the distance leaves a sixteenth.
+  Distances missed_between_nodes() const {
+    Distances missed(best_.times.size(), 0);
+    for (std::size_t n = 0; n + 2 < best_.times.size(); ++n) missed[n + 1] = missed_by_cubic(n) / 16;
+    return missed;
+  }
+
+  void place_nodes_closer() {
+    constexpr double kMostTimes = 8;
+    const Distances missed = missed_between_nodes();
+    const double most = *std::max_element(missed.begin(), missed.end());
+    const double times = std::min(kMostTimes, std::ceil(std::pow(most / kInterpolation, 0.25)));
+    if (!(times > 1) || !best_.complete || work_ * times > kMostWork) return;
+    nodes_ = {nodes_.count * static_cast<long>(times), nodes_.length / times};
+    best_ = solve(kFinest, 1);
+  }
+
+  void note_interpolation() {
+    distances_ = missed_between_nodes();
+    for (std::size_t n = 1; n < distances_.size(); ++n) distances_[n] = std::max(distances_[n], distances_[n - 1]);
+  }
+
+  Distances distances_from(const ReferenceSolution& other) const {
+    Distances distances;
+    double largest = 0;
+    for (std::size_t n = 0; n < std::min(best_.times.size(), other.times.size()); ++n) {
+      largest = std::max(largest, distance_between(node(best_, n), node(other, n)));
+      distances.push_back(largest);
+    }
+    return distances;
+  }
+
+  // Both are of fourth order between events, and shorter steps err less: the shortest that can be had count.
+  Distances distances_in_steps() {
+    Distances best;
+    for (int k = 0; k <= kMostHalvings; ++k) {
+      Distances now = distances_from(solve(kInSteps, 1 << k));
+      // What half the step does not lessen is no error of the step.
+      const bool is_steady = k > 0 && now.size() <= best.size() && now.back() > 0.5 * best.back();
+      const bool is_last = work_ > kMostWork || is_steady;
+      if (k == 0 || reach(now, kUseful) > reach(best, kUseful) ||
+          (now.size() >= best.size() && now.back() < best.back()))
+        best = std::move(now);
+      if (is_last || reach(best, kWantedEventsError / kSafety) >= best_.times.size()) break;
+    }
+    return best;
+  }
+
+  // How many nodes are within the error.
+  static std::size_t reach(const Distances& distances, double error) {
+    return static_cast<std::size_t>(std::upper_bound(distances.begin(), distances.end(), error) - distances.begin());
+  }
+
+  void take_into_account(const Distances& distances) {
+    distances_.resize(std::min(distances_.size(), distances.size()));
+    for (std::size_t n = 0; n < distances_.size(); ++n) distances_[n] = std::max(distances_[n], distances[n]);
+  }
+
+  void note_errors() {
+    const double gap = kClosed * std::max(1.0, 1 / units_.length), drift = kStill * std::max(1.0, 1 / units_.length);
+    const double tied = best_.ties.empty() ? duration_ : best_.ties.front().time;
+    for (std::size_t n = 0; n < distances_.size(); ++n) {
+      const auto t = static_cast<double>(best_.times[n]);
+      const double error = kSafety * distances_[n] + gap + drift * t * units_.time;
+      best_.error_times.push_back(t);
+      best_.errors.push_back(t > tied ? std::max(error, kUnknown) : error);
+    }
+  }
+
+  const Scene& scene_;
+  double duration_;
+  OwnUnits units_;
+  Nodes nodes_;
+  ReferenceSolution best_;
+  Distances distances_;
+  double work_ = 0;  // of the last solve()
+};
 
 }  // namespace
 
-ReferenceSolution solve_events(const Scene& scene, double duration) {
-  double work = 0;
-  ReferenceSolution coarse = solve(scene, duration, kWays[0], kFirstStep, work), best;
-  for (int k = 1; k <= kMostHalvings && work <= kMostWork; ++k) {
-    ReferenceSolution fine = solve(scene, duration, kWays[k % 2], std::ldexp(kFirstStep, -k), work);
-    note_errors(fine, coarse, scene);
-    const double now = reach(fine, kUseful), before = reach(best, kUseful);
-    const bool goes_on = fine.times.back() >= coarse.times.back();
-    const bool is_better = k == 1 || now > before || (now == before && goes_on);
-    // What gave up earlier says less of the next than what is there.
-    if (goes_on) coarse = fine;
-    if (is_better) best = std::move(fine);
-    if (reach(best, kWantedEventsError + kClosed + kStill * duration) >= duration * (1 - 1e-9)) break;
-  }
-  return best;
-}
+ReferenceSolution solve_events(const Scene& scene, double duration) { return Solver(scene, duration).solve(); }
 
 void state_at(const ReferenceSolution& solution, const Scene& scene, double t, MutableBodyColumns out) {
   const auto next = std::upper_bound(solution.times.begin(), solution.times.end(), static_cast<long double>(t));
   const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - solution.times.begin(), 1) - 1);
-  const double* node = &solution.states[i * solution.dimension];
-  const double after = t - static_cast<double>(solution.times[i]);
   const std::size_t bodies = scene.bodies.size();
-  const auto body = [&](const double* from, std::size_t b) {
-    const BodyColumns columns(from, bodies, bodies, false);
-    return columns.body(b);
+  const auto node = [&](std::size_t n) {
+    return BodyColumns(&solution.states[n * solution.dimension], bodies, bodies, false);
   };
-  const bool is_last = i + 1 == solution.times.size();
-  if (is_last || !(after > 0)) {
-    for (std::size_t b = 0; b < bodies; ++b) out.set_body(b, body(node, b));
+  const BodyColumns from = node(i);
+  const double after = t - static_cast<double>(solution.times[i]);
+  if (i + 1 == solution.times.size() || !(after > 0)) {
+    for (std::size_t b = 0; b < bodies; ++b) out.set_body(b, from.body(b));
     return;
   }
   const double h = static_cast<double>(solution.times[i + 1] - solution.times[i]);
-  if (node[solution.dimension - 1] == 1) {
-    for (std::size_t b = 0; b < bodies; ++b)
-      out.set_body(b, between(body(node, b), body(node + solution.dimension, b), h, after / h));
+  if (solution.states[(i + 1) * solution.dimension - 1] == 1) {
+    for (std::size_t b = 0; b < bodies; ++b) out.set_body(b, between(from.body(b), node(i + 1).body(b), h, after / h));
     return;
   }
-  Stepping stepping(scene, kWays[1]);
-  BodyTable state = stepping.state_of(node);
+  EventsStepping stepping(scene, kFinest, own_units(scene));
+  stepping.set(from);
+  BodyTable state(bodies);
   stepping.step(state.columns(), static_cast<double>(solution.times[i]), after);
   for (std::size_t b = 0; b < bodies; ++b) out.set_body(b, std::as_const(state).columns().body(b));
 }

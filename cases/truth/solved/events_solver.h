@@ -1,13 +1,14 @@
 // The numbers behind the truth 'events': the motion of a scene with contacts by the core's contact by events, solved in
-// ways that differ in step, integrator and the speed at which bounces end, and how far these are apart.
+// several ways. Ways differ in the integrator, its tolerance or step, the thresholds of contact, and the equivalent
+// scene in which they see the motion. The finest way is the truth, and the distance of the others is its error.
 #pragma once
 
 #include "cases/truth/solved/reference_solver.h"
 
 namespace rigor {
 
-// Of ReferenceSolution: a node every step, thirteen numbers a body as BodyTable lays them out, and one more: 1 if no
-// event lies before the next node. Complete or not, its errors say how far it may be relied on.
+// Of ReferenceSolution: nodes at even distances, thirteen numbers a body as BodyTable lays them out, and one more: 1 if
+// no event lies before the next node. The errors say how far it may be relied on, complete or not.
 ReferenceSolution solve_events(const Scene& scene, double duration);
 
 // The state at t: between nodes by Hermite's cubic of positions and turns, or, where an event lies between, by a step

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cases/truth/solved/equations_of_motion.h"
+#include "core/dynamics/contact/contact_method.h"
 
 namespace rigor {
 
@@ -23,9 +24,10 @@ struct ReferenceSolution {
   std::vector<double> states;
   Phases phases = {};
 
-  std::vector<double> error_times;  // s
-  std::vector<double> errors;       // as Truth::error, up to each of these times
-  bool complete = false;            // both solutions reach the end; if not, the motion is not smooth there
+  std::vector<double> error_times;    // s
+  std::vector<double> errors;         // as Truth::error, up to each of these times
+  bool complete = false;              // both solutions reach the end; if not, the motion is not smooth there
+  std::vector<ContactTie> ties = {};  // of a solution by events, in the order of their times
 };
 
 // The scene may have springs, dampers, timed forces, and joints with springs, dampers, motors and limits along their

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMagic = "rigor reference solution 2\n";  // the layout of the file
+constexpr const char* kMagic = "rigor reference solution 3\n";  // the layout of the file
 constexpr std::size_t kMostBytes = 128'000'000;                 // larger ones are not kept
 constexpr std::uintmax_t kMostKept = 2'000'000'000;             // bytes in all
 
@@ -80,6 +80,16 @@ class Reader {
     numbers.resize(size);
     for (Number& one : numbers) read(one);
   }
+  ContactTie tie() {
+    ContactTie tie;
+    read(tie.time);
+    for (std::uint64_t left = number(); left > 0 && good_; --left) {
+      const int a = static_cast<int>(number()), b = static_cast<int>(number());
+      tie.pairs.emplace_back(a, b);
+    }
+    return tie;
+  }
+  bool is_good() const { return good_; }
   bool at_end() const { return good_ && left_.empty(); }
 
  private:
@@ -213,6 +223,7 @@ std::optional<ReferenceSolution> kept_solution(const std::string& content) {
   solution.dimension = body.number(), solution.complete = body.number() != 0;
   body.read(solution.times), body.read(solution.states), body.read(solution.error_times), body.read(solution.errors);
   body.read(solution.phases.times), body.read(solution.phases.modes);
+  for (std::uint64_t left = body.number(); left > 0 && body.is_good(); --left) solution.ties.push_back(body.tie());
   if (!body.at_end() || !is_sound(solution)) return std::nullopt;
   std::error_code ignored;
   fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // in use: see drop_unused
@@ -225,7 +236,11 @@ void keep_solution(const std::string& content, const ReferenceSolution& solution
   Writer body, seal;
   body.add(solution.dimension), body.add(solution.complete);
   body.add(solution.times), body.add(solution.states), body.add(solution.error_times), body.add(solution.errors);
-  body.add(solution.phases.times), body.add(solution.phases.modes);
+  body.add(solution.phases.times), body.add(solution.phases.modes), body.add(solution.ties.size());
+  for (const ContactTie& tie : solution.ties) {
+    body.add(tie.time), body.add(tie.pairs.size());
+    for (const auto& [a, b] : tie.pairs) body.add(a), body.add(b);
+  }
   const std::string bytes = head_of(content) + body.bytes();
   seal.add(content_hash(bytes));
 

@@ -6,8 +6,6 @@
 namespace rigor {
 namespace {
 
-constexpr double kMissed = 1e-11;  // m: an overlap that is not looked for, a tenth of a gap that counts as closed
-
 // The support of a shape along n after t, at most.
 struct SupportBound {
   BodyColumns state;
@@ -45,11 +43,11 @@ struct SupportBound {
 }  // namespace
 
 bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to,
-                const Bend& bend_a, const Bend& bend_b, double h) {
+                const Bend& bend_a, const Bend& bend_b, double h, double missed) {
   const auto is_clear = [&](const SeparatingAxis& at, double t) {
     const double to_b = std::visit(SupportBound{at.state, a.body, -at.n, bend_a, a.bounding_radius, t}, a.shape);
     const double to_a = std::visit(SupportBound{at.state, b.body, at.n, bend_b, b.bounding_radius, t}, b.shape);
-    return to_a + to_b <= kMissed;
+    return to_a + to_b <= missed;
   };
   return is_clear(from, 0.5 * h) && is_clear(to, -0.5 * h);
 }

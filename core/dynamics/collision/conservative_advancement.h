@@ -21,8 +21,8 @@ struct Bend {
   double of_centre = 0, of_points = 0;  // m/s²
 };
 
-// h: s, from the one to the other.
+// h: s, from the one to the other. missed: m, the deepest overlap that may be overlooked.
 bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to,
-                const Bend& bend_a, const Bend& bend_b, double h);
+                const Bend& bend_a, const Bend& bend_b, double h, double missed);
 
 }  // namespace rigor

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/dynamics/integrators/integrator.h"
@@ -15,6 +16,12 @@
 namespace rigor {
 
 class JointStops;
+
+// Bodies that meet in one instant, where the result depends on which pair meets first.
+struct ContactTie {
+  double time = 0;                         // s
+  std::vector<std::pair<int, int>> pairs;  // of bodies
+};
 
 class ContactStepper : public Stepper {
  public:
@@ -28,6 +35,10 @@ class ContactStepper : public Stepper {
   virtual std::optional<ReducedOrder> reduced_order() const { return {}; }
   // s, of the parts in which the last step was taken; none if it was taken as one.
   virtual std::optional<double> sub_step() const { return {}; }
+
+  // Asks it to look for ties from now on. A method that does not look finds none.
+  virtual void watch_ties() {}
+  virtual std::vector<ContactTie> ties() const { return {}; }
 };
 
 // What a contact stepper is made from. Outlives it.

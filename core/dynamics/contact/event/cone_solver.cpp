@@ -15,6 +15,7 @@ constexpr int kMostTurnsToBeNear = 10;   // of what is not near its rest after t
 constexpr int kMostNewtonSteps = 400;    // of an island; what settles takes some 50
 constexpr double kCreeping = 0.99;       // of a sequence whose ratio is not known yet
 constexpr double kSlow = 0.9;            // from here on Newton's method is quicker
+constexpr double kOfNewton = 0.5;        // Newton's method leaves no sequence: its error counts as it is
 constexpr int kFewestSweeps = 5;         // before that is judged
 constexpr int kBetweenLeaps = 6;         // sweeps
 constexpr double kHeldByJoints = 1e-12;  // of the free bodies' inverse mass: what joints do not let move at all
@@ -23,6 +24,18 @@ constexpr double kHeldByJoints = 1e-12;  // of the free bodies' inverse mass: wh
 double larger_eigenvalue(const Eigen::Matrix2d& m) {
   const double mean = 0.5 * (m(0, 0) + m(1, 1)), half = 0.5 * (m(0, 0) - m(1, 1));
   return mean + std::hypot(half, m(0, 1));
+}
+
+// Whether two bodies touch at several points. Many impulses may then do the same to the motion, or nearly so. Through
+// joints Newton's method takes too long for that.
+bool may_share_in_many_ways(const std::vector<ConeConstraint>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].response >= 0) return false;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (points[i].a == points[j].a && points[i].b == points[j].b) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -164,11 +177,29 @@ bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& po
   return have_settled;
 }
 
+// Where impulses can be shared out in many ways, sweeps would do it by the order of the points, and Newton's method
+// does it by none.
 bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points, ConeSweeps& sweeps,
                               Means means) const {
-  sweeps.set_up(state, points);
+  if (means != Means::all || !accuracy_.by_newton || !may_share_in_many_ways(points))
+    return sweep_until_settled(state, points, sweeps, means, Start::as_given);
+  const BodyTable before(BodyColumns{state});
+  const std::vector<ConeConstraint> points_before = points;
+  if (sweep_until_settled(state, points, sweeps, means, Start::by_newton)) return true;
+  copy_columns(before.columns(), state);
+  points = points_before;
+  return sweep_until_settled(state, points, sweeps, means, Start::as_given);
+}
+
+bool ConeSolver::sweep_until_settled(MutableBodyColumns state, std::vector<ConeConstraint>& points, ConeSweeps& sweeps,
+                                     Means means, Start start) const {
   double size = 0, last = 0, ratio = kCreeping;
   int steps = kMostNewtonSteps;
+  if (start == Start::by_newton) {
+    size = size_of(state, points);
+    if (take_newton_steps(state, points, accuracy_.at_rest * size, steps)) ratio = kOfNewton;
+  }
+  sweeps.set_up(state, points);
   const auto goes_on = [&](int turn) {
     return turn < accuracy_.most_turns || (turn < kMostTurnsToBeNear && last > accuracy_.near_rest * size);
   };
@@ -196,7 +227,7 @@ bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstrai
     sweeps.write(state);
     if (!accuracy_.by_newton || !take_newton_steps(state, points, accuracy_.at_rest * size, steps)) continue;
     sweeps.read(state);
-    ratio = 0.5;  // what Newton's method leaves is no sequence: it counts as it is
+    ratio = kOfNewton;
   }
   return last <= accuracy_.near_rest * size;
 }

@@ -91,6 +91,9 @@ class ConeSolver {
   void find_response(ConeConstraint& point);
   bool solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points, ConeSweeps& sweeps,
                     Means means) const;
+  enum class Start { as_given, by_newton };
+  bool sweep_until_settled(MutableBodyColumns state, std::vector<ConeConstraint>& points, ConeSweeps& sweeps,
+                           Means means, Start start) const;
   double size_of(BodyColumns state, const std::vector<ConeConstraint>& points) const;
   bool take_newton_steps(MutableBodyColumns state, std::vector<ConeConstraint>& points, double tolerance,
                          int& steps) const;

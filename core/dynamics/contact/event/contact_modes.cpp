@@ -8,12 +8,13 @@
 namespace rigor {
 namespace {
 
-// Of the accelerations: what parts, and what begins to slide. A mode ends at twice as much, so that what is chosen at
-// its end is not the same again.
-constexpr double kLeastSize = 1e-6;   // m/s²: beside smaller accelerations roundings are no sign of anything
-constexpr double kResting = 1e-12;    // m/s, rad/s, and of the accelerations: roundings
-constexpr double kSeparating = 1e-9;  // m/s: ten times what an impact may leave; slower than it nothing parts
-constexpr double kPulling = 1e-9;     // of the forces
+// In the scene's units of acceleration and speed.
+constexpr double kLeastSize = 1e-7;   // smaller accelerations are roundings
+constexpr double kResting = 1e-12;    // roundings of a speed at rest, and of an acceleration as a share of the largest
+constexpr double kSeparating = 1e-9;  // ten times what an impact may leave: a slower contact does not part
+// As shares of the accelerations: what parts, and what begins to slide. A mode ends at twice as much, so that the
+// choice at its end differs.
+constexpr double kPulling = 1e-9;  // of the forces
 constexpr double kSeparatingShare = 1e-8, kSlipping = 1e-7, kEnding = 2;
 constexpr double kSlip = 1e4;  // of the accelerations: what a slip counts as beside them; its direction errs by 1/kSlip
 
@@ -43,7 +44,7 @@ bool ContactModes::solve(BodyColumns state, const double* wrench) {
     table.set_velocity(i, linear), table.set_angular_velocity(i, angular);
   }
   cones_.clear();
-  size_ = kLeastSize;
+  size_ = kLeastSize * scales().acceleration_unit();
   for (const PersistentPoint& point : persistent_.points()) {
     ConeConstraint cone = point.cone();
     cone.offset = point.bias;
@@ -56,7 +57,7 @@ bool ContactModes::solve(BodyColumns state, const double* wrench) {
   for (std::size_t i = 0; i < cones_.size(); ++i) {
     const PersistentPoint& point = persistent_.points()[i];
     const double slip = point.velocity.tail<2>().norm();
-    if (slip > kSliding && std::isfinite(point.friction()))
+    if (slip > kSliding * scales().speed() && std::isfinite(point.friction()))
       cones_[i].offset.tail<2>() += kSlip * size_ / slip * point.velocity.tail<2>();
   }
   solver_.prepare(table, cones_);
@@ -80,9 +81,10 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
     PersistentPoint& point = points[i];
     const Vec3 acceleration = acceleration_of(i);
     if (acceleration.x() > kSeparatingShare * size_) continue;
-    if (point.velocity.x() > kSeparating && !(cones_[i].impulse.x() > 0)) continue;
+    if (point.velocity.x() > kSeparating * scales().speed_unit(cones_[i].is_couple) && !(cones_[i].impulse.x() > 0))
+      continue;
     const Eigen::Vector2d slip = point.velocity.tail<2>(), change = acceleration.tail<2>();
-    const bool slides = slip.norm() > kSliding && std::isfinite(point.friction());
+    const bool slides = slip.norm() > kSliding * scales().speed() && std::isfinite(point.friction());
     point.begins_to_slip = !slides && std::isfinite(point.friction()) && change.norm() > kSlipping * size_;
     point.mode = slides || point.begins_to_slip || point.friction() == 0 ? PersistentPoint::Mode::slides
                                                                          : PersistentPoint::Mode::sticks;
@@ -91,6 +93,8 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
     if (point.begins_to_slip) point.slip_direction = point.frame.rightCols<2>() * change.normalized();
     point.force = cones_[i].impulse;
     point.tangential_mass = cones_[i].tangent_effective_mass;
+    const double across = slip.x() * change.y() - slip.y() * change.x();
+    point.turn_rate = slides ? std::abs(across) / slip.squaredNorm() : 0;
     kept.push_back(point);
   }
   points.swap(kept);
@@ -123,8 +127,10 @@ bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) 
 bool ContactModes::is_at_rest(BodyColumns state, int body) const {
   if (system_.bodies[body].fixed) return true;
   const BodyColumns rates = accelerations_.columns();
-  return state.velocity(body).norm() <= kResting && state.angular_velocity(body).norm() <= kResting &&
-         rates.velocity(body).norm() <= kResting * size_ && rates.angular_velocity(body).norm() <= kResting * size_;
+  const double still = kResting * scales().speed_unit(), arm = scales().length;
+  return state.velocity(body).norm() <= still && arm * state.angular_velocity(body).norm() <= still &&
+         rates.velocity(body).norm() <= kResting * size_ &&
+         arm * rates.angular_velocity(body).norm() <= kResting * size_;
 }
 
 bool ContactModes::are_at_rest(BodyColumns state) const {

@@ -24,10 +24,11 @@ class ContactModes {
   // others have to be chosen. After persistent_.hold() there.
   double violation(BodyColumns state, const double* wrench);
 
-  // m/s: what slides more slowly sticks, if the cone allows it, 5e-15 m/(m/s²) before it would stop.
+  // In the scene's units of speed. A slower slip sticks if the cone allows it, 5e-15 m/(m/s²) before it would stop.
   static constexpr double kSliding = 1e-7;
 
  private:
+  const ContactScales& scales() const { return persistent_.scales(); }
   bool drop_pulling_points(BodyColumns state, const double* wrench);
   bool solve(BodyColumns state, const double* wrench);
   void start_from_cones();

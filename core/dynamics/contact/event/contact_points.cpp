@@ -10,7 +10,7 @@
 namespace rigor {
 namespace {
 
-constexpr double kAtOnce = 1e-9;  // m, more than any gap that counts as closed
+constexpr double kAtOnce = 1e-9;  // units of gaps: more than any gap that counts as closed
 
 Aabb joined(const Aabb& a, const Aabb& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
 
@@ -22,7 +22,7 @@ const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns fr
   for (const Collider& collider : colliders_) {
     const AccelerationBound& bound = bounds.of(collider.body);
     // A path bends away from its chord by at most a dt²/8.
-    double margin = kAtOnce + 0.125 * dt * dt * bound.linear;
+    double margin = kAtOnce * scales_.gap() + 0.125 * dt * dt * bound.linear;
     // A body that turns on its way may reach as far as its furthest point.
     if (bound.spin > 0 && std::isfinite(collider.bounding_radius))
       margin += std::min(1.0, dt * bound.spin) * (collider.bounding_radius - collider.inradius);
@@ -35,7 +35,7 @@ const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns fr
 const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns state) {
   boxes_.clear();
   for (const Collider& collider : colliders_) {
-    boxes_.push_back(aabb_of(collider.shape, pose_of(state, collider.body), kAtOnce));
+    boxes_.push_back(aabb_of(collider.shape, pose_of(state, collider.body), kAtOnce * scales_.gap()));
   }
   return overlapping_boxes();
 }
@@ -74,7 +74,7 @@ void ContactPoints::find(BodyColumns state, const std::vector<std::pair<int, int
                          std::vector<ContactPoint>& out) {
   for (const auto& [a, b] : pairs) {
     for (const ManifoldPoint& point : manifold(state, a, b)) {
-      if (!(point.gap <= gap)) continue;
+      if (!(point.gap <= gap * scales_.gap())) continue;
       ContactPoint contact{.a = a, .b = b, .feature = point.feature, .gap = point.gap, .restitution = 0, .cone = {}};
       contact.cone.a = colliders_[a].body, contact.cone.b = colliders_[b].body;
       const ContactLaw& law = laws_.of(contact.cone.a, contact.cone.b);
@@ -87,7 +87,7 @@ void ContactPoints::find(BodyColumns state, const std::vector<std::pair<int, int
   }
   for (std::size_t k = 0; k < limits_.size(); ++k) {
     const ContactPoint limit = limit_at(state, k);
-    if (limit.gap <= gap) out.push_back(limit);
+    if (limit.gap <= gap * scales_.gap(limit.cone.is_couple)) out.push_back(limit);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "core/dynamics/collision/broad_phase.h"
 #include "core/dynamics/contact/event/acceleration_bounds.h"
 #include "core/dynamics/contact/event/cone_solver.h"
+#include "core/dynamics/contact/event/contact_scales.h"
 #include "core/dynamics/joints/joint_limits.h"
 #include "core/scene/contact_laws.h"
 
@@ -19,13 +20,20 @@ struct ContactPoint {
   double restitution;
   ConeConstraint cone;
   static constexpr int kLimit = -1;
+  // In the scene's units of gaps: a gap this small is closed.
+  static constexpr double kClosed = 1e-10;
   bool is_limit() const { return a == kLimit; }
   bool same_place(const ContactPoint& other) const { return a == other.a && b == other.b && feature == other.feature; }
 };
 
 class ContactPoints {
  public:
-  explicit ContactPoints(const Scene& scene) : colliders_(colliders_of(scene)), laws_(scene), limits_(scene) {}
+  // `factor` multiplies each threshold.
+  explicit ContactPoints(const Scene& scene, double factor = 1)
+      : scales_(contact_scales(scene, factor)), colliders_(colliders_of(scene)), laws_(scene), limits_(scene) {}
+
+  // The units of all thresholds.
+  const ContactScales& scales() const { return scales_; }
 
   const std::vector<Collider>& colliders() const { return colliders_; }
   const JointLimits& limits() const { return limits_; }
@@ -41,7 +49,7 @@ class ContactPoints {
   const Manifold& manifold(BodyColumns state, int a, int b);
   // Unit, from b to a: the separating axis of the largest gap, or the one of the least overlap.
   Vec3 separating_axis(BodyColumns state, int a, int b);
-  // Adds each point of the candidates, and each limit, that is closer than `gap`.
+  // Adds each point of the candidates, and each limit, that is closer than `gap` in the scene's units of gaps.
   void find(BodyColumns state, const std::vector<std::pair<int, int>>& pairs, double gap,
             std::vector<ContactPoint>& out);
   // The contact at the same place in another state: the same feature, or the nearest of the pair. False if the pair has
@@ -53,6 +61,7 @@ class ContactPoints {
   void place(BodyColumns state, const ManifoldPoint& point, ContactPoint& contact) const;
   ContactPoint limit_at(BodyColumns state, std::size_t k) const;
 
+  ContactScales scales_;
   std::vector<Collider> colliders_;
   ContactLaws laws_;
   JointLimits limits_;

@@ -11,9 +11,8 @@
 namespace rigor {
 namespace {
 
-constexpr double kLongest = 1.0 / 120;  // s
-constexpr double kShare = 1.0 / 4;      // of a step: shorter steps are to be nearer to the truth here too
-constexpr double kOverlap = 1e-10;      // m: a gap this small is closed; see event.cpp
+constexpr double kLongest = 1.0 / 24;  // in the scene's units of time
+constexpr double kShare = 1.0 / 4;     // of a step: shorter steps are to be nearer to the truth here too
 
 // A step errs by its own length squared; impulses that are nearer to the laws than that are not worth their time.
 constexpr ConeAccuracy kAccuracy{.at_rest = 1e-4, .near_rest = 5e-2, .most_turns = 2, .by_newton = false};
@@ -36,7 +35,9 @@ CrowdedSteps::CrowdedSteps(const ContactParts& parts, ContactPoints& contact_poi
       stepper_(parts.integrator.make({system_, nullptr, parts.orientation, parts.settings, parts.joints})),
       solver_(system_, kAccuracy, parts.joints) {}
 
-double CrowdedSteps::longest(double dt) { return std::min(kLongest, kShare * dt); }
+double CrowdedSteps::longest(double dt) const {
+  return std::min(kLongest * contact_points_.scales().time, kShare * dt);
+}
 
 std::string CrowdedSteps::wording() const {
   return fmt::format("{} inelastic steps of first order, {:.3g} s in all", steps_, seconds_);
@@ -75,7 +76,7 @@ double CrowdedSteps::take(MutableBodyColumns state, double t, double h) {
 void CrowdedSteps::stop_overlaps(MutableBodyColumns state, double h) {
   before_.swap(touching_);
   touching_.clear();
-  contact_points_.find(state, contact_points_.candidates(state), kOverlap, touching_);
+  contact_points_.find(state, contact_points_.candidates(state), ContactPoint::kClosed, touching_);
   const double least = 2 * system_.scene_gravity.norm() * h;  // m/s, of what rebounds
   cones_.clear();
   for (const ContactPoint& contact : touching_) {

@@ -20,7 +20,7 @@ class CrowdedSteps {
   CrowdedSteps(const ContactParts& parts, ContactPoints& contact_points);
 
   // s, of a step of the run that is dt long.
-  static double longest(double dt);
+  double longest(double dt) const;
   // From t on, over h [s] or less, so that no body moves by more than its inradius. Returns over how much. Some overlap
   // is left to be closed.
   double take(MutableBodyColumns state, double t, double h);

@@ -32,9 +32,8 @@ namespace rigor {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kClosedGap = 1e-10;  // m: gaps this small are closed; at 1 m/s it is 1e-10 s
-constexpr double kInstant = 1e-6;     // s
-constexpr int kMostInstants = 100;    // in a step
+constexpr double kInstant = 1e-5;   // in the scene's units of time: a step over an instant without forces
+constexpr int kMostInstants = 100;  // in a step
 // Steps of the integrator, times the bodies that move: saved up at most, and for each step of the run. What an impact
 // costs is some ten of them; a ball that bounces with e = 0.9 comes to rest within 1700.
 constexpr double kMostSaved = 6000, kForEachStep = 200;
@@ -58,11 +57,11 @@ bool is_finite(BodyColumns state) {
 class EventStepper : public ContactStepper {
  public:
   EventStepper(const Scene& scene, const ContactParts& parts)
-      : contact_points_(scene),
+      : contact_points_(scene, number_option(parts.settings, "thresholds", 1)),
         loads_(parts.system.loads),
         persistent_contact_(parts, contact_points_),
-        impacts_(parts.system, number_option(parts.settings, "restitution-threshold", kRestitutionThreshold),
-                 parts.joints),
+        impacts_(parts.system, contact_points_.scales(),
+                 restitution_threshold(parts.settings, contact_points_.scales()), parts.joints),
         crowded_(parts, contact_points_),
         clearance_(parts.system, contact_points_, persistent_contact_),
         patience_(number_option(parts.settings, "patience", 1)),
@@ -81,7 +80,8 @@ class EventStepper : public ContactStepper {
     note_jam();
     instants_ = 0;
     saved_ = std::min(saved_ + kForEachPart + patience_ * kForEachStep / moving_, patience_ * kMostSaved / moving_);
-    crowded_step_ = CrowdedSteps::longest(dt);
+    crowded_step_ = crowded_.longest(dt);
+    instant_ = kInstant * contact_points_.scales().time;
     for (double done = 0; done < dt;) {
       if (!is_finite(state)) return note("the state of a body is no longer finite");
       const double end = persistent_contact_.next_switch(t + done, loads_.next_switch(t + done, t + dt));
@@ -97,6 +97,8 @@ class EventStepper : public ContactStepper {
   std::string solver_warning() const override { return solver_warning_; }
   bool was_smooth() const override { return is_smooth_; }
   long work() const override { return persistent_contact_.passes(); }
+  void watch_ties() override { impacts_.watch_ties(); }
+  std::vector<ContactTie> ties() const override { return ties_; }
   std::optional<ReducedOrder> reduced_order() const override {
     if (!crowded_from_) return {};
     const std::string many = fmt::format(" or more than {} bodies touch each other", kMostTogether);
@@ -105,12 +107,14 @@ class EventStepper : public ContactStepper {
   }
 
   SettingsInForce settings_in_force() const override {
-    return {
-        {"impacts", "at their own instants, simultaneous ones together"},
-        {persistent_contact_.has_joints() ? "joints and persistent contact" : "persistent contact",
-         "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
-        {"end of a sequence of bounces", fmt::format("no rebound from below {} m/s", impacts_.restitution_threshold())},
-        {"where events crowd", "inelastic steps of first order, of 1/120 s or a quarter of the run's at most"}};
+    return {{"impacts", "at their own instants, simultaneous ones together"},
+            {persistent_contact_.has_joints() ? "joints and persistent contact" : "persistent contact",
+             "by forces at each stage of " + persistent_contact_.integrator_in_contact()},
+            {"end of a sequence of bounces",
+             fmt::format("no rebound from below {:.2g} m/s", impacts_.restitution_threshold())},
+            {"where events crowd",
+             fmt::format("inelastic steps of first order, of {:.2g} s or a quarter of the run's at most",
+                         crowded_.longest(kInfinity))}};
   }
 
  private:
@@ -145,7 +149,7 @@ class EventStepper : public ContactStepper {
   double take_part(MutableBodyColumns state) {
     pairs_ = contact_points_.candidates(state);
     touching_.clear();
-    contact_points_.find(state, pairs_, kClosedGap, touching_);
+    contact_points_.find(state, pairs_, ContactPoint::kClosed, touching_);
     if (static_cast<double>(persistent_contact_.most_together(touching_)) > patience_ * kMostTogether) {
       are_many_ = true;
       return take_crowded_step(state, crowded_step_);
@@ -153,6 +157,7 @@ class EventStepper : public ContactStepper {
     start_ = BodyColumns(state);
     persistent_contact_.let_go_motors(state);
     if (impacts_.resolve(state, touching_)) is_smooth_ = false;
+    if (!impacts_.tied().empty()) ties_.push_back({part_.t + part_.from, impacts_.tied()});
     if (!impacts_.solver_warning().empty()) {
       copy_columns(std::as_const(start_).columns(), state);
       return take_crowded_step(state, crowded_step_);
@@ -167,7 +172,8 @@ class EventStepper : public ContactStepper {
     end_ = BodyColumns(state);
     pairs_.clear();
     if (persistent_contact_.is_at_rest(state)) return part_.to;
-    part_.to = std::min(part_.to, part_.from + std::min(longest_, persistent_contact_.longest_step(state)));
+    const double longest = std::min(longest_, persistent_contact_.choose_step(state, part_.length()));
+    if (longest < part_.length()) part_.to = part_.from + longest;
     longest_ = kInfinity;
     attempt(part_.length());
     shorten_until_bounded();
@@ -200,7 +206,7 @@ class EventStepper : public ContactStepper {
   // From clear_, the state after `clear`, to end_ after h.
   bool is_clear_until(double clear, double h) {
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
-    return are_bounded(from, clear, h - clear) && clearance_.all_stay_apart(pairs_, {from, clear}, {to, h});
+    return are_bounded(from, clear, h - clear) && clearance_.all_stay_apart(pairs_, touching_, {from, clear}, {to, h});
   }
 
   // Of what a stiff spring may do within a long step there is no bound.
@@ -247,13 +253,13 @@ class EventStepper : public ContactStepper {
     saved_ -= kForNoForces;
     if (++instants_ > kMostInstants)
       note("no forces between the touching bodies obey the laws of contact and friction (Painlevé's paradox)");
-    return take_crowded_step(state, instants_ > kMostInstants ? crowded_step_ : kInstant);
+    return take_crowded_step(state, instants_ > kMostInstants ? crowded_step_ : instant_);
   }
 
   double take_crowded_step(MutableBodyColumns state, double longest) {
     is_smooth_ = false;
-    if (patience_ > 1 && longest > kInstant) note("events crowd more than its patience allows");
-    if (!crowded_from_ && longest > kInstant) crowded_from_ = part_.t + part_.from;
+    if (patience_ > 1 && longest > instant_) note("events crowd more than its patience allows");
+    if (!crowded_from_ && longest > instant_) crowded_from_ = part_.t + part_.from;
     const double h = crowded_.take(state, part_.t + part_.from, std::min(part_.length(), longest));
     contact_points_.note_turns(state, h);
     persistent_contact_.forget_points();
@@ -320,7 +326,7 @@ class EventStepper : public ContactStepper {
   double patience_;
   double moving_;                                      // bodies
   double saved_ = std::numeric_limits<double>::max();  // of the budget, in steps of the integrator
-  double crowded_step_ = 0;                            // s
+  double crowded_step_ = 0, instant_ = 0;              // s
   std::optional<double> crowded_from_;                 // s
   bool are_many_ = false;                              // somewhere, more than kMostTogether
   Part part_;
@@ -333,6 +339,7 @@ class EventStepper : public ContactStepper {
   std::vector<ContactPoint> touching_;
   std::vector<std::pair<int, int>> pairs_;
   std::vector<std::string> names_;
+  std::vector<ContactTie> ties_;
   std::string solver_warning_;
 };
 
@@ -345,7 +352,16 @@ const ContactMethod kEventContact = {
     .features =
         joined(contacts_of_all_shapes(), {"contact-filter", "friction:coulomb", "friction:infinite", "friction:none",
                                           "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
-    .options = {{"restitution-threshold", "m/s, from below which nothing rebounds; default 1e-7", {}, 1e-12, 1},
+    .options = {{"restitution-threshold",
+                 "m/s, from below which nothing rebounds; default 5e-8 of the scene's speed",
+                 {},
+                 1e-15,
+                 1},
+                {"thresholds",
+                 "times the default thresholds that tell what touches, slides and rebounds; default 1",
+                 {},
+                 1e-3,
+                 1e3},
                 {"patience",
                  "times of what it may spend on events by default; more than 1: invalid where they crowd",
                  {},

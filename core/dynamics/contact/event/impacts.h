@@ -6,15 +6,19 @@
 // friction stops slips of what touches at once, as an impact. Impulses act through the joints.
 #pragma once
 
+#include <optional>
+#include <utility>
+
 #include "core/dynamics/contact/event/contact_points.h"
+#include "core/engine/engine.h"
 
 namespace rigor {
 
-// Approaching more slowly than this leaves no rebound: a sequence of bounces ends here, 2 u / (g (1 - e)) before its
-// own end, which for e = 0.9 on Earth is 2e-7 s.
-inline constexpr double kRestitutionThreshold = 1e-7;  // m/s, unless a run names another
-// What the roundings of an impact leave of a velocity that should be zero.
-inline constexpr double kStillSpeed = 1e-10;  // m/s
+// In the scene's units of speed. An approach that is slower than this leaves no rebound, unless a run names another
+// threshold. A sequence of bounces then ends 2 u / (g (1 - e)) early, which for e = 0.9 on Earth is 2e-7 s.
+inline constexpr double kRestitutionThreshold = 5e-8;
+// m/s: the run's own threshold, or the one above.
+double restitution_threshold(const Settings& settings, const ContactScales& scales);
 
 inline constexpr double kNewEnergy = 1e-12;  // of the energy before an impact: rounding, and no gain
 double kinetic_energy(const System& system, BodyColumns state);  // J
@@ -22,8 +26,12 @@ double kinetic_energy(const System& system, BodyColumns state);  // J
 class Impacts {
  public:
   // `joints` may be null.
-  Impacts(const System& system, double restitution_threshold, Joints* joints)
-      : system_(system), solver_(system, {}, joints), restitution_threshold_(restitution_threshold) {}
+  Impacts(const System& system, const ContactScales& scales, double restitution_threshold, Joints* joints)
+      : system_(system),
+        scales_(scales),
+        solver_(system, {}, joints),
+        restitution_threshold_(restitution_threshold),
+        joints_(joints) {}
 
   double restitution_threshold() const { return restitution_threshold_; }  // m/s
 
@@ -31,18 +39,32 @@ class Impacts {
   // restitution threshold.
   bool resolve(MutableBodyColumns state, std::vector<ContactPoint>& contact_points);
   long work() const { return solver_.work(); }
+  // The pairs of bodies that met in the last resolve(), if the result depends on which of them meets first. Found only
+  // after watch_ties().
+  void watch_ties() { watches_ties_ = true; }
+  const std::vector<std::pair<int, int>>& tied() const { return tied_; }
   // Empty if every round came to its end.
   const std::string& solver_warning() const { return solver_warning_; }
 
  private:
+  bool take_rounds(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points);
   bool choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool all);
+  std::vector<std::pair<int, int>> hitting_pairs(BodyColumns state) const;
+  void find_ties(BodyColumns result, const std::vector<ContactPoint>& contact_points);
+  bool decides(const std::pair<int, int>& first, BodyColumns result, const std::vector<ContactPoint>& contact_points);
   void let_infinite_friction_grip();
   void solve_round(MutableBodyColumns state);
 
   const System& system_;
+  ContactScales scales_;
   ConeSolver solver_;
   double restitution_threshold_;
+  Joints* joints_;
   std::vector<ConeConstraint> points_, chosen_;
+  std::optional<std::pair<int, int>> only_;  // the pair that may take part; all of them without
+  bool watches_ties_ = false;
+  std::vector<std::pair<int, int>> tied_;
+  BodyTable start_, other_;
   BodyTable before_;
   bool rebound_ = false;
   std::string solver_warning_;

@@ -93,6 +93,7 @@ export class CaseView {
             ? `Truth: ${truth.kind}; its own error is at most ${digits(truth.error_at_end, 2)} m or rad over the whole ${digits(one.duration)} s.`
             : `Truth: ${truth.kind}; known to ${quantity(truth.horizon_tolerance, "m")} up to its horizon at ${truth.horizon.toFixed(1)} s of ${digits(one.duration)} s, and compared only so far: beyond it the motion is too sensitive.`;
     }
+    if (truth.caveat) truthText += ` ${truth.caveat}`;
     const provenanceText = truth.provenance ? ` It is ${truth.provenance}.` : "";
     return el(
       "section.heading",

@@ -8,10 +8,11 @@ namespace rigor {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr double kClosed = 1e-13;  // m: a few roundings of a position of one metre
+// In the scene's units of gaps.
+constexpr double kClosed = 1e-13;   // some roundings of a position
+constexpr double kTouching = 5e-3;  // a point that drifted further than this is no longer in contact
 constexpr int kMostMoves = 20, kMostSweeps = 200;
 constexpr std::size_t kMostTogether = 2000;  // points: a second or two of the projection's time
-constexpr double kTouching = 1e-3;           // m: a point that drifted further than this is not in contact any more
 constexpr double kDeep = 0.1;                // of the smaller inradius: crowded steps leave up to 0.03 for a while
 
 void move(MutableBodyColumns state, std::size_t i, const PoseStep& motion) {
@@ -38,7 +39,7 @@ bool GapClosing::close(MutableBodyColumns state, const std::vector<std::pair<int
         return point.contact.same_place(contact) && point.force.x() > 0;
       });
       if (!(contact.gap < 0 || is_carrying)) continue;
-      widest = std::max(widest, std::abs(contact.gap));
+      widest = std::max(widest, std::abs(contact.gap) / contact_points_.scales().gap_unit(contact.cone.is_couple));
       targets_.push_back(target_of(contact.cone, 0, -contact.gap, is_carrying));
     }
     if (!(widest > kClosed)) return k > 0;

@@ -11,21 +11,28 @@ namespace rigor {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr double kBeginning = 1e-11;  // m/s: how much a slip that begins may go the wrong way, by rounding
+// In the scene's units.
+constexpr double kBeginning = 1e-11;  // of speed: a slip that begins may go back by this, which is rounding
+constexpr double kLeastSize = 1e-7;   // of acceleration: weaker forces are roundings
+constexpr double kShortest = 1e-4;    // of time: the shortest step that slips ask for
+constexpr double kFollowing = 1e-3;   // of time: the same, of an adaptive method that follows a slip
+constexpr double kStill = 1e-15;      // of speed, and of the speeds themselves: roundings of a velocity of zero
 constexpr double kPulling = 2e-9;     // of the forces: twice what is still chosen
-constexpr double kLeastSize = 1e-6;   // m/s²: of accelerations; weaker forces are roundings
-constexpr double kStable = 2;         // of an explicit method: how much a step may be in units of what it damps
-constexpr double kShortest = 1e-5;    // s: what slips make of themselves within it is some 1e-4 m/s
+constexpr double kStable = 2;         // a step of an explicit method, in units of the time that it damps
+constexpr double kEasy = 0.05;        // the same: a longer step errs where a slip turns
+constexpr double kFollowed = 4;       // the same, of an adaptive method that follows a slip
+constexpr double kStraight = 1e-9;    // rad: a slip that turns less in a step is straight
 constexpr double kTurn = 0.25;        // rad, of a body among joints in a step of an explicit method
 constexpr long kAskedInStep = 64;     // times for forces, by a method that need not divide its step much
-constexpr double kReversed = 0.1;     // of the fastest slip at any stage: what stages differ by is less
-constexpr double kSlow = 10;          // of the restitution threshold: what parts no faster, and comes back, stays
-constexpr double kStill = 1e-15;      // of the speeds: what is left of a velocity that is to be zero
+constexpr double kReversed = 0.1;     // of the fastest slip at any stage: stages differ by less
+constexpr double kSlow = 10;          // of the restitution threshold: a contact that parts no faster stays
+
+constexpr const char* kAdaptive = "dormand-prince";
 
 // Of no lower order than `own`, and asks for forces at its stages.
 const Integrator& integrator_in_contact(const Integrator& own) {
   if (own.holds_at_stages) return own;
-  return integrator(own.order <= 4 ? "rkmk4" : "dormand-prince");
+  return integrator(own.order <= 4 ? "rkmk4" : kAdaptive);
 }
 
 }  // namespace
@@ -41,10 +48,12 @@ PersistentContact::PersistentContact(const ContactParts& parts, ContactPoints& c
       free_stepper_(parts.integrator.make({system_, nullptr, parts.orientation, parts.settings})),
       contact_stepper_(
           in_contact_.make({system_, nullptr, parts.orientation, parts.settings, nullptr, nullptr, &persistent_})),
+      adaptive_stepper_(integrator(kAdaptive).make(
+          {system_, nullptr, nullptr, {kAdaptive, {}, parts.settings.track}, nullptr, nullptr, &persistent_})),
       loads_(system_),
       projection_(system_, parts.joints),
       gaps_(system_, parts.joints, contact_points, projection_),
-      restitution_threshold_(number_option(parts.settings, "restitution-threshold", kRestitutionThreshold)),
+      restitution_threshold_(restitution_threshold(parts.settings, contact_points.scales())),
       rests_(parts.system.size(), 0) {}
 
 void PersistentContact::let_go_motors(BodyColumns state) {
@@ -97,11 +106,12 @@ bool PersistentContact::select_points(MutableBodyColumns state, const std::vecto
   old_points_.swap(points);
   old_points_.insert(old_points_.end(), resting_points_.begin(), resting_points_.end());
   forget_points();
+  follows_turning_slip_ = false;
   if (joints_) noted_ = joints_->noted();
   const auto& colliders = contact_points_.colliders();
   for (const ContactPoint& contact : contact_points) {
     const Vec3 u = ConeSolver::velocity_at(contact.cone, state);
-    if (u.x() > kSlow * restitution_threshold_) continue;
+    if (u.x() > kSlow * threshold_of(contact)) continue;
     PersistentPoint point;
     point.contact = contact;
     if (!contact.is_limit()) {
@@ -110,8 +120,8 @@ bool PersistentContact::select_points(MutableBodyColumns state, const std::vecto
                                 contact.gap, contact.feature};
       point.features = features_at(place, a, pose_of(state, a.body), b, pose_of(state, b.body));
     }
-    const bool slides = contact.cone.friction == 0 ||
-                        (std::isfinite(contact.cone.friction) && u.tail<2>().norm() > ContactModes::kSliding);
+    const bool slides = contact.cone.friction == 0 || (std::isfinite(contact.cone.friction) &&
+                                                       u.tail<2>().norm() > ContactModes::kSliding * scales().speed());
     point.mode = slides ? PersistentPoint::Mode::slides : PersistentPoint::Mode::sticks;
     const auto old = std::find_if(old_points_.begin(), old_points_.end(),
                                   [&](const PersistentPoint& p) { return p.contact.same_place(contact); });
@@ -126,6 +136,11 @@ bool PersistentContact::select_points(MutableBodyColumns state, const std::vecto
   stop_points(state, When::before);
   if (are_found) set_resting_aside(state);
   return are_found;
+}
+
+// m/s or rad/s: the contact's restitution threshold.
+double PersistentContact::threshold_of(const ContactPoint& contact) const {
+  return restitution_threshold_ * scales().speed_unit(contact.cone.is_couple) / scales().speed_unit();
 }
 
 std::size_t PersistentContact::most_together(const std::vector<ContactPoint>& contact_points) const {
@@ -164,7 +179,7 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
   copy_columns(start, end);
   const long asked_before = persistent_.times_asked();
   if (joints_) joints_->note_only(noted_);
-  (is_free() ? free_stepper_ : contact_stepper_)->step(end, t, dt);
+  stepper().step(end, t, dt);
   passes_ += std::max(1L, (persistent_.times_asked() - asked_before) / kAskedInStep);
   for (std::size_t i = 0; i < end.size(); ++i) {
     if (!rests_[i]) continue;
@@ -172,7 +187,7 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
     if (end.has_rotation()) end.set_rotation(i, start.rotation(i));
   }
   if (is_free()) return;
-  if (end.has_rotation() && contact_stepper_ && in_contact_.default_orientation.empty()) {
+  if (end.has_rotation() && (in_contact_.default_orientation.empty() || follows_turning_slip_)) {
     for (std::size_t i = 0; i < end.size(); ++i) end.set_rotation(i, matrix_of(end.orientation(i)));
   }
   end_ = end;
@@ -183,21 +198,39 @@ void PersistentContact::advance(BodyColumns start, MutableBodyColumns end, doubl
   if (motors_->needs_efforts()) motors_->note_efforts(end, wrench_beside_joints(wrench_at_end_));
 }
 
-double PersistentContact::longest_step(BodyColumns state) const {
+Stepper& PersistentContact::stepper() const {
+  if (is_free()) return *free_stepper_;
+  return follows_turning_slip_ ? *adaptive_stepper_ : *contact_stepper_;
+}
+
+// 1/s: how fast friction damps what slips across the direction of sliding. Infinite where the slip begins.
+double PersistentContact::damping_rate(const PersistentPoint& point) const {
+  if (point.mode != PersistentPoint::Mode::slides || point.friction() == 0) return 0;
+  const double slip = point.begins_to_slip ? 0 : point.velocity.tail<2>().norm();
+  const double force = point.friction() * point.force.x();
+  return force > 0 ? force / (point.tangential_mass * slip) : 0;
+}
+
+double PersistentContact::choose_step(BodyColumns state, double length) {
   double fastest = 0;
+  bool turns = false;
   for (const PersistentPoint& point : points()) {
-    const double slip = point.velocity.tail<2>().norm();
-    if (point.mode != PersistentPoint::Mode::slides || point.begins_to_slip || !(slip > 0)) continue;
-    fastest = std::max(fastest, point.friction() * point.force.x() / (point.tangential_mass * slip));
+    const double rate = damping_rate(point);
+    const bool turns_here = point.begins_to_slip || point.turn_rate * length > kStraight;
+    turns = turns || (!in_contact_.adaptive && rate * length > kEasy && turns_here);
+    if (turns || std::isfinite(rate)) fastest = std::max(fastest, rate);
   }
-  const double of_slips = fastest > 0 ? std::max(kShortest, kStable / fastest) : kForever;
-  return std::min(of_slips, longest_turn(state));
+  follows_turning_slip_ = turns;
+  const double shortest = (follows_turning_slip_ ? kFollowing : kShortest) * scales().time;
+  const double followed = follows_turning_slip_ ? kFollowed : kStable;
+  const double of_slips = fastest > 0 ? std::max(shortest, followed / fastest) : kForever;
+  return std::min({length, of_slips, longest_turn(state)});
 }
 
 // What joints hold while it turns by more than that in a step, an explicit method throws about; impacts leave small
 // links turning fast.
 double PersistentContact::longest_turn(BodyColumns state) const {
-  if (!joints_ || in_contact_.adaptive) return kForever;
+  if (!joints_ || is_adaptive()) return kForever;
   double fastest = 0;
   for (std::size_t i = 0; i < state.size(); ++i) fastest = std::max(fastest, state.angular_velocity(i).norm());
   return kTurn / fastest;
@@ -224,14 +257,14 @@ double PersistentContact::slipping_margin() const {
   const bool shares_matter = persistent_.has_friction_of_slip();
   const double size = persistent_.largest_force();
   for (const PersistentPoint& point : points()) {
-    if (shares_matter && size > kLeastSize * point.tangential_mass)
+    if (shares_matter && size > kLeastSize * scales().acceleration_unit() * point.tangential_mass)
       least = std::min(least, point.force.x() / size + kPulling);
     if (point.mode != PersistentPoint::Mode::slides || point.friction() == 0) continue;
-    least = std::min(least, point.slip + (point.begins_to_slip ? kBeginning : 0));
+    least = std::min(least, point.slip / scales().speed_unit() + (point.begins_to_slip ? kBeginning : 0));
     // A slip that ended within a long step, and began again; what an adaptive method tries and refuses is no sign of
     // it.
-    if (!in_contact_.adaptive && point.least_slip < -kReversed * point.largest_slip)
-      least = std::min(least, point.least_slip);
+    if (!is_adaptive() && point.least_slip < -kReversed * point.largest_slip)
+      least = std::min(least, point.least_slip / scales().speed_unit());
   }
   return least;
 }
@@ -277,7 +310,7 @@ void PersistentContact::stop_points(MutableBodyColumns state, When when) {
       if (body != kWorld) speed = std::max(speed, state.velocity(body).norm());
     }
   }
-  if (most <= kStill * (1 + speed)) return;
+  if (most <= kStill * (scales().speed_unit() + speed)) return;
   const std::vector<PoseStep>& motion = projection_.project(state, targets_);
   for (std::size_t i = 0; i < motion.size(); ++i) {
     if (motion[i].isZero(0)) continue;
@@ -286,8 +319,6 @@ void PersistentContact::stop_points(MutableBodyColumns state, When when) {
   }
 }
 
-std::string PersistentContact::solver_warning() const {
-  return is_free() ? free_stepper_->solver_warning() : contact_stepper_->solver_warning();
-}
+std::string PersistentContact::solver_warning() const { return stepper().solver_warning(); }
 
 }  // namespace rigor

@@ -28,10 +28,11 @@ class PersistentContact {
   bool select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t, double dt);
   // From `start` at t to `end` at t + dt.
   void advance(BodyColumns start, MutableBodyColumns end, double t, double dt);
-  // s, from the start that select() was called for: friction damps slips across the direction of sliding within m u/(mu
-  // N), and an explicit method that steps over many of such times lets them grow; so it is with jointed bodies that
-  // turn far.
-  double longest_step(BodyColumns state) const;
+  // s, of at most `length`, from the start that select() was called for. Friction damps slips across the direction of
+  // sliding within m u/(mu N). An explicit method that steps over many of such times lets them grow. Where the
+  // direction turns it errs before that, so an adaptive method takes over. Jointed bodies that turn far ask for short
+  // steps, too.
+  double choose_step(BodyColumns state, double length);
   // Whether nothing moves, and nothing will.
   bool is_at_rest(BodyColumns state) const;
   // Whether the body rests, with all that it touches, while others move: it does so until something else touches it, so
@@ -75,7 +76,13 @@ class PersistentContact {
   double margin() const;
   double slipping_margin() const;
   double longest_turn(BodyColumns state) const;
+  double damping_rate(const PersistentPoint& point) const;
+  bool is_adaptive() const { return in_contact_.adaptive || follows_turning_slip_; }
+  Stepper& stepper() const;
   void set_resting_aside(BodyColumns state);
+
+  const ContactScales& scales() const { return persistent_.scales(); }
+  double threshold_of(const ContactPoint& contact) const;
 
   bool is_free() const { return points().empty() && !joints_; }
 
@@ -87,7 +94,8 @@ class PersistentContact {
   ContactPoints& contact_points_;
   PersistentForces persistent_;
   ContactModes modes_;
-  std::unique_ptr<Stepper> free_stepper_, contact_stepper_;
+  std::unique_ptr<Stepper> free_stepper_, contact_stepper_, adaptive_stepper_;
+  bool follows_turning_slip_ = false;  // by adaptive_stepper_
   WrenchColumns loads_;
   Columns beside_joints_;
   MassWeightedProjection projection_;

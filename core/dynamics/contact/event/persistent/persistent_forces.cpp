@@ -8,8 +8,14 @@
 namespace rigor {
 namespace {
 
-constexpr double kNoSlip = 1e-6;  // m/s: a slip that has no direction of its own yet
-constexpr double kFading = 10;    // times that: a slip that has its own, but for a third of kNoSlip
+constexpr double kNoSlip = 1e-6;  // in the scene's units of speed: a slip that has no direction of its own yet
+constexpr double kFading = 10;    // times kNoSlip: a slip that has its own direction, but for a third of kNoSlip
+
+// m/s. A smaller unit would only ask for shorter steps: what is left of it is below the other thresholds.
+double unit_of_slip(const ContactScales& scales) {
+  constexpr double kLeastFactor = 0.25;
+  return std::max(scales.factor, kLeastFactor) * scales.speed_unit();
+}
 
 // Unit, in W: what friction acts against. Past the instant at which the point would stop it goes on as it was, so that
 // the instant can be found: of a slip that has turned against the direction it began with, that which is mirrored back.
@@ -19,11 +25,11 @@ constexpr double kFading = 10;    // times that: a slip that has its own, but fo
 // Near rest the direction is that of slip + kNoSlip d, d the one that it began with: friction turns the direction of a
 // slip u within u m/(mu f_n), and so would take ever shorter steps of a slip that begins or ends. What is left of this
 // at a hundred times that speed is less than rounding.
-Vec3 braked_direction(const PersistentPoint& point) {
+Vec3 braked_direction(const PersistentPoint& point, double unit) {
   const Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
-  const double along = slip.dot(point.slip_direction), size = slip.norm() / (kFading * kNoSlip);
+  const double along = slip.dot(point.slip_direction), size = slip.norm() / (kFading * kNoSlip * unit);
   const Vec3 ahead = along < 0 ? Vec3(slip - 2 * along * point.slip_direction) : slip;
-  return (ahead + kNoSlip * std::exp(-size * size) * point.slip_direction).normalized();
+  return (ahead + kNoSlip * unit * std::exp(-size * size) * point.slip_direction).normalized();
 }
 
 }  // namespace
@@ -144,7 +150,7 @@ void PersistentForces::list_rows(const Island& island) {
       add_row(i, 0, n, n);
       continue;
     }
-    add_row(i, 0, n, n - point.friction() * braked_direction(point));
+    add_row(i, 0, n, n - point.friction() * braked_direction(point, unit_of_slip(scales())));
   }
 }
 
@@ -226,7 +232,8 @@ void PersistentForces::set_forces() {
     PersistentPoint& point = points_[row.point];
     point.force[row.axis] += row.multiplier;
     if (point.mode == PersistentPoint::Mode::sticks || point.friction() == 0) continue;
-    point.force -= point.friction() * row.multiplier * (point.frame.transpose() * braked_direction(point));
+    point.force -=
+        point.friction() * row.multiplier * (point.frame.transpose() * braked_direction(point, unit_of_slip(scales())));
   }
 }
 

@@ -29,6 +29,7 @@ struct PersistentPoint {
   Vec3 slip_direction = Vec3::Zero();
   bool begins_to_slip = false;
   double tangential_mass = 0;  // kg, the least, at the start
+  double turn_rate = 0;        // rad/s, of the slip's direction at the start
 
   // At the last instant asked for.
   ContactKinematics kinematics;
@@ -54,6 +55,7 @@ class PersistentForces : public ConstraintForces {
   // `joints`, which may be null, must outlive it.
   PersistentForces(const System& system, const ContactPoints& contact_points, Joints* joints);
 
+  const ContactScales& scales() const { return contact_points_.scales(); }
   std::vector<PersistentPoint>& points() { return points_; }
   const std::vector<PersistentPoint>& points() const { return points_; }
 

@@ -92,7 +92,7 @@ BOOST_DATA_TEST_CASE(ten_bodies_that_are_thrown_together_cost_no_more_than_was_s
   for (std::size_t i = 0; i < bodies.size(); ++i) BOOST_TEST(run.state().position(i).z() > 0);
 }
 
-BOOST_AUTO_TEST_CASE(a_log_that_slides_and_spins_keeps_the_order_of_the_integrator) {
+BOOST_AUTO_TEST_CASE(a_log_that_slides_and_spins_is_followed_whatever_the_step) {
   Body log = solid("log", Capsule{0.1, 0.6}, {0, 0, 0.1});
   log.orientation = rotation_by({0, 0.5 * std::numbers::pi, 0});
   log.velocity = {1, 2, 0}, log.angular_velocity = {0, 0, 4};
@@ -105,11 +105,10 @@ BOOST_AUTO_TEST_CASE(a_log_that_slides_and_spins_keeps_the_order_of_the_integrat
   const BodyState exact = after("dormand-prince", 12);
   // It does turn: each end slides another way.
   BOOST_TEST(std::abs(exact.velocity.x() / exact.velocity.y() - 0.5) > 1e-3);
+  // In steps that are long beside the time in which friction turns a slip, an adaptive method takes over.
   for (const char* integrator : {"rk4", "rkmk4"}) {
-    const auto error = [&](int steps) { return (after(integrator, steps).position - exact.position).norm(); };
-    const double coarse = error(3), fine = error(6), finer = error(12);
-    BOOST_TEST(std::log2(coarse / fine) > 3.5, integrator << ": " << coarse << ", " << fine);
-    BOOST_TEST(std::log2(fine / finer) > 3.7, integrator << ": " << fine << ", " << finer);
+    for (const int steps : {3, 6, 12})
+      BOOST_TEST((after(integrator, steps).position - exact.position).norm() < 1e-11, integrator << ", " << steps);
   }
 }
 

@@ -1,0 +1,165 @@
+#include "cases/truth/solved/equivalent_scene.h"
+
+#include <algorithm>
+
+#include "core/scene/turned.h"
+
+namespace rigor {
+namespace {
+
+Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
+// Of an angular velocity, a torque or an axis of rotation.
+Vec3 mirrored_axial(const Vec3& v) { return {v.x(), -v.y(), -v.z()}; }
+// The frame of a body is mirrored, too, so that it stays right-handed.
+Quat mirrored(const Quat& q) { return {q.w(), q.x(), -q.y(), -q.z()}; }
+
+struct MirrorJoint {
+  void operator()(BallJoint& joint) const { joint.anchor = mirrored(joint.anchor); }
+  // An angle keeps its sign.
+  void operator()(HingeJoint& joint) const {
+    joint.anchor = mirrored(joint.anchor), joint.axis = mirrored_axial(joint.axis);
+  }
+  void operator()(SliderJoint& joint) const { joint.axis = mirrored(joint.axis); }
+  void operator()(FixedJoint&) const {}
+  void operator()(DistanceJoint& joint) const {
+    joint.point_a = mirrored(joint.point_a), joint.point_b = mirrored(joint.point_b);
+  }
+  void operator()(UniversalJoint& joint) const {
+    joint.anchor = mirrored(joint.anchor), joint.axis = mirrored(joint.axis), joint.axis2 = mirrored(joint.axis2);
+  }
+};
+
+void mirror(Scene& scene) {
+  const Mat3 S = Vec3(-1, 1, 1).asDiagonal();
+  scene.gravity = mirrored(scene.gravity);
+  for (Body& body : scene.bodies) {
+    body.inertia = (S * body.inertia * S).eval();
+    body.position = mirrored(body.position), body.orientation = mirrored(body.orientation);
+    body.velocity = mirrored(body.velocity), body.angular_velocity = mirrored_axial(body.angular_velocity);
+    if (!body.shape) continue;
+    if (auto* plane = std::get_if<Plane>(&*body.shape)) plane->normal = mirrored(plane->normal);
+  }
+  for (Spring& spring : scene.springs)
+    spring.point_a = mirrored(spring.point_a), spring.point_b = mirrored(spring.point_b);
+  for (Joint& joint : scene.joints) std::visit(MirrorJoint{}, joint.type);
+  for (TimedForce& force : scene.forces) {
+    force.force = mirrored(force.force), force.torque = mirrored_axial(force.torque);
+    force.point = mirrored(force.point);
+  }
+}
+
+void reverse(Scene& scene) {
+  const int last = static_cast<int>(scene.bodies.size()) - 1;
+  const auto move = [last](int& body) {
+    if (body != kWorld) body = last - body;
+  };
+  std::reverse(scene.bodies.begin(), scene.bodies.end());
+  for (Spring& spring : scene.springs) move(spring.a), move(spring.b);
+  for (Joint& joint : scene.joints) move(joint.a), move(joint.b);
+  for (ContactPair& pair : scene.contact_pairs) move(pair.a), move(pair.b);
+  for (TimedForce& force : scene.forces) move(force.body);
+}
+
+struct ScaleShape {
+  double L;
+  void operator()(Sphere& sphere) const { sphere.radius *= L; }
+  void operator()(Box& box) const { box.size *= L; }
+  void operator()(Capsule& capsule) const { capsule.radius *= L, capsule.length *= L; }
+  void operator()(Plane& plane) const { plane.offset *= L; }
+};
+
+struct ScaleJoint {
+  double L;
+  void operator()(BallJoint& joint) const { joint.anchor *= L; }
+  void operator()(HingeJoint& joint) const { joint.anchor *= L; }
+  void operator()(SliderJoint&) const {}
+  void operator()(FixedJoint&) const {}
+  void operator()(DistanceJoint& joint) const { joint.point_a *= L, joint.point_b *= L; }
+  void operator()(UniversalJoint& joint) const { joint.anchor *= L; }
+};
+
+// The unit of a joint's coordinate: 1 of an angle.
+double unit_of(const Joint& joint, double L) { return std::holds_alternative<SliderJoint>(joint.type) ? L : 1; }
+
+void scale_joints(Scene& scene, double L, double T) {
+  for (Joint& joint : scene.joints) {
+    std::visit(ScaleJoint{L}, joint.type);
+    const double x = unit_of(joint, L), moment = std::holds_alternative<SliderJoint>(joint.type) ? 1 : L * L;
+    joint.stiffness *= moment / (T * T), joint.damping *= moment / T;
+    joint.rest *= x, joint.lower *= x, joint.upper *= x;
+  }
+  for (Motor& motor : scene.motors) {
+    const Joint& joint = scene.joints[motor.joint];
+    const double x = unit_of(joint, L), effort = std::holds_alternative<SliderJoint>(joint.type) ? L : L * L;
+    motor.effort *= effort / (T * T), motor.most *= effort / (T * T);
+    if (motor.speed) *motor.speed *= x / T;
+    motor.from *= T, motor.until *= T;
+  }
+}
+
+// The unit of mass stays.
+void scale(Scene& scene, double L, double T) {
+  scene.gravity *= L / (T * T);
+  for (Body& body : scene.bodies) {
+    body.inertia *= L * L;
+    body.position *= L, body.velocity *= L / T, body.angular_velocity /= T;
+    if (body.shape) std::visit(ScaleShape{L}, *body.shape);
+  }
+  for (Spring& spring : scene.springs) {
+    spring.point_a *= L, spring.point_b *= L, spring.rest_length *= L;
+    spring.stiffness /= T * T, spring.damping /= T;
+  }
+  scale_joints(scene, L, T);
+  for (TimedForce& force : scene.forces) {
+    force.force *= L / (T * T), force.torque *= L * L / (T * T), force.point *= L;
+    force.from *= T, force.until *= T;
+  }
+}
+
+bool turns(const Equivalence& how) { return !how.turn.vec().isZero(0); }
+
+}  // namespace
+
+Scene equivalent(Scene scene, const Equivalence& how) {
+  if (how.is_mirrored) mirror(scene);
+  if (turns(how)) scene = turned(std::move(scene), how.turn);
+  if (how.is_reversed) reverse(scene);
+  scale(scene, how.length, how.time);
+  return scene;
+}
+
+void to_equivalent(const Equivalence& how, BodyColumns original, MutableBodyColumns out) {
+  const double L = how.length, T = how.time;
+  for (std::size_t i = 0; i < original.size(); ++i) {
+    BodyState body = original.body(i);
+    if (how.is_mirrored) {
+      body = {mirrored(body.position), mirrored(body.orientation), mirrored(body.velocity),
+              mirrored_axial(body.angular_velocity)};
+    }
+    if (turns(how)) {
+      body = {how.turn * body.position, how.turn * body.orientation, how.turn * body.velocity,
+              how.turn * body.angular_velocity};
+    }
+    body.position *= L, body.velocity *= L / T, body.angular_velocity /= T;
+    out.set_body(how.is_reversed ? original.size() - 1 - i : i, body);
+  }
+}
+
+void to_original(const Equivalence& how, BodyColumns equivalent, MutableBodyColumns out) {
+  const double L = how.length, T = how.time;
+  const Quat back = how.turn.conjugate();
+  for (std::size_t i = 0; i < equivalent.size(); ++i) {
+    BodyState body = equivalent.body(how.is_reversed ? equivalent.size() - 1 - i : i);
+    body.position /= L, body.velocity *= T / L, body.angular_velocity *= T;
+    if (turns(how)) {
+      body = {back * body.position, back * body.orientation, back * body.velocity, back * body.angular_velocity};
+    }
+    if (how.is_mirrored) {
+      body = {mirrored(body.position), mirrored(body.orientation), mirrored(body.velocity),
+              mirrored_axial(body.angular_velocity)};
+    }
+    out.set_body(i, body);
+  }
+}
+
+}  // namespace rigor

@@ -1,0 +1,80 @@
+#include "core/dynamics/contact/event/contact_scales.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "core/dynamics/collision/colliders.h"
+
+namespace rigor {
+namespace {
+
+// m: the radius of gyration about the axis of the largest moment.
+double gyration_radius(const Body& body) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(body.inertia, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues()[2]) / body.mass);
+}
+
+double length_of(const Scene& scene) {
+  double length = 0;
+  for (const Collider& collider : colliders_of(scene)) {
+    if (!collider.fixed) length = std::max(length, collider.bounding_radius);
+  }
+  if (length > 0) return length;
+  for (const Body& body : scene.bodies) {
+    if (!body.fixed) length = std::max(length, gyration_radius(body));
+  }
+  return length > 0 ? length : 1;
+}
+
+// Collects rates [1/s], of which the fastest counts. `L` is the scene's length.
+class FastestRate {
+ public:
+  FastestRate(const Scene& scene, double L) : scene_(scene), L_(L) {}
+
+  double find() {
+    take(std::sqrt(scene_.gravity.norm() / L_));
+    for (const Body& body : scene_.bodies) {
+      if (body.fixed) continue;
+      take(body.velocity.norm() / L_), take(body.angular_velocity.norm());
+    }
+    for (const Spring& spring : scene_.springs) {
+      for (const int body : {spring.a, spring.b}) take(std::sqrt(spring.stiffness * per_mass(body)));
+    }
+    for (const TimedForce& force : scene_.forces) {
+      const double moment = force.torque.norm() + force.point.norm() * force.force.norm();
+      take(std::sqrt(force.force.norm() * per_mass(force.body) / L_));
+      take(std::sqrt(moment * per_mass(force.body)) / L_);
+    }
+    for (const Motor& motor : scene_.motors) take_motor(motor);
+    return fastest_;
+  }
+
+ private:
+  void take(double rate) {
+    if (std::isfinite(rate)) fastest_ = std::max(fastest_, rate);
+  }
+  double per_mass(int body) const {
+    return body == kWorld || scene_.bodies[body].fixed ? 0 : 1 / scene_.bodies[body].mass;
+  }
+  void take_motor(const Motor& motor) {
+    const Joint& joint = scene_.joints[motor.joint];
+    const double arm = std::holds_alternative<HingeJoint>(joint.type) ? L_ : 1;
+    take(std::abs(motor.speed.value_or(0)) * arm / L_);
+    for (const int body : {joint.a, joint.b})
+      take(std::sqrt(std::max(std::abs(motor.effort), motor.most) * per_mass(body) / (arm * L_)));
+  }
+
+  const Scene& scene_;
+  double L_;
+  double fastest_ = 0;
+};
+
+}  // namespace
+
+ContactScales contact_scales(const Scene& scene, double factor) {
+  const double length = length_of(scene), rate = FastestRate(scene, length).find();
+  return {length, rate > 0 ? 1 / rate : 1, factor};
+}
+
+}  // namespace rigor
