@@ -18,7 +18,7 @@ using State = Eigen::Vector2d;  // frequency times the coordinate (or the coordi
 
 // Small, so that a state that grows by orders is still linear: a hinge turns by little, a spring keeps its line.
 constexpr double kSmallStart = 1e-9;
-constexpr double kLinear = 0.1;  // m, rad: beyond it the motion is no longer linear
+constexpr double kLinearRange = 0.1;  // m, rad: beyond it the motion is no longer linear
 
 // One oscillator as a scene: a body of unit mass and inertia. A spring hangs on x = 0, its body at 1 m.
 class OneOscillator {
@@ -58,7 +58,7 @@ class OneOscillator {
     for (int step = 0; step < steps; ++step) {
       world->step(dt), world->read(now);
       const State state = read(now.bodies());
-      if (!state.allFinite() || std::max(std::abs(state[0] / scale()), dt * std::abs(state[1])) > kLinear) break;
+      if (!state.allFinite() || std::max(std::abs(state[0] / scale()), dt * std::abs(state[1])) > kLinearRange) break;
       all.push_back(state);
     }
     return all;

@@ -20,6 +20,9 @@ struct MirrorJoint {
     joint.anchor = mirrored(joint.anchor), joint.axis = mirrored_axial(joint.axis);
   }
   void operator()(SliderJoint& joint) const { joint.axis = mirrored(joint.axis); }
+  void operator()(CylindricalJoint& joint) const {  // it has no limits, so that the sign of its axis is free
+    joint.anchor = mirrored(joint.anchor), joint.axis = mirrored(joint.axis);
+  }
   void operator()(FixedJoint&) const {}
   void operator()(DistanceJoint& joint) const {
     joint.point_a = mirrored(joint.point_a), joint.point_b = mirrored(joint.point_b);
@@ -73,6 +76,7 @@ struct ScaleJoint {
   void operator()(BallJoint& joint) const { joint.anchor *= L; }
   void operator()(HingeJoint& joint) const { joint.anchor *= L; }
   void operator()(SliderJoint&) const {}
+  void operator()(CylindricalJoint& joint) const { joint.anchor *= L; }
   void operator()(FixedJoint&) const {}
   void operator()(DistanceJoint& joint) const { joint.point_a *= L, joint.point_b *= L; }
   void operator()(UniversalJoint& joint) const { joint.anchor *= L; }

@@ -239,7 +239,8 @@ void keep_solution(const std::string& content, const ReferenceSolution& solution
   body.add(solution.phases.times), body.add(solution.phases.modes), body.add(solution.ties.size());
   for (const ContactTie& tie : solution.ties) {
     body.add(tie.time), body.add(tie.pairs.size());
-    for (const auto& [a, b] : tie.pairs) body.add(a), body.add(b);
+    for (const auto& [a, b] : tie.pairs)
+      body.add(static_cast<std::uint64_t>(a)), body.add(static_cast<std::uint64_t>(b));
   }
   const std::string bytes = head_of(content) + body.bytes();
   seal.add(content_hash(bytes));
