@@ -74,7 +74,7 @@ bool is_by_events(const RunName& run, const Scene& scene) {
   return options.contains("contact") ? options.at("contact") == "event" : contact_method_for(scene).name == "event";
 }
 
-// Beside contacts, limits and motors of given speed.
+// The supported features beside contacts, limits and motors of given speed.
 const Features kWhatAnyMethodTakes = {"fixed-body",      "joint-damper",        "joint-spring", "joint:ball",
                                       "joint:distance",  "joint:fixed",         "joint:hinge",  "joint:slider",
                                       "joint:universal", "joints-with-dampers", "motor:effort", "spring",
