@@ -110,8 +110,8 @@ Provenance events_provenance() {
   return {
       "events",
       "solved by the core's own contact=event, in steps and integrators that differ: independent of every engine but "
-      "the core; it shares collision detection and joints with the core's other runs, and with those by contact=event "
-      "everything, so that it judges none of these",
+      "the core; it shares collision detection and joints with the core's other runs; it does not judge runs by "
+      "contact=event, with which it shares everything",
       is_by_events};
 }
 
