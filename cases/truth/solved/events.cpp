@@ -74,7 +74,7 @@ bool is_by_events(const RunName& run, const Scene& scene) {
   return options.contains("contact") ? options.at("contact") == "event" : contact_method_for(scene).name == "event";
 }
 
-// Beside contacts, limits and motors of given speed.
+// The supported features beside contacts, limits and motors of given speed.
 const Features kWhatAnyMethodTakes = {"fixed-body",      "joint-damper",        "joint-spring", "joint:ball",
                                       "joint:distance",  "joint:fixed",         "joint:hinge",  "joint:slider",
                                       "joint:universal", "joints-with-dampers", "motor:effort", "spring",
@@ -110,8 +110,8 @@ Provenance events_provenance() {
   return {
       "events",
       "solved by the core's own contact=event, in steps and integrators that differ: independent of every engine but "
-      "the core; it shares collision detection and joints with the core's other runs, and with those by contact=event "
-      "everything, so that it judges none of these",
+      "the core; it shares collision detection and joints with the core's other runs; it does not judge runs by "
+      "contact=event, with which it shares everything",
       is_by_events};
 }
 

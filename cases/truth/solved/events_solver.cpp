@@ -109,7 +109,7 @@ class Solver {
     return {&of.states[n * of.dimension], bodies, bodies, false};
   }
 
-  // From the node n over `over` of them: how far the cubic between its ends is from the node in the middle.
+  // The distance of node n + 1 from the cubic between its two neighbours.
   double missed_by_cubic(std::size_t n) const {
     const auto is_smooth = [&](std::size_t k) { return best_.states[(k + 1) * best_.dimension - 1] == 1; };
     if (!is_smooth(n) || !is_smooth(n + 1)) return 0;
@@ -157,7 +157,7 @@ class Solver {
     Distances best;
     for (int k = 0; k <= kMostHalvings; ++k) {
       Distances now = distances_from(solve(kInSteps, 1 << k));
-      // What half the step does not lessen is no error of the step.
+      // An error that half the step does not reduce is no error of the step.
       const bool is_steady = k > 0 && now.size() <= best.size() && now.back() > 0.5 * best.back();
       const bool is_last = work_ > kMostWork || is_steady;
       if (k == 0 || reach(now, kUseful) > reach(best, kUseful) ||

@@ -7,12 +7,12 @@
 
 namespace rigor {
 
-// Of ReferenceSolution: nodes at even distances, thirteen numbers a body as BodyTable lays them out, and one more: 1 if
-// no event lies before the next node. The errors say how far it may be relied on, complete or not.
+// As in ReferenceSolution: nodes at equal distances with thirteen numbers per body, laid out as in BodyTable. One more
+// number is 1 if no event lies before the next node. The errors say how far the solution is reliable, complete or not.
 ReferenceSolution solve_events(const Scene& scene, double duration);
 
-// The state at t: between nodes by Hermite's cubic of positions and turns, or, where an event lies between, by a step
-// of the method from the node before.
+// The state at t. Between nodes it uses Hermite's cubic of positions and rotations or, where an event lies between, a
+// step of the method from the node before.
 void state_at(const ReferenceSolution& solution, const Scene& scene, double t, MutableBodyColumns out);
 
 }  // namespace rigor

@@ -18,7 +18,7 @@ bool AccelerationBounds::find(BodyColumns from, BodyColumns to, double t, double
   guess_.assign(system_.size(), {});
   apply(ends, guess_, bounds_);
   guess_twice(ends);
-  // Where nothing pulls yet but roundings, as at springs that are as long as they rest, twice of it encloses nothing.
+  // If only rounding pulls, as with springs at their rest lengths, twice the bound encloses nothing.
   constexpr double kNextToNothing = 1e-6;
   const auto was_nothing = [&](std::size_t i) {
     return guess_[i].linear < kNextToNothing * bounds_[i].linear ||
@@ -33,14 +33,14 @@ bool AccelerationBounds::find(BodyColumns from, BodyColumns to, double t, double
   return true;
 }
 
-// Twice what was found, and what it makes of itself.
+// Twice the found bound, and the bound that follows from it.
 void AccelerationBounds::guess_twice(const Ends& ends) {
   for (AccelerationBound& bound : bounds_) bound.linear *= 2, bound.angular *= 2;
   guess_.swap(bounds_);
   apply(ends, guess_, bounds_);
 }
 
-// Gravity, contacts and the timed forces, none of which begins or ends on the way.
+// Gravity, contacts and the timed forces; none of these begins or ends on the way.
 void AccelerationBounds::load_by_forces(const Ends& ends, const std::vector<Loading>& contacts) {
   Wrenches constant(system_.size());
   std::vector<double> turning(system_.size());  // N m, of forces whose arms turn with the body
@@ -75,9 +75,9 @@ void AccelerationBounds::load_by_springs(const Ends& ends, const Bounds& guess) 
   }
 }
 
-// The largest |w| whose energy E is no more, and whose momentum L is no less, than a torque may make of the states':
-// the sum of the squares u_i of w's principal components under sum I_i u_i <= 2 E and sum I_i² u_i >= L², which is
-// largest where one of them, or two that meet both bounds, are not zero.
+// The largest |w| whose energy E is at most, and whose momentum L is at least, what a torque can make of the states'
+// values. It is the largest sum of the squares u_i of w's principal components under sum I_i u_i <= 2 E and sum I_i²
+// u_i >= L². The maximum has one nonzero component, or two that meet both bounds.
 double AccelerationBounds::largest_spin(std::size_t body, const Ends& ends, double torque) const {
   const Vec3& I = moments_[body];
   double energy = 0, momentum = HUGE_VAL, spin = 0;  // 2 E, L

@@ -1,5 +1,5 @@
-// How hard bodies may be accelerated at most, at any instant of the time h between two states: from the loads, not from
-// the states alone, which tell nothing of what swings out and back between them.
+// Upper bounds of the accelerations of bodies at any instant of the time h between two states. They follow from the
+// loads. The states alone do not show a motion that swings out and back between them.
 //
 // Every instant is at most h/2 from one of the states. With A and B the largest accelerations of a body's centre and of
 // its rotation, a point at r from the centre moves by no more than
@@ -8,7 +8,7 @@
 // sums of all forces and torques,
 //   A <= F/m,   B <= (T + w² (I_max - I_min)/2) / I_min.
 // A guess that these right sides do not exceed encloses the motion (Nedialkov, Jackson, Corliss, Validated solutions of
-// initial value problems for ordinary differential equations, Appl. Math. Comput. 105, 1999, section 4). Where there is
+// initial value problems for ordinary differential equations, Appl. Math. Comput. 105, 1999, section 4). If there is
 // none, h is too long for the stiffness of the springs: some 1.4 sqrt(m/k).
 #pragma once
 
@@ -35,9 +35,9 @@ class AccelerationBounds {
  public:
   explicit AccelerationBounds(const System& system);
 
-  // From one state at t to the other at t + h; no timed force begins or ends between them, and contacts load the bodies
-  // by no more than `contacts`, one for each of them. False if nothing is enclosed, as over a shorter time it is; the
-  // bounds are then but a guess.
+  // Bounds from one state at t to the other at t + h. No timed force begins or ends between them, and contacts load the
+  // bodies by at most `contacts`, one for each body. Returns false if nothing is enclosed; the bounds are then only a
+  // guess, and a shorter time may work.
   bool find(BodyColumns from, BodyColumns to, double t, double h, const std::vector<Loading>& contacts);
   const AccelerationBound& of(int body) const { return bounds_[body]; }
 

@@ -88,7 +88,7 @@ bool Clearance::is_persistent_limit(std::size_t k) const {
   });
 }
 
-// Whether a collider is where it was at the way's start, whatever its length.
+// Whether a collider is where it was at the way's start, for a way of any length.
 bool Clearance::stays(int collider) const {
   const Collider& of = contact_points_.colliders()[collider];
   return of.fixed || persistent_contact_.rests(of.body);

@@ -1,7 +1,7 @@
-// How far bodies and joints are from what they do not touch yet, for the method `event`: the least gap at an instant,
-// and whether nothing can have met between two, however bodies swing and turn on their way (conservative_advancement.h,
-// acceleration_bounds.h). Points that are in persistent contact are no news: what these let their bodies do shows at
-// the end.
+// The distances of bodies and joints from new contacts, for the method `event`: the smallest gap at an instant, and
+// whether nothing can have met between two instants, however bodies swing and rotate on their way
+// (conservative_advancement.h, acceleration_bounds.h). Points in persistent contact are excluded; motion that they
+// permit is checked at the end.
 #pragma once
 
 #include "core/dynamics/collision/conservative_advancement.h"
@@ -21,18 +21,18 @@ class Clearance {
     double since = 0;  // s, since the state that the way began with
   };
 
-  // Of the accelerations on the way from one state to the other, h after it; `t` is when it begins. False if there are
-  // none to be found.
+  // Finds the bounds of accelerations on the way from one state at `t` to the other, h later. Returns false if there
+  // are none.
   bool find_bounds(BodyColumns from, BodyColumns to, double t, double h);
   const AccelerationBounds& bounds() const { return bounds_; }
 
-  // Whether no pair can have touched, and no joint have come to a limit, on the way that bounds were found for. Pairs
-  // of `touching` have just parted: no bound on accelerations tells them apart, so their gaps are taken to bend one
-  // way.
+  // Whether no pair can have touched, and no joint reached a limit, on the way for which bounds were found. Pairs of
+  // `touching` have just separated. No bound on accelerations can separate them, so their gaps are assumed to bend in
+  // one direction.
   bool all_stay_apart(const Pairs& pairs, const std::vector<ContactPoint>& touching, const Instant& from,
                       const Instant& to);
-  // In the scene's units of gaps, of what is not in persistent contact. Where other points of a pair are, or touched at
-  // the start of the way, what these drift is allowed to them too.
+  // In the scene's units of gaps, for pairs that are not in persistent contact. If other points of a pair are, or
+  // touched at the start of the way, their drift is subtracted.
   double least_gap(const Pairs& pairs, const std::vector<ContactPoint>& touching, const Instant& at);
 
  private:

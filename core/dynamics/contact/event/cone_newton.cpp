@@ -89,8 +89,8 @@ double ConeNewton::take_impulse(const ConeConstraint& point, const Vec3& u, Row&
   return energy + (radius * size - 0.5 * radius * radius) / r;
 }
 
-// The impulses that a change of the bodies' speeds asks for, and into residual_ what it differs by from the one they
-// make.
+// The impulses that follow from a change of the bodies' speeds. residual_ gets their difference from the impulses that
+// make this change.
 ConeNewton::Fit ConeNewton::assess(const std::vector<ConeConstraint>& points, const Eigen::VectorXd& change) {
   residual_ = change;
   Fit fit;

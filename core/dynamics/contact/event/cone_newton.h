@@ -1,10 +1,11 @@
 // The contact laws of cone_solver.h by Newton's method, in the velocities of the bodies: each impulse is what its
 // point's velocity u asks for,
 //   p_n = max(0, c_n - r (u_n - target)),   p_t = c_t - r u_t, put onto the disc of radius mu p_n,
-// about centres c, which are the impulses of the round before (the augmented Lagrangian of Alart and Curnier, 1991). At
-// the end of the rounds p = c and the laws hold, whatever r is. It ends in a few steps where Gauss–Seidel creeps:
-// several points on a stiff body, or one on the verge of sliding. Where the points are more than the motion can tell
-// apart, what it cannot tell stays as it was, for nothing there is ever divided by what is nearly zero.
+// about centres c, which are the impulses of the previous round (the augmented Lagrangian of Alart and Curnier, 1991).
+// At the end of the rounds p = c and the laws hold for any r. The method ends in a few steps where Gauss–Seidel
+// converges slowly: several points on a stiff body, or one on the verge of sliding. If the points outnumber the degrees
+// of freedom, undetermined parts of the impulses stay unchanged, because nothing is ever divided by an almost zero
+// number.
 #pragma once
 
 #include "core/base/factors.h"
@@ -21,9 +22,9 @@ class ConeNewton {
              const std::vector<ConeSolver::Response>& responses)
       : system_(system), inverse_inertia_W_(inverse_inertia_W), responses_(responses) {}
 
-  // Changes the points' impulses until none would change a velocity by more than `tolerance` [m/s], or it gets no
-  // further, or `steps`, which it counts down, are spent. The velocities are the caller's to change. False if the
-  // bodies are too many.
+  // Changes the points' impulses until none would change a velocity by more than `tolerance` [m/s], or there is no
+  // progress, or the `steps`, which it counts down, are used up. The caller changes the velocities. Returns false if
+  // there are too many bodies.
   bool solve(BodyColumns state, std::vector<ConeConstraint>& points, double tolerance, int& steps);
 
  private:
@@ -31,7 +32,7 @@ class ConeNewton {
   struct Row {
     int a = -1, b = -1;  // of the moving bodies; -1 for a fixed one
     Side by_a = Side::Zero(), by_b = Side::Zero();
-    std::vector<std::pair<int, Eigen::Matrix<double, 6, 3>>> to;  // what an impulse makes of the speeds, by moving body
+    std::vector<std::pair<int, Eigen::Matrix<double, 6, 3>>> to;  // the change of speeds by an impulse, by moving body
     Vec3 start, known, centre, impulse;  // m/s at first; N s: that `start` knows, of this round, now
     double mass;                         // kg, the point's own
     Mat3 slope = Mat3::Zero();           // kg, of the impulse, to minus the velocity

@@ -11,7 +11,7 @@ namespace rigor {
 namespace {
 
 constexpr int kSweepsAtATime = 30;
-constexpr int kMostTurnsToBeNear = 10;   // of what is not near its rest after the turns it is allowed: a tall heap
+constexpr int kMostTurnsToBeNear = 10;   // impulses that are not near rest after the allowed rounds: a tall heap
 constexpr int kMostNewtonSteps = 400;    // of an island; what settles takes some 50
 constexpr double kCreeping = 0.99;       // of a sequence whose ratio is not known yet
 constexpr double kSlow = 0.9;            // from here on Newton's method is quicker
@@ -148,7 +148,7 @@ bool ConeSolver::take_newton_steps(MutableBodyColumns state, std::vector<ConeCon
   return true;
 }
 
-// What roundings are relative to: the bodies' speeds at the points, and what the impulses make of them.
+// The scale of rounding: the bodies' speeds at the points, and their changes by the impulses.
 double ConeSolver::size_of(BodyColumns state, const std::vector<ConeConstraint>& points) const {
   const auto speed = [&](int body, const Vec3& arm) {
     if (body == kWorld || system_.bodies[body].fixed) return 0.0;
@@ -177,8 +177,8 @@ bool ConeSolver::solve(MutableBodyColumns state, std::vector<ConeConstraint>& po
   return have_settled;
 }
 
-// Where impulses can be shared out in many ways, sweeps would do it by the order of the points, and Newton's method
-// does it by none.
+// If impulses are not unique, sweeps would divide them by the order of the points. Newton's method does not depend on
+// the order.
 bool ConeSolver::solve_island(MutableBodyColumns state, std::vector<ConeConstraint>& points, ConeSweeps& sweeps,
                               Means means) const {
   if (means != Means::all || !accuracy_.by_newton || !may_share_in_many_ways(points))
@@ -212,14 +212,14 @@ bool ConeSolver::sweep_until_settled(MutableBodyColumns state, std::vector<ConeC
         size = std::max(size, size_of(state, points));
       }
       if (!std::isfinite(change)) return false;
-      // Of a creeping sequence, what is still to come counts.
+      // For a slowly converging sequence the remaining change counts.
       if (k > 0) ratio = last > 0 ? std::min(change / last, kCreeping) : kCreeping;
       last = change;
       if (change * ratio <= accuracy_.at_rest * size * (1 - ratio)) {
         sweeps.write(state);
         return true;
       }
-      // What leaps leave is judged after the next two sweeps.
+      // The residual after a leap is judged only after the next two sweeps.
       const bool may_leap = means == Means::all && !accuracy_.by_newton && k + 1 < kSweepsAtATime;
       if (may_leap && (k + 1) % kBetweenLeaps == 0 && sweeps.leap(points)) last = 0;
       if (accuracy_.by_newton && k >= kFewestSweeps && ratio > kSlow) break;

@@ -1,11 +1,11 @@
-// Contact constraints with Newton's law of restitution and Coulomb's law of friction at several points: impulses p >= 0
-// along the normals and inside the friction discs such that, with u' the relative velocities they leave,
+// Contact constraints with Newton's law of restitution and Coulomb's law of friction at several points. The impulses
+// are p >= 0 along the normals and inside the friction discs such that, with u' the resulting relative velocities,
 //   0 <= u'_n - target  ⊥  p_n >= 0,    |p_t| <= mu p_n,  with p_t against u'_t on the disc's rim where u'_t is not
 //   zero
 // (Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; Jean, The non-smooth contact dynamics
-// method, 1999). Solved by block Gauss–Seidel, one point after another (cone_sweeps.h), and where that creeps by
-// Newton's method (cone_newton.h), until nothing changes but rounding, or by leaps, to less; each island (islands.h) by
-// itself. Where joints hold the bodies, each impulse acts through them (impulse_responses.h), on all bodies that are
+// method, 1999). Block Gauss–Seidel solves them one point after another (cone_sweeps.h). If it converges slowly,
+// Newton's method (cone_newton.h) continues until only rounding changes, or leaps, which are less accurate. Each island
+// (islands.h) is solved alone. With joints each impulse acts through them (impulse_responses.h), on all bodies that are
 // connected with the two.
 #pragma once
 
@@ -26,8 +26,8 @@ struct ConeConstraint {
   double friction = 0;          // may be kInfiniteFriction
   bool grips = false;           // its slip is stopped however little it is pressed
   double target_velocity = 0;   // m/s, normal, the least allowed afterwards
-  Vec3 offset = Vec3::Zero();   // m/s, in the frame: what the velocity there has beside that of the bodies
-  Vec3 impulse = Vec3::Zero();  // N s, in the frame; what it is before solving, the velocities know already
+  Vec3 offset = Vec3::Zero();   // m/s, in the frame: the velocity beyond that of the bodies
+  Vec3 impulse = Vec3::Zero();  // N s, in the frame; the velocities already include its value before solving
 
   Mat3 inverse_mass = Mat3::Zero();   // 1/kg, of the point, in the frame; from prepare()
   double tangent_effective_mass = 0;  // kg, 1 / the larger eigenvalue of its tangential part
@@ -47,11 +47,11 @@ class ConeSweeps;
 // Two unit vectors across n and each other.
 Mat3 contact_frame(const Vec3& n);
 
-// When the impulses count as found. Of the bodies' own speeds at the points and of what the impulses make of them:
-// roundings can move for ever.
+// When the impulses count as found. Relative to the bodies' own speeds at the points and the effect of the impulses,
+// because rounding never stops moving.
 struct ConeAccuracy {
   double at_rest = 1e-13;
-  double near_rest = 1e-9;  // what is left after the last turn: points on the verge of sliding may never come closer
+  double near_rest = 1e-9;  // the residual after the last round: points on the verge of sliding may never come closer
   int most_turns = 12;      // of sweeps and Newton's method
   bool by_newton = true;    // where sweeps creep, else by leaps; what either leaves may have more energy than there was
 };
@@ -66,20 +66,20 @@ class ConeSolver {
 
   // Takes the inertias from `state`.
   void prepare(BodyColumns state, std::vector<ConeConstraint>& points);
-  // Of sweeps alone, which begin with no impulses and ask for no rebound, none adds energy, finished or not.
+  // Sweeps alone, which begin with zero impulses and no restitution, add no energy, finished or not.
   enum class Means { all, sweeps };
-  // Changes impulses and, with them, the velocities of `state`. Returns false if it did not come to rest.
+  // Changes impulses and with them the velocities of `state`. Returns false if it did not converge.
   bool solve(MutableBodyColumns state, std::vector<ConeConstraint>& points, Means means = Means::all) const;
   // Newton steps so far, of some 20 µs each where ten bodies touch.
   long work() const { return work_; }
-  // Of islands so far.
+  // The number of islands so far.
   long sweeps() const { return sweeps_; }
   // The relative velocity at the point, in its frame.
   static Vec3 velocity_at(const ConeConstraint& point, BodyColumns state);
   // Adds an impulse, in the frame, to the velocities.
   void push(const ConeConstraint& point, const Vec3& impulse, MutableBodyColumns state) const;
 
-  // What an impulse at a point, in its frame, makes of a body's velocity (v, w).
+  // The change of a body's velocity (v, w) by an impulse at a point, in its frame.
   struct Change {
     int body = kWorld;
     Eigen::Matrix<double, 6, 3> by = Eigen::Matrix<double, 6, 3>::Zero();

@@ -18,8 +18,8 @@ Eigen::Vector2d onto_disc(const Eigen::Vector2d& p, double radius) {
   return square <= radius * radius ? p : Eigen::Vector2d(p * (radius / std::sqrt(square)));
 }
 
-// Normal and tangential parts in turn; from one sweep to the next they settle together, so that turns that are small
-// beside what the sweep changes are the next one's.
+// Normal and tangential parts in turn. They converge together from one sweep to the next, so changes much smaller than
+// those of the sweep are left to the next one.
 Vec3 impulse_in_turns(const ConeConstraint& point, const Vec3& free) {
   constexpr int kTurns = 8;
   constexpr double kSmall = 1e-2;
@@ -41,7 +41,8 @@ Vec3 impulse_in_turns(const ConeConstraint& point, const Vec3& free) {
 // direction that is there. None where it goes astray.
 std::optional<Vec3> sliding_impulse(const ConeConstraint& point, const Vec3& free) {
   constexpr int kSteps = 6;
-  constexpr double kSmall = 1e-4;  // rad: what is left of the error is its square, and after the next sweep that again
+  // rad: the remaining error is its square, and after the next sweep the square of that
+  constexpr double kSmall = 1e-4;
   const Mat3& W = point.inverse_mass;
   const Eigen::Vector2d before = point.impulse.tail<2>(), start = before.isZero(0) ? -free.tail<2>() : before;
   Eigen::Vector2d d = start.normalized();
@@ -68,7 +69,7 @@ std::optional<Vec3> sliding_impulse(const ConeConstraint& point, const Vec3& fre
   return {};
 }
 
-// That meets the laws, given the velocity u that is there with point.impulse acting.
+// The impulse that satisfies the laws, given the velocity u with point.impulse acting.
 Vec3 impulse_at(const ConeConstraint& point, const Mat3& sticking, const Vec3& u) {
   const Mat3& W = point.inverse_mass;
   const Vec3 free = u - W * point.impulse;  // the velocity there would be without this point's impulse

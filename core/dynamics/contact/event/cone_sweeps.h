@@ -1,6 +1,6 @@
-// The sweeps of cone_solver.h over the points of one island: the laws at one point after another, each with the
-// velocity that the impulses before it have left. What every sweep asks of a point is worked out once, and the speeds
-// of the bodies lie side by side.
+// The sweeps of cone_solver.h over the points of one island. They apply the laws at one point after another, each with
+// the velocity after the previous impulses. Data that every sweep needs of a point are computed once, and the speeds of
+// the bodies are contiguous.
 #pragma once
 
 #include "core/dynamics/contact/event/cone_solver.h"
@@ -18,7 +18,7 @@ class ConeSweeps {
   void set_up(BodyColumns state, const std::vector<ConeConstraint>& points);
   // Changes the points' impulses. Returns the largest change of a point's velocity [m/s].
   double sweep(std::vector<ConeConstraint>& points);
-  // Where the last sweeps crept along one way, takes what of it is still to come at once (Aitken, 1926). Returns
+  // If the last sweeps converged slowly in one direction, adds the remaining change at once (Aitken, 1926). Returns
   // whether it did.
   bool leap(std::vector<ConeConstraint>& points);
   // The bodies' velocities, which sweep() keeps to itself.
@@ -26,13 +26,13 @@ class ConeSweeps {
   void write(MutableBodyColumns state) const;
 
  private:
-  // Three rows and one of zeros, which makes whole registers of them.
+  // Three rows, and one of zeros to fill whole registers.
   using Side = Eigen::Matrix<double, 4, 6>;
   using Effect = Eigen::Matrix<double, 6, 3>;
   struct Row {
-    int a = -1, b = -1;                                   // places of the moving bodies; -1 of what does not move
+    int a = -1, b = -1;                                   // places of the moving bodies; -1 for immovable ones
     Side by_a = Side::Zero(), by_b = Side::Zero();        // of the point's velocity, to a body's six speeds
-    Effect to_a = Effect::Zero(), to_b = Effect::Zero();  // what an impulse makes of them
+    Effect to_a = Effect::Zero(), to_b = Effect::Zero();  // the effect of an impulse on them
     Eigen::Vector4d given = Eigen::Vector4d::Zero();      // m/s: the offset
     Mat3 sticking = Mat3::Zero();                         // kg, of the impulse, to minus the velocity
   };

@@ -143,7 +143,7 @@ FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pos
     const Vec3 across = (pose_a.R * of_a.line->direction).cross(pose_b.R * of_b.line->direction);
     if (across.norm() > kParallel) return {*of_a.line, *of_b.line, across.dot(point.normal) < 0 ? -1.0 : 1.0};
   }
-  // Of two sides that lie on each other the one with a corner there gives the point.
+  // If two sides lie on each other, the one with a corner there gives the point.
   if (of_b.plane && !(of_a.plane && of_b.is_corner && !of_a.is_corner)) return {of_a.point, *of_b.plane};
   if (of_a.plane) return {*of_a.plane, of_b.point};
   if (of_a.point.radius + of_b.point.radius > 0) {

@@ -1,6 +1,6 @@
-// What two bodies touch with, for the method `event`: a point, a line or a plane of each, with a radius round it. They
-// stay the same as long as a contact lasts, so that its gap, its normal and its place are smooth functions of the
-// poses, with rates of change in closed form:
+// The features with which two bodies touch, for the method `event`: a point, a line or a plane of each, with a radius
+// around it. The features are constant as long as a contact lasts. Its gap, normal and place are therefore smooth
+// functions of the poses, with rates of change in closed form:
 //   a corner, the centre of a ball or of a capsule's end   a point
 //   an edge, a capsule's axis                              a line
 //   a side of a box, a plane                               a plane
@@ -30,7 +30,7 @@ struct RigidMotion {
   Pose pose;
   Vec3 v = Vec3::Zero(), w = Vec3::Zero();
 };
-// Of the collider's body; a plane's feature is at rest in W.
+// In the frame of the collider's body; a plane's feature is fixed in W.
 RigidMotion motion_of(BodyColumns state, const Collider& collider);
 
 struct ContactKinematics {

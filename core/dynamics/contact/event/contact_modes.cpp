@@ -11,17 +11,18 @@ namespace {
 // In the scene's units of acceleration and speed.
 constexpr double kLeastSize = 1e-7;   // smaller accelerations are roundings
 constexpr double kResting = 1e-12;    // roundings of a speed at rest, and of an acceleration as a share of the largest
-constexpr double kSeparating = 1e-9;  // ten times what an impact may leave: a slower contact does not part
-// As shares of the accelerations: what parts, and what begins to slide. A mode ends at twice as much, so that the
-// choice at its end differs.
+constexpr double kSeparating = 1e-9;  // ten times the residual of an impact: a slower contact does not separate
+// Thresholds of separating, and of beginning to slide, as shares of the accelerations. A mode ends at twice as much, so
+// that a new choice differs.
 constexpr double kPulling = 1e-9;  // of the forces
 constexpr double kSeparatingShare = 1e-8, kSlipping = 1e-7, kEnding = 2;
-constexpr double kSlip = 1e4;  // of the accelerations: what a slip counts as beside them; its direction errs by 1/kSlip
+// of the accelerations: the weight of a slip beside them; the error of its direction is 1/kSlip
+constexpr double kSlip = 1e4;
 
 }  // namespace
 
-// On the verge of sliding there is a long way to the cones from the least forces, and none from those found last time.
-// Where points of an island slide, the least forces are the nearer.
+// On the verge of sliding the least forces are far from the cones, while the last forces are on them. If points of an
+// island slide, the least forces are nearer.
 void ContactModes::start_from_cones() {
   const std::vector<PersistentPoint>& points = persistent_.points();
   std::vector<std::pair<int, int>> pairs;
@@ -101,8 +102,8 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
   return drop_pulling_points(state, wrench);
 }
 
-// Where points slide, how their forces are shared out matters, and of the least forces some may pull: without their
-// points the others carry the body. False if it then sinks there, for which there are no forces (Painlevé).
+// If points slide, the distribution of forces matters, and some of the least forces may pull. Without those points the
+// others carry the body. Returns false if it then sinks there, where no consistent forces exist (Painlevé).
 bool ContactModes::drop_pulling_points(BodyColumns state, const double* wrench) {
   std::vector<PersistentPoint>& points = persistent_.points();
   std::vector<PersistentPoint> dropped;

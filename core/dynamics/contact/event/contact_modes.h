@@ -1,8 +1,8 @@
-// Which of the points that touch stay in contact, and which of them slide, for the method `event`: the forces are found
-// that obey the contact laws in accelerations, with the laws of an impact's velocities,
+// Decides which of the touching points stay in contact, and which of them slide, for the method `event`. The forces
+// must satisfy the contact laws in accelerations, with the laws of an impact's velocities,
 //   0 <= u'_n ⊥ f_n >= 0,   |f_t| <= mu f_n, against u'_t where that is not zero; of a point that slides, against u_t.
-// Where the points are more than the motion can tell apart this finds some forces within the cones if there are any,
-// which PersistentForces, of the same accelerations, need not be.
+// If the points outnumber the degrees of freedom, this finds some forces within the cones if there are any.
+// PersistentForces with the same accelerations may have others.
 #pragma once
 
 #include "core/dynamics/contact/event/persistent/persistent_forces.h"
@@ -20,8 +20,8 @@ class ContactModes {
   // Whether, after choose(), nothing moves and nothing begins to.
   bool are_at_rest(BodyColumns state) const;
   bool is_at_rest(BodyColumns state, int body) const;
-  // By how much the modes that the points have break the laws at this instant, of the accelerations: more than 0 where
-  // others have to be chosen. After persistent_.hold() there.
+  // The violation of the laws by the points' modes at this instant, relative to the accelerations: above 0 if other
+  // modes must be chosen. Call it after persistent_.hold() at this instant.
   double violation(BodyColumns state, const double* wrench);
 
   // In the scene's units of speed. A slower slip sticks if the cone allows it, 5e-15 m/(m/s²) before it would stop.

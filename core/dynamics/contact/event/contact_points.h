@@ -37,15 +37,15 @@ class ContactPoints {
 
   const std::vector<Collider>& colliders() const { return colliders_; }
   const JointLimits& limits() const { return limits_; }
-  // Where hinges are counted on from: a state that the run has come to, `since` [s] after the last.
+  // The state from which hinges are counted: one that the run has reached, `since` [s] after the last.
   void note_turns(BodyColumns state, double since) { limits_.note(state, since); }
-  // The pairs that can touch while the bodies go from one state to the other within dt, accelerated by no more than the
+  // The pairs that can touch while the bodies go from one state to the other within dt, with accelerations within the
   // bounds, one for each body.
   const std::vector<std::pair<int, int>>& candidates(BodyColumns from, BodyColumns to, double dt,
                                                      const AccelerationBounds& bounds);
   // Those that touch now, or nearly so.
   const std::vector<std::pair<int, int>>& candidates(BodyColumns state);
-  // Every point of the pair, whatever its gap.
+  // Every point of the pair, with any gap.
   const Manifold& manifold(BodyColumns state, int a, int b);
   // Unit, from b to a: the separating axis of the largest gap, or the one of the least overlap.
   Vec3 separating_axis(BodyColumns state, int a, int b);

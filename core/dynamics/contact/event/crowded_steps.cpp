@@ -99,7 +99,7 @@ void CrowdedSteps::stop_overlaps(MutableBodyColumns state, double h) {
   if (!has_settled) solver_warning_ = kNotSettled;
 }
 
-// What held a point over the last step is where the search begins.
+// The search begins with the impulses of the last step.
 Vec3 CrowdedSteps::impulse_before(const ContactPoint& contact) const {
   const auto old = std::find_if(before_.begin(), before_.end(),
                                 [&](const ContactPoint& point) { return point.same_place(contact); });
@@ -107,7 +107,7 @@ Vec3 CrowdedSteps::impulse_before(const ContactPoint& contact) const {
   return contact.cone.frame.transpose() * (old->cone.frame * old->cone.impulse);
 }
 
-// The arms and normals are no longer what they were: without this what rolls or stands would be left with a slip.
+// The arms and normals have changed. Without this correction a rolling or standing body would keep a slip.
 void CrowdedSteps::solve_where_they_came_to(MutableBodyColumns state) {
   for (std::size_t i = 0; i < touching_.size(); ++i) {
     touching_[i].cone = cones_[i];

@@ -1,9 +1,9 @@
-// Steps that do not look for events, for where the method `event` would find too many of them: Moreau's time-stepping
-// (Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; Acary, Brogliato, Numerical Methods
-// for Nonsmooth Dynamical Systems, 2008, chapter 10). The bodies move as if they were free; what then overlaps is
-// stopped together, within Coulomb's cones, by impulses that acted all through the step. Of first order; joints are
-// closed at its end. A rebound that would be over within a step does not take place: below the speed v* = 2 |g| h an
-// impact is plastic.
+// Steps without a search for events, for use where the method `event` would find too many of them: Moreau's
+// time-stepping (Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; Acary, Brogliato,
+// Numerical Methods for Nonsmooth Dynamical Systems, 2008, chapter 10). The bodies move as if they were free.
+// Overlapping bodies are then stopped together, within Coulomb's cones, by impulses that acted throughout the step. The
+// order is one; joints are closed at the step's end. A rebound shorter than a step is suppressed: below the speed v* =
+// 2 |g| h an impact is plastic.
 #pragma once
 
 #include <memory>
@@ -21,12 +21,12 @@ class CrowdedSteps {
 
   // s, of a step of the run that is dt long.
   double longest(double dt) const;
-  // From t on, over h [s] or less, so that no body moves by more than its inradius. Returns over how much. Some overlap
-  // is left to be closed.
+  // Steps from t over h [s] or less, so that no body moves by more than its inradius. Returns the length. Some overlap
+  // remains to be closed.
   double take(MutableBodyColumns state, double t, double h);
   // Empty if the impulses of the last step settled.
   const std::string& solver_warning() const { return solver_warning_; }
-  // How many of them there were so far.
+  // The number of these steps so far.
   std::string wording() const;
 
  private:

@@ -1,17 +1,16 @@
-// Contact by events. Inside a step the instants are found at which bodies meet, part, begin to slide or cease to, as
-// roots of gaps, forces and slips along the integrator's own sub-steps from the last such instant; there impacts are
-// resolved (impacts.h), and between them what touches is persistent (persistent_contact.h). A sequence of bounces ends
-// by the rule of kRestitutionThreshold. Bodies that overlap at the start are moved apart at once, without velocity.
-// Where no forces between touching bodies obey the laws (Painlevé's paradox: a rod that slides at a steep angle), an
-// impact without collision, of a step of kInstant, leads on. Where bodies are not sure to stay apart
-// (conservative_advancement.h, acceleration_bounds.h) the time is halved, so that nothing passes through and no graze
-// is missed. Limits of joints are points of contact without friction; where joints hold the bodies, impulses and forces
-// act through them.
+// Contact by events. Inside a step the method finds the instants at which bodies meet, separate, begin or cease to
+// slide. They are roots of gaps, forces and slips along the integrator's own sub-steps from the last event. Impacts are
+// resolved there (impacts.h); between them contact is persistent (persistent_contact.h). A sequence of bounces ends by
+// the rule of kRestitutionThreshold. Bodies that overlap at the start are separated at once, without velocity. If no
+// forces between touching bodies satisfy the laws (Painlevé's paradox: a rod that slides at a steep angle), an impact
+// without collision continues, with a step of kInstant. If bodies may meet (conservative_advancement.h,
+// acceleration_bounds.h), the time is halved, so that nothing passes through and no graze is missed. Limits of joints
+// are contacts without friction. With joints, impulses and forces act through them.
 //
-// Where events crowd, as in the infinitely many small impacts with which a row of dominoes comes to lie, a run has a
-// budget: once it has spent it, the rest of a step is taken in steps that do not look for events (crowded_steps.h), and
-// the run says from when on (reduced_order()). So it is where more bodies touch each other than their forces can be
-// found for at each stage.
+// The number of events is bounded, because they may crowd: a row of dominoes comes to rest in infinitely many small
+// impacts. Beyond the budget the rest of a step uses steps without a search for events (crowded_steps.h), and the run
+// reports the time from which this holds (reduced_order()). The same applies if more bodies touch each other than their
+// forces can be solved for at each stage.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,14 +33,14 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kInstant = 1e-5;   // in the scene's units of time: a step over an instant without forces
 constexpr int kMostInstants = 100;  // in a step
-// Steps of the integrator, times the bodies that move: saved up at most, and for each step of the run. What an impact
-// costs is some ten of them; a ball that bounces with e = 0.9 comes to rest within 1700.
+// Steps of the integrator times moving bodies: the largest saved amount, and the amount for each step of the run. An
+// impact costs some ten of them. A ball that bounces with e = 0.9 comes to rest within 1700.
 constexpr double kMostSaved = 6000, kForEachStep = 200;
-constexpr double kForEachPart = 3;    // of such steps: what it costs to find what touches, and how
+constexpr double kForEachPart = 3;    // in such steps: the cost of finding contacts and their modes
 constexpr double kForNoForces = 400;  // the same, where in the end no forces are found
 
-// Bodies in contact with each other: the equations of their forces are full, of some six rows each, and a stage of the
-// integrator takes 0.04 s with so many, growing as their cube.
+// Bodies in contact with each other: the equations of their forces are dense, with some six rows each. A stage of the
+// integrator takes 0.04 s at this number, and grows as its cube.
 constexpr std::size_t kMostTogether = 128;
 
 constexpr int kMostPieces = 200;  // of the time to the next event, while bodies are not seen to stay apart
@@ -124,7 +123,7 @@ class EventStepper : public ContactStepper {
     double length() const { return to - from; }
   };
 
-  // What it takes to choose who sticks is not counted: on the verge of sliding that is much in every step, and no
+  // The choice of sticking points does not count. On the verge of sliding it takes long in every step without any
   // crowd.
   long work_so_far() const { return persistent_contact_.passes() + impacts_.work(); }
 
@@ -196,20 +195,20 @@ class EventStepper : public ContactStepper {
     return commit(state, part_.to);
   }
 
-  // Of bodies that go on too near each other to tell whether they touch; up to `clear` it is known that they do not.
+  // For bodies that stay too near each other to decide whether they touch; up to `clear` they surely do not.
   double go_past_neighbours(MutableBodyColumns state, double clear) {
     if (clear == 0) return take_crowded_step(state, crowded_step_);
     attempt(clear);
     return commit(state, part_.from + clear);
   }
 
-  // From clear_, the state after `clear`, to end_ after h.
+  // Starts at clear_, the state after `clear`, and goes to end_ after h.
   bool is_clear_until(double clear, double h) {
     const BodyColumns from = std::as_const(clear_).columns(), to = std::as_const(end_).columns();
     return are_bounded(from, clear, h - clear) && clearance_.all_stay_apart(pairs_, touching_, {from, clear}, {to, h});
   }
 
-  // Of what a stiff spring may do within a long step there is no bound.
+  // The effect of a stiff spring within a long step is unbounded.
   void shorten_until_bounded() {
     constexpr int kMostTimes = 30;
     for (int k = 0; k < kMostTimes && !are_bounded(start_.columns(), 0, part_.length()); ++k) {
@@ -285,8 +284,8 @@ class EventStepper : public ContactStepper {
     return commit(state, part_.from + high);
   }
 
-  // Bodies that have just parted have no gap at the start yet, and a bounce may be far shorter than the part: looks for
-  // an instant before the event, just before the root of d(h)/h, which is straight where d is a parabola. False if
+  // Bodies that have just separated have no gap at the start, and a bounce may be far shorter than the part. Finds an
+  // instant just before the event, from the root of d(h)/h, which is linear where d is a parabola. Returns false if
   // there is none.
   bool narrow_from_start(double& low, double& high, double& distance_low, double& distance_high) {
     constexpr int kMostTrials = 80, kMostGuesses = 20;

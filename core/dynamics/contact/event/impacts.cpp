@@ -14,7 +14,7 @@ constexpr int kMostImpactRounds = 2000;  // before every touching point is taken
 constexpr int kRoundsOfInfinity = 2;
 constexpr double kDeciding = 1e-6;  // of the change of velocities: orders that differ by more have different results
 // In the scene's units of speed.
-constexpr double kHitting = 1e-6;      // a slower approach has no effect that lasts, whatever meets first
+constexpr double kHitting = 1e-6;      // a slower approach has no lasting effect, in any order of contacts
 constexpr double kStillSpeed = 1e-10;  // roundings of an impact leave at most this of a speed that should be zero
 // Infinite friction stops a slip above kJamming at once. Its impulse needs a normal one, which leaves the speed
 // kJammed.
@@ -61,8 +61,8 @@ bool Impacts::take_rounds(MutableBodyColumns state, const std::vector<ContactPoi
   return rebound_;
 }
 
-// Where infinite friction at a point asks for a pull there are no impulses, unless it stops slips without pressure:
-// what ever greater friction tends to.
+// If infinite friction at a point would need a pull, no impulses exist, unless friction stops slips without pressure:
+// the limit of ever larger friction.
 void Impacts::let_infinite_friction_grip() {
   for (ConeConstraint& point : points_) point.grips = std::isinf(point.friction);
 }

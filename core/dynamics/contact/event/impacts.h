@@ -1,9 +1,9 @@
-// Simultaneous impacts, for the method `event`. Points that approach each other now are resolved together, with
-// Newton's restitution and Coulomb's cone, and with them the touching points whose restitution is 0; what they push
-// into a neighbour is resolved in the next round, and so on until nothing approaches. Thus a cradle passes its impulse
-// through, and a box lands on its four corners at once. Where Newton's law would create energy (Kane's paradox: an
-// oblique blow on a corner with friction), the restitution of that round is lowered until it does not. Infinite
-// friction stops slips of what touches at once, as an impact. Impulses act through the joints.
+// Simultaneous impacts, for the method `event`. Points that approach each other are resolved together, with Newton's
+// restitution and Coulomb's cone, and with them the touching points without restitution. Contacts that these push into
+// approach are resolved in the next round, until nothing approaches. A cradle thus passes its impulse through, and a
+// box lands on its four corners at once. Newton's law can create energy (Kane's paradox: an oblique impact on a corner
+// with friction). The restitution of that round is then lowered until it does not. Infinite friction stops slips of
+// touching bodies at once, like an impact. Impulses act through the joints.
 #pragma once
 
 #include <optional>
@@ -43,7 +43,7 @@ class Impacts {
   // after watch_ties().
   void watch_ties() { watches_ties_ = true; }
   const std::vector<std::pair<int, int>>& tied() const { return tied_; }
-  // Empty if every round came to its end.
+  // Empty if every round converged.
   const std::string& solver_warning() const { return solver_warning_; }
 
  private:
@@ -61,7 +61,7 @@ class Impacts {
   double restitution_threshold_;
   Joints* joints_;
   std::vector<ConeConstraint> points_, chosen_;
-  std::optional<std::pair<int, int>> only_;  // the pair that may take part; all of them without
+  std::optional<std::pair<int, int>> only_;  // the pair that may take part; all if it is empty
   bool watches_ties_ = false;
   std::vector<std::pair<int, int>> tied_;
   BodyTable start_, other_;

@@ -3,11 +3,12 @@
 namespace rigor {
 namespace {
 
-// Redundant points make the Delassus matrix singular: this much of its diagonal is added, and rounds of iterative
-// refinement take the error out again of all that is not redundant.
+// Redundant points make the Delassus matrix singular. This share of its diagonal is added, and iterative refinement
+// removes the error in all parts that are not redundant.
 constexpr double kRegularisation = 1e-6;
 constexpr int kRounds = 4;
-// Rows up to which a dense matrix is quicker. Without joints it is positive definite, by what is added.
+// The largest number of rows for which a dense matrix is faster. Without joints the addition makes it positive
+// definite.
 constexpr Eigen::Index kMostDense = 64;
 constexpr int kMostActiveSets = 10;  // of unilateral targets
 

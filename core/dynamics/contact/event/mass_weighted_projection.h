@@ -1,9 +1,9 @@
 // The mass-weighted least-norm projection onto constraints at points: of all motions dx of the bodies with J dx = b,
 // the one of least dx·M dx,
 //   dx = M⁻¹ Jᵀ lambda,   (J M⁻¹ Jᵀ) lambda = b,
-// with J M⁻¹ Jᵀ the Delassus matrix; unilateral targets keep lambda >= 0. It closes gaps, and takes away what is left
-// of a speed. Where joints hold the bodies, M⁻¹ is what they leave of it (impulse_responses.h): no motion breaks them,
-// to first order.
+// with J M⁻¹ Jᵀ the Delassus matrix; unilateral targets keep lambda >= 0. It closes gaps, and removes residual speeds.
+// With joints M⁻¹ is replaced by its part that they allow (impulse_responses.h), so no motion violates them to first
+// order.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct ProjectionTarget {
 // Along an axis of the cone's frame.
 ProjectionTarget target_of(const ConeConstraint& cone, int axis, double amount, bool bilateral);
 
-// Three of a body's speeds along and three about W's axes, or what these make of its pose.
+// Three of a body's speeds along and three about W's axes, or the change of its pose by these.
 using PoseStep = Eigen::Matrix<double, 6, 1>;
 
 class MassWeightedProjection {
@@ -39,7 +39,7 @@ class MassWeightedProjection {
   }
   // One step for each body of the system; none for any where that is impossible, and a solver warning.
   const std::vector<PoseStep>& project(BodyColumns state, const std::vector<ProjectionTarget>& targets);
-  // Of all since the last call.
+  // The warnings since the last call of this function.
   std::string take_solver_warning() { return std::exchange(solver_warning_, {}); }
 
  private:

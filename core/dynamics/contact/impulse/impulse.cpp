@@ -230,15 +230,15 @@ const ContactMethod kImpulseContact = {
         joined(contacts_of_all_shapes(), {"contact-filter", "friction:coulomb", "friction:infinite", "friction:none",
                                           "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
     .options = {{.name = "substeps",
-                 .meaning = "of contact=impulse in a step; default: at least 4, and as many more as the step is long "
-                            "against the time in which the scene's bodies fall by their size",
+                 .meaning = "of contact=impulse in a step; default: at least 4, and more if the step is long for the "
+                            "time in which bodies fall by their size",
                  .min = 1,
                  .max = 10000,
                  .whole = true},
                 {.name = "impacts",
                  .meaning =
-                     "of contact=impulse, several at once: one after another, as a row of balls passes a blow on, "
-                     "or all that touch together (Moreau's law); default sequential",
+                     "law of simultaneous impacts of contact=impulse: one after another, or all that touch together "
+                     "(Moreau's law); default sequential",
                  .choices = {"sequential", "simultaneous"}}},
     .make = make_impulse_stepper,
 };

@@ -212,9 +212,8 @@ void Manifolds::watch(const Collider& a, const Collider& b, double gap, Part& pa
   if (is_first_ && gap < -kDeep * size) overlaps_at_start_[a.body] = overlaps_at_start_[b.body] = 1;
   if (gap >= -kSunk * size || is_parted_from_start(a, b, gap) || !part.failure.empty()) return;
   part.failure = fmt::format(
-      "{} and {} overlap by {:.2g} m, which impulses do not hold (much lighter bodies under heavier ones, or bodies "
-      "with "
-      "no room between others); contact=event may",
+      "{} and {} overlap by {:.2g} m, which impulses cannot hold: a light body under a heavy one, or no room between "
+      "others; try contact=event",
       names_[a.body], names_[b.body], -gap);
 }
 

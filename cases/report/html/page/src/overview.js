@@ -131,7 +131,7 @@ export class Overview {
       el("b", {}, "Error"),
       " is the distance from the true motion. ",
       el("b", {}, "Stable"),
-      " only says that the motion does not blow up, fall apart or drift in energy: a stable run can still be far from the truth.",
+      " only says that the motion does not blow up, fall apart or drift in energy. A stable run can still be far from the truth.",
     );
   }
 

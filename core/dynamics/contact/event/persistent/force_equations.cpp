@@ -6,7 +6,7 @@ namespace rigor {
 namespace {
 
 // rho of a row, in units of its own effective mass. Each round leaves some 1/rho of an error and loses as many digits,
-// which the next one wins back.
+// which the next one recovers.
 constexpr double kPenalty = 1e6;
 constexpr int kMostForceRounds = 6;
 constexpr double kSettled = 1e-15;  // of the accelerations without forces
@@ -30,7 +30,7 @@ Eigen::VectorXd ForceEquations::accelerations_through_joints(Eigen::Index size) 
   return accelerations;
 }
 
-// What the rows' accelerations still lack.
+// The accelerations that the rows still need.
 double ForceEquations::find_residuals(const Eigen::VectorXd& free) {
   acceleration_ = free;
   for (const Row& row : rows_) {

@@ -2,8 +2,8 @@
 //   J (V' + M⁻¹ Pᵀ l) = -J'V,
 // V' the accelerations without them, nearly the least, by rounds of
 //   (J M⁻¹ Pᵀ + 1/rho) dl = -J'V - J V',
-// each solved in forces or, where rows are many, in the bodies' accelerations, of which there are six a body. In units
-// of the bodies' square roots of mass, so that M is 1; through joints, M⁻¹ Pᵀ is what each row says.
+// each solved in forces or, if there are many rows, in the bodies' accelerations, six for each body. Units are the
+// bodies' square roots of mass, so that M is 1. With joints each row gives M⁻¹ Pᵀ itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,7 +38,7 @@ class ForceEquations {
   // Finds the multipliers. `free`: V', six a body.
   void solve(const Eigen::VectorXd& free);
   const std::vector<Row>& rows() const { return rows_; }
-  // What the forces make of the accelerations of `size`, six a body.
+  // The change of accelerations of `size`, six per body, by the forces.
   Eigen::VectorXd accelerations_through_joints(Eigen::Index size) const;
 
  private:

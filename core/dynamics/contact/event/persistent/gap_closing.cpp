@@ -69,7 +69,8 @@ const ContactPoint* GapClosing::jam() const {
   return deepest_.gap < -kDeep * size ? &deepest_ : nullptr;
 }
 
-// Of more than can be parted together, or that cannot: each two by what is left of their overlap, without turning them.
+// If there are too many points, or the projection fails: separates each two bodies by their remaining overlap, without
+// rotating them.
 void GapClosing::part_one_by_one(MutableBodyColumns state) {
   moved_.assign(state.size(), Vec3::Zero());
   for (const ContactPoint& contact : open_) {

@@ -1,6 +1,6 @@
-// Moves bodies so that nothing overlaps, for the method `event`: what is left of gaps and overlaps after a step is
-// closed by mass-weighted projections. Of more points than can be parted together, or bodies without room, each two are
-// parted by themselves, sweep after sweep. Velocities stay.
+// Moves bodies so that nothing overlaps, for the method `event`. Mass-weighted projections close the gaps and overlaps
+// that a step leaves. If there are too many points, or bodies without room, each two bodies are separated alone, sweep
+// after sweep. Velocities do not change.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ class GapClosing {
   // So that those of `points` that carry a force have no gap, either. Returns whether any body had to move.
   bool close(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs,
              std::span<const PersistentPoint> points);
-  // The point at which the last close() left two bodies deep in each other, for they have no room; null if there is
+  // The point at which the last close() left two bodies deep in each other, because they have no room; null if there is
   // none.
   const ContactPoint* jam() const;
 

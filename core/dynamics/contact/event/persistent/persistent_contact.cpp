@@ -17,7 +17,7 @@ constexpr double kLeastSize = 1e-7;   // of acceleration: weaker forces are roun
 constexpr double kShortest = 1e-4;    // of time: the shortest step that slips ask for
 constexpr double kFollowing = 1e-3;   // of time: the same, of an adaptive method that follows a slip
 constexpr double kStill = 1e-15;      // of speed, and of the speeds themselves: roundings of a velocity of zero
-constexpr double kPulling = 2e-9;     // of the forces: twice what is still chosen
+constexpr double kPulling = 2e-9;     // of the forces: twice the limit of the choice
 constexpr double kStable = 2;         // a step of an explicit method, in units of the time that it damps
 constexpr double kEasy = 0.05;        // the same: a longer step errs where a slip turns
 constexpr double kFollowed = 4;       // the same, of an adaptive method that follows a slip
@@ -29,7 +29,7 @@ constexpr double kSlow = 10;          // of the restitution threshold: a contact
 
 constexpr const char* kAdaptive = "dormand-prince";
 
-// Of no lower order than `own`, and asks for forces at its stages.
+// An integrator that asks for forces at its stages, of no lower order than `own`.
 const Integrator& integrator_in_contact(const Integrator& own) {
   if (own.holds_at_stages) return own;
   return integrator(own.order <= 4 ? "rkmk4" : kAdaptive);
@@ -60,8 +60,8 @@ void PersistentContact::let_go_motors(BodyColumns state) {
   if (motors_) motors_->let_go(state);
 }
 
-// What a motor takes depends on the forces at the points, and which points stay on what it does: they are found anew
-// for each choice of the motors.
+// The effort of a motor depends on the forces at the points, and the active points depend on the effort. The points are
+// therefore determined again for each choice of the motors.
 bool PersistentContact::select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t,
                                double dt) {
   if (!motors_) return select_points(state, contact_points, t, dt);
@@ -76,7 +76,7 @@ bool PersistentContact::select(MutableBodyColumns state, const std::vector<Conta
   return are_found && is_decided;
 }
 
-// Of the loads, and the forces at the points as they were held last.
+// The loads, and the forces at the points as they were held last.
 const double* PersistentContact::wrench_beside_joints(const double* loads) {
   beside_joints_.resize(kWrenchColumns, system_.size());
   for (std::size_t c = 0; c < kWrenchColumns; ++c) {
@@ -156,7 +156,7 @@ void PersistentContact::forget_points() {
   rests_.assign(system_.size(), 0);
 }
 
-// Where only gravity acts, what rests together does so for good. Joints would have to rest with it.
+// If only gravity acts, bodies that rest together rest permanently. Joints would have to rest, too.
 void PersistentContact::set_resting_aside(BodyColumns state) {
   if (joints_ || !system_.loads.empty() || modes_.are_at_rest(state)) return;
   std::vector<std::pair<int, int>> pairs;
@@ -227,8 +227,8 @@ double PersistentContact::choose_step(BodyColumns state, double length) {
   return std::min({length, of_slips, longest_turn(state)});
 }
 
-// What joints hold while it turns by more than that in a step, an explicit method throws about; impacts leave small
-// links turning fast.
+// An explicit method becomes unstable if a jointed body rotates further than this in a step. Small links rotate fast
+// after impacts.
 double PersistentContact::longest_turn(BodyColumns state) const {
   if (!joints_ || is_adaptive()) return kForever;
   double fastest = 0;
@@ -240,7 +240,7 @@ bool PersistentContact::is_at_rest(BodyColumns state) const {
   return !points().empty() && system_.loads.empty() && modes_.are_at_rest(state);
 }
 
-// Of the forces: how far they are from pulling, or from passing their cones.
+// The distance of the forces from pulling, or from leaving their cones.
 double PersistentContact::margin() const {
   double least = kForever;
   for (const PersistentPoint& point : points()) {
@@ -251,7 +251,7 @@ double PersistentContact::margin() const {
   return least;
 }
 
-// Of the slips, and of the forces where their shares matter.
+// The distances of the slips, and of the forces where their distribution matters.
 double PersistentContact::slipping_margin() const {
   double least = kForever;
   const bool shares_matter = persistent_.has_friction_of_slip();
@@ -261,7 +261,7 @@ double PersistentContact::slipping_margin() const {
       least = std::min(least, point.force.x() / size + kPulling);
     if (point.mode != PersistentPoint::Mode::slides || point.friction() == 0) continue;
     least = std::min(least, point.slip / scales().speed_unit() + (point.begins_to_slip ? kBeginning : 0));
-    // A slip that ended within a long step, and began again; what an adaptive method tries and refuses is no sign of
+    // A slip that ended within a long step and began again. Trial steps that an adaptive method refuses are no sign of
     // it.
     if (!is_adaptive() && point.least_slip < -kReversed * point.largest_slip)
       least = std::min(least, point.least_slip / scales().speed_unit());
@@ -291,8 +291,8 @@ void PersistentContact::close_joints(MutableBodyColumns state) {
   if (joints_) joints_->project(state);
 }
 
-// What is left of a slip, too slow to count as one, of a point that begins to slip another way would have to stop
-// first, and friction, which has no direction there, would have none that an integrator finds its way through.
+// A residual slip that is too slow to count. A point that begins to slip in another direction would first have to stop.
+// Friction has no direction there, and an integrator would not pass this point.
 void PersistentContact::stop_points(MutableBodyColumns state, When when) {
   if (points().empty()) return;
   persistent_.place(state);

@@ -1,8 +1,8 @@
-// Motion in persistent contact, for the method `event`: the forces at the points in contact are part of the equations
-// of motion (persistent_forces.h), which the integrator asks at each of its stages, so that they keep its order as long
-// as each point goes on to stick or to slide. Its drift is taken back after each step. An integrator that does not ask
-// at stages hands what is in contact over to one that does, of no lower order. So it is with joints, whether or not
-// anything touches: between two impacts they and the points are held by one system of equations.
+// Motion in persistent contact, for the method `event`. The contact forces are part of the equations of motion
+// (persistent_forces.h). The integrator asks for them at each of its stages, so it keeps its order while each point
+// continues to stick or to slide. The drift is corrected after each step. An integrator that does not ask for forces
+// passes bodies in contact to one that does, of no lower order. The same holds for joints, with or without contacts:
+// between two impacts one system of equations holds joints and points.
 #pragma once
 
 #include "core/dynamics/contact/contact_method.h"
@@ -21,29 +21,29 @@ class PersistentContact {
   PersistentContact(const ContactParts& parts, ContactPoints& contact_points);
 
   const std::vector<PersistentPoint>& points() const { return persistent_.points(); }
-  // Of the bodies that move, the most that these points and joints connect.
+  // The largest number of moving bodies that these points and joints connect.
   std::size_t most_together(const std::vector<ContactPoint>& contact_points) const;
   // Which of the touching points stay in contact from t on, for some of dt, and which motors keep their speeds. False
   // if there are no forces that obey the laws.
   bool select(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points, double t, double dt);
-  // From `start` at t to `end` at t + dt.
+  // Advances from `start` at t to `end` at t + dt.
   void advance(BodyColumns start, MutableBodyColumns end, double t, double dt);
-  // s, of at most `length`, from the start that select() was called for. Friction damps slips across the direction of
-  // sliding within m u/(mu N). An explicit method that steps over many of such times lets them grow. Where the
-  // direction turns it errs before that, so an adaptive method takes over. Jointed bodies that turn far ask for short
-  // steps, too.
+  // s, at most `length`, from the start that select() was called for. Friction damps slips across the direction of
+  // sliding within m u/(mu N). An explicit method whose step is many of such times lets them grow. If the direction
+  // turns, its error grows earlier, so an adaptive method takes over. Jointed bodies that rotate far need short steps,
+  // too.
   double choose_step(BodyColumns state, double length);
   // Whether nothing moves, and nothing will.
   bool is_at_rest(BodyColumns state) const;
-  // Whether the body rests, with all that it touches, while others move: it does so until something else touches it, so
-  // that its points are not among those whose forces are asked at each stage.
+  // Whether the body rests together with everything that it touches, while others move. It rests until something else
+  // touches it, so its points need no forces at the stages.
   bool rests(int body) const { return rests_[static_cast<std::size_t>(body)] != 0; }
   // How far the end of the last advance is from a change of what sticks, slides, touches or is driven there: negative
   // beyond it.
   double distance_from_change();
   // Before an impact: motors have no impulses.
   void let_go_motors(BodyColumns state);
-  // As Loads::next_switch() has it, of the motors of a given speed.
+  // As Loads::next_switch(), for the motors of a given speed.
   double next_switch(double t, double end) const { return motors_ ? motors_->next_switch(t, end) : end; }
   void forget_points();
   // Moves bodies so that nothing overlaps and, of `all`, what carries a force has no gap; velocities stay. Returns
@@ -52,8 +52,8 @@ class PersistentContact {
   bool close_gaps(MutableBodyColumns state, const std::vector<std::pair<int, int>>& pairs, Closing which);
   // Brings the joints back to where they hold.
   void close_joints(MutableBodyColumns state);
-  // The point at which the last close_gaps() left two bodies deep in each other, for they have no room; null if there
-  // is none.
+  // The point at which the last close_gaps() left two bodies deep in each other, because they have no room; null if
+  // there is none.
   const ContactPoint* jam() const { return gaps_.jam(); }
   // Takes the velocities away that the points must not have. `before` they move: what begins to slip does not slip yet.
   enum class When { before, after };
@@ -64,9 +64,9 @@ class PersistentContact {
   bool has_joints() const { return joints_ != nullptr; }
   // Steps of the integrator so far; one that an adaptive method divides much counts as several.
   long passes() const { return passes_; }
-  // What went wrong in closing gaps and stopping points since the last call; empty if nothing did.
+  // Failures of closing gaps and stopping points since the last call; empty if there were none.
   std::string take_projection_warning() { return projection_.take_solver_warning(); }
-  // Of the last advance; empty if nothing went wrong.
+  // Failures of the last advance; empty if there were none.
   std::string solver_warning() const;
 
  private:
@@ -88,8 +88,8 @@ class PersistentContact {
 
   const System& system_;
   Joints* joints_;
-  JointStops* motors_;  // null where there are none
-  std::string noted_;   // of the joints, before what is tried now
+  JointStops* motors_;  // null without joints
+  std::string noted_;   // of the joints, before the present trial
   const Integrator& in_contact_;
   ContactPoints& contact_points_;
   PersistentForces persistent_;

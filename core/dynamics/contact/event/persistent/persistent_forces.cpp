@@ -17,14 +17,14 @@ double unit_of_slip(const ContactScales& scales) {
   return std::max(scales.factor, kLeastFactor) * scales.speed_unit();
 }
 
-// Unit, in W: what friction acts against. Past the instant at which the point would stop it goes on as it was, so that
-// the instant can be found: of a slip that has turned against the direction it began with, that which is mirrored back.
-// So nothing jumps where a slip, as joints may make it, turns by a right angle before it stops: where friction jumps so
-// that either side leads back to the jump, no step of an adaptive method is short enough.
+// Unit, in W: the direction against which friction acts. Past the instant of a stop it continues unchanged, so that the
+// instant can be found; a slip against its initial direction is mirrored. The direction thus never jumps when joints
+// turn a slip by a right angle before it stops. If friction jumped so that both sides lead back to the jump, no step of
+// an adaptive method would be short enough.
 //
-// Near rest the direction is that of slip + kNoSlip d, d the one that it began with: friction turns the direction of a
-// slip u within u m/(mu f_n), and so would take ever shorter steps of a slip that begins or ends. What is left of this
-// at a hundred times that speed is less than rounding.
+// Near rest the direction is that of slip + kNoSlip d, with d the initial direction. Friction turns the direction of a
+// slip u within u m/(mu f_n), so a slip that begins or ends would need ever shorter steps. At a hundred times that
+// speed the effect is below rounding.
 Vec3 braked_direction(const PersistentPoint& point, double unit) {
   const Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
   const double along = slip.dot(point.slip_direction), size = slip.norm() / (kFading * kNoSlip * unit);
@@ -94,7 +94,7 @@ void PersistentForces::place(BodyColumns state) {
   }
 }
 
-// Its gap is not asked for: what is kept does not turn by much.
+// Its gap is not needed: a kept coordinate rotates little.
 void PersistentForces::place_limit(BodyColumns state, PersistentPoint& point) const {
   const JointLimits::Value at = contact_points_.limits().at(point.contact.feature, state);
   point.kinematics.normal = at.direction;
@@ -211,7 +211,7 @@ void PersistentForces::solve(const Island& island, BodyColumns state, const doub
   if (joints_) add_wrenches_through_joints(island, free.size());
 }
 
-// M times what the rows make of the accelerations: their own forces, and what these make of the joints'.
+// M times the accelerations by the rows: by their own forces, and by the joint forces that follow.
 void PersistentForces::add_wrenches_through_joints(const Island& island, Eigen::Index size) {
   const Eigen::VectorXd accelerations = equations_.accelerations_through_joints(size);
   for (std::size_t k = 0; k < island.bodies.size(); ++k) {
@@ -248,7 +248,7 @@ void PersistentForces::copy_wrench(const double* wrench) {
   now_.assign(system_.size(), {});
 }
 
-// What joints carry, and the springs, dampers and motors on them.
+// The joint loads, and the springs, dampers and motors on joints.
 void PersistentForces::note_loads_of_joints(const double* wrench) {
   const bool are_driven = !system_.loads.drives().empty();
   for (std::size_t i = 0; i < system_.size(); ++i) {
@@ -261,7 +261,7 @@ void PersistentForces::note_loads_of_joints(const double* wrench) {
   }
 }
 
-// Of each point on its two bodies; those through joints are there.
+// The effect of each point on its two bodies; those through joints are already known.
 void PersistentForces::add_pushes() {
   for (const PersistentPoint& point : points_) {
     const Vec3 force = point.frame * point.force;

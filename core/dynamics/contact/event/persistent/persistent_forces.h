@@ -2,11 +2,11 @@
 // With J the rows of velocities that have to stay zero, P the directions that the forces act along, and V' the
 // accelerations,
 //   M V' = f + Pᵀ l,   J V' = -J'V.
-// A point that sticks or rolls has three rows in both. One that slides has its normal n in J, and n - mu t in P, t the
-// direction of its slip: Coulomb's force. Points may be more than the motion can tell apart; then, of all l that do it,
-// nearly the least is taken (force_equations.h), each island by itself. Where joints hold the bodies, V' is what they
-// leave of the accelerations under f, and M⁻¹ what they leave of the inverse masses (impulse_responses.h). A limit of a
-// joint is a point that slides without friction.
+// A point that sticks or rolls has three rows in both. A sliding point has its normal n in J, and n - mu t in P, with t
+// the direction of its slip: Coulomb's force. If the points outnumber the degrees of freedom, nearly the smallest l is
+// taken (force_equations.h), each island alone. With joints V' is the part of the accelerations under f that they
+// allow, and M⁻¹ the part of the inverse masses (impulse_responses.h). A limit of a joint is a sliding point without
+// friction.
 #pragma once
 
 #include <Eigen/Core>
@@ -61,8 +61,8 @@ class PersistentForces : public ConstraintForces {
 
   const double* hold(BodyColumns state, const double* wrench, Rows rows) override;
 
-  // Where the points are at `state`, how they move there, and what their velocities' rates are without any
-  // acceleration. Part of hold().
+  // The positions and velocities of the points at `state`, and the rates of their velocities without any acceleration.
+  // Part of hold().
   void place(BodyColumns state);
   // V' of a body under the loads alone: linear and angular.
   std::pair<Vec3, Vec3> free_acceleration(BodyColumns state, const double* wrench, int body) const;
