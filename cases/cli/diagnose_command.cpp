@@ -4,7 +4,7 @@
 #include "cases/analysis/mistakes/finder.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
-#include "cases/cli/progress.h"
+#include "cases/cli/progress/progress.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/report/json/mistakes_json.h"
 #include "cases/report/wording/mistakes.h"

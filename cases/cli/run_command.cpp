@@ -5,8 +5,8 @@
 
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
-#include "cases/cli/plan_sentence.h"
-#include "cases/cli/progress.h"
+#include "cases/cli/progress/plan_sentence.h"
+#include "cases/cli/progress/progress.h"
 #include "cases/runner/ensemble.h"
 #include "cases/runner/shards/part.h"
 

@@ -9,7 +9,7 @@
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
-#include "cases/cli/progress.h"
+#include "cases/cli/progress/progress.h"
 #include "cases/cli/sweep_merge.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/report/csv/sweep_table.h"

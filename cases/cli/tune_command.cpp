@@ -9,7 +9,7 @@
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
-#include "cases/cli/progress.h"
+#include "cases/cli/progress/progress.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/report/wording/printed_command.h"
 #include "cases/runner/grid.h"

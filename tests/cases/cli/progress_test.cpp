@@ -1,13 +1,13 @@
 // What is said of how far a command is, and of how long it takes.
-#include "cases/cli/progress.h"
+#include "cases/cli/progress/progress.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "cases/cli/durations.h"
-#include "cases/cli/measured_times.h"
+#include "cases/cli/progress/durations.h"
+#include "cases/cli/progress/measured_times.h"
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;

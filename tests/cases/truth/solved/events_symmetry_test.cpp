@@ -6,7 +6,7 @@
 #include <random>
 
 #include "cases/case/case_reader.h"
-#include "cases/truth/solved/equivalent_scene.h"
+#include "cases/truth/solved/events/equivalent_scene.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/truth/closed_form/contact/contact_scenes.h"
 #include "tests/cases/vocabulary.h"

@@ -1,7 +1,7 @@
 // Contact by events where a slip begins or ends, and in other units.
 #include <cmath>
 
-#include "cases/truth/solved/equivalent_scene.h"
+#include "cases/truth/solved/events/equivalent_scene.h"
 #include "tests/core/dynamics/contact/contact_runs.h"
 
 using namespace rigor;

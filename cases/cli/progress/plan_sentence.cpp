@@ -1,11 +1,11 @@
-#include "cases/cli/plan_sentence.h"
+#include "cases/cli/progress/plan_sentence.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "cases/cli/durations.h"
-#include "cases/cli/measured_times.h"
+#include "cases/cli/progress/durations.h"
+#include "cases/cli/progress/measured_times.h"
 
 namespace rigor {
 namespace {

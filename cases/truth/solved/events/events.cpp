@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cases/truth/provenance.h"
-#include "cases/truth/solved/events_solver.h"
+#include "cases/truth/solved/events/events_solver.h"
 #include "cases/truth/solved/solution_cache.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"

@@ -1,4 +1,4 @@
-#include "cases/cli/measured_times.h"
+#include "cases/cli/progress/measured_times.h"
 
 #include <filesystem>
 #include <fstream>

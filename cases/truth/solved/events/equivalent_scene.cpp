@@ -1,4 +1,4 @@
-#include "cases/truth/solved/equivalent_scene.h"
+#include "cases/truth/solved/events/equivalent_scene.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "cases/cli/durations.h"
+#include "cases/cli/progress/durations.h"
 
 #include <fmt/format.h>
 

@@ -2,14 +2,14 @@
 // thresholds, and one of another integrator in fixed steps, which are halved until the two agree. Each sees the scene
 // mirrored, turned or with its bodies in reverse order, so that a tie that is broken by order or direction shows. All
 // are in units of the scene's own, so that no threshold depends on the user's units.
-#include "cases/truth/solved/events_solver.h"
+#include "cases/truth/solved/events/events_solver.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "cases/truth/distance.h"
-#include "cases/truth/solved/events_stepping.h"
+#include "cases/truth/solved/events/events_stepping.h"
 #include "cases/truth/solved/pose_interpolation.h"
 
 namespace rigor {

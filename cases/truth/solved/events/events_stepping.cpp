@@ -1,4 +1,4 @@
-#include "cases/truth/solved/events_stepping.h"
+#include "cases/truth/solved/events/events_stepping.h"
 
 #include <cmath>
 

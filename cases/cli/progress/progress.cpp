@@ -1,4 +1,4 @@
-#include "cases/cli/progress.h"
+#include "cases/cli/progress/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "cases/cli/durations.h"
+#include "cases/cli/progress/durations.h"
 #include "cases/cli/output.h"
 #include "cases/runner/process_pool.h"
 

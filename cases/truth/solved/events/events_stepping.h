@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cases/truth/solved/equivalent_scene.h"
+#include "cases/truth/solved/events/equivalent_scene.h"
 #include "cases/truth/solved/reference_solver.h"
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/joints/joint_stops.h"
