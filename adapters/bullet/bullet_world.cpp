@@ -77,6 +77,7 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
       : settings.method == "mlcp" ? Set::for_direct_solver
                                   : Set::for_sweeps);
   joints_->enter(world_);
+  keep_apart(scene);
 }
 
 // Each body holds a list of bodies that it passes through; Bullet asks both.

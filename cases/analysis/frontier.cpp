@@ -40,6 +40,11 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
+double larger_median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
 double geometric_mean(const std::vector<double>& values) {
   double logarithms = 0;
   for (const double value : values) logarithms += std::log(value);
@@ -56,6 +61,7 @@ FrontierPoint point_of(const StepSize& dt, const std::vector<Outcome>& outcomes)
   FrontierPoint point{dt, all.size(), all.size() - finite.size()};
   point.mean = geometric_mean(finite);
   point.low = percentile(all, 0.1), point.high = percentile(all, 0.9);
+  point.median = larger_median(all);
   point.cost = costs.empty() ? 0 : geometric_mean(costs);
   return point;
 }
@@ -131,7 +137,8 @@ std::optional<Choice> cheapest_within(const Results& results, const std::vector<
     if (!is_candidate(results, frontier, candidates)) continue;
     for (const FrontierPoint& point : frontier.points) {
       const auto cases = static_cast<double>(point.cases);
-      const bool is_within = point.mean <= tolerance && static_cast<double>(point.failed) <= kMostFailed * cases;
+      const bool is_within =
+          std::max(point.mean, point.median) <= tolerance && static_cast<double>(point.failed) <= kMostFailed * cases;
       if (!is_within || 2 * point.cases < most || (is_timed && !(point.cost > 0))) continue;
       if (!best || work_of(point, is_timed) < work_of(best->point, is_timed)) best = Choice{frontier.run, point};
     }

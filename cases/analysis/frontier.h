@@ -19,7 +19,8 @@ struct FrontierPoint {
   // the 90th percentile over all cases; a failed case counts as infinite.
   double mean = 0;  // geometric
   double low = 0, high = 0;
-  double cost = 0;  // s of CPU time per simulated second, geometric mean; 0 where nothing was timed
+  double median = 0;  // over all cases, likewise; of an even count the larger of the two in the middle
+  double cost = 0;    // s of CPU time per simulated second, geometric mean; 0 where nothing was timed
 };
 
 struct Frontier {
@@ -45,8 +46,9 @@ struct Choice {
 // Who may be recommended.
 enum class Candidates { engines, core_methods, references };
 
-// The cheapest point whose mean error is within the tolerance, of runs that compare at least half as many cases as the
-// run that compares most. Where nothing was timed, the point with the largest step. None if there is no such point.
+// The cheapest point whose mean and median errors are within the tolerance, of runs that compare at least half as many
+// cases as the run that compares most. The median keeps a few exact cases from hiding the error of most. Where nothing
+// was timed, the point with the largest step. None if there is no such point.
 std::optional<Choice> cheapest_within(const Results& results, const std::vector<Frontier>& frontiers, double tolerance,
                                       Candidates candidates);
 

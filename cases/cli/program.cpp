@@ -36,8 +36,9 @@ int answer(int argc, const char* const* argv, const Executor* executor) {
   for (const CommandRow& row : commands()) {
     const bool is_shared = std::find(row.options.begin(), row.options.end(), "--shard") != row.options.end();
     if (!leads(line) && (!line.printed.empty() || (row.name == line.command && !is_shared))) throw Dismissed();
-    if (line.suite_dir != default_suite_dir()) use_suite(line.suite_dir);
-    if (line.printed.empty() && row.name == line.command) return row.run(line, engines_for(row, line));
+    if (!line.printed.empty() || row.name != line.command) continue;
+    if (!line.suite_dir.empty() && line.suite_dir != default_suite_dir()) use_suite(line.suite_dir);
+    return row.run(line, engines_for(row, line));
   }
   return print_table(line.printed), kGood;
 }

@@ -202,12 +202,20 @@ std::string full_block(const Results& results, const CaseResult& result) {
   return text + gate_lines(result, true);
 }
 
+bool has_run_held_to_itself(const CaseResult& result) {
+  return std::any_of(result.cells.begin(), result.cells.end(), [](const Cell& cell) {
+    const auto found = cell.metrics.find("position_error");
+    return found != cell.metrics.end() && found->second.is_held_to_itself;
+  });
+}
+
 // The first reason, then the table: a screen.
 std::string brief_block(const Results& results, const CaseResult& result) {
   const std::vector<Message> reasons = explanations(results, result);
   std::string text = title_of(result);
   if (!result.error.empty() || !result.truth) text += "  " + wrapped(truth_sentence(result), 2) + "\n";
   if (!reasons.empty()) text += "  " + wrapped(reasons.front().text, 2) + "\n";
+  if (has_run_held_to_itself(result)) text += "  In brackets: the truth comes from the run's own code.\n";
   text += table_of(results, result, coarsest_dt(result)) + gate_lines(result, true);
   if (reasons.size() > 1)
     text += fmt::format("  {} more reason{}: --verbose\n", reasons.size() - 1, reasons.size() == 2 ? "" : "s");
@@ -238,13 +246,6 @@ std::string count_line(const Results& results) {
   for (const auto& [status, count] : counts)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, word_of(status));
   return fmt::format("cells: {}\n", text);
-}
-
-bool has_run_held_to_itself(const CaseResult& result) {
-  return std::any_of(result.cells.begin(), result.cells.end(), [](const Cell& cell) {
-    const auto found = cell.metrics.find("position_error");
-    return found != cell.metrics.end() && found->second.is_held_to_itself;
-  });
 }
 
 }  // namespace

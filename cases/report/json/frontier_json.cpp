@@ -19,6 +19,7 @@ Json json_of(const FrontierPoint& point) {
           {"cases", point.cases},
           {"failed", point.failed},
           {"mean", finite_or_null(point.mean)},
+          {"median", finite_or_null(point.median)},
           {"low", finite_or_null(point.low)},
           {"high", finite_or_null(point.high)},
           {"cost", point.cost}};

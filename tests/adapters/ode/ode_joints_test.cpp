@@ -290,7 +290,7 @@ BOOST_AUTO_TEST_CASE(what_is_in_force_of_joints_is_read_back) {
   Scene scene = hinged();
   scene.joints[0].upper = 1;
   auto found = settings_of("ode", scene);
-  BOOST_TEST(found["erp"] == "0.5: that share of a joint's gap is closed in one step, as speed, which stays");
+  BOOST_TEST(found["erp"] == "0.5: the share of a joint's gap that one step closes, by a speed that stays");
   BOOST_TEST(found["cfm"].starts_with("0.0001 1/kg x dt, 0.0001 of the heaviest body's 1/mass"), found["cfm"]);
   BOOST_TEST(found["joint stop erp"] == "0");
   found = settings_of("ode,erp=0.31,cfm=0.002", scene);

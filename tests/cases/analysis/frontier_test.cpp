@@ -68,6 +68,17 @@ BOOST_AUTO_TEST_CASE(the_method_that_blows_up_is_never_recommended) {
   BOOST_TEST(choice->point.dt.text == results.cases[0].definition.dt[1].text);
 }
 
+BOOST_AUTO_TEST_CASE(a_few_exact_cases_do_not_hide_the_error_of_most) {
+  // Two errors of 0.05 m and one of a rounding: the geometric mean is 0.1 mm, the median 0.05 m.
+  const Results results = results_with({{5e-2, 1e-4, 1, 1}, {1e-14, 1e-4, 1, 1}, {5e-2, 1e-4, 1, 1}});
+  const auto all = frontiers(results);
+  BOOST_TEST(point(all, 0, 0).mean < 1e-3);
+  BOOST_TEST(point(all, 0, 0).median == 5e-2);
+  const auto choice = cheapest_within(results, all, 1e-3, Candidates::engines);
+  BOOST_TEST_REQUIRE(choice.has_value());
+  BOOST_TEST(choice->point.dt.text == results.cases[0].definition.dt[1].text);
+}
+
 BOOST_AUTO_TEST_CASE(nothing_is_recommended_where_no_step_is_within_the_tolerance) {
   const Results results = results_with({{1e-2, 5e-3, 1, 1}});
   BOOST_TEST(!cheapest_within(results, frontiers(results), 1e-3, Candidates::engines));

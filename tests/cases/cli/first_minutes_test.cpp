@@ -59,7 +59,8 @@ BOOST_AUTO_TEST_CASE(a_run_first_says_what_it_will_do_and_about_how_long_that_ta
   BOOST_TEST(answer.err.starts_with(moment), answer.err);
   const Answer longer =
       run({"run", "thrown.toml", "--engine", "ode", "--duration", "300", "--dt", "1/1000", "--jobs", "1"});
-  BOOST_TEST(longer.err.find(" 1 cell; about ") != std::string::npos, longer.err);
+  BOOST_TEST(longer.err.find(" 1 cell; ") != std::string::npos, longer.err);
+  BOOST_TEST(longer.err.find(" s with 1 job") != std::string::npos, longer.err);
 }
 
 BOOST_AUTO_TEST_CASE(the_report_is_opened_by_the_desktop_or_it_says_where_it_is) {

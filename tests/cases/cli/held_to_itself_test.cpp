@@ -39,7 +39,7 @@ BOOST_FIXTURE_TEST_SUITE(cases_cli_held_to_itself, Fixture)
 
 BOOST_AUTO_TEST_CASE(its_errors_are_marked_and_compared_with_no_engine) {
   const Answer answer = run({"run", "ball.toml", "--engine", "ode", "--engine", "core:rk4,contact=event", "--engine",
-                             "core:rk4,contact=impulse", "--out", "out"});
+                             "core:rk4,contact=impulse", "--verbose", "--out", "out"});
   BOOST_TEST_REQUIRE(answer.code == 0, answer.err);
   BOOST_TEST(answer.out.find("What it finds of these stands in brackets.") != std::string::npos, answer.out);
   const Json results = Json::parse(content("out/results.json"));

@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(a_verdict_stands_with_its_amount_and_a_sentence_says_what_i
   Results results = sample_results();
   results.cases.front().cells[0].stability = {Verdict::gaining, 0.3, kWorld, "it rose by 13 %", 0.13};
   const std::string text = console_table(results);
-  BOOST_TEST(line_with(text, "  good ").find("  gaining 13 %") != std::string::npos, text);
+  BOOST_TEST(line_with(text, "  good   ").find("  gaining 13 %") != std::string::npos, text);
   BOOST_TEST(text.find("good is gaining: it rose by 13 %.") != std::string::npos, text);
 }
 

@@ -61,7 +61,7 @@ try {
       `document.querySelector('.view').dataset.loaded?.startsWith(${JSON.stringify(one.id)})`,
       `${one.id} to be shown`,
     );
-    const shown = await browser.run("return document.querySelector('h1').textContent");
+    const shown = await browser.run("return document.querySelector('.question').textContent");
     expect(shown === one.title, `${one.id} has the title ${shown}`);
     const played = await browser.run("return [...document.querySelectorAll('.stage canvas')].length");
     expect(played === 1, `${one.id} has no picture`);

@@ -175,8 +175,8 @@ BOOST_AUTO_TEST_CASE(the_page_keeps_to_its_budget_and_uses_it_however_much_there
   }
   BOOST_TEST_REQUIRE(finest > 20e6);
   const std::string page = html_report(grid);
-  BOOST_TEST(page.size() < 8e6);
-  BOOST_TEST(page.size() > 7e6);
+  BOOST_TEST(page.size() < 4e6);
+  BOOST_TEST(page.size() > 3.5e6);
   const auto playback = nlohmann::json::parse(data_of(page, "rigor-playback"));
   for (const auto& one : playback.at("cases")) {
     for (const auto& cell : one.at("cells")) BOOST_REQUIRE(!cell.get<std::string>().empty());

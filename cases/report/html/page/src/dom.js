@@ -45,7 +45,7 @@ export const tableHead = (...labels) =>
     el(
       "tr",
       {},
-      labels.flat().map((label) => (label instanceof Node ? label : el("th", { scope: "col" }, label))),
+      labels.flat().map((label) => (label instanceof Node ? label : label === "" ? el("td") : el("th", { scope: "col" }, label))),
     ),
   );
 

@@ -30,7 +30,7 @@ export function curvesOfCase(results, one) {
         const failed = judgement(cell).kind === "bad" && cell.status !== "fail";
         const error = failed ? null : metricOf(cell, one.main);
         const cost = timed ? cell.cpu_seconds / one.duration : 1 / cell.dt_seconds;
-        return { dt: cell.dt, dt_seconds: cell.dt_seconds, cases: 1, failed: Number(failed), mean: error, low: error, high: error, cost };
+        return { dt: cell.dt, dt_seconds: cell.dt_seconds, cases: 1, failed: Number(failed), mean: error, median: error, low: error, high: error, cost };
       });
       const sorted = points.filter((p) => p.failed || p.mean !== null).sort((a, b) => b.dt_seconds - a.dt_seconds);
       return { engine: run.name, run, reference: reference.has(run.name), points: sorted };
@@ -45,7 +45,9 @@ export const families = (results) => (results.frontier ?? []).map((scope) => sco
 
 const mostCases = (curve) => Math.max(...curve.points.map((p) => p.cases));
 export const mayBeTaken = (point) => point.failed <= mostFailed * point.cases;
-export const meets = (point, tolerance) => isNumber(point.mean) && point.mean <= tolerance && mayBeTaken(point);
+// Both the mean and the median case: a few exact cases must not hide the error of most.
+export const meets = (point, tolerance) =>
+  [point.mean, point.median].every((error) => isNumber(error) && error <= tolerance) && mayBeTaken(point);
 
 // The cheapest step of these curves within the tolerance, of runs that compare at least half as many cases as any.
 export function cheapest(curves, tolerance, among = () => true) {

@@ -3,7 +3,7 @@
 import { add, el, replace, svg } from "./dom.js";
 import { bounds, decades, ink } from "./charts.js";
 import { digits, isNumber, quantity } from "./format.js";
-import { mainCurves, mayBeTaken } from "./frontier.js";
+import { mainCurves, mayBeTaken, meets } from "./frontier.js";
 import { savedAs, svgText } from "./saving.js";
 
 const width = 780,
@@ -125,11 +125,12 @@ export class FrontierChart {
       }),
       points.map((p) => {
         const [x, y] = this.place(p),
-          failed = !mayBeTaken(p);
+          failed = !mayBeTaken(p),
+          hidden = !failed && p.mean <= this.tolerance && !meets(p, this.tolerance); // most cases are beyond it
         return svg(
           "g",
           { class: "pick" },
-          svg("circle", { cx: x, cy: y, r: 4.5, fill: failed ? "var(--raised)" : ink(curve.run), stroke: ink(curve.run) }),
+          svg("circle", { cx: x, cy: y, r: 4.5, fill: failed || hidden ? "var(--raised)" : ink(curve.run), stroke: ink(curve.run) }),
           failed ? svg("path", { d: `M${x - 3} ${y - 3}l6 6m0-6l-6 6`, stroke: "var(--bad-solid)", "stroke-width": 2 }) : null,
           svg("title", {}, text(p)),
         );
@@ -226,7 +227,7 @@ export class FrontierChart {
     return el(
       "p.figure-tools",
       {},
-      el("span.fine", {}, this.isOneCase ? "The dotted reference is adaptive: it shows what is possible." : "✕ more than 1 case in 20 failed. The dotted reference is adaptive: it shows what is possible."),
+      el("span.fine", {}, this.isOneCase ? "The dotted reference is adaptive: it shows what is possible." : "✕ more than 1 case in 20 failed; hollow: the median case is beyond the tolerance. The dotted reference is adaptive: it shows what is possible."),
       el("span.spacer"),
       all,
       el("button.quiet", { type: "button", onclick: () => savedAs("error-against-cost.svg", svgText(this.picture)) }, "SVG"),
