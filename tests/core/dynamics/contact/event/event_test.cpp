@@ -169,8 +169,9 @@ BOOST_AUTO_TEST_CASE(a_stack_of_spheres_comes_to_rest_upright) {
   for (int i = 0; i < 5; ++i) balls.push_back(solid("ball " + std::to_string(i), Sphere{1}, {0, 0, 1.05 + 2.05 * i}));
   ContactRun run(on_floor(balls, {0.3, 0.5}), "event");
   run.run(1.0 / 30, 300);
-  // Gaps are closed to 1e-13 m; a position of nine metres has roundings of 2e-15.
-  for (int i = 0; i < 5; ++i) BOOST_TEST((run.state().position(i) - Vec3(0, 0, 1 + 2 * i)).norm() < 1e-11, i);
+  // Gaps are closed to 1e-13 m; a position of nine metres has roundings of 2e-15. An upright tower is unstable: before it
+  // lies still, a deviation grows with a rate of some sqrt(2 g / r) = 4.4 / s. In 2.4 s a rounding becomes 8e-11 m.
+  for (int i = 0; i < 5; ++i) BOOST_TEST((run.state().position(i) - Vec3(0, 0, 1 + 2 * i)).norm() < 1e-10, i);
   BOOST_TEST(run.state().velocity(4).norm() < 1e-12);
   BOOST_TEST(run.solver_warning() == "");
 }
