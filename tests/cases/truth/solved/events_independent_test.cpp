@@ -60,52 +60,6 @@ BOOST_AUTO_TEST_CASE(a_ball_with_spin_slides_on_a_parabola_and_rolls) {
   check_within_claim(scene, 1.5, 0, due);
 }
 
-// Rolling asks for a friction of 2/7 of the spring's force. More than the cone has, and the ball slips.
-BOOST_AUTO_TEST_CASE(a_ball_that_rolls_on_a_spring_slips_and_rolls_again) {
-  const double r = 0.1, mu = 0.2, k = 50, v = 1.5;
-  Scene scene = on_ground({on_its_own("ball", Sphere{r}, 1, {0, 0, r})}, mu);
-  scene.bodies[0].velocity = {v, 0, 0}, scene.bodies[0].angular_velocity = {0, v / r, 0};
-  scene.springs = {spring(kWorld, {-2, 0, r}, 0, Vec3::Zero(), k, 2)};
-  OwnMotion ball;  // x, v, r w
-  ball.x = Eigen::Vector3d(0, v, v);
-  std::vector<Due> due;
-  int slips = 0;
-  bool rolls = true;
-  for (const double t : {0.1, 0.2, 0.35, 0.5, 0.75, 1.0}) {
-    while (ball.t < t) {
-      if (rolls) {
-        const auto f = [&](double, const OwnMotion::State& s) -> OwnMotion::State {
-          const double a = -k * s[0] / 1.4;
-          return Eigen::Vector3d(s[1], a, a);
-        };
-        if (!ball.go(
-                f, [&](double, const auto& s) { return mu * kG - 2 * k * std::abs(s[0]) / 7; }, t, 1e-4))
-          continue;
-        rolls = false, ++slips;
-      } else {
-        // Friction acts against the slip; one that begins goes against what rolling would have asked for.
-        const double slip = ball.x[1] - ball.x[2];
-        const double sign = std::abs(slip) > 1e-9 ? (slip > 0 ? 1 : -1) : (ball.x[0] > 0 ? -1 : 1);
-        const auto f = [&](double, const OwnMotion::State& s) -> OwnMotion::State {
-          return Eigen::Vector3d(s[1], -k * s[0] - sign * mu * kG, 2.5 * sign * mu * kG);
-        };
-        if (std::abs(slip) <= 1e-9) {
-          ball.step(f, std::min(1e-6, t - ball.t));
-          continue;
-        }
-        if (!ball.go(
-                f, [&](double, const auto& s) { return sign * (s[1] - s[2]); }, t, 1e-4))
-          continue;
-        ball.x[2] = ball.x[1];
-        rolls = 2 * k * std::abs(ball.x[0]) / 7 < mu * kG;
-      }
-    }
-    due.push_back({t, Vec3(ball.x[0], 0, r)});
-  }
-  BOOST_TEST(slips > 1);
-  check_within_claim(scene, 1, 0, due);
-}
-
 BOOST_AUTO_TEST_CASE(a_slider_on_a_spring_rebounds_from_its_limit) {
   const double w = 3, e = 0.5, limit = 0.3;
   Joint joint{.a = kWorld, .b = 0, .type = SliderJoint{Vec3::UnitX()}};
