@@ -207,8 +207,10 @@ BOOST_AUTO_TEST_CASE(a_block_that_a_flying_ball_pulls_begins_to_slip_and_turns) 
   }
   const Eigen::Vector2d end = motion.x.segment<2>(2);
   BOOST_TEST(std::abs(along.x() * end.y() - along.y() * end.x()) > 0.05 * end.norm());
-  check_within_claim(scene, onset + 0.15, 0, block);
-  check_within_claim(scene, onset + 0.15, 2, flying);
+  // The judge of fixed steps starts the turning slip less exactly than the truth: three times its distance is 2e-6 m.
+  constexpr double kClaimed = 1e-5;
+  check_within_claim(scene, onset + 0.15, 0, block, kClaimed);
+  check_within_claim(scene, onset + 0.15, 2, flying, kClaimed);
 }
 
 BOOST_AUTO_TEST_CASE(of_two_blocks_the_upper_is_left_behind) {
