@@ -64,13 +64,16 @@ Stability drift(const JudgedRun& run, const EnergySeries& energies, const char* 
 // Gaining or not, at any sample. Springs make the energy of a symplectic step oscillate: there means of tenths are
 // compared.
 Stability gain(const JudgedRun& run, double scale) {
-  std::vector<double> as_read = energies_of(run, 0), synchronised = energies_of(run, run.leapfrog_stagger);
+  std::vector<std::vector<double>> readings = {energies_of(run, 0), energies_of(run, run.leapfrog_stagger),
+                                               energies_in_flight(run)};
   const auto& joints = run.scene.joints;
   const bool oscillates =
       !run.scene.springs.empty() ||
       std::any_of(joints.begin(), joints.end(), [](const Joint& joint) { return joint.stiffness != 0; });
-  if (oscillates) as_read = means_of_tenths(as_read), synchronised = means_of_tenths(synchronised);
-  const std::vector<double> rises = rises_of(as_read, synchronised);
+  for (std::vector<double>& energies : readings) {
+    if (oscillates) energies = means_of_tenths(energies);
+  }
+  const std::vector<double> rises = rises_of(readings);
   const auto most = std::max_element(rises.begin(), rises.end());
   const std::size_t samples_each = run.trajectory.samples.size() / rises.size(),
                     sample = samples_each * static_cast<std::size_t>(most - rises.begin() + 1) - 1;

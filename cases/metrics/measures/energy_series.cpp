@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "cases/metrics/measures/energy_in_play.h"
 #include "cases/metrics/measures/joints/limit_bounces.h"
@@ -67,11 +69,28 @@ std::vector<double> lowest_so_far(const std::vector<double>& found) {
   return lowest;
 }
 
-std::vector<double> rises_of(const std::vector<double>& as_read, const std::vector<double>& synchronised) {
-  const std::vector<double> lowest_read = lowest_so_far(as_read), lowest = lowest_so_far(synchronised);
-  std::vector<double> rises(as_read.size());
-  for (std::size_t n = 0; n < rises.size(); ++n)
-    rises[n] = std::min(as_read[n] - lowest_read[n], synchronised[n] - lowest[n]);
+std::vector<double> energies_in_flight(const JudgedRun& run) {
+  const double after = run.leapfrog_stagger * run.trajectory.dt;
+  if (after == 0 || !anything_can_touch(run.scene)) return energies_of(run, run.leapfrog_stagger);
+  std::vector<double> found;
+  BodyTable bodies;
+  for (const Sample& sample : run.trajectory.samples) {
+    bodies = sample.bodies.columns();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (run.scene.bodies[i].fixed) continue;
+      bodies.columns().set_velocity(i, std::as_const(bodies).columns().velocity(i) + after * run.scene.gravity);
+    }
+    found.push_back(energy(run.scene, std::as_const(bodies).columns()));
+  }
+  return found;
+}
+
+std::vector<double> rises_of(const std::vector<std::vector<double>>& readings) {
+  std::vector<double> rises(readings.front().size(), std::numeric_limits<double>::infinity());
+  for (const std::vector<double>& energies : readings) {
+    const std::vector<double> lowest = lowest_so_far(energies);
+    for (std::size_t n = 0; n < rises.size(); ++n) rises[n] = std::min(rises[n], energies[n] - lowest[n]);
+  }
   return rises;
 }
 

@@ -31,10 +31,15 @@ EnergySeries energy_series(const JudgedRun& run, double stagger);
 const std::vector<double>& energies_of(const JudgedRun& run, double stagger);
 std::vector<double> lowest_so_far(const std::vector<double>& energies);  // J, the sample itself included
 
-// J, at each sample: the rise of the energy above the lowest before. The smaller of both readings counts. As read, a
-// bounce seems to gain the difference between the velocity's time and the position's. Brought forward, a chain of
-// impacts may seem to gain, for no change beside an impact is an acceleration. A real gain shows in both.
-std::vector<double> rises_of(const std::vector<double>& as_read, const std::vector<double>& synchronised);
+// The same with velocities advanced by gravity alone. It is exact in flight, also right beside an impact. Where nothing
+// can touch it is energies_of.
+std::vector<double> energies_in_flight(const JudgedRun& run);
+
+// J, at each sample: the rise of the energy above the lowest before. The smallest over all readings counts. As read, a
+// bounce seems to gain the difference between the velocity's time and the position's. Brought forward by the run's own
+// changes, an impact may seem to gain, because it is no acceleration. In flight, a body that comes to rest may seem to
+// gain, because its support is left out. A real gain shows in every reading.
+std::vector<double> rises_of(const std::vector<std::vector<double>>& readings);
 
 // Whether contact may remove energy: an impact with restitution below 1, or friction, even an infinite one when a body
 // slips as it lands.

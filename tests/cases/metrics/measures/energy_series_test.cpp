@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(each_thing_that_may_take_or_give_energy_is_known) {
 BOOST_AUTO_TEST_CASE(a_rise_is_above_the_lowest_before_in_both_readings) {
   BOOST_TEST((lowest_so_far({5, 3, 4, 2, 6}) == std::vector<double>{5, 3, 3, 2, 2}));
   BOOST_TEST(lowest_so_far({}).empty());
-  BOOST_TEST((rises_of({5, 3, 4, 2, 6}, {5, 4, 6, 6, 6}) == std::vector<double>{0, 0, 1, 0, 2}));
+  BOOST_TEST((rises_of({{5, 3, 4, 2, 6}, {5, 4, 6, 6, 6}}) == std::vector<double>{0, 0, 1, 0, 2}));
 }
 
 // Relative to the truth's largest kinetic energy, 8 J: 1e-9 of it is rounding.

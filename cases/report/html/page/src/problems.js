@@ -1,7 +1,7 @@
 // The problems that were found, ranked by consequence: a headline and bars that compare the engines, and the sentences
 // behind a click. The bars are the facts that the sentences state.
 import { el } from "./dom.js";
-import { digits, quantity } from "./format.js";
+import { digits, percent, quantity } from "./format.js";
 import { address, openCase } from "./state.js";
 
 const shownAtFirst = 6;
@@ -21,8 +21,10 @@ const headlines = {
 
 // How large a fact is in words, where the sentence does not print it.
 const units = { "median step for a tolerance": "s", "largest unexplained_error": "m" };
+const isShare = (quantity) => /energy|anisotropy|share/.test(quantity);
 const told = (claim) =>
-  claim.printed ?? (units[claim.quantity] ? quantity(claim.value, units[claim.quantity]) : digits(claim.value, 2));
+  claim.printed ??
+  (isShare(claim.quantity) ? percent(claim.value) : null) ?? (units[claim.quantity] ? quantity(claim.value, units[claim.quantity]) : digits(claim.value, 2));
 
 export function problems(results) {
   const { findings } = results;
