@@ -3,7 +3,7 @@
 import { cellOf, dtOf, hasNumbers, judgement, median, witnessed } from "./data.js";
 import { el, replace, svg } from "./dom.js";
 import { digits, quantity } from "./format.js";
-import { cheapest, curvesOf, isTimed, largestStep, mainCurves } from "./frontier.js";
+import { cheapest, curvesOf, isExternal, isTimed, largestStep, mainCurves } from "./frontier.js";
 import { lengthOrAngle } from "./frontier_chart.js";
 import { address, openCase } from "./state.js";
 
@@ -33,7 +33,7 @@ export class EngineCards {
     this.cases = this.results.cases.filter((c) => !family || c.family === family);
     const curves = mainCurves(curvesOf(this.results, family), tolerance).filter((c) => !c.reference);
     this.typical = this.typicalErrors(curves);
-    const best = cheapest(curves, tolerance)?.curve;
+    const best = cheapest(curves, tolerance, isExternal)?.curve; // as the headline says
     replace(
       this.root,
       curves.map((curve) => this.card(curve, curve === best)),

@@ -22,8 +22,9 @@ const headlines = {
 // How large a fact is in words, where the sentence does not print it.
 const units = { "median step for a tolerance": "s", "largest unexplained_error": "m" };
 const isShare = (quantity) => /energy|anisotropy|share/.test(quantity);
+const isMissingStep = (claim) => claim.quantity.startsWith("median step") && claim.value === 0;
 const told = (claim) =>
-  claim.printed ??
+  (isMissingStep(claim) ? "none" : claim.printed) ??
   (isShare(claim.quantity) ? percent(claim.value) : null) ?? (units[claim.quantity] ? quantity(claim.value, units[claim.quantity]) : digits(claim.value, 2));
 
 export function problems(results) {
