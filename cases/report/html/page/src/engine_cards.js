@@ -9,6 +9,14 @@ import { address, openCase } from "./state.js";
 
 const muchWorse = 2; // times the median engine's error: less is no weakness worth a line
 
+const inPlainWords = {
+  "blown up": "blows up",
+  collapsed: "collapses",
+  gaining: "gains energy",
+  overlapping: "bodies overlap",
+  tunnelled: "passes through a body",
+};
+
 const shapes = {
   step: "M8 1.5a6.5 6.5 0 1 0 0 13a6.5 6.5 0 0 0 0-13M8 4.5V8l2.6 1.6",
   strength: "M2.5 8.5l3.5 3.5l7.5-8",
@@ -140,6 +148,6 @@ export class EngineCards {
       cases[0].id,
     );
     const more = cases.length > 1 ? ` + ${cases.length - 1}` : "";
-    return [el("b", {}, kind), ": ", link, more, others ? `; ${others} fail otherwise` : ""];
+    return [el("b", {}, inPlainWords[kind] ?? kind), ": ", link, more, others ? `; ${others} fail otherwise` : ""];
   }
 }

@@ -64,7 +64,7 @@ export class FrontierChart {
   }
 
   caption() {
-    return el("figcaption", {}, el("b", {}, "Error against cost"), " – lower left is better. Each dot is a step size.");
+    return el("figcaption", {}, el("b", {}, "Error against cost"), " – lower left is better. Each dot is a step size; the band holds the middle 80 % of the cases.");
   }
 
   axes() {
