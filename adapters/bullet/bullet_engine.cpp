@@ -17,6 +17,9 @@
 namespace rigor {
 namespace {
 
+// Bullet has no ellipsoid.
+const Features kBulletContacts = contacts_among({"box", "capsule", "convex", "cylinder", "plane", "sphere"});
+
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
@@ -67,14 +70,15 @@ MethodInfo multibody() {
 }  // namespace
 
 EngineInfo BulletEngine::info() const {
-  return {.name = "bullet",
-          .version = version(),
-          .precision = sizeof(btScalar) == sizeof(double) ? "double" : "single",
-          .features = joined(kJoints, joined(contacts_of_all_shapes(),
-                                             {"contact-filter", "spring", "timed-force", "fixed-body", "restitution",
-                                              "friction:none", "friction:coulomb", "friction:infinite"})),
-          .methods = {sequential_impulse(), mlcp(), multibody()},
-          .max_rotation_per_step = bullet::kLargestTurn};  // a faster body keeps its speed and turns too little
+  return {
+      .name = "bullet",
+      .version = version(),
+      .precision = sizeof(btScalar) == sizeof(double) ? "double" : "single",
+      .features = joined(
+          kJoints, joined(kBulletContacts, {"placed-shapes", "contact-filter", "spring", "timed-force", "fixed-body",
+                                            "restitution", "friction:none", "friction:coulomb", "friction:infinite"})),
+      .methods = {sequential_impulse(), mlcp(), multibody()},
+      .max_rotation_per_step = bullet::kLargestTurn};  // a faster body keeps its speed and turns too little
 }
 
 std::unique_ptr<World> BulletEngine::load(const Scene& scene, const Settings& settings) const {

@@ -38,14 +38,14 @@ MethodInfo by_solver(const std::string& name, const std::string& solver) {
 }  // namespace
 
 EngineInfo DartEngine::info() const {
-  return {
-      .name = "dart",
-      .version = DART_VERSION,
-      .precision = "double",  // it is written for no other
-      .features = joined(joined(kDartContacts, kDartJoints), {"contact-filter", "spring", "timed-force", "fixed-body",
-                                                              "restitution", "friction:none", "friction:coulomb"}),
-      .methods = {by_solver("dantzig", "Dantzig's direct solver"),
-                  by_solver("pgs", "projected Gauss-Seidel, 30 sweeps")}};
+  return {.name = "dart",
+          .version = DART_VERSION,
+          .precision = "double",  // it is written for no other
+          .features = joined(joined(kDartContacts, kDartJoints),
+                             {"placed-shapes", "contact-filter", "spring", "timed-force", "fixed-body", "restitution",
+                              "friction:none", "friction:coulomb"}),
+          .methods = {by_solver("dantzig", "Dantzig's direct solver"),
+                      by_solver("pgs", "projected Gauss-Seidel, 30 sweeps")}};
 }
 
 std::unique_ptr<World> DartEngine::load(const Scene& scene, const Settings& settings) const {

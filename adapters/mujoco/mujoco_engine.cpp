@@ -53,10 +53,13 @@ EngineInfo MujocoEngine::info() const {
           .version = fmt::format("{}.{}.{}", version / 100, version / 10 % 10, version % 10),
           .precision = sizeof(mjtNum) == sizeof(double) ? "double" : "single",
           .features = joined(contacts_of_all_shapes(),
-                             {"contact-filter", "spring", "timed-force", "fixed-body", "friction:none",
-                              "friction:coulomb", "joint:ball", "joint:cylindrical", "joint:distance", "joint:fixed",
-                              "joint:hinge", "joint:slider", "joint:universal", "joint-spring", "joint-damper",
-                              "joint-limit", "joint-limit:beyond-half-turn", "joints-with-dampers", "motor:effort"}),
+                             {"placed-shapes",       "contact-filter",  "spring",
+                              "timed-force",         "fixed-body",      "friction:none",
+                              "friction:coulomb",    "joint:ball",      "joint:cylindrical",
+                              "joint:distance",      "joint:fixed",     "joint:hinge",
+                              "joint:slider",        "joint:universal", "joint-spring",
+                              "joint-damper",        "joint-limit",     "joint-limit:beyond-half-turn",
+                              "joints-with-dampers", "motor:effort"}),
           .methods = {euler(), implicit(), rk4()}};
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adapters/common/external_loads.h"
+#include "adapters/ode/ode_hull.h"
 #include "adapters/ode/ode_joints.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
@@ -39,6 +40,7 @@ class OdeWorld : public World, public ReportsReactions {
   void apply(const Settings& settings, const Scene& scene);
   void add_body(const Body& body, const Settings& settings);
   void add_geometry(const Body& body, dBodyID moving);
+  void add_part(const Body& body, const Shape& shape, const BodyPose& pose, dBodyID moving);
   void advance(double dt);
   void set_cfm(double cfm);
   bool runs_away() const;
@@ -67,8 +69,9 @@ class OdeWorld : public World, public ReportsReactions {
   unsigned long random_seed_ = 0;  // ODE's own at its start
 
   dWorldID world_;
-  dSpaceID moving_, fixed_;  // two spaces: fixed shapes are never tried against each other
-  dJointGroupID contacts_;   // lives for one step
+  std::vector<std::unique_ptr<OdeHull>> hulls_;  // ODE keeps pointers into them
+  dSpaceID moving_, fixed_;                      // two spaces: fixed shapes are never tried against each other
+  dJointGroupID contacts_;                       // lives for one step
   std::optional<OdeJoints> joints_;
 };
 

@@ -35,9 +35,9 @@ void add_contact_law(const ContactLaw& law, const std::string& because, NeedList
   if (law.restitution > 0) needs.add("restitution", because);
 }
 
-// The word of a body's shape, and whether the body is fixed.
-using Kind = std::pair<std::string, bool>;
-Kind kind_of(const Body& body) { return {shape_name(*body.shape), body.fixed}; }
+// The words of a body's shapes, and whether the body is fixed.
+using Kind = std::pair<std::vector<std::string>, bool>;
+Kind kind_of(const Body& body) { return {shape_words(*body.shape), body.fixed}; }
 
 std::pair<Kind, Kind> kinds_of(const Body& a, const Body& b) { return std::minmax({kind_of(a), kind_of(b)}); }
 
@@ -82,11 +82,17 @@ bool add_contacts(const Scene& scene, NeedList& needs) {
       if (touching == 0) continue;
       const auto [a, b] = first_pair(first->second, second->second, laws);
       because = fmt::format("bodies '{}' and '{}' may touch", scene.bodies[a].name, scene.bodies[b].name);
-      needs.add(contact_feature(first->first.first, second->first.first), because);
+      for (const std::string& of_a : first->first.first) {
+        for (const std::string& of_b : second->first.first) needs.add(contact_feature(of_a, of_b), because);
+      }
       pairs_that_touch += touching;
     }
   }
   if (pairs_that_touch == 0) return false;
+  for (const Body& body : scene.bodies) {
+    if (body.collides && std::holds_alternative<Compound>(*body.shape))
+      needs.add("placed-shapes", fmt::format("body '{}' has several shapes, or one that is not centred,", body.name));
+  }
 
   std::size_t laws_given = 0;
   for (const ContactPair& pair : scene.contact_pairs) {
@@ -130,14 +136,22 @@ std::string contact_feature(const std::string& shape_a, const std::string& shape
   return fmt::format("contact:{}-{}", first, second);
 }
 
-Features contacts_of_all_shapes() {
-  const std::vector<std::string> solids = {"box", "capsule", "sphere"};
+Features contacts_among(const std::vector<std::string>& shapes) {
   Features contacts;
-  for (const std::string& solid : solids) {
-    contacts.insert(contact_feature(solid, "plane"));
-    for (const std::string& other : solids) contacts.insert(contact_feature(solid, other));
+  for (const std::string& shape : shapes) {
+    for (const std::string& other : shapes) {
+      if (shape != "plane" || other != "plane") contacts.insert(contact_feature(shape, other));
+    }
   }
   return contacts;
+}
+
+Features contacts_of_all_shapes() {
+  std::vector<std::string> shapes;
+  for (const ShapeInfo& info : shape_types()) {
+    if (!std::holds_alternative<Compound>(info.prototype)) shapes.push_back(info.word);
+  }
+  return contacts_among(shapes);
 }
 
 Features joints_of_all_types() {

@@ -13,8 +13,9 @@ namespace rigor {
 
 // A feature is a word: "spring", "timed-force", "fixed-body", "contact:box-plane", "restitution", "friction:none",
 // "friction:coulomb", "friction:infinite"; "joint:hinge", "joint-spring", "joint-damper", "joint-limit",
-// "motor:effort", "motor:speed"; "contact-filter" for pairs that never touch; and for what is more than its parts
-// "joints-with-contacts", "joints-with-dampers". The two shapes of a contact stand in alphabetical order.
+// "motor:effort", "motor:speed"; "contact-filter" for pairs that never touch; "placed-shapes" for shapes with poses;
+// and for what is more than its parts "joints-with-contacts", "joints-with-dampers". The two shapes of a contact stand
+// in alphabetical order.
 using Features = std::set<std::string>;
 
 struct Need {
@@ -29,7 +30,8 @@ std::vector<Need> needs_of(const Scene& scene);
 // "contact:sphere-plane" and the like, for two shapes in either order.
 std::string contact_feature(const std::string& shape_a, const std::string& shape_b);
 
-// The contacts of every two shapes that can meet: spheres, boxes and capsules with each other, and each with a plane.
+// The contacts of every two of these shapes that can meet, and of every two shapes.
+Features contacts_among(const std::vector<std::string>& shapes);
 Features contacts_of_all_shapes();
 
 // "joint:ball" and the like, for every joint type.
