@@ -29,7 +29,6 @@ const std::vector<Fault>& contact_report_faults() {
                 [](ReportedContact& c) { c.force = c.force.dot(c.normal) * c.normal; }),
         on_each("contact normal from b to a", [](ReportedContact& c) { c.normal *= -1; }),
         on_each("contact normal not unit", [](ReportedContact& c) { c.normal *= 2; }),
-        on_each("contact gap with the wrong sign", [](ReportedContact& c) { c.gap *= -1; }),
     };
     Fault twice{"each contact reported twice"};
     twice.contacts = [](std::vector<ReportedContact>& contacts) {

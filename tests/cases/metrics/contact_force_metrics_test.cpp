@@ -32,9 +32,7 @@ Trajectory standing(const Scene& scene, int steps, const std::function<std::vect
   return run;
 }
 
-ReportedContact under_ball(const Vec3& force) {
-  return {kGround, kBall, Vec3::Zero(), Vec3::UnitZ(), 0, force};
-}
+ReportedContact under_ball(const Vec3& force) { return {kGround, kBall, Vec3::Zero(), Vec3::UnitZ(), 0, force}; }
 
 TruthSamples same_as(const Trajectory& run) {
   TruthSamples truth;
