@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "cases/cli/commands.h"
@@ -24,6 +26,13 @@ std::string plain_markdown(const std::string& text) {
     if (std::string_view("\\`*_<>[]|$#{}").find(c) != std::string_view::npos) out += '\\';
     out += c;
   }
+  return out;
+}
+
+// The same as a sentence: it begins with a capital.
+std::string sentence_markdown(const std::string& text) {
+  std::string out = plain_markdown(text);
+  if (!out.empty()) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
   return out;
 }
 
@@ -62,11 +71,11 @@ std::vector<Cells> option_cells(const CommandRow& row) {
 std::string command_pages() {
   std::string text = "# Commands\n\n`rigor COMMAND [words] [options]`. `rigor help COMMAND` prints the same text.\n\n";
   for (const CommandRow& row : commands()) {
-    text += fmt::format("## rigor {}\n\n{}\n\n", row.name, plain_markdown(row.summary));
+    text += fmt::format("## rigor {}\n\n{}.\n\n", row.name, sentence_markdown(row.summary));
     if (!row.words.empty()) text += fmt::format("`{}`: {}\n\n", row.words, plain_markdown(row.words_summary));
     text += table_markdown({"Option", "Meaning"}, option_cells(row));
     for (const Example& example : row.examples)
-      text += fmt::format("{}:\n\n```sh\n{}\n```\n\n", plain_markdown(example.does), example.call);
+      text += fmt::format("{}:\n\n```sh\n{}\n```\n\n", sentence_markdown(example.does), example.call);
   }
   text += "## Exit codes\n\n";
   std::vector<Cells> exits, variables;
@@ -104,9 +113,10 @@ std::string values_of(const OptionInfo& option) {
 }
 
 std::string method_pages(const std::string& engine, const MethodInfo& method) {
-  std::string text = fmt::format("### {}:{}\n\n{}. Order {}{}{}{}.\n\n", engine, method.name,
-                                 plain_markdown(method.summary), method.order, method.symplectic ? ", symplectic" : "",
-                                 method.symmetric ? ", symmetric" : "", method.adaptive ? ", adaptive" : "");
+  std::string text =
+      fmt::format("### {}:{}\n\n{}. Order {}{}{}{}.\n\n", engine, method.name, sentence_markdown(method.summary),
+                  method.order, method.symplectic ? ", symplectic" : "", method.symmetric ? ", symmetric" : "",
+                  method.adaptive ? ", adaptive" : "");
   if (!method.twin_of.empty()) text += fmt::format("A scheme replica (twin) of {}.\n\n", method.twin_of);
   std::vector<Cells> rows;
   for (const OptionInfo& option : method.options)

@@ -51,7 +51,8 @@ class Page:
             return f"[{plain(name)}](#{anchor(name)})"
         if node.get("type") == "array" and isinstance(node.get("items"), dict):
             count = f"{node['minItems']} " if node.get("minItems") == node.get("maxItems", -1) else ""
-            return f"array of {count}{self.type_of(node['items'], name)}"
+            items = re.sub(r"^(number|string|integer|boolean|array)\b", r"\1s", self.type_of(node["items"], name))
+            return f"array of {count}{items}"
         kind = node.get("type", "any")
         kind = " or ".join(kind) if isinstance(kind, list) else kind
         limits = [f"{sign} {node[key]}" for key, sign in
