@@ -52,7 +52,9 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
     }
   }
 
-  Capabilities capabilities() override { return {.reduced_order = this, .divided_steps = this}; }
+  Capabilities capabilities() override {
+    return {.reduced_order = this, .divided_steps = this, .contacts = contact_ ? contact_->contact_reports() : nullptr};
+  }
 
   void step(double dt) override {
     if (joints_) joints_->begin_step();
@@ -111,7 +113,7 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
   const ContactMethod& contact_method_;
   const OrientationUpdate* orientation_ = nullptr;
   std::string contact_name_ = "none in this scene";
-  const ContactStepper* contact_ = nullptr;  // the stepper, where bodies can touch
+  ContactStepper* contact_ = nullptr;  // the stepper, where bodies can touch
   BodyTable state_;
   std::unique_ptr<Joints> joints_;      // null where there are none
   std::unique_ptr<JointStops> motors_;  // of given speed, where bodies can touch; null where there are none
