@@ -189,7 +189,8 @@ PluginInfo read_plugin_info(const std::string& line, const std::string& what) {
   info.engine.features = with_wrenches(info.declared);
   info.engine.methods = read_methods(table);
   const std::vector<std::string> calls = table.texts("calls");
-  info.can_run = std::find(calls.begin(), calls.end(), "run") != calls.end();
+  const auto answers = [&](const char* call) { return std::find(calls.begin(), calls.end(), call) != calls.end(); };
+  info.can_run = answers("run"), info.has_contacts = answers("contacts");
   info.has_columns = table.find("columns") != nullptr;
   if (info.has_columns && table.text("columns") != "f64le")
     table.refuse("columns", table.find("columns"), "\"f64le\", or no such key");

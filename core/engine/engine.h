@@ -132,6 +132,17 @@ inline void report_reactions(World& world, bool are_read) {
   if (ReportsReactions* reports = world.capabilities().reactions) reports->report_reactions(are_read);
 }
 
+// Whether the world will report its contacts from now on.
+inline bool ask_for_contacts(World& world) {
+  ReportsContacts* reports = world.capabilities().contacts;
+  if (reports) reports->ask_for_contacts();
+  return reports != nullptr;
+}
+inline std::vector<ReportedContact> reported_contacts(World& world) {
+  const ReportsContacts* reports = world.capabilities().contacts;
+  return reports ? reports->contacts() : std::vector<ReportedContact>();
+}
+
 class Engine {
  public:
   virtual ~Engine() = default;
