@@ -29,11 +29,6 @@ std::string gyroscopic_mode(const btRigidBody& body) {
   return fmt::format("flags {}", body.getFlags());
 }
 
-bool something_bounces(const Scene& scene) {
-  const std::vector<Need> needs = needs_of(scene);
-  return std::any_of(needs.begin(), needs.end(), [](const Need& need) { return need.feature == "restitution"; });
-}
-
 // m, of the largest ball inside about the body's centre; 0 where that centre may lie outside.
 double inner_radius(const Shape& shape) {
   return std::visit(ForShapes{[](const Compound&) { return 0.0; }, [](const Convex&) { return 0.0; },
@@ -62,7 +57,7 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
     : laws_(scene),
       loads_(scene),
       matched_(settings.track == Track::matched),
-      bounces_(something_bounces(scene)),
+      bounces_(needs(scene, Feature::restitution)),
       solver_(make_solver(settings.method, dantzig_)) {
   bullet::install_pair_laws();
   world_.setGravity(to_bullet(scene.gravity));

@@ -17,9 +17,10 @@ namespace {
 
 // Of hulls ODE finds contacts with planes and balls alone reliably: against boxes and each other it reports one corner
 // at a time. Of cylinders it knows three pairs without the library libccd.
-const Features kOdeContacts = joined(contacts_among({"box", "capsule", "plane", "sphere"}),
-                                     {"contact:box-cylinder", "contact:convex-plane", "contact:convex-sphere",
-                                      "contact:cylinder-plane", "contact:cylinder-sphere"});
+const Features kOdeContacts =
+    joined(contacts_among<Box, Capsule, Plane, Sphere>(),
+           {contact_feature<Box, Cylinder>(), contact_feature<Convex, Plane>(), contact_feature<Convex, Sphere>(),
+            contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>()});
 
 constexpr double kShippedErp = 0.2, kShippedCfm = 1e-10;  // of a new world, in double precision
 
@@ -33,11 +34,21 @@ std::vector<OptionInfo> options_of_both() {
 }
 
 Features joints_of_all_kinds() {
-  return {"joint:ball",           "joint:cylindrical",   "joint:distance",
-          "joint:fixed",          "joint:hinge",         "joint:slider",
-          "joint:universal",      "joint-spring",        "joint-damper",
-          "joint-limit",          "motor:effort",        "motor:speed",
-          "joints-with-contacts", "joints-with-dampers", "joint-limit:beyond-half-turn"};
+  return {joint_feature<BallJoint>(),
+          joint_feature<CylindricalJoint>(),
+          joint_feature<DistanceJoint>(),
+          joint_feature<FixedJoint>(),
+          joint_feature<HingeJoint>(),
+          joint_feature<SliderJoint>(),
+          joint_feature<UniversalJoint>(),
+          Feature::joint_spring,
+          Feature::joint_damper,
+          Feature::joint_limit,
+          Feature::motor_effort,
+          Feature::motor_speed,
+          Feature::joints_with_contacts,
+          Feature::joints_with_dampers,
+          Feature::joint_limit_beyond_half_turn};
 }
 
 MethodInfo by_size() {
@@ -72,8 +83,9 @@ EngineInfo OdeEngine::info() const {
           .version = dODE_VERSION,
           .precision = dCheckConfiguration("ODE_double_precision") ? "double" : "single",
           .features = joined(joined(kOdeContacts, joints_of_all_kinds()),
-                             {"placed-shapes", "contact-filter", "spring", "timed-force", "fixed-body", "restitution",
-                              "friction:none", "friction:coulomb", "friction:infinite"}),
+                             {Feature::placed_shapes, Feature::contact_filter, Feature::spring, Feature::timed_force,
+                              Feature::fixed_body, Feature::restitution, Feature::friction_none,
+                              Feature::friction_coulomb, Feature::friction_infinite}),
           .methods = {by_size(), worldstep(), quickstep()}};
 }
 

@@ -34,12 +34,12 @@ const std::vector<ShapeInfo>& shape_types() {
 
 std::string shape_name(const Shape& shape) { return shape_types()[shape.index()].word; }
 
-std::vector<std::string> shape_words(const Shape& shape) {
-  std::vector<std::string> words;
-  for_each_part(shape, [&](const Shape& part, const BodyPose&) { words.push_back(shape_name(part)); });
-  std::sort(words.begin(), words.end());
-  words.erase(std::unique(words.begin(), words.end()), words.end());
-  return words;
+std::vector<int> shape_kinds(const Shape& shape) {
+  std::vector<int> kinds;
+  for_each_part(shape, [&](const Shape& part, const BodyPose&) { kinds.push_back(static_cast<int>(part.index())); });
+  std::sort(kinds.begin(), kinds.end());
+  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+  return kinds;
 }
 
 double volume_of(const Shape& shape) {
