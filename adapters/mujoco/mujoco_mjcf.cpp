@@ -106,11 +106,6 @@ class Writer {
     add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, 4 * contacts + 7 * scene_.joints.size());
   }
 
-  // The part of a body's shape with this number, and its mesh.
-  static std::string geom_name(int body, int part) {
-    return part == 0 ? fmt::format("g{}", body) : fmt::format("g{}p{}", body, part);
-  }
-
   void write_meshes() {
     add("<asset>\n");
     for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
@@ -118,7 +113,7 @@ class Writer {
       int part = 0;
       if (!body.collides) continue;
       for_each_part(*body.shape, [&](const Shape& shape, const BodyPose&) {
-        if (const auto* convex = std::get_if<Convex>(&shape)) add("{}", mjcf_mesh(*convex, geom_name(i, part)));
+        if (const auto* convex = std::get_if<Convex>(&shape)) add("{}", mjcf_mesh(*convex, mjcf_geom_name(i, part)));
         ++part;
       });
     }
@@ -176,7 +171,7 @@ class Writer {
     if (plane && is_kept_apart(index)) plane->offset -= plane->normal.dot(body.position);  // in the body's frame
     int part = 0;
     for_each_part(whole, [&](const Shape& shape, const BodyPose& pose) {
-      const std::string name = geom_name(index, part++);
+      const std::string name = mjcf_geom_name(index, part++);
       const bool is_placed = std::holds_alternative<Compound>(whole);
       add(R"(<geom name="{}" {}{} {}/>)", name, mjcf_shape(shape, name), is_placed ? mjcf_pose(pose) : "",
           friction_of(scene_.contact_default, false));
@@ -301,7 +296,7 @@ class Writer {
       }
       for (int part_a = 0; part_a < parts_of(pair.a); ++part_a) {
         for (int part_b = 0; part_b < parts_of(pair.b); ++part_b)
-          add("<pair geom1=\"{}\" geom2=\"{}\" {}/>\n", geom_name(pair.a, part_a), geom_name(pair.b, part_b),
+          add("<pair geom1=\"{}\" geom2=\"{}\" {}/>\n", mjcf_geom_name(pair.a, part_a), mjcf_geom_name(pair.b, part_b),
               friction_of(pair.law, true));
       }
     }
@@ -315,6 +310,10 @@ class Writer {
 };
 
 }  // namespace
+
+std::string mjcf_geom_name(int body, int part) {
+  return part == 0 ? fmt::format("g{}", body) : fmt::format("g{}p{}", body, part);
+}
 
 std::string mjcf_shape(const Shape& shape, const std::string& mesh) { return std::visit(GeomOf{mesh}, shape); }
 

@@ -32,7 +32,7 @@ enum class Feature : int {
   joints_with_dampers,
   motor_effort,
   motor_speed,
-  placed_shapes,  // a body with several shapes, or with one that is not centred
+  placed_shapes,  // shapes with poses, several of them for one body
   restitution,
   speed_motor_with_limits,  // a joint with limits and a motor that keeps a speed
   spring,
@@ -88,19 +88,18 @@ constexpr Feature joint_feature() {
 }
 inline bool is_joint(Feature feature) { return feature >= Feature::first_joint && feature < Feature::first_contact; }
 
-// Each two of these shapes, and each with itself; two planes never meet.
+// Every pair of these shapes, and of all shapes, that can meet.
 template <typename... Types>
 Features contacts_among() {
-  constexpr const Shape* shapes = nullptr;
-  constexpr int plane = index_among<Plane>(shapes);
   Features contacts;
-  for (const int a : {index_among<Types>(shapes)...}) {
-    for (const int b : {index_among<Types>(shapes)...})
+  constexpr const Shape* shapes = nullptr;
+  constexpr int places[] = {index_among<Types>(shapes)...}, plane = index_among<Plane>(shapes);
+  for (const int a : places) {
+    for (const int b : places)
       if (a != plane || b != plane) contacts.insert(contact_feature(a, b));
   }
   return contacts;
 }
-// Every pair of shapes that can meet.
 Features contacts_of_all_shapes();
 Features joints_of_all_types();
 template <typename... Types>

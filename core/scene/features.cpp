@@ -35,9 +35,14 @@ void add_contact_law(const ContactLaw& law, const std::string& because, NeedList
   if (law.restitution > 0) needs.add(Feature::restitution, because);
 }
 
-// The kinds of a body's shapes, and whether the body is fixed.
-using Kind = std::pair<std::vector<int>, bool>;
-Kind kind_of(const Body& body) { return {shape_kinds(*body.shape), body.fixed}; }
+// The body's shapes, each once, by their place in the table; and whether the body is fixed.
+using Kind = std::pair<std::set<int>, bool>;
+Kind kind_of(const Body& body) {
+  Kind kind{{}, body.fixed};
+  for_each_part(*body.shape,
+                [&](const Shape& shape, const BodyPose&) { kind.first.insert(static_cast<int>(shape.index())); });
+  return kind;
+}
 
 std::pair<Kind, Kind> kinds_of(const Body& a, const Body& b) { return std::minmax({kind_of(a), kind_of(b)}); }
 

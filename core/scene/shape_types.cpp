@@ -1,6 +1,5 @@
 #include "core/scene/shape_types.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace rigor {
@@ -33,14 +32,6 @@ const std::vector<ShapeInfo>& shape_types() {
 }
 
 std::string shape_name(const Shape& shape) { return shape_types()[shape.index()].word; }
-
-std::vector<int> shape_kinds(const Shape& shape) {
-  std::vector<int> kinds;
-  for_each_part(shape, [&](const Shape& part, const BodyPose&) { kinds.push_back(static_cast<int>(part.index())); });
-  std::sort(kinds.begin(), kinds.end());
-  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
-  return kinds;
-}
 
 double volume_of(const Shape& shape) {
   return std::visit([](const auto& it) { return it.volume(); }, shape);

@@ -36,8 +36,6 @@ const std::vector<ShapeInfo>& shape_types();
 
 // "box", "capsule", …: the word that case files use.
 std::string shape_name(const Shape& shape);
-// The place in Shape of the shape itself, or of each of a compound's parts; each once, in ascending order.
-std::vector<int> shape_kinds(const Shape& shape);
 
 // Calls visitor(key, quantity, value) for each field of a shape; the value is a double or a Vec3.
 template <typename Visitor>
