@@ -124,9 +124,9 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
 };
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
-const Features kJointFeatures =
-    joined(joints_of_all_types(), {"joint-spring", "joint-damper", "motor:effort", "motor:speed", "joints-with-dampers",
-                                   "joint-limit", "joint-limit:beyond-half-turn"});
+const Features kJointFeatures = joined(
+    joints_of_all_types(), {Feature::joint_spring, Feature::joint_damper, Feature::motor_effort, Feature::motor_speed,
+                            Feature::joints_with_dampers, Feature::joint_limit, Feature::joint_limit_beyond_half_turn});
 
 template <typename Rows>
 std::vector<std::string> names_of(const Rows& rows) {
@@ -176,7 +176,7 @@ MethodInfo method_info(const Integrator& integrator) {
       info.lacks.insert(method.features.begin(), method.features.end());
   }
   if (!integrator.takes_joints) info.lacks = joined(info.lacks, kJointFeatures);
-  if (!integrator.takes_dampers_with_joints) info.lacks.insert("joints-with-dampers");
+  if (!integrator.takes_dampers_with_joints) info.lacks.insert(Feature::joints_with_dampers);
   info.lacks = joined(info.lacks, integrator.lacks);
   return info;
 }
@@ -186,7 +186,7 @@ MethodInfo method_info(const Integrator& integrator) {
 EngineInfo core_info_of(const std::vector<Integrator>& methods) {
   EngineInfo info{.name = "core", .version = RIGOR_VERSION, .precision = "double"};
   info.is_in_house = true;
-  info.features = joined({"spring", "timed-force", "fixed-body"}, kJointFeatures);
+  info.features = joined({Feature::spring, Feature::timed_force, Feature::fixed_body}, kJointFeatures);
   for (const ContactMethod& method : contact_methods()) {
     info.features.insert(method.features.begin(), method.features.end());
   }

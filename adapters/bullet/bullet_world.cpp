@@ -29,11 +29,6 @@ std::string gyroscopic_mode(const btRigidBody& body) {
   return fmt::format("flags {}", body.getFlags());
 }
 
-bool something_bounces(const Scene& scene) {
-  const std::vector<Need> needs = needs_of(scene);
-  return std::any_of(needs.begin(), needs.end(), [](const Need& need) { return need.feature == "restitution"; });
-}
-
 double inner_radius(const Shape& shape) {  // m, of the largest ball inside
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
   if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
@@ -62,7 +57,7 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
     : laws_(scene),
       loads_(scene),
       matched_(settings.track == Track::matched),
-      bounces_(something_bounces(scene)),
+      bounces_(needs(scene, Feature::restitution)),
       solver_(make_solver(settings.method, dantzig_)) {
   bullet::install_pair_laws();
   world_.setGravity(to_bullet(scene.gravity));

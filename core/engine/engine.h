@@ -53,7 +53,8 @@ struct EngineInfo {
   std::string name;
   std::string version;
   std::string precision;                                                   // "double", "single"
-  Features features = {};                                                  // features that it expresses; see features.h
+  Features features = {};                                                  // that it expresses
+  std::vector<std::string> unknown_features = {};                          // words of a plug-in that no Feature has
   std::vector<MethodInfo> methods = {};                                    // the first is the default
   double max_rotation_per_step = std::numeric_limits<double>::infinity();  // rad; beyond it the engine clamps
   // Rigor's own engine: all its methods run by default, and other engines are compared with the best

@@ -57,7 +57,7 @@ struct ContactParts {
 struct ContactMethod {
   std::string name;
   std::string summary;
-  Features features;                     // the contacts it expresses; see features.h
+  Features features;                     // the contacts it expresses; see feature.h
   std::vector<OptionInfo> options = {};  // of this method alone
   std::unique_ptr<ContactStepper> (*make)(const Scene& scene, const ContactParts& parts);
 };

@@ -238,8 +238,9 @@ const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
     .features =
-        joined(contacts_of_all_shapes(), {"contact-filter", "friction:coulomb", "friction:infinite", "friction:none",
-                                          "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
+        joined(contacts_of_all_shapes(),
+               {Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none,
+                Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit, Feature::motor_speed}),
     .options = {{.name = "substeps",
                  .meaning = "of contact=impulse in a step; default: at least 4, and more if the step is long for the "
                             "time in which bodies fall by their size",
