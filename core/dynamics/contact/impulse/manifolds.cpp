@@ -61,7 +61,9 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
 }
 
 // Four points hold a face as well as eight: the deepest, the one furthest from it, the one furthest aside of the line
-// between these, and the one furthest to the other side. Of points that are equal but for rounding the first is taken.
+// between these, and the one furthest to the other side. Of points that are equally deep but for rounding the one
+// furthest from their centre is taken. Edges that are nearly parallel cross far from their ends, and a crossing in
+// place of a corner would leave the face without support there. Of points that are equal in all this the first counts.
 void reduce_to_four(Manifold& points) {
   if (points.size() <= kMostOfPair) return;
   const double equal = kEqualScores * (points[kMostOfPair].point - points[0].point).norm();
@@ -72,7 +74,10 @@ void reduce_to_four(Manifold& points) {
     }
     std::swap(points[at], points[best]);
   };
-  take(0, [](const ManifoldPoint& p) { return -p.gap; });
+  double least = points[0].gap;
+  Vec3 centre = Vec3::Zero();
+  for (const ManifoldPoint& point : points) least = std::min(least, point.gap), centre += point.point / points.size();
+  take(0, [&](const ManifoldPoint& p) { return p.gap > least + equal ? -1 : (p.point - centre).norm(); });
   const ManifoldPoint first = points[0];
   take(1, [&](const ManifoldPoint& p) { return (p.point - first.point).norm(); });
   const Vec3 side = first.normal.cross(points[1].point - first.point).normalized();
