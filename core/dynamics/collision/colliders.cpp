@@ -2,17 +2,12 @@
 
 #include <limits>
 
+#include "core/dynamics/model/contact_scales.h"
+
 namespace rigor {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct BoundingRadius {
-  double operator()(const Sphere& s) const { return s.radius; }
-  double operator()(const Box& b) const { return 0.5 * b.size.norm(); }
-  double operator()(const Capsule& c) const { return c.radius + 0.5 * c.length; }
-  double operator()(const Plane&) const { return kInfinity; }
-};
 
 struct Inradius {
   double operator()(const Sphere& s) const { return s.radius; }
@@ -38,7 +33,7 @@ std::vector<Collider> colliders_of(const Scene& scene) {
     const Body& body = scene.bodies[i];
     if (!body.collides) continue;
     colliders.push_back(
-        {i, *body.shape, std::visit(BoundingRadius{}, *body.shape), std::visit(Inradius{}, *body.shape), body.fixed});
+        {i, *body.shape, bounding_radius(*body.shape), std::visit(Inradius{}, *body.shape), body.fixed});
   }
   return colliders;
 }
