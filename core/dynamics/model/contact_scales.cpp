@@ -1,13 +1,19 @@
-#include "core/dynamics/collision/contact_scales.h"
+#include "core/dynamics/model/contact_scales.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-
-#include "core/dynamics/collision/colliders.h"
+#include <limits>
 
 namespace rigor {
 namespace {
+
+struct BoundingRadius {
+  double operator()(const Sphere& s) const { return s.radius; }
+  double operator()(const Box& b) const { return 0.5 * b.size.norm(); }
+  double operator()(const Capsule& c) const { return c.radius + 0.5 * c.length; }
+  double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
+};
 
 // m: the radius of gyration about the axis of the largest moment.
 double gyration_radius(const Body& body) {
@@ -17,8 +23,8 @@ double gyration_radius(const Body& body) {
 
 double length_of(const Scene& scene) {
   double length = 0;
-  for (const Collider& collider : colliders_of(scene)) {
-    if (!collider.fixed) length = std::max(length, collider.bounding_radius);
+  for (const Body& body : scene.bodies) {
+    if (body.collides && !body.fixed) length = std::max(length, bounding_radius(*body.shape));
   }
   if (length > 0) return length;
   for (const Body& body : scene.bodies) {
@@ -76,6 +82,8 @@ class FastestRate {
 };
 
 }  // namespace
+
+double bounding_radius(const Shape& shape) { return std::visit(BoundingRadius(), shape); }
 
 ContactScales contact_scales(const Scene& scene, double factor) {
   const double length = length_of(scene), rate = FastestRate(scene, length).find();
