@@ -48,10 +48,7 @@ int run_whole(const CommandLine& line, const EngineTable& engines) {
 std::string summary_of(const CommandLine& line, const Results& share) {
   std::map<std::string, int> counts;
   int all = 0;
-  long searches = 0;
   for (const CaseResult& result : share.cases) {
-    searches += std::count_if(result.stable_steps.begin(), result.stable_steps.end(),
-                              [](const StableStepResult& stable) { return stable.status != Status::unsupported; });
     for (const Cell& cell : result.cells) {
       if (cell.status != Status::unsupported) ++counts[word_of(cell.status)], ++all;
     }
