@@ -3,17 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rigor {
 namespace {
-
-struct BoundingRadius {
-  double operator()(const Sphere& s) const { return s.radius; }
-  double operator()(const Box& b) const { return 0.5 * b.size.norm(); }
-  double operator()(const Capsule& c) const { return c.radius + 0.5 * c.length; }
-  double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
-};
 
 // m: the radius of gyration about the axis of the largest moment.
 double gyration_radius(const Body& body) {
@@ -82,8 +74,6 @@ class FastestRate {
 };
 
 }  // namespace
-
-double bounding_radius(const Shape& shape) { return std::visit(BoundingRadius(), shape); }
 
 ContactScales contact_scales(const Scene& scene, double factor) {
   const double length = length_of(scene), rate = FastestRate(scene, length).find();

@@ -26,6 +26,4 @@ struct ContactScales {
 
 ContactScales contact_scales(const Scene& scene, double factor = 1);
 
-double bounding_radius(const Shape& shape);  // m, about its centre; infinite for a plane
-
 }  // namespace rigor
