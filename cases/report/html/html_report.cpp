@@ -66,6 +66,12 @@ void shorten_cell(Json& cell, double duration) {
   cell["gates"] = std::move(failed);
 }
 
+// A step as a number of C: "1/30", pasted as it is, would be an integer division.
+std::string step_in_c(std::string dt) {
+  const std::size_t slash = dt.find('/');
+  return slash == std::string::npos ? dt : dt.replace(slash, 1, ".0 / ");
+}
+
 // Of each run and step, the engine's own calls.
 Json calls_json(const Results& results) {
   std::set<std::string> steps;
@@ -74,7 +80,8 @@ Json calls_json(const Results& results) {
   Json calls = Json::object();
   for (const RunName& run : results.runs) {
     for (const std::string& dt : steps)
-      if (const std::vector<std::string> lines = engine_calls(run, dt); !lines.empty()) calls[run.text][dt] = lines;
+      if (const std::vector<std::string> lines = engine_calls(run, step_in_c(dt)); !lines.empty())
+        calls[run.text][dt] = lines;
   }
   return calls;
 }

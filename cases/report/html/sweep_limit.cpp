@@ -73,8 +73,10 @@ std::string SweepPage::limit_key(std::size_t of_case) const {
     (point.omega_dt < kLimit ? is_below : is_above) = true;
   }
   if (!is_below || !is_above) return "";
-  return "<span class=\"key\"><i class=\"limit-sample\"></i>ω dt = 2 of the stiffest spring: beyond it, "
-         "semi-implicit Euler blows up unless the spring is damped</span>";
+  return "<p><span class=\"key\"><i class=\"limit-sample\"></i>ω dt = 2 of the stiffest spring: beyond it, "
+         "semi-implicit Euler blows up unless the spring is damped</span></p>\n<p class=\"faint\">Near the line the "
+         "energy of a bounded run oscillates. A tenfold rise counts as blown up. Single cells may differ from their "
+         "neighbours, because the verdict reads the energy in the last tenth of the run.</p>\n";
 }
 
 }  // namespace rigor

@@ -26,7 +26,7 @@ constexpr Kind kKinds[] = {{"stable", "var(--stable)"},           {"drifting", "
                            {"collapsed", "var(--collapsed)"},     {"tunnelled", "var(--tunnelled)"},
                            {"blown up", "var(--blown-up)"},       {"unsupported", "var(--unsupported)"},
                            {"invalid", "var(--invalid)"},         {"broke off", "var(--broke-off)"}};
-constexpr unsigned char kDrifting = 1, kBlownUp = 6, kUnsupported = 7, kInvalid = 8, kBrokeOff = 9;
+constexpr unsigned char kBlownUp = 6, kUnsupported = 7, kInvalid = 8, kBrokeOff = 9;
 
 unsigned char kind_of(const SweepRow& row) {
   if (row.status == Status::unsupported) return kUnsupported;
@@ -280,12 +280,7 @@ std::string SweepPage::legend(std::size_t of_case) const {
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
     if (counts[kind] > 0) text += key_of(kKinds[kind].colour, fmt::format("{} {}", kKinds[kind].word, counts[kind]));
   }
-  text += limit_key(of_case) + "</p>\n";
-  if (counts[kDrifting] > 0 && limit_key(of_case) != "")
-    text +=
-        "<p class=\"faint\">Single cells may differ from their neighbours near the line. The energy of a bounded run "
-        "oscillates there. The verdict reads it over the last tenth of the run.</p>\n";
-  return text;
+  return text + "</p>\n" + limit_key(of_case);
 }
 
 std::string SweepPage::section(std::size_t of_case) const {
