@@ -1,5 +1,5 @@
 // No impact of jointed bodies adds energy: exactly the excess of Newton's restitution is taken back.
-#include "core/dynamics/contact/impulse/impact_energy.h"
+#include "core/dynamics/contact/impulse/rebounds/impact_energy.h"
 
 #include <boost/test/unit_test.hpp>
 #include <random>

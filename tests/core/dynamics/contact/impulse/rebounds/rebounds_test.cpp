@@ -1,6 +1,6 @@
 // Impacts of contact by impulses: at their own instants, several at once by the law that the run names, and never with
 // a gain of energy.
-#include "core/dynamics/contact/impulse/rebounds.h"
+#include "core/dynamics/contact/impulse/rebounds/rebounds.h"
 
 #include <cmath>
 #include <numbers>
