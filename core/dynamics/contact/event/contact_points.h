@@ -14,9 +14,10 @@
 namespace rigor {
 
 struct ContactPoint {
-  int a, b;               // colliders; kLimit of a limit
-  std::uint32_t feature;  // of a limit: which
-  double gap;             // m; rad of a hinge's limit
+  int a, b;                              // colliders; kLimit of a limit
+  std::uint32_t feature;                 // of a limit: which
+  std::uint16_t part_a = 0, part_b = 0;  // of compounds: which part touches
+  double gap;                            // m; rad of a hinge's limit
   double restitution;
   ConeConstraint cone;
   static constexpr int kLimit = -1;
