@@ -33,7 +33,7 @@ std::vector<Collider> colliders_of(const Scene& scene) {
     const Body& body = scene.bodies[i];
     if (!body.collides) continue;
     colliders.push_back(
-        {i, *body.shape, bounding_radius(*body.shape), std::visit(Inradius{}, *body.shape), body.fixed});
+        {i, *body.shape, enclosing_radius(*body.shape), std::visit(Inradius{}, *body.shape), body.fixed});
   }
   return colliders;
 }

@@ -24,7 +24,7 @@ double gyration_radius(const Body& body) {
 double length_of(const Scene& scene) {
   double length = 0;
   for (const Body& body : scene.bodies) {
-    if (body.collides && !body.fixed) length = std::max(length, bounding_radius(*body.shape));
+    if (body.collides && !body.fixed) length = std::max(length, enclosing_radius(*body.shape));
   }
   if (length > 0) return length;
   for (const Body& body : scene.bodies) {
@@ -83,7 +83,7 @@ class FastestRate {
 
 }  // namespace
 
-double bounding_radius(const Shape& shape) { return std::visit(BoundingRadius(), shape); }
+double enclosing_radius(const Shape& shape) { return std::visit(BoundingRadius(), shape); }
 
 ContactScales contact_scales(const Scene& scene, double factor) {
   const double length = length_of(scene), rate = FastestRate(scene, length).find();

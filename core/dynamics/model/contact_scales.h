@@ -26,6 +26,6 @@ struct ContactScales {
 
 ContactScales contact_scales(const Scene& scene, double factor = 1);
 
-double bounding_radius(const Shape& shape);  // m, about its centre; infinite for a plane
+double enclosing_radius(const Shape& shape);  // m, about its centre; infinite for a plane
 
 }  // namespace rigor
