@@ -7,8 +7,8 @@
 #include "core/dynamics/collision/broad_phase.h"
 #include "core/dynamics/contact/event/acceleration_bounds.h"
 #include "core/dynamics/contact/event/cone_solver.h"
-#include "core/dynamics/contact/event/contact_scales.h"
 #include "core/dynamics/joints/joint_limits.h"
+#include "core/dynamics/model/contact_scales.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
