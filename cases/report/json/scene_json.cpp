@@ -1,6 +1,6 @@
 #include "cases/report/json/scene_json.h"
 #include "core/base/json.h"
-#include "core/scene/toml/shape_json.h"
+#include "core/scene/toml/scene_writer.h"
 
 #include <cmath>
 
@@ -12,12 +12,12 @@ Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 // As the page draws it: a compound as its parts, and a hull with the triangles of its surface.
 Json drawn_shape_json(const Shape& shape) {
   if (const auto* compound = std::get_if<Compound>(&shape)) {
-    Json json = {{"type", "compound"}, {"parts", json_of_shape(shape)}};
+    Json json = {{"type", "compound"}, {"parts", parse_json(shape_json(shape))}};
     for (std::size_t k = 0; k < compound->parts.size(); ++k)
       json["parts"][k].update(drawn_shape_json(compound->parts[k].shape));
     return json;
   }
-  Json json = json_of_shape(shape);
+  Json json = parse_json(shape_json(shape));
   if (const auto* convex = std::get_if<Convex>(&shape)) {
     json["triangles"] = Json::array();
     for (const Hull::Face& face : convex->hull->faces) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/unit_vector.h"
-#include "core/scene/toml/pose_reader.h"
 #include "core/scene/toml/row_fault.h"
 #include "core/scene/toml/shape_reader.h"
 
@@ -67,13 +65,6 @@ void read_pose(const TableReader& row, bool is_plane, Body& body) {
 }
 
 }  // namespace
-
-Quat read_orientation(const TomlValue& value) {
-  const auto q = value.numbers({4});
-  const auto unit = unit_vector(Eigen::Vector4d(q[0], q[1], q[2], q[3]));
-  if (!unit) value.refuse("found the zero quaternion, which is no rotation; allowed: [w, x, y, z] of any other length");
-  return {(*unit)[0], (*unit)[1], (*unit)[2], (*unit)[3]};
-}
 
 const std::vector<std::string>& body_keys() {
   static const Keys keys = {

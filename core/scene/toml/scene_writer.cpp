@@ -8,7 +8,6 @@
 
 #include "core/base/json.h"
 #include "core/scene/contact_laws.h"
-#include "core/scene/toml/shape_json.h"
 
 namespace rigor {
 namespace {
@@ -17,6 +16,31 @@ Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 void add_unless_infinite(Json& row, const char* key, double value) {
   if (std::isfinite(value)) row[key] = value;
+}
+
+Json value_of(double value) { return value; }
+Json value_of(const Vec3& value) { return list(value); }
+
+// The parts of a compound are a list.
+Json json_of_shape(const Shape& shape) {
+  if (const auto* compound = std::get_if<Compound>(&shape)) {
+    Json parts = Json::array();
+    for (const PlacedShape& part : compound->parts) {
+      const Quat& q = part.pose.orientation;
+      Json row = json_of_shape(part.shape);
+      row["position"] = list(part.pose.position);
+      row["orientation_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
+      parts.push_back(std::move(row));
+    }
+    return parts;
+  }
+  Json json = {{"type", shape_name(shape)}};
+  for_each_field(shape, [&](const char* key, ShapeQuantity, const auto& value) { json[key] = value_of(value); });
+  if (const auto* convex = std::get_if<Convex>(&shape)) {
+    json["points"] = Json::array();
+    for (const Vec3& point : convex->hull->points) json["points"].push_back(list(point));
+  }
+  return json;
 }
 
 Json row_of(const Body& body) {
@@ -152,6 +176,8 @@ std::string toml_of(const Json& value) {
 }
 
 }  // namespace
+
+std::string shape_json(const Shape& shape) { return json_of_shape(shape).dump(); }
 
 std::string scene_json(const Scene& scene) { return tree_of(scene).dump(); }
 

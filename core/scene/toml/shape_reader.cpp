@@ -9,7 +9,6 @@
 #include "core/base/unit_vector.h"
 #include "core/scene/shapes/mesh_file.h"
 #include "core/scene/toml/file_reader.h"
-#include "core/scene/toml/pose_reader.h"
 #include "core/scene/toml/table_reader.h"
 
 namespace rigor {
@@ -90,6 +89,13 @@ bool is_centred(const PlacedShape& placed) {
 }
 
 }  // namespace
+
+Quat read_orientation(const TomlValue& value) {
+  const auto q = value.numbers({4});
+  const auto unit = unit_vector(Eigen::Vector4d(q[0], q[1], q[2], q[3]));
+  if (!unit) value.refuse("found the zero quaternion, which is no rotation; allowed: [w, x, y, z] of any other length");
+  return {(*unit)[0], (*unit)[1], (*unit)[2], (*unit)[3]};
+}
 
 std::optional<Shape> read_shapes(const TableReader& row) {
   const auto one = row.find("shape"), several = row.find("shapes");
