@@ -60,10 +60,11 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
   return (inner.low.array() >= outer.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
 }
 
-// Four points hold a face as well as eight. The first is the deepest, the second the one furthest from it. The third and
-// fourth are furthest from the line between these, one on each side. Several points can be equally deep but for rounding.
-// The one furthest from the centre of all is then the first. Edges that are nearly parallel cross far from their ends. A
-// crossing in place of a corner would leave the face without support there. In a tie the earlier point counts.
+// Four points hold a face as well as eight. The first is the deepest, the second the one furthest from it. The third
+// and fourth are furthest from the line between these, one on each side. Several points can be equally deep but for
+// rounding. The one furthest from the centre of all is then the first. Edges that are nearly parallel cross far from
+// their ends. A crossing in place of a corner would leave the face without support there. In a tie the earlier point
+// counts.
 void reduce_to_four(Manifold& points) {
   if (points.size() <= kMostOfPair) return;
   const double equal = kEqualScores * (points[kMostOfPair].point - points[0].point).norm();
