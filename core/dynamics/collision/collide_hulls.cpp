@@ -15,10 +15,11 @@
 namespace rigor {
 namespace {
 
-constexpr double kFacePreference = 1e-5;  // of the smaller inradius: by how much edges must be further apart than faces
-constexpr double kOutside = 1e-6;         // of the inradius: a face is clipped so far outside its sides
-constexpr int kMostOfFace = 16;           // points of one face contact
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHullFacePreference =
+    1e-5;                              // of the smaller inradius: by how much edges must be further apart than faces
+constexpr double kHullOutside = 1e-6;  // of the inradius: a face is clipped so far outside its sides
+constexpr int kMostOfFace = 16;        // points of one face contact
+constexpr double kFarAway = std::numeric_limits<double>::infinity();
 
 const Hull& unit_cube_hull() {
   static const std::shared_ptr<const Hull> cube = [] {
@@ -61,7 +62,7 @@ struct Placed {
 };
 
 struct HullAxis {
-  double separation = -kInfinity;
+  double separation = -kFarAway;
   Vec3 n = Vec3::Zero();  // unit, in W, from a to b
   int a = -1, b = -1;     // of a face axis: `a` is the face; of an edge axis: both edges
 };
@@ -71,7 +72,7 @@ HullAxis best_face_of(Placed& of, const Placed& other) {
   HullAxis best;
   of.deepest.resize(of.normals.size());
   for (std::size_t f = 0; f < of.normals.size(); ++f) {
-    double least = kInfinity;
+    double least = kFarAway;
     for (std::size_t i = 0; i < other.points.size(); ++i) {
       const double along = of.normals[f].dot(other.points[i]);
       if (along < least) least = along, of.deepest[f] = static_cast<int>(i);
@@ -153,7 +154,7 @@ void clip(const HullPolygon& polygon, const Vec3& n, double offset, std::uint32_
 // The face of `of` that looks most against n.
 std::size_t facing_of(const Placed& of, const Vec3& n) {
   std::size_t best = 0;
-  double least = kInfinity;
+  double least = kFarAway;
   for (std::size_t f = 0; f < of.normals.size(); ++f) {
     if (const double along = of.normals[f].dot(n); along < least) least = along, best = f;
   }
@@ -173,13 +174,13 @@ void add_face(const Placed& reference, const Placed& incident, const HullAxis& a
     const Vec3 &from = reference.points[Placed::index(sides.corners[k])],
                &to = reference.points[Placed::index(sides.corners[(k + 1) % sides.corners.size()])];
     const Vec3 side = (to - from).cross(axis.n).normalized();
-    clip(polygon, side, side.dot(from) + kOutside * reference.inradius, static_cast<std::uint32_t>(k), clipped);
+    clip(polygon, side, side.dot(from) + kHullOutside * reference.inradius, static_cast<std::uint32_t>(k), clipped);
     polygon.swap(clipped);
   }
   const double level = reference.offsets[Placed::index(axis.a)];
-  double least = kInfinity;
+  double least = kFarAway;
   for (const HullCorner& corner : polygon) least = std::min(least, axis.n.dot(corner.p) - level);
-  if (!polygon.empty() && (axis.separation <= 0 || least <= axis.separation + kOutside * reference.inradius)) {
+  if (!polygon.empty() && (axis.separation <= 0 || least <= axis.separation + kHullOutside * reference.inradius)) {
     const std::size_t step = (polygon.size() + kMostOfFace - 1) / kMostOfFace;
     for (std::size_t i = 0; i < polygon.size(); i += step) {
       const double gap = axis.n.dot(polygon[i].p) - level;
@@ -207,7 +208,7 @@ void add_edges(const Placed& a, const Placed& b, const HullAxis& axis, Manifold&
 }
 
 void collide_placed(Placed& a, Placed& b, Manifold& out) {
-  const double preference = kFacePreference * std::min(a.inradius, b.inradius);
+  const double preference = kHullFacePreference * std::min(a.inradius, b.inradius);
   const HullAxis face_a = best_face_of(a, b), face_b = best_face_of(b, a);
   const double found = std::max(face_a.separation, face_b.separation);
   const HullAxis edges = best_edges_of(a, b, found);
@@ -228,7 +229,7 @@ Vec3 nearest_on_face(const Placed& hull, std::size_t f, const Vec3& p) {
   const Vec3 foot = p - (n.dot(p) - hull.offsets[f]) * n;
   bool is_inside = true;
   Vec3 best = foot;
-  double least = kInfinity;
+  double least = kFarAway;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec3 &from = hull.points[Placed::index(corners[k])],
                &to = hull.points[Placed::index(corners[(k + 1) % corners.size()])];
@@ -249,12 +250,12 @@ struct PointGap {
 
 PointGap point_to_hull(const Placed& hull, const Vec3& p) {
   std::size_t face = 0;
-  double most = -kInfinity;
+  double most = -kFarAway;
   for (std::size_t f = 0; f < hull.normals.size(); ++f) {
     if (const double above = hull.normals[f].dot(p) - hull.offsets[f]; above > most) most = above, face = f;
   }
   if (most <= 0) return {most, hull.normals[face], face};
-  PointGap best{kInfinity, hull.normals[face], face};
+  PointGap best{kFarAway, hull.normals[face], face};
   for (std::size_t f = 0; f < hull.normals.size(); ++f) {
     if (hull.normals[f].dot(p) - hull.offsets[f] <= 0) continue;
     const Vec3 line = p - nearest_on_face(hull, f, p);
@@ -269,15 +270,15 @@ struct CapsuleAxis {
 };
 
 struct AxisGap {
-  double separation = -kInfinity;  // m, of the axis
-  Vec3 n = Vec3::Zero();           // from the hull to the axis
-  Vec3 at = Vec3::Zero();          // of the axis
+  double separation = -kFarAway;  // m, of the axis
+  Vec3 n = Vec3::Zero();          // from the hull to the axis
+  Vec3 at = Vec3::Zero();         // of the axis
 };
 
 // The least distance of a segment that stays outside: at one of its ends, at a corner, or between it and an edge.
 AxisGap outside_gap(const Placed& hull, const CapsuleAxis& axis) {
   AxisGap best;
-  best.separation = kInfinity;
+  best.separation = kFarAway;
   for (const Vec3& end : {axis.from, axis.to}) {
     const PointGap gap = point_to_hull(hull, end);
     if (gap.distance < best.separation) best = {gap.distance, gap.n, end};
@@ -317,7 +318,7 @@ bool enters(const Placed& hull, const CapsuleAxis& axis) {
 AxisGap inside_gap(const Placed& hull, const CapsuleAxis& axis) {
   AxisGap best;
   const auto try_direction = [&](const Vec3& n) {
-    double reach = -kInfinity;
+    double reach = -kFarAway;
     for (const Vec3& point : hull.points) reach = std::max(reach, n.dot(point));
     const double from = n.dot(axis.from), to = n.dot(axis.to), separation = std::min(from, to) - reach;
     if (separation > best.separation) best = {separation, n, from < to ? axis.from : axis.to};
@@ -376,7 +377,7 @@ void collide_hull_plane(const Convex& a, const Pose& pose_a, const Plane& b, Man
   const Vec3 n_B = pose_a.R.transpose() * b.normal;
   const double base = b.normal.dot(pose_a.p) - b.offset;
   const auto gap_of = [&](std::size_t i) { return base + n_B.dot(points[i]); };
-  double bound = kInfinity;
+  double bound = kFarAway;
   std::size_t count = points.size();
   if (points.size() > kMostCorners) {
     bound = gap_of(a.hull->furthest(-n_B)) + kNear * a.hull->inradius, count = 0;

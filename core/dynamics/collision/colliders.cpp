@@ -13,7 +13,7 @@ struct Extent {
     return symmetric(R.col(2).cwiseAbs() * (0.5 * c.length) + Vec3::Constant(c.radius));
   }
   Aabb operator()(const Compound& c) const {
-    Aabb all = {Vec3::Constant(kUnbounded), Vec3::Constant(-kUnbounded)};
+    Aabb all = {Vec3::Constant(kEndless), Vec3::Constant(-kEndless)};
     for (const PlacedShape& part : c.parts) {
       const Aabb box = aabb_of(part.shape, Pose{Vec3::Zero(), R} * part.pose, 0);
       all.low = all.low.cwiseMin(box.low), all.high = all.high.cwiseMax(box.high);
@@ -21,7 +21,7 @@ struct Extent {
     return all;
   }
   Aabb operator()(const Convex& c) const {
-    Aabb all = {Vec3::Constant(kUnbounded), Vec3::Constant(-kUnbounded)};
+    Aabb all = {Vec3::Constant(kEndless), Vec3::Constant(-kEndless)};
     for (const Vec3& point : c.hull->points) {
       const Vec3 at = R * point;
       all.low = all.low.cwiseMin(at), all.high = all.high.cwiseMax(at);
@@ -33,7 +33,7 @@ struct Extent {
     return symmetric(along * (0.5 * c.length) + across * c.radius);
   }
   Aabb operator()(const Ellipsoid& e) const { return symmetric((R * e.radii.asDiagonal()).rowwise().norm()); }
-  Aabb operator()(const Plane&) const { return symmetric(Vec3::Constant(kUnbounded)); }
+  Aabb operator()(const Plane&) const { return symmetric(Vec3::Constant(kEndless)); }
   Aabb operator()(const Sphere& s) const { return symmetric(Vec3::Constant(s.radius)); }
 };
 

@@ -9,8 +9,8 @@
 namespace rigor {
 namespace {
 
-constexpr int kMostRounds = 256;
-constexpr double kConverged = 1e-12;  // of the squared distance, or of the shapes' size
+constexpr int kMostDistanceRounds = 256;
+constexpr double kDistanceConverged = 1e-12;  // of the squared distance, or of the shapes' size
 
 // A point of the Minkowski difference a - b, and the two points that it comes from.
 struct Difference {
@@ -101,11 +101,12 @@ class Polytope {
   }
 
   ConvexGap expand() {
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostDistanceRounds; ++round) {
       const Triangle nearest = *std::min_element(triangles_.begin(), triangles_.end(),
                                                  [](const auto& x, const auto& y) { return x.offset < y.offset; });
       const Difference further = pair_.furthest(nearest.normal);
-      if (further.at.dot(nearest.normal) - nearest.offset <= kConverged * pair_.size() || round + 1 == kMostRounds)
+      if (further.at.dot(nearest.normal) - nearest.offset <= kDistanceConverged * pair_.size() ||
+          round + 1 == kMostDistanceRounds)
         return answer(nearest);
       if (!grow(further)) return answer(nearest);
     }
@@ -131,7 +132,7 @@ class Polytope {
     std::vector<Triangle> kept;
     for (const Triangle& triangle : triangles_) {
       // A triangle in whose plane the point lies is replaced, too: else slivers would be made.
-      if (triangle.normal.dot(point.at) <= triangle.offset - 0.1 * kConverged * pair_.size()) {
+      if (triangle.normal.dot(point.at) <= triangle.offset - 0.1 * kDistanceConverged * pair_.size()) {
         kept.push_back(triangle);
         continue;
       }
@@ -202,15 +203,16 @@ std::vector<Difference> completed(std::vector<Difference> simplex, const Pair& p
 ConvexGap convex_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const Pair pair(a, pose_a, b, pose_b);
   std::vector<Difference> simplex = {pair.furthest(-pair.between())};
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostDistanceRounds; ++round) {
     const Nearest nearest = nearest_of(simplex);
     const double square = nearest.at.squaredNorm();
-    if (nearest.corners.size() == 4 && square <= kConverged * pair.size() * pair.size()) return Polytope(pair, nearest.corners).expand();
+    if (nearest.corners.size() == 4 && square <= kDistanceConverged * pair.size() * pair.size())
+      return Polytope(pair, nearest.corners).expand();
     // The origin lies on a part of the simplex: the shapes touch, or overlap in a special way.
-    if (square <= kConverged * kConverged * pair.size() * pair.size())
+    if (square <= kDistanceConverged * kDistanceConverged * pair.size() * pair.size())
       return Polytope(pair, completed(nearest.corners, pair)).expand();
     const Difference further = pair.furthest(-nearest.at);
-    if (square - nearest.at.dot(further.at) <= kConverged * square || round + 1 == kMostRounds)
+    if (square - nearest.at.dot(further.at) <= kDistanceConverged * square || round + 1 == kMostDistanceRounds)
       return from_weights(nearest);
     simplex = nearest.corners;
     simplex.push_back(further);

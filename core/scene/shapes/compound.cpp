@@ -42,7 +42,7 @@ double Compound::bounding_radius() const {
 }
 
 double Compound::inradius() const {
-  double least = kUnbounded;
+  double least = kEndless;
   for (const PlacedShape& part : parts) least = std::min(least, rigor::inradius(part.shape));
   return least;
 }
@@ -50,7 +50,7 @@ double Compound::inradius() const {
 Vec3 Compound::support(const Vec3& n) const {
   assert(!parts.empty());
   Vec3 best = Vec3::Zero();
-  double most = -kUnbounded;
+  double most = -kEndless;
   for (const PlacedShape& part : parts) {
     const Vec3 at =
         part.pose.position + part.pose.orientation * rigor::support(part.shape, part.pose.orientation.conjugate() * n);

@@ -19,9 +19,9 @@ struct Plane {
   double volume() const { return 0; }
   Vec3 centre() const { return Vec3::Zero(); }
   Mat3 inertia(double) const { return Mat3::Zero(); }
-  double bounding_radius() const { return kUnbounded; }
-  double inradius() const { return kUnbounded; }
-  Vec3 support(const Vec3& n) const { return kUnbounded * n; }
+  double bounding_radius() const { return kEndless; }
+  double inradius() const { return kEndless; }
+  Vec3 support(const Vec3& n) const { return kEndless * n; }
   TriangleMesh drawn() const { return {}; }
 };
 

@@ -45,7 +45,7 @@ struct ShapeDescriptor {
   }
 };
 
-inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+inline constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 inline Mat3 diagonal_inertia(double xx, double yy, double zz) { return Vec3(xx, yy, zz).asDiagonal(); }
 
