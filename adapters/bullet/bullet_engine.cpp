@@ -20,13 +20,23 @@ namespace {
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
-const Features kJoints = {"joint:ball",          "joint:cylindrical",
-                          "joint:fixed",         "joint:hinge",
-                          "joint:slider",        "joint:universal",
-                          "joint-spring",        "joint-damper",
-                          "joints-with-dampers", "joints-with-contacts",
-                          "joint-limit",         "motor:effort",
-                          "motor:speed",         "joint-limit:beyond-half-turn"};
+const Features kJoints = {"joint:ball",
+                          "joint:cylindrical",
+                          "joint:fixed",
+                          "joint:hinge",
+                          "joint:slider",
+                          "joint:universal",
+                          "joint-spring",
+                          "joint-damper",
+                          "joints-with-dampers",
+                          "joints-with-contacts",
+                          "joint-limit",
+                          "motor:effort",
+                          "motor:speed",
+                          "joint-friction",
+                          "motor:servo",
+                          "motor:table",
+                          "joint-limit:beyond-half-turn"};
 
 std::vector<OptionInfo> options_of_rigid_bodies() {
   return {{"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},

@@ -21,7 +21,7 @@ const Integrator kBulletMultibodyTwin = {
     .default_orientation = "",
     .takes_contact = false,
     .takes_joints = true,
-    .lacks = {"joint:distance", "joint-limit", "joint-loop", "motor:speed"},
+    .lacks = {"joint:distance", "joint-limit", "joint-loop", "joint-friction", "motor:servo", "motor:speed"},
     .twin_of = "bullet",
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, turned_by_bullet); },
 };

@@ -156,7 +156,8 @@ const Integrator kBulletTwin = {
     .leapfrog_stagger = 0.5,
     .default_orientation = "",
     .takes_joints = true,
-    .lacks = {"joint:distance", "joint-limit", "joints-with-contacts", "motor:speed"},  // no rows with bounds
+    .lacks = {"joint:distance", "joint-limit", "joints-with-contacts", "joint-friction", "motor:servo",
+              "motor:speed"},  // no rows with bounds
     .options = {{"gyroscopic",
                  "the gyroscopic torque; default implicit-body",
                  {"implicit-body", "implicit-world", "explicit", "off"}},

@@ -34,6 +34,7 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
     system_.constants.use_threads(static_cast<int>(number_option(settings, "threads", 1)));
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
+    has_servos_ = JointStops::has_servos(scene);
     if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_), on_loop_ = joints_on_loops(scene);
     if (anything_can_touch(scene)) {
       if (JointStops::has_speed_motors(scene))
@@ -54,7 +55,10 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
 
   void step(double dt) override {
     if (joints_) joints_->begin_step();
-    stepper_->step(state_.columns(), clock_.time(), dt);
+    if (contact_ && has_servos_)
+      step_between_samples(clock_.time(), dt);
+    else
+      stepper_->step(state_.columns(), clock_.time(), dt);
     if (joints_) joints_->end_step(state_.columns());
     clock_.advance(dt);
     if (contact_ && !contact_->was_smooth()) passages_.interrupt();
@@ -94,6 +98,16 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
   std::optional<double> sub_step() const override { return contact_ ? contact_->sub_step() : std::nullopt; }
 
  private:
+  // Contact methods do not locate the events of servos.
+  void step_between_samples(double t, double dt) {
+    for (double from = t; from < t + dt;) {
+      const double to = system_.loads.next_sample(from, t + dt);
+      system_.loads.sample_servos(state_.columns(), from);
+      stepper_->step(state_.columns(), from, from == t && to == t + dt ? dt : to - from);
+      from = to;
+    }
+  }
+
   // With the rule by which it was taken where none was named.
   std::string name_of_contact(const Scene& scene, const Settings& settings) const {
     if (settings.options.contains("contact")) return contact_method_.name;
@@ -113,7 +127,8 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
   BodyTable state_;
   std::unique_ptr<Joints> joints_;      // null where there are none
   std::unique_ptr<JointStops> motors_;  // of given speed, where bodies can touch; null where there are none
-  std::vector<bool> on_loop_;           // by joint: no other joint can be in a singular position
+  bool has_servos_ = false;
+  std::vector<bool> on_loop_;  // by joint: no other joint can be in a singular position
   SingularPassages passages_;
   std::unique_ptr<Stepper> stepper_;
   Clock clock_;
@@ -121,8 +136,9 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
 const Features kJointFeatures =
-    joined(joints_of_all_types(), {"joint-spring", "joint-damper", "motor:effort", "motor:speed", "joints-with-dampers",
-                                   "joint-limit", "joint-limit:beyond-half-turn"});
+    joined(joints_of_all_types(),
+           {"joint-spring", "joint-damper", "joint-friction", "motor:effort", "motor:servo", "motor:speed",
+            "motor:table", "joints-with-dampers", "joint-limit", "joint-limit:beyond-half-turn"});
 
 template <typename Rows>
 std::vector<std::string> names_of(const Rows& rows) {

@@ -20,7 +20,8 @@ const Features kDartJoints = {"joint:ball",           "joint:fixed",         "jo
                               "joint:slider",         "joint:universal",     "joint-spring",
                               "joint-damper",         "joint-limit",         "joint-limit:beyond-half-turn",
                               "joints-with-contacts", "joints-with-dampers", "motor:effort",
-                              "motor:speed"};
+                              "joint-friction",       "motor:servo",         "motor:speed",
+                              "motor:table"};
 
 std::vector<OptionInfo> options_of_solvers() {
   return {{"erp", "share of a gap or an overlap corrected in one step", {}, 0, 1},

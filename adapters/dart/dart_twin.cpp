@@ -47,7 +47,8 @@ const Integrator kDartTwin = {
     .default_orientation = "",
     .takes_contact = false,
     .takes_joints = true,
-    .lacks = {"joint:distance", "joint-damper", "joint-limit", "joint-loop", "joint-spring", "motor:speed"},
+    .lacks = {"joint:distance", "joint-damper", "joint-limit", "joint-loop", "joint-spring", "joint-friction",
+              "motor:servo", "motor:speed"},
     .twin_of = "dart",
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, turned_by_dart); },
 };

@@ -165,7 +165,8 @@ const Integrator kMujocoEulerTwin = {
     .default_orientation = "",
     .takes_contact = false,
     .takes_joints = true,
-    .lacks = {"joint:distance", "joint-damper", "joint-limit", "joint-loop", "motor:speed"},
+    .lacks = {"joint:distance", "joint-damper", "joint-limit", "joint-loop", "joint-friction", "motor:servo",
+              "motor:speed"},
     .twin_of = "mujoco",
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, exact_turn); }};
 

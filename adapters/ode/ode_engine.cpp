@@ -31,6 +31,7 @@ Features joints_of_all_kinds() {
           "joint:fixed",          "joint:hinge",         "joint:slider",
           "joint:universal",      "joint-spring",        "joint-damper",
           "joint-limit",          "motor:effort",        "motor:speed",
+          "joint-friction",       "motor:servo",         "motor:table",
           "joints-with-contacts", "joints-with-dampers", "joint-limit:beyond-half-turn"};
 }
 

@@ -79,7 +79,8 @@ const Integrator kOdeTwin = {
     .leapfrog_stagger = 0.5,
     .default_orientation = "",
     .takes_joints = true,
-    .lacks = {"joint-limit", "joints-with-contacts", "motor:speed"},  // rows that act on one side or up to a bound
+    .lacks = {"joint-limit", "joints-with-contacts", "joint-friction", "motor:servo",
+              "motor:speed"},  // rows that act on one side or up to a bound
     .options = {{"gyroscopic", "the implicit gyroscopic torque; default on", {"on", "off"}},
                 {"rotation",
                  "update of the orientation: the exact turn (default), or an added quaternion rate",

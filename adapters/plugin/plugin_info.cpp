@@ -155,7 +155,9 @@ Features with_wrenches(Features features) {
   features.insert({"spring", "timed-force"});
   const bool has_joints = std::any_of(features.begin(), features.end(),
                                       [](const std::string& feature) { return feature.starts_with("joint:"); });
-  if (has_joints) features.insert({"joint-damper", "joint-spring", "joints-with-dampers", "motor:effort"});
+  if (has_joints)
+    features.insert(
+        {"joint-damper", "joint-spring", "joints-with-dampers", "motor:effort", "motor:servo", "motor:table"});
   return features;
 }
 
@@ -195,7 +197,9 @@ Scene loads_left_to_rigor(Scene scene, const PluginInfo& info) {
   const bool gets_wrenches = does("wrench");
   if (does("spring") || !gets_wrenches) scene.springs.clear();
   if (does("timed-force") || !gets_wrenches) scene.forces.clear();
-  if (does("motor:effort") || !gets_wrenches) scene.motors.clear();
+  std::erase_if(scene.motors, [&](const Motor& motor) {
+    return !gets_wrenches || does(motor.servo ? "motor:servo" : motor.efforts ? "motor:table" : "motor:effort");
+  });
   for (Joint& joint : scene.joints) {
     if (does("joint-spring") || !gets_wrenches) joint.stiffness = 0;
     if (does("joint-damper") || !gets_wrenches) joint.damping = 0;

@@ -60,7 +60,7 @@ EngineInfo SimbodyEngine::info() const {
           .precision = "double",
           .features = {"spring", "timed-force", "fixed-body", "joint:ball", "joint:distance", "joint:fixed",
                        "joint:cylindrical", "joint:hinge", "joint:slider", "joint:universal", "joint-spring",
-                       "joint-damper", "joints-with-dampers", "motor:effort"},
+                       "joint-damper", "joints-with-dampers", "motor:effort", "motor:servo", "motor:table"},
           .methods = methods()};
 }
 

@@ -149,7 +149,7 @@ Integrator row(const std::string& method, int order, std::unique_ptr<Stepper> (*
           .default_orientation = "",
           .takes_contact = false,
           .takes_joints = true,
-          .lacks = {"joint:distance", "joint-limit", "joint-loop", "motor:speed"},
+          .lacks = {"joint:distance", "joint-limit", "joint-loop", "joint-friction", "motor:servo", "motor:speed"},
           .twin_of = "simbody",
           .make = make};
 }

@@ -117,10 +117,20 @@ void add_joint(const Scene& scene, std::size_t k, NeedList& needs) {
   if (beyond && turns(joint)) needs.add("joint-limit:beyond-half-turn", because);
 }
 
+const char* feature_of(const Motor& motor) {
+  if (motor.is_friction) return "joint-friction";
+  if (motor.speed) return "motor:speed";
+  if (motor.servo) return "motor:servo";
+  return motor.efforts ? "motor:table" : "motor:effort";
+}
+
 bool is_damped(const Scene& scene) {
   const auto damps = [](const auto& row) { return row.damping != 0; };
   return std::any_of(scene.springs.begin(), scene.springs.end(), damps) ||
-         std::any_of(scene.joints.begin(), scene.joints.end(), damps);
+         std::any_of(scene.joints.begin(), scene.joints.end(), damps) ||
+         std::any_of(scene.motors.begin(), scene.motors.end(), [](const Motor& motor) {
+           return motor.servo && motor.servo->period == 0 && motor.servo->kd != 0;
+         });
 }
 
 }  // namespace
@@ -167,8 +177,11 @@ std::vector<Need> needs_of(const Scene& scene) {
   }
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_joint(scene, k, needs);
   for (const Motor& motor : scene.motors) {
-    needs.add(motor.speed ? "motor:speed" : "motor:effort",
-              fmt::format("a motor on {}", scene.joint_name(static_cast<std::size_t>(motor.joint))));
+    needs.add(feature_of(motor), fmt::format("{} {}",
+                                             motor.is_friction ? "friction in"
+                                             : motor.servo     ? "a servo on"
+                                                               : "a motor on",
+                                             scene.joint_name(static_cast<std::size_t>(motor.joint))));
   }
   const bool touches = add_contacts(scene, needs);
   if (scene.joints.empty()) return needs.take();

@@ -13,7 +13,8 @@ namespace rigor {
 
 // A feature is a word: "spring", "timed-force", "fixed-body", "contact:box-plane", "restitution", "friction:none",
 // "friction:coulomb", "friction:infinite"; "joint:hinge", "joint-spring", "joint-damper", "joint-limit",
-// "motor:effort", "motor:speed"; "contact-filter" for pairs that never touch; and for what is more than its parts
+// "joint-friction", "motor:effort", "motor:servo", "motor:speed", "motor:table" for an effort that changes in time;
+// "contact-filter" for pairs that never touch; and for what is more than its parts
 // "joints-with-contacts", "joints-with-dampers". The two shapes of a contact stand in alphabetical order.
 using Features = std::set<std::string>;
 

@@ -16,7 +16,8 @@ std::vector<std::string> known_features() {
   std::vector<std::string> words = {"spring",         "timed-force",          "fixed-body",          "restitution",
                                     "friction:none",  "friction:coulomb",     "friction:infinite",   "joint-spring",
                                     "joint-damper",   "joint-limit",          "motor:effort",        "motor:speed",
-                                    "contact-filter", "joints-with-contacts", "joints-with-dampers", "wrench"};
+                                    "contact-filter", "joints-with-contacts", "joints-with-dampers", "wrench",
+                                    "joint-friction", "motor:servo",          "motor:table"};
   for (const JointTypeInfo& type : joint_types()) words.push_back("joint:" + type.word);
   for (const std::string& contact : contacts_of_all_shapes()) words.push_back(contact);
   return words;

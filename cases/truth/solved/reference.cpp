@@ -41,9 +41,10 @@ class Reference final : public Truth {
 };
 
 std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
-  static const Features solved = {"fixed-body",   "spring",       "timed-force", "joints-with-dampers",
-                                  "joint-spring", "joint-damper", "joint-limit", "joint-limit:beyond-half-turn",
-                                  "motor:effort", "motor:speed"};
+  static const Features solved = {"fixed-body",    "spring",       "timed-force", "joints-with-dampers",
+                                  "joint-spring",  "joint-damper", "joint-limit", "joint-limit:beyond-half-turn",
+                                  "motor:effort",  "motor:speed",  "motor:servo", "motor:table",
+                                  "joint-friction"};
   for (const Need& need : needs_of(scene)) {
     if (solved.contains(need.feature) || need.feature.starts_with("joint:")) continue;
     throw InputError(fmt::format("the truth 'reference' is for scenes without contacts; this one has {}: {}",

@@ -89,6 +89,8 @@ TextRange TomlValue::range() const {
   return {offset(node_->source().begin), offset(node_->source().end)};
 }
 
+std::string TomlValue::path() const { return document_->path; }
+
 std::string TomlValue::label() const { return name_.empty() ? where() : fmt::format("{}: {}", where(), name_); }
 
 void TomlValue::refuse(const std::string& fault) const { throw InputError(fmt::format("{}: {}", label(), fault)); }

@@ -35,6 +35,7 @@ class TomlValue {
  public:
   std::string where() const;  // "file:line:column"
   TextRange range() const;    // of the value in the file's text
+  std::string path() const;   // of the file
   std::string label() const;  // "file:line:column: key", how a message begins
   bool is_text() const;
   bool is_array() const;

@@ -77,8 +77,8 @@ bool is_by_events(const RunName& run, const Scene& scene) {
 // The supported features beside contacts, limits and motors of given speed.
 const Features kWhatAnyMethodTakes = {"fixed-body",      "joint-damper",        "joint-spring", "joint:ball",
                                       "joint:distance",  "joint:fixed",         "joint:hinge",  "joint:slider",
-                                      "joint:universal", "joints-with-dampers", "motor:effort", "spring",
-                                      "timed-force"};
+                                      "joint:universal", "joints-with-dampers", "motor:effort", "joint-friction",
+                                      "spring",          "timed-force"};
 
 // A solution that is taken up between two of its nodes knows a hinge's angle, but not how often it has turned round.
 bool may_pass_half_a_turn_from_a_limit(const Joint& joint) {

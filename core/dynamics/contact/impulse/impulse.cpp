@@ -226,9 +226,9 @@ extern const ContactMethod kImpulseContact;
 const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
-    .features =
-        joined(contacts_of_all_shapes(), {"contact-filter", "friction:coulomb", "friction:infinite", "friction:none",
-                                          "restitution", "joints-with-contacts", "joint-limit", "motor:speed"}),
+    .features = joined(contacts_of_all_shapes(),
+                       {"contact-filter", "friction:coulomb", "friction:infinite", "friction:none", "restitution",
+                        "joints-with-contacts", "joint-limit", "joint-friction", "motor:speed"}),
     .options = {{.name = "substeps",
                  .meaning = "of contact=impulse in a step; default: at least 4, and more if the step is long for the "
                             "time in which bodies fall by their size",
