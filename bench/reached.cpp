@@ -43,7 +43,7 @@ double measured(const char* metric, const SceneRow& row, int count, const Engine
   if (at == metrics().end()) return kNone;
   const double duration = row.reached == Reached::penetration ? 2 : 1;
   const Scene& scene = scene_of(row, count);
-  const Simulation run = simulate(engine, settings, scene, row.dt, duration, {}, false);
+  const Simulation run = simulate(engine, settings, scene, row.dt, duration, {.is_timed = false});
   if (run.not_finite) return std::numeric_limits<double>::infinity();
   const MetricResult result =
       at->measure({.scene = scene, .trajectory = run.trajectory, .truth = nullptr, .leapfrog_stagger = 0});

@@ -20,23 +20,23 @@ namespace {
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
-const Features kJoints = {"joint:ball",
-                          "joint:cylindrical",
-                          "joint:fixed",
-                          "joint:hinge",
-                          "joint:slider",
-                          "joint:universal",
-                          "joint-spring",
-                          "joint-damper",
-                          "joints-with-dampers",
-                          "joints-with-contacts",
-                          "joint-limit",
-                          "motor:effort",
-                          "motor:speed",
-                          "joint-friction",
-                          "motor:servo",
-                          "motor:table",
-                          "joint-limit:beyond-half-turn"};
+const Features kJoints = {joint_feature<BallJoint>(),
+                          joint_feature<CylindricalJoint>(),
+                          joint_feature<FixedJoint>(),
+                          joint_feature<HingeJoint>(),
+                          joint_feature<SliderJoint>(),
+                          joint_feature<UniversalJoint>(),
+                          Feature::joint_spring,
+                          Feature::joint_damper,
+                          Feature::joints_with_dampers,
+                          Feature::joints_with_contacts,
+                          Feature::joint_limit,
+                          Feature::motor_effort,
+                          Feature::motor_speed,
+                          Feature::joint_friction,
+                          Feature::motor_servo,
+                          Feature::motor_table,
+                          Feature::joint_limit_beyond_half_turn};
 
 std::vector<OptionInfo> options_of_rigid_bodies() {
   return {{"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
@@ -49,7 +49,7 @@ MethodInfo sequential_impulse() {
   MethodInfo method = {.name = "sequential-impulse",
                        .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
                        .leapfrog_stagger = 0.5,
-                       .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
+                       .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
                        .options = options_of_rigid_bodies()};
   method.options.insert(method.options.begin(), {"iterations", "sweeps of the solver a step", {}, 1, 10000, true});
   return method;
@@ -61,7 +61,7 @@ MethodInfo mlcp() {
               "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver, dense: a step takes "
               "the cube of its rows, 30 ms for 500",
           .leapfrog_stagger = 0.5,
-          .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
+          .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
           .options = options_of_rigid_bodies()};
 }
 
@@ -70,8 +70,9 @@ MethodInfo multibody() {
   return {.name = "multibody",
           .summary = "semi-implicit Euler in the reduced coordinates of trees (Featherstone); limits do not bounce",
           .leapfrog_stagger = 0.5,
-          .lacks = joined(contacts_of_all_shapes(), {"joint-limit-that-bounces", "joint-loop", "joints-with-contacts",
-                                                     "restitution", "two-speeds-at-once"})};
+          .lacks = joined(contacts_of_all_shapes(),
+                          {Feature::joint_limit_that_bounces, Feature::joint_loop, Feature::joints_with_contacts,
+                           Feature::restitution, Feature::two_speeds_at_once})};
 }
 
 }  // namespace
@@ -81,8 +82,9 @@ EngineInfo BulletEngine::info() const {
           .version = version(),
           .precision = sizeof(btScalar) == sizeof(double) ? "double" : "single",
           .features = joined(kJoints, joined(contacts_of_all_shapes(),
-                                             {"contact-filter", "spring", "timed-force", "fixed-body", "restitution",
-                                              "friction:none", "friction:coulomb", "friction:infinite"})),
+                                             {Feature::contact_filter, Feature::spring, Feature::timed_force,
+                                              Feature::fixed_body, Feature::restitution, Feature::friction_none,
+                                              Feature::friction_coulomb, Feature::friction_infinite})),
           .methods = {sequential_impulse(), mlcp(), multibody()},
           .max_rotation_per_step = bullet::kLargestTurn};  // a faster body keeps its speed and turns too little
 }

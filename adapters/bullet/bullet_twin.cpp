@@ -143,8 +143,9 @@ class BulletTwin : public Stepper {
   Wrenches wrenches_;
 };
 
-const Features kJointKinds = {"joint:ball",  "joint:cylindrical", "joint:fixed",
-                              "joint:hinge", "joint:slider",      "joint:universal"};
+const Features kJointKinds = {joint_feature<BallJoint>(),   joint_feature<CylindricalJoint>(),
+                              joint_feature<FixedJoint>(),  joint_feature<HingeJoint>(),
+                              joint_feature<SliderJoint>(), joint_feature<UniversalJoint>()};
 
 }  // namespace
 
@@ -156,8 +157,8 @@ const Integrator kBulletTwin = {
     .leapfrog_stagger = 0.5,
     .default_orientation = "",
     .takes_joints = true,
-    .lacks = {"joint:distance", "joint-limit", "joints-with-contacts", "joint-friction", "motor:servo",
-              "motor:speed"},  // no rows with bounds
+    .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joints_with_contacts,
+              Feature::joint_friction, Feature::motor_servo, Feature::motor_speed},  // no rows with bounds
     .options = {{"gyroscopic",
                  "the gyroscopic torque; default implicit-body",
                  {"implicit-body", "implicit-world", "explicit", "off"}},

@@ -29,11 +29,6 @@ std::string gyroscopic_mode(const btRigidBody& body) {
   return fmt::format("flags {}", body.getFlags());
 }
 
-bool something_bounces(const Scene& scene) {
-  const std::vector<Need> needs = needs_of(scene);
-  return std::any_of(needs.begin(), needs.end(), [](const Need& need) { return need.feature == "restitution"; });
-}
-
 double inner_radius(const Shape& shape) {  // m, of the largest ball inside
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
   if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
@@ -62,7 +57,7 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
     : laws_(scene),
       loads_(scene),
       matched_(settings.track == Track::matched),
-      bounces_(something_bounces(scene)),
+      bounces_(needs(scene, Feature::restitution)),
       solver_(make_solver(settings.method, dantzig_)) {
   bullet::install_pair_laws();
   world_.setGravity(to_bullet(scene.gravity));
@@ -162,6 +157,7 @@ void BulletWorld::step(double dt) {
   if (softness_ > 0) world_.getSolverInfo().m_globalCfm = softness_ * dt;
   // No sub-steps: with them Bullet would advance by multiples of 1/60 s for any dt.
   world_.stepSimulation(dt, 0);
+  last_dt_ = dt;
   clock_.advance(dt);
   look_for_fallback();
 }
@@ -212,6 +208,29 @@ void BulletWorld::read(Snapshot& out) const {
 
 std::vector<ReportedReaction> BulletWorld::reactions() const {
   return clock_.time() > 0 ? joints_->reactions() : std::vector<ReportedReaction>();
+}
+
+// The manifolds are those of the step's start, with the impulses that the step has given them. Bullet's normal points
+// from its second body to its first.
+std::vector<ReportedContact> BulletWorld::contacts() const {
+  std::vector<ReportedContact> contacts;
+  if (last_dt_ == 0) return contacts;
+  for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
+    const int first = manifold.getBody0()->getUserIndex(), second = manifold.getBody1()->getUserIndex();
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& at = manifold.getContactPoint(k);
+      // The solver leaves out points that are farther apart, and their impulses are those of an earlier step.
+      const bool is_solved = at.getDistance() <= manifold.getContactProcessingThreshold();
+      const btVector3 impulse = is_solved ? at.m_appliedImpulse * at.m_normalWorldOnB +
+                                                at.m_appliedImpulseLateral1 * at.m_lateralFrictionDir1 +
+                                                at.m_appliedImpulseLateral2 * at.m_lateralFrictionDir2
+                                          : btVector3(0, 0, 0);
+      contacts.push_back({second, first, to_rigor(at.getPositionWorldOnB()), to_rigor(at.m_normalWorldOnB),
+                          at.getDistance(), to_rigor(impulse) / last_dt_});
+    }
+  }
+  return contacts;
 }
 
 const btRigidBody* BulletWorld::first_moving() const {

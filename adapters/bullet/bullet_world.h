@@ -18,7 +18,7 @@
 
 namespace rigor {
 
-class BulletWorld : public World, public ReportsReactions {
+class BulletWorld : public World, public ReportsReactions, public ReportsContacts {
  public:
   BulletWorld(const Scene& scene, const Settings& settings);
   BulletWorld(const BulletWorld&) = delete;
@@ -28,9 +28,11 @@ class BulletWorld : public World, public ReportsReactions {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return warning_; }
-  Capabilities capabilities() override { return {.reactions = this}; }
+  Capabilities capabilities() override { return {.reactions = this, .contacts = this}; }
   void ask_for_reactions() override { joints_->ask_for_reactions(); }
   std::vector<ReportedReaction> reactions() const override;
+  void ask_for_contacts() override {}  // Bullet always keeps them
+  std::vector<ReportedContact> contacts() const override;
 
  private:
   struct Row {
@@ -56,6 +58,7 @@ class BulletWorld : public World, public ReportsReactions {
   bool matched_, bounces_;
   double softness_ = 0;  // 1/kg: CFM/dt where it follows the step
   Clock clock_;
+  double last_dt_ = 0;  // s
   std::string warning_;
 
   // In the order in which Bullet needs them: each outlives those below it.

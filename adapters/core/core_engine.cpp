@@ -1,217 +1,16 @@
 #include "adapters/core/core_engine.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
-#include <utility>
 
 #include "adapters/common/option_values.h"
-#include "core/dynamics/contact/contact_method.h"
-#include "core/dynamics/integrators/joint_events.h"
-#include "core/dynamics/joints/singular_passages.h"
-#include "core/engine/clock.h"
-#include "core/scene/contact_laws.h"
-#include "core/scene/joint_loops.h"
+#include "core/core_methods.h"
 
 namespace rigor {
-namespace {
-
-constexpr const char* kVersion = "0.1.0";
-constexpr const char* kDefault = "dormand-prince";  // correct at any step
-
-class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
- public:
-  CoreWorld(const Scene& scene, const Integrator& integrator, const Settings& settings)
-      : system_(scene),
-        integrator_(integrator),
-        tolerance_(number_option(settings, "tolerance", kDefaultTolerance)),
-        contact_method_(settings.options.contains("contact") ? contact_method(settings.options.at("contact"))
-                                                             : contact_method_for(scene)) {
-    if (!integrator_.default_orientation.empty()) {
-      orientation_ = &orientation_update(word_option(settings, "orientation", integrator_.default_orientation));
-    }
-    system_.constants.use_threads(static_cast<int>(number_option(settings, "threads", 1)));
-    state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
-    set_initial_state(scene, state_.columns());
-    has_servos_ = JointStops::has_servos(scene);
-    if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_), on_loop_ = joints_on_loops(scene);
-    if (anything_can_touch(scene)) {
-      if (JointStops::has_speed_motors(scene))
-        motors_ = std::make_unique<JointStops>(scene, system_, system_.loads, *joints_, JointStops::Of::motors);
-      auto stepper =
-          contact_method_.make(scene, {system_, integrator_, orientation_, settings, joints_.get(), motors_.get()});
-      contact_ = stepper.get();
-      contact_name_ = name_of_contact(scene, settings);
-      stepper_ = std::move(stepper);
-    } else {
-      stepper_ = integrator_.make({system_, nullptr, orientation_, settings, joints_.get(), &scene});
-      if (JointStops::are_in(scene))
-        stepper_ = std::make_unique<JointEvents>(scene, system_, *joints_, std::move(stepper_));
-    }
-  }
-
-  Capabilities capabilities() override { return {.reduced_order = this, .divided_steps = this}; }
-
-  void step(double dt) override {
-    if (joints_) joints_->begin_step();
-    if (contact_ && has_servos_)
-      step_between_samples(clock_.time(), dt);
-    else
-      stepper_->step(state_.columns(), clock_.time(), dt);
-    if (joints_) joints_->end_step(state_.columns());
-    clock_.advance(dt);
-    if (contact_ && !contact_->was_smooth()) passages_.interrupt();
-    if (joints_ && on_loop_[joints_->joint_of_smallest_pivot()])
-      passages_.note(clock_.time(), joints_->smallest_pivot());
-    else
-      passages_.interrupt();
-  }
-
-  void read(Snapshot& out) const override {
-    out.time = clock_.time();
-    out.borrow(state_.columns());
-  }
-
-  SettingsInForce settings_in_force() const override {
-    SettingsInForce settings = {{"integrator", integrator_.name}, {"gyroscopic term", "on"}};
-    if (orientation_) settings.emplace_back("orientation", orientation_->name);
-    if (integrator_.adaptive) settings.emplace_back("tolerance", fmt::format("{}", tolerance_));
-    settings.emplace_back("contact", contact_name_);
-    // Computed at each call, because some settings depend on the run.
-    const SettingsInForce of_contact = contact_ ? contact_->settings_in_force() : SettingsInForce();
-    settings.insert(settings.end(), of_contact.begin(), of_contact.end());
-    if (joints_) settings.emplace_back("joints", fmt::format("{} rows, of rank {}", joints_->rows(), joints_->rank()));
-    if (!passages_.times().empty()) settings.emplace_back("singular positions", passages_.text());
-    return settings;
-  }
-
-  std::string solver_warning() const override {
-    const std::string of_joints = joints_ ? joints_->warning() : "";
-    return of_joints.empty() ? stepper_->solver_warning() : of_joints;
-  }
-
-  std::optional<ReducedOrder> reduced_order() const override {
-    return contact_ ? contact_->reduced_order() : std::nullopt;
-  }
-
-  std::optional<double> sub_step() const override { return contact_ ? contact_->sub_step() : std::nullopt; }
-
- private:
-  // Contact methods do not locate the events of servos.
-  void step_between_samples(double t, double dt) {
-    for (double from = t; from < t + dt;) {
-      const double to = system_.loads.next_sample(from, t + dt);
-      system_.loads.sample_servos(state_.columns(), from);
-      stepper_->step(state_.columns(), from, from == t && to == t + dt ? dt : to - from);
-      from = to;
-    }
-  }
-
-  // With the rule by which it was taken where none was named.
-  std::string name_of_contact(const Scene& scene, const Settings& settings) const {
-    if (settings.options.contains("contact")) return contact_method_.name;
-    const bool are_few = contact_method_for(scene).name == "event" && has_few_colliding_bodies(scene);
-    if (!are_few) return fmt::format("{}, by default", contact_method_.name);
-    return fmt::format("{}, by default: at most {} bodies that move collide", contact_method_.name,
-                       kFewCollidingBodies);
-  }
-
-  System system_;
-  const Integrator integrator_;
-  double tolerance_;  // of an adaptive method
-  const ContactMethod& contact_method_;
-  const OrientationUpdate* orientation_ = nullptr;
-  std::string contact_name_ = "none in this scene";
-  const ContactStepper* contact_ = nullptr;  // the stepper, where bodies can touch
-  BodyTable state_;
-  std::unique_ptr<Joints> joints_;      // null where there are none
-  std::unique_ptr<JointStops> motors_;  // of given speed, where bodies can touch; null where there are none
-  bool has_servos_ = false;
-  std::vector<bool> on_loop_;  // by joint: no other joint can be in a singular position
-  SingularPassages passages_;
-  std::unique_ptr<Stepper> stepper_;
-  Clock clock_;
-};
-
-// What joints ask for; a method takes all of it, or none, or all but dampers.
-const Features kJointFeatures =
-    joined(joints_of_all_types(),
-           {"joint-spring", "joint-damper", "joint-friction", "motor:effort", "motor:servo", "motor:speed",
-            "motor:table", "joints-with-dampers", "joint-limit", "joint-limit:beyond-half-turn"});
-
-template <typename Rows>
-std::vector<std::string> names_of(const Rows& rows) {
-  std::vector<std::string> names;
-  for (const auto& row : rows) names.push_back(row.name);
-  return names;
-}
-
-OptionInfo contact_option() {
-  OptionInfo option{.name = "contact",
-                    .meaning = "how touching bodies are treated; default event where at most " +
-                               std::to_string(kFewCollidingBodies) +
-                               " bodies that move collide, else the first that has what the scene needs",
-                    .choices = names_of(contact_methods())};
-  for (const ContactMethod& method : contact_methods()) option.features_of_choice[method.name] = method.features;
-  return option;
-}
-
-MethodInfo method_info(const Integrator& integrator) {
-  MethodInfo info{.name = integrator.name,
-                  .summary = integrator.summary,
-                  .order = integrator.order,
-                  .symplectic = integrator.symplectic,
-                  .symmetric = integrator.symmetric,
-                  .leapfrog_stagger = integrator.leapfrog_stagger,
-                  .adaptive = integrator.adaptive,
-                  .options = {contact_option()}};
-  info.options.push_back(
-      {.name = "threads",
-       .meaning = "threads that share the bodies of a large scene; default 1, and the result is the same",
-       .min = 1,
-       .max = 64,
-       .whole = true});
-  if (!integrator.default_orientation.empty()) {
-    info.options.push_back(
-        {.name = "orientation",
-         .meaning = "how a rotation is carried over a step; default " + integrator.default_orientation,
-         .choices = names_of(orientation_updates())});
-  }
-  for (const ContactMethod& method : contact_methods()) {
-    info.options.insert(info.options.end(), method.options.begin(), method.options.end());
-  }
-  info.options.insert(info.options.end(), integrator.options.begin(), integrator.options.end());
-  info.twin_of = integrator.twin_of;
-  if (!integrator.takes_contact) {
-    for (const ContactMethod& method : contact_methods())
-      info.lacks.insert(method.features.begin(), method.features.end());
-  }
-  if (!integrator.takes_joints) info.lacks = joined(info.lacks, kJointFeatures);
-  if (!integrator.takes_dampers_with_joints) info.lacks.insert("joints-with-dampers");
-  info.lacks = joined(info.lacks, integrator.lacks);
-  return info;
-}
-
-}  // namespace
 
 CoreEngine::CoreEngine(std::vector<Integrator> twins) : integrators_(integrators()) {
   integrators_.insert(integrators_.end(), twins.begin(), twins.end());
-  info_ = made_info();
-}
-
-EngineInfo CoreEngine::made_info() const {
-  EngineInfo info{.name = "core", .version = kVersion, .precision = "double"};
-  info.is_in_house = true;
-  info.features = joined({"spring", "timed-force", "fixed-body"}, kJointFeatures);
-  for (const ContactMethod& method : contact_methods()) {
-    info.features.insert(method.features.begin(), method.features.end());
-  }
-  for (const Integrator& row : integrators_) info.methods.push_back(method_info(row));
-  // The first is the default of "core". Twins come last.
-  std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.twin_of.empty(); });
-  std::stable_partition(info.methods.begin(), info.methods.end(), [](const auto& m) { return m.name == kDefault; });
-  return info;
+  info_ = core_info_of(integrators_);
 }
 
 std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& settings) const {
@@ -219,7 +18,7 @@ std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& sett
   const auto row = std::find_if(integrators_.begin(), integrators_.end(),
                                 [&](const Integrator& own) { return own.name == settings.method; });
   assert(row != integrators_.end() && "methods are checked when the run is named");
-  return std::make_unique<CoreWorld>(scene, *row, settings);
+  return make_core_world(scene, *row, settings);
 }
 
 }  // namespace rigor

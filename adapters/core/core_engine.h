@@ -1,4 +1,4 @@
-// The in-house core behind the same seam as every other engine.
+// The in-house core (core/world.h) behind the same seam as every other engine.
 #pragma once
 
 #include <memory>
@@ -11,15 +11,13 @@ namespace rigor {
 
 class CoreEngine : public Engine {
  public:
-  // `twins`: methods beside the core's own, which repeat the schemes of other engines.
+  // `twins`: further methods, which replicate the schemes of other engines.
   explicit CoreEngine(std::vector<Integrator> twins = {});
   EngineInfo info() const override { return info_; }
   std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override;
   std::string twin(const Settings&) const override { return ""; }
 
  private:
-  EngineInfo made_info() const;
-
   std::vector<Integrator> integrators_;
   EngineInfo info_;  // made once: worlds are loaded by the thousand
 };

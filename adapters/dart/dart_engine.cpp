@@ -13,15 +13,26 @@ namespace rigor {
 namespace {
 
 // Spheres and boxes are all that DART's own detector of collisions knows; a plane is the face of a wide box.
-const Features kDartContacts = {"contact:box-box", "contact:box-plane", "contact:box-sphere", "contact:plane-sphere",
-                                "contact:sphere-sphere"};
+const Features kDartContacts = {contact_feature<Box, Box>(), contact_feature<Box, Plane>(),
+                                contact_feature<Box, Sphere>(), contact_feature<Plane, Sphere>(),
+                                contact_feature<Sphere, Sphere>()};
 
-const Features kDartJoints = {"joint:ball",           "joint:fixed",         "joint:hinge",
-                              "joint:slider",         "joint:universal",     "joint-spring",
-                              "joint-damper",         "joint-limit",         "joint-limit:beyond-half-turn",
-                              "joints-with-contacts", "joints-with-dampers", "motor:effort",
-                              "joint-friction",       "motor:servo",         "motor:speed",
-                              "motor:table"};
+const Features kDartJoints = {joint_feature<BallJoint>(),
+                              joint_feature<FixedJoint>(),
+                              joint_feature<HingeJoint>(),
+                              joint_feature<SliderJoint>(),
+                              joint_feature<UniversalJoint>(),
+                              Feature::joint_spring,
+                              Feature::joint_damper,
+                              Feature::joint_limit,
+                              Feature::joint_limit_beyond_half_turn,
+                              Feature::joints_with_contacts,
+                              Feature::joints_with_dampers,
+                              Feature::motor_effort,
+                              Feature::joint_friction,
+                              Feature::motor_servo,
+                              Feature::motor_table,
+                              Feature::motor_speed};
 
 std::vector<OptionInfo> options_of_solvers() {
   return {{"erp", "share of a gap or an overlap corrected in one step", {}, 0, 1},
@@ -32,21 +43,21 @@ MethodInfo by_solver(const std::string& name, const std::string& solver) {
   return {.name = name,
           .summary = "semi-implicit Euler in the joints' coordinates, gyroscopic term explicit; contacts by " + solver,
           .leapfrog_stagger = 0.5,
-          .lacks = {"speed-motor-with-limits", "two-speeds-at-once"},
+          .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
           .options = options_of_solvers()};
 }
 
 }  // namespace
 
 EngineInfo DartEngine::info() const {
-  return {
-      .name = "dart",
-      .version = DART_VERSION,
-      .precision = "double",  // it is written for no other
-      .features = joined(joined(kDartContacts, kDartJoints), {"contact-filter", "spring", "timed-force", "fixed-body",
-                                                              "restitution", "friction:none", "friction:coulomb"}),
-      .methods = {by_solver("dantzig", "Dantzig's direct solver"),
-                  by_solver("pgs", "projected Gauss-Seidel, 30 sweeps")}};
+  return {.name = "dart",
+          .version = DART_VERSION,
+          .precision = "double",  // it is written for no other
+          .features = joined(joined(kDartContacts, kDartJoints),
+                             {Feature::contact_filter, Feature::spring, Feature::timed_force, Feature::fixed_body,
+                              Feature::restitution, Feature::friction_none, Feature::friction_coulomb}),
+          .methods = {by_solver("dantzig", "Dantzig's direct solver"),
+                      by_solver("pgs", "projected Gauss-Seidel, 30 sweeps")}};
 }
 
 std::unique_ptr<World> DartEngine::load(const Scene& scene, const Settings& settings) const {

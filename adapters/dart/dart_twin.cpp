@@ -47,8 +47,8 @@ const Integrator kDartTwin = {
     .default_orientation = "",
     .takes_contact = false,
     .takes_joints = true,
-    .lacks = {"joint:distance", "joint-damper", "joint-limit", "joint-loop", "joint-spring", "joint-friction",
-              "motor:servo", "motor:speed"},
+    .lacks = {joint_feature<DistanceJoint>(), Feature::joint_damper, Feature::joint_limit, Feature::joint_loop,
+              Feature::joint_spring, Feature::joint_friction, Feature::motor_servo, Feature::motor_speed},
     .twin_of = "dart",
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, turned_by_dart); },
 };

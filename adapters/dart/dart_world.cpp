@@ -12,12 +12,12 @@
 #include <limits>
 #include <numbers>
 
-#include "adapters/dart/dart_constants.h"
-#include "adapters/dart/dart_contacts.h"
-#include "adapters/dart/dart_matched.h"
 #include "adapters/common/external_loads.h"
 #include "adapters/common/hanging_joint.h"
 #include "adapters/common/option_values.h"
+#include "adapters/dart/dart_constants.h"
+#include "adapters/dart/dart_contacts.h"
+#include "adapters/dart/dart_matched.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine_failure.h"
 #include "core/scene/contact_laws.h"
@@ -73,7 +73,7 @@ void refuse_what_features_do_not_say(const Scene& scene, const SpanningTree& tre
   }
 }
 
-class DartWorld : public World, public ReportsReactions {
+class DartWorld : public World, public ReportsReactions, public ReportsContacts {
  public:
   DartWorld(const Scene& scene, const Settings& settings);
 
@@ -82,9 +82,11 @@ class DartWorld : public World, public ReportsReactions {
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
   // What passes to a body is worked out before DART's constraints, which loops are, get their impulses.
-  Capabilities capabilities() override { return {.reactions = this}; }
+  Capabilities capabilities() override { return {.reactions = this, .contacts = this}; }
   void ask_for_reactions() override { is_asked_ = !has_loops_; }
   std::vector<ReportedReaction> reactions() const override;
+  void ask_for_contacts() override {}  // DART always keeps them
+  std::vector<ReportedContact> contacts() const override;
 
  private:
   void set_solver(const Settings& settings);
@@ -243,6 +245,21 @@ std::vector<ReportedReaction> DartWorld::reactions() const {
         hanging.reaction(before_.bodies(), q * passed.tail<3>(), q * passed.head<3>());
   }
   return reactions;
+}
+
+// Those of the step's start. DART's normal points from its second body to its first, and its force is that on the
+// first, both in W.
+std::vector<ReportedContact> DartWorld::contacts() const {
+  std::vector<ReportedContact> contacts;
+  if (clock_.time() == 0 || lost_ || !can_touch_) return contacts;
+  const auto body_of = [&](const ::dart::collision::CollisionObject* object) {
+    const auto node = object->getShapeFrame()->asShapeNode()->getBodyNodePtr();
+    return static_cast<int>(std::find(made_.bodies.begin(), made_.bodies.end(), node) - made_.bodies.begin());
+  };
+  for (const ::dart::collision::Contact& at : world_->getLastCollisionResult().getContacts())
+    contacts.push_back({body_of(at.collisionObject2), body_of(at.collisionObject1), at.point, at.normal,
+                        -at.penetrationDepth, at.force});
+  return contacts;
 }
 
 // A joint keeps a given speed, with a bounded effort, while a motor is on; DART forgets the command after the step.

@@ -19,7 +19,7 @@ Scene restarted(const Scene& original, BodyColumns bodies, double t) {
   return scene;
 }
 
-class BrokenWorld : public World {
+class BrokenWorld : public World, public ReportsContacts {
  public:
   BrokenWorld(const Engine& engine, const Settings& settings, const Fault& fault, const Scene& scene)
       : engine_(engine), settings_(settings), fault_(fault), scene_(scene) {
@@ -56,7 +56,17 @@ class BrokenWorld : public World {
   Capabilities capabilities() override {
     Capabilities can = world_->capabilities();
     can.remote = nullptr;
+    if (can.contacts) can.contacts = this;
     return can;
+  }
+  void ask_for_contacts() override {
+    asks_for_contacts_ = true;
+    rigor::ask_for_contacts(*world_);
+  }
+  std::vector<ReportedContact> contacts() const override {
+    std::vector<ReportedContact> told = reported_contacts(*world_);
+    if (fault_.contacts) fault_.contacts(told);
+    return told;
   }
 
  private:
@@ -76,6 +86,7 @@ class BrokenWorld : public World {
     fault_.step(moment);
     before_ = now.bodies();
     world_ = engine_.load(scene, settings_);
+    if (asks_for_contacts_) rigor::ask_for_contacts(*world_);
     for (int i = 0; i < times; ++i) world_->step(dt);
   }
 
@@ -87,6 +98,7 @@ class BrokenWorld : public World {
   BodyTable seen_, before_;  // as it is told; as it was before the last step
   Clock clock_;
   long steps_ = 0;
+  bool asks_for_contacts_ = false;
 };
 
 }  // namespace

@@ -4,8 +4,10 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/engine/body_table.h"
+#include "core/engine/capabilities.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
@@ -24,10 +26,11 @@ struct Moment {
 
 struct Fault {
   std::string name = "";
-  std::function<void(Scene&)> scene = {};                           // on loading
-  std::function<void(Moment&)> step = {};                           // before each step, of scenes without joints
-  std::function<void(MutableBodyColumns, const Scene&)> read = {};  // on reading
-  bool reads_late = false;                                          // gives the state of the step before
+  std::function<void(Scene&)> scene = {};                            // on loading
+  std::function<void(Moment&)> step = {};                            // before each step, of scenes without joints
+  std::function<void(MutableBodyColumns, const Scene&)> read = {};   // on reading
+  std::function<void(std::vector<ReportedContact>&)> contacts = {};  // on reading contact forces
+  bool reads_late = false;                                           // gives the state of the step before
   // For a fault by an amount: this amount in the unit of its name, and the same fault by another amount.
   double amount = 0;
   std::function<Fault(double)> by = {};

@@ -32,6 +32,8 @@ Fault combined(const Fault& first, const Fault& second) {
   both.scene = one_after_the_other<OnScene, Scene&>(first.scene, second.scene);
   both.step = one_after_the_other<OnStep, Moment&>(first.step, second.step);
   both.read = one_after_the_other<OnRead, MutableBodyColumns, const Scene&>(first.read, second.read);
+  using OnContacts = std::function<void(std::vector<ReportedContact>&)>;
+  both.contacts = one_after_the_other<OnContacts, std::vector<ReportedContact>&>(first.contacts, second.contacts);
   both.reads_late = first.reads_late || second.reads_late;
   return both;
 }

@@ -10,6 +10,9 @@ namespace rigor {
 
 const std::vector<Fault>& faults();  // grouped by subject
 
+// Wrong reports of the contact forces of a correct step. They are not in the table, for they change no motion.
+const std::vector<Fault>& contact_report_faults();
+
 // The table's parts.
 std::vector<Fault> body_faults();
 std::vector<Fault> contact_faults();

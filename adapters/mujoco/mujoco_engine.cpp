@@ -24,7 +24,7 @@ MethodInfo euler() {
   return {.name = "euler",
           .summary = "semi-implicit Euler in the joints' coordinates, gyroscopic term explicit",
           .leapfrog_stagger = 0.5,
-          .lacks = {"joint-limit-that-bounces"},
+          .lacks = {Feature::joint_limit_that_bounces},
           .options = options_of_all()};
 }
 
@@ -32,7 +32,7 @@ MethodInfo implicit() {
   return {.name = "implicit",
           .summary = "the same with one Newton step for what depends on velocity: damps spinning bodies",
           .leapfrog_stagger = 0.5,
-          .lacks = {"joint-limit-that-bounces"},
+          .lacks = {Feature::joint_limit_that_bounces},
           .options = options_of_all()};
 }
 
@@ -41,7 +41,7 @@ MethodInfo rk4() {
   return {.name = "rk4",
           .summary = "Runge and Kutta's method; of order 2 in the orientation of a free body",
           .order = 2,
-          .lacks = {"joint-limit-that-bounces"},
+          .lacks = {Feature::joint_limit_that_bounces},
           .options = options_of_all()};
 }
 
@@ -52,27 +52,27 @@ EngineInfo MujocoEngine::info() const {
   return {.name = "mujoco",
           .version = fmt::format("{}.{}.{}", version / 100, version / 10 % 10, version % 10),
           .precision = sizeof(mjtNum) == sizeof(double) ? "double" : "single",
-          .features = joined(contacts_of_all_shapes(), {"contact-filter",
-                                                        "spring",
-                                                        "timed-force",
-                                                        "fixed-body",
-                                                        "friction:none",
-                                                        "friction:coulomb",
-                                                        "joint:ball",
-                                                        "joint:cylindrical",
-                                                        "joint:distance",
-                                                        "joint:fixed",
-                                                        "joint:hinge",
-                                                        "joint:slider",
-                                                        "joint:universal",
-                                                        "joint-spring",
-                                                        "joint-damper",
-                                                        "joint-limit",
-                                                        "joint-limit:beyond-half-turn",
-                                                        "joints-with-dampers",
-                                                        "motor:effort",
-                                                        "motor:servo",
-                                                        "motor:table"}),
+          .features = joined(contacts_of_all_shapes(), {Feature::contact_filter,
+                                                        Feature::spring,
+                                                        Feature::timed_force,
+                                                        Feature::fixed_body,
+                                                        Feature::friction_none,
+                                                        Feature::friction_coulomb,
+                                                        joint_feature<BallJoint>(),
+                                                        joint_feature<CylindricalJoint>(),
+                                                        joint_feature<DistanceJoint>(),
+                                                        joint_feature<FixedJoint>(),
+                                                        joint_feature<HingeJoint>(),
+                                                        joint_feature<SliderJoint>(),
+                                                        joint_feature<UniversalJoint>(),
+                                                        Feature::joint_spring,
+                                                        Feature::joint_damper,
+                                                        Feature::joint_limit,
+                                                        Feature::joint_limit_beyond_half_turn,
+                                                        Feature::joints_with_dampers,
+                                                        Feature::motor_effort,
+                                                        Feature::motor_servo,
+                                                        Feature::motor_table}),
           .methods = {euler(), implicit(), rk4()}};
 }
 

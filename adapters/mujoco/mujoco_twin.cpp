@@ -165,8 +165,8 @@ const Integrator kMujocoEulerTwin = {
     .default_orientation = "",
     .takes_contact = false,
     .takes_joints = true,
-    .lacks = {"joint:distance", "joint-damper", "joint-limit", "joint-loop", "joint-friction", "motor:servo",
-              "motor:speed"},
+    .lacks = {joint_feature<DistanceJoint>(), Feature::joint_damper, Feature::joint_limit, Feature::joint_loop,
+              Feature::joint_friction, Feature::motor_servo, Feature::motor_speed},
     .twin_of = "mujoco",
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, exact_turn); }};
 

@@ -85,6 +85,11 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
   const std::vector<double> velocities = mujoco_velocities(scene, tree_, made_);
   std::copy(velocities.begin(), velocities.end(), data_->qvel);
   mujoco_library::take_warnings();
+  body_of_geom_.assign(static_cast<std::size_t>(made_.model->ngeom), kWorld);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const int geom = mj_name2id(made_.model.get(), mjOBJ_GEOM, fmt::format("g{}", i).c_str());
+    if (geom >= 0) body_of_geom_[static_cast<std::size_t>(geom)] = static_cast<int>(i);
+  }
 }
 
 void MujocoWorld::step(double dt) {
@@ -161,6 +166,23 @@ void MujocoWorld::note_reactions() const {
 std::vector<ReportedReaction> MujocoWorld::reactions() const {
   note_reactions();
   return reactions_;
+}
+
+// Those of the step's start, which a step leaves in the data. The force is that on the second geom, in the contact's
+// frame, whose rows are in W; the first of them is the normal, from the first geom to the second.
+std::vector<ReportedContact> MujocoWorld::contacts() const {
+  std::vector<ReportedContact> contacts;
+  if (clock_.time() == 0 || lost_) return contacts;
+  for (int k = 0; k < data_->ncon; ++k) {
+    const mjContact& at = data_->contact[k];
+    mjtNum wrench[6];  // force, then torque
+    mj_contactForce(made_.model.get(), data_.get(), k, wrench);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> frame(at.frame);
+    const auto body = [&](int geom) { return body_of_geom_[static_cast<std::size_t>(geom)]; };
+    contacts.push_back({body(at.geom1), body(at.geom2), Vec3(at.pos[0], at.pos[1], at.pos[2]), frame.row(0), at.dist,
+                        frame.transpose() * Vec3(wrench[0], wrench[1], wrench[2])});
+  }
+  return contacts;
 }
 
 void MujocoWorld::read(Snapshot& out) const {

@@ -10,7 +10,7 @@
 
 namespace rigor {
 
-class MujocoWorld : public World, public ReportsReactions {
+class MujocoWorld : public World, public ReportsReactions, public ReportsContacts {
  public:
   MujocoWorld(const Scene& scene, const Settings& settings);
 
@@ -18,9 +18,14 @@ class MujocoWorld : public World, public ReportsReactions {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
-  Capabilities capabilities() override { return {.reactions = this}; }
+  // Of RK4, MuJoCo keeps the forces of the last stage alone, which are no mean over the step.
+  Capabilities capabilities() override {
+    return {.reactions = this, .contacts = made_.model->opt.integrator == mjINT_RK4 ? nullptr : this};
+  }
   void ask_for_reactions() override { is_asked_ = said_.are_said(); }
   std::vector<ReportedReaction> reactions() const override;
+  void ask_for_contacts() override {}  // MuJoCo always keeps them
+  std::vector<ReportedContact> contacts() const override;
 
  private:
   void apply_loads(double dt);
@@ -41,6 +46,7 @@ class MujocoWorld : public World, public ReportsReactions {
   bool lost_ = false;    // blown up: from then on its state is "not a number"
   MujocoReactions said_;
   bool is_asked_ = false;
+  std::vector<int> body_of_geom_;         // of the scene
   mutable bool is_step_in_data_ = false;  // not yet computed for the new positions
   mutable std::vector<ReportedReaction> reactions_;
   Clock clock_;

@@ -44,11 +44,14 @@ void align_friction(dContact& contact, dBodyID a, dBodyID b) {
   for (int k = 0; k < 3; ++k) contact.fdir1[k] = sliding[k] / speed;
 }
 
+int index_of(dGeomID geom) { return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom))); }
+
 }  // namespace
 
 double OdeWorld::bounce_threshold() { return surface_of({.restitution = 1, .friction = 0}).bounce_vel; }
 
 void OdeWorld::find_contacts() {
+  reported_.clear();
   dSpaceCollide(moving_, this, &OdeWorld::touch);
   dSpaceCollide2(reinterpret_cast<dGeomID>(moving_), reinterpret_cast<dGeomID>(fixed_), this, &OdeWorld::touch);
 }
@@ -56,9 +59,6 @@ void OdeWorld::find_contacts() {
 void OdeWorld::touch(void* self, dGeomID a, dGeomID b) { static_cast<OdeWorld*>(self)->add_contacts(a, b); }
 
 void OdeWorld::add_contacts(dGeomID a, dGeomID b) {
-  const auto index_of = [](dGeomID geom) {
-    return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom)));
-  };
   if (!laws_.may_touch(index_of(a), index_of(b))) return;
   dContact found[kMaxContacts];
   const int count = dCollide(a, b, kMaxContacts, &found[0].geom, sizeof(dContact));
@@ -72,8 +72,33 @@ void OdeWorld::add_contacts(dGeomID a, dGeomID b) {
   for (int i = 0; i < count; ++i) {
     found[i].surface = surface;
     if (matched_ && surface.mu > 0) align_friction(found[i], body_a, body_b);
-    dJointAttach(dJointCreateContact(world_, contacts_, &found[i]), body_a, body_b);
+    const dJointID joint = dJointCreateContact(world_, contacts_, &found[i]);
+    dJointAttach(joint, body_a, body_b);
+    if (reports_contacts_) note_contact(joint, found[i].geom);
   }
+}
+
+// ODE's normal points into the first geometry.
+void OdeWorld::note_contact(dJointID joint, const dContactGeom& found) {
+  Reported& reported = reported_.emplace_back();
+  const Vec3 point = contact_vector(found.pos), normal = -contact_vector(found.normal);
+  reported = {{index_of(found.g1), index_of(found.g2), point, normal, -found.depth, Vec3::Zero()},
+              dGeomGetBody(found.g1) != nullptr,
+              dGeomGetBody(found.g2) != nullptr,
+              {}};
+  dJointSetFeedback(joint, &reported.feedback);
+}
+
+// In W. ODE's forces act for the whole of the step. The first of its two bodies is always one that moves.
+std::vector<ReportedContact> OdeWorld::contacts() const {
+  std::vector<ReportedContact> contacts;
+  for (const auto& [contact, a_moves, b_moves, feedback] : reported_) {
+    contacts.push_back(contact);
+    contacts.back().force = !b_moves  ? Vec3(-contact_vector(feedback.f1))
+                            : a_moves ? contact_vector(feedback.f2)
+                                      : contact_vector(feedback.f1);
+  }
+  return contacts;
 }
 
 }  // namespace rigor

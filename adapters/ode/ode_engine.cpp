@@ -27,12 +27,24 @@ std::vector<OptionInfo> options_of_both() {
 }
 
 Features joints_of_all_kinds() {
-  return {"joint:ball",           "joint:cylindrical",   "joint:distance",
-          "joint:fixed",          "joint:hinge",         "joint:slider",
-          "joint:universal",      "joint-spring",        "joint-damper",
-          "joint-limit",          "motor:effort",        "motor:speed",
-          "joint-friction",       "motor:servo",         "motor:table",
-          "joints-with-contacts", "joints-with-dampers", "joint-limit:beyond-half-turn"};
+  return {joint_feature<BallJoint>(),
+          joint_feature<CylindricalJoint>(),
+          joint_feature<DistanceJoint>(),
+          joint_feature<FixedJoint>(),
+          joint_feature<HingeJoint>(),
+          joint_feature<SliderJoint>(),
+          joint_feature<UniversalJoint>(),
+          Feature::joint_spring,
+          Feature::joint_damper,
+          Feature::joint_limit,
+          Feature::motor_effort,
+          Feature::motor_speed,
+          Feature::joint_friction,
+          Feature::motor_servo,
+          Feature::motor_table,
+          Feature::joints_with_contacts,
+          Feature::joints_with_dampers,
+          Feature::joint_limit_beyond_half_turn};
 }
 
 MethodInfo by_size() {
@@ -66,9 +78,10 @@ EngineInfo OdeEngine::info() const {
   return {.name = "ode",
           .version = dODE_VERSION,
           .precision = dCheckConfiguration("ODE_double_precision") ? "double" : "single",
-          .features = joined(joined(contacts_of_all_shapes(), joints_of_all_kinds()),
-                             {"contact-filter", "spring", "timed-force", "fixed-body", "restitution", "friction:none",
-                              "friction:coulomb", "friction:infinite"}),
+          .features = joined(
+              joined(contacts_of_all_shapes(), joints_of_all_kinds()),
+              {Feature::contact_filter, Feature::spring, Feature::timed_force, Feature::fixed_body,
+               Feature::restitution, Feature::friction_none, Feature::friction_coulomb, Feature::friction_infinite}),
           .methods = {by_size(), worldstep(), quickstep()}};
 }
 

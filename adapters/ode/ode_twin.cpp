@@ -66,8 +66,10 @@ class OdeTwin : public Stepper {
   Wrenches wrenches_;
 };
 
-const Features kJointKinds = {"joint:ball",  "joint:cylindrical", "joint:distance", "joint:fixed",
-                              "joint:hinge", "joint:slider",      "joint:universal"};
+const Features kJointKinds = {joint_feature<BallJoint>(),     joint_feature<CylindricalJoint>(),
+                              joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(),
+                              joint_feature<HingeJoint>(),    joint_feature<SliderJoint>(),
+                              joint_feature<UniversalJoint>()};
 
 }  // namespace
 
@@ -79,8 +81,8 @@ const Integrator kOdeTwin = {
     .leapfrog_stagger = 0.5,
     .default_orientation = "",
     .takes_joints = true,
-    .lacks = {"joint-limit", "joints-with-contacts", "joint-friction", "motor:servo",
-              "motor:speed"},  // rows that act on one side or up to a bound
+    .lacks = {Feature::joint_limit, Feature::joints_with_contacts, Feature::joint_friction, Feature::motor_servo,
+              Feature::motor_speed},  // rows that act on one side or up to a bound
     .options = {{"gyroscopic", "the implicit gyroscopic torque; default on", {"on", "off"}},
                 {"rotation",
                  "update of the orientation: the exact turn (default), or an added quaternion rate",

@@ -4,6 +4,7 @@
 
 #include <ode/ode.h>
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ namespace rigor {
 // method `auto` leaves scenes of more than so many moving bodies that can touch to the sweeps.
 inline constexpr int kMostForWorldStep = 50;
 
-class OdeWorld : public World, public ReportsReactions {
+class OdeWorld : public World, public ReportsReactions, public ReportsContacts {
  public:
   OdeWorld(const Scene& scene, const Settings& settings);
   ~OdeWorld() override;
@@ -31,9 +32,11 @@ class OdeWorld : public World, public ReportsReactions {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
-  Capabilities capabilities() override { return {.reactions = this}; }
+  Capabilities capabilities() override { return {.reactions = this, .contacts = this}; }
   void ask_for_reactions() override { joints_->ask_for_reactions(); }
   std::vector<ReportedReaction> reactions() const override;
+  void ask_for_contacts() override { reports_contacts_ = true; }
+  std::vector<ReportedContact> contacts() const override;
 
  private:
   void apply(const Settings& settings, const Scene& scene);
@@ -51,6 +54,7 @@ class OdeWorld : public World, public ReportsReactions {
   void find_contacts();
   static void touch(void* self, dGeomID a, dGeomID b);  // ODE calls it for each pair whose bounding boxes overlap
   void add_contacts(dGeomID a, dGeomID b);
+  void note_contact(dJointID joint, const dContactGeom& found);
 
   std::vector<dBodyID> bodies_;      // null for a fixed body
   std::vector<BodyState> standing_;  // where a fixed body stands, by body index
@@ -69,6 +73,13 @@ class OdeWorld : public World, public ReportsReactions {
   dWorldID world_;
   dSpaceID moving_, fixed_;  // two spaces: fixed shapes are never tried against each other
   dJointGroupID contacts_;   // lives for one step
+  struct Reported {
+    ReportedContact contact;  // without its force
+    bool a_moves, b_moves;
+    dJointFeedback feedback;  // ODE writes it in the step
+  };
+  bool reports_contacts_ = false;
+  std::deque<Reported> reported_;  // of the last step; a deque, because ODE holds pointers into it
   std::optional<OdeJoints> joints_;
 };
 

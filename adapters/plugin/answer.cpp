@@ -94,6 +94,36 @@ void read_bodies(const Json& answer, const Question& asked, MutableBodyColumns i
   }
 }
 
+std::vector<ReportedContact> read_contacts(const Json& answer, const Question& asked) {
+  const auto list = answer.find("contacts");
+  if (list == answer.end() || !list->is_array()) refuse_answer(asked, "its contacts are no list");
+  std::vector<ReportedContact> contacts;
+  for (const Json& entry : *list) {
+    const auto refuse = [&](const char* key, const char* due) {
+      refuse_answer(
+          asked,
+          fmt::format("{} of contact {} is {}; {} is due", key, contacts.size(),
+                      entry.is_object() && entry.contains(key) ? in_quotes(dumped(entry[key])) : "not there", due));
+    };
+    const auto value = [&](const char* key) { return entry.is_object() && entry.contains(key) ? entry[key] : Json(); };
+    const auto body = [&](const char* key) {
+      if (!value(key).is_number_integer()) refuse(key, "the number of a body");
+      return value(key).get<int>();
+    };
+    const auto vector = [&](const char* key) {
+      const Json found = value(key);
+      const bool is_vector =
+          found.is_array() && found.size() == 3 && found[0].is_number() && found[1].is_number() && found[2].is_number();
+      if (!is_vector) refuse(key, "a list of three finite numbers");
+      return Vec3(found[0].get<double>(), found[1].get<double>(), found[2].get<double>());
+    };
+    if (!value("gap").is_number()) refuse("gap", "a finite number");
+    contacts.push_back(
+        {body("a"), body("b"), vector("point"), vector("normal"), value("gap").get<double>(), vector("force")});
+  }
+  return contacts;
+}
+
 void check_time(const Json& answer, const Question& asked, double due, double dt) {
   const auto time = answer.find("time");
   if (time == answer.end() || !time->is_number())

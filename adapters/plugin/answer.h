@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/json_fwd.h"
 #include "core/engine/body_table.h"
+#include "core/engine/capabilities.h"
 #include "core/engine/engine_failure.h"
 
 namespace rigor {
@@ -33,6 +35,9 @@ Json parsed_answer(const std::string& line, const Question& asked);
 
 // Reads "bodies": a row of thirteen finite numbers for each. Throws EngineFailure (invalid) for anything else.
 void read_bodies(const Json& answer, const Question& asked, MutableBodyColumns into);
+
+// Reads "contacts". Throws EngineFailure (invalid) for one with a missing key, or a value of another type or size.
+std::vector<ReportedContact> read_contacts(const Json& answer, const Question& asked);
 
 // Checks "time" [s]: the expected time after so many steps, up to roundings of a clock in single precision.
 void check_time(const Json& answer, const Question& asked, double due, double dt);

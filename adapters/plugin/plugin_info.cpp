@@ -142,22 +142,21 @@ std::vector<MethodInfo> read_methods(const InfoTable& table) {
 }
 
 // The two shapes of a contact may come in either order.
-std::string spelt(const std::string& feature) {
+std::optional<Feature> declared_feature(const std::string& word) {
   const std::string start = "contact:";
-  const std::size_t hyphen = feature.find('-');
-  if (!feature.starts_with(start) || hyphen == std::string::npos) return feature;
-  return contact_feature(feature.substr(start.size(), hyphen - start.size()), feature.substr(hyphen + 1));
+  const std::size_t hyphen = word.find('-');
+  if (!word.starts_with(start) || hyphen == std::string::npos) return feature_of(word);
+  const std::string first = word.substr(start.size(), hyphen - start.size()), second = word.substr(hyphen + 1);
+  return feature_of(start + std::min(first, second) + "-" + std::max(first, second));
 }
 
 // Forces and torques on the bodies are all that these need.
 Features with_wrenches(Features features) {
-  if (!features.contains("wrench")) return features;
-  features.insert({"spring", "timed-force"});
-  const bool has_joints = std::any_of(features.begin(), features.end(),
-                                      [](const std::string& feature) { return feature.starts_with("joint:"); });
-  if (has_joints)
-    features.insert(
-        {"joint-damper", "joint-spring", "joints-with-dampers", "motor:effort", "motor:servo", "motor:table"});
+  if (!features.contains(Feature::wrench)) return features;
+  features.insert({Feature::spring, Feature::timed_force});
+  if (std::any_of(features.begin(), features.end(), is_joint))
+    features.insert({Feature::joint_damper, Feature::joint_spring, Feature::joints_with_dampers, Feature::motor_effort,
+                     Feature::motor_servo, Feature::motor_table});
   return features;
 }
 
@@ -181,11 +180,17 @@ PluginInfo read_plugin_info(const std::string& line, const std::string& what) {
   info.engine.precision = table.text("precision");
   if (info.engine.precision != "double" && info.engine.precision != "single")
     table.refuse("precision", table.find("precision"), "\"double\" or \"single\"");
-  for (const std::string& feature : table.texts("features")) info.declared.insert(spelt(feature));
+  for (const std::string& word : table.texts("features")) {
+    if (const auto feature = declared_feature(word))
+      info.declared.insert(*feature);
+    else
+      info.engine.unknown_features.push_back(word);
+  }
   info.engine.features = with_wrenches(info.declared);
   info.engine.methods = read_methods(table);
   const std::vector<std::string> calls = table.texts("calls");
-  info.can_run = std::find(calls.begin(), calls.end(), "run") != calls.end();
+  const auto answers = [&](const char* call) { return std::find(calls.begin(), calls.end(), call) != calls.end(); };
+  info.can_run = answers("run"), info.has_contacts = answers("contacts");
   info.has_columns = table.find("columns") != nullptr;
   if (info.has_columns && table.text("columns") != "f64le")
     table.refuse("columns", table.find("columns"), "\"f64le\", or no such key");
@@ -193,16 +198,14 @@ PluginInfo read_plugin_info(const std::string& line, const std::string& what) {
 }
 
 Scene loads_left_to_rigor(Scene scene, const PluginInfo& info) {
-  const auto does = [&](const char* feature) { return info.declared.contains(feature); };
-  const bool gets_wrenches = does("wrench");
-  if (does("spring") || !gets_wrenches) scene.springs.clear();
-  if (does("timed-force") || !gets_wrenches) scene.forces.clear();
-  std::erase_if(scene.motors, [&](const Motor& motor) {
-    return !gets_wrenches || does(motor.servo ? "motor:servo" : motor.efforts ? "motor:table" : "motor:effort");
-  });
+  const auto does = [&](Feature feature) { return info.declared.contains(feature); };
+  const bool gets_wrenches = does(Feature::wrench);
+  if (does(Feature::spring) || !gets_wrenches) scene.springs.clear();
+  if (does(Feature::timed_force) || !gets_wrenches) scene.forces.clear();
+  std::erase_if(scene.motors, [&](const Motor& motor) { return !gets_wrenches || does(feature_of(motor)); });
   for (Joint& joint : scene.joints) {
-    if (does("joint-spring") || !gets_wrenches) joint.stiffness = 0;
-    if (does("joint-damper") || !gets_wrenches) joint.damping = 0;
+    if (does(Feature::joint_spring) || !gets_wrenches) joint.stiffness = 0;
+    if (does(Feature::joint_damper) || !gets_wrenches) joint.damping = 0;
   }
   return scene;
 }

@@ -135,6 +135,14 @@ void ProcessSession::copy_raw(const Question& asked, std::size_t n, MutableBodyC
   }
 }
 
+std::vector<ReportedContact> ProcessSession::contacts(int world) {
+  constexpr std::size_t kLongest = 32'000'000;  // bytes: some hundred thousand contacts
+  const Json answer = ask(fmt::format(R"({{"call":"contacts","world":{}}})", world), "contacts", kLongest, world);
+  std::vector<ReportedContact> contacts;
+  checked([&] { contacts = read_contacts(answer, {child_->name(), "contacts", world}); });
+  return contacts;
+}
+
 void ProcessSession::unload(int world) {
   ask(fmt::format(R"({{"call":"unload","world":{}}})", world), "unload", kShortAnswer, world);
 }

@@ -39,7 +39,7 @@ ProcessWorld::~ProcessWorld() {
 }
 
 void ProcessWorld::expect(double dt, long steps, long every) {
-  const bool can = session_->info().can_run && loads_.empty() && lost_why_.empty();
+  const bool can = session_->info().can_run && !asks_for_contacts_ && loads_.empty() && lost_why_.empty();
   ahead_ = {};
   if (can) ahead_.dt = dt, ahead_.left = steps, ahead_.every = every;
 }
@@ -107,6 +107,11 @@ void ProcessWorld::lose(const std::string& why, int body) const {
   lost_why_ = why;
   const int last = static_cast<int>(bodies()) - 1;
   state_.columns().set_position(static_cast<std::size_t>(std::clamp(body, 0, last)), Vec3::Constant(kNaN));
+}
+
+std::vector<ReportedContact> ProcessWorld::contacts() const {
+  if (steps_ == 0 || !lost_why_.empty()) return {};
+  return session_->contacts(world_);
 }
 
 void ProcessWorld::read(Snapshot& out) const {

@@ -11,7 +11,7 @@
 
 namespace rigor {
 
-class ProcessWorld : public World, public RemoteRuns {
+class ProcessWorld : public World, public RemoteRuns, public ReportsContacts {
  public:
   ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings);
   ~ProcessWorld() override;
@@ -20,7 +20,12 @@ class ProcessWorld : public World, public RemoteRuns {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override { return in_force_; }
   std::string solver_warning() const override { return lost_why_.empty() ? warning_ : lost_why_; }
-  Capabilities capabilities() override { return {.remote = this}; }
+  Capabilities capabilities() override {
+    return {.remote = this, .contacts = session_->info().has_contacts ? this : nullptr};
+  }
+  // A run of many steps reports the last of them alone, so each step is its own request from now on.
+  void ask_for_contacts() override { asks_for_contacts_ = true, ahead_ = {}; }
+  std::vector<ReportedContact> contacts() const override;
   void expect(double dt, long steps, long every) override;
   double remote_cpu_seconds() const override {
     return session_->child().cpu_seconds() - session_->child().looked_for();
@@ -52,6 +57,7 @@ class ProcessWorld : public World, public RemoteRuns {
   double last_dt_ = 0;
   long steps_ = 0;
   bool steps_are_equal_ = true;  // all so far were of last_dt_
+  bool asks_for_contacts_ = false;
   Ahead ahead_;
   mutable BodyTable state_;
   mutable bool is_read_ = false;  // state_ is current

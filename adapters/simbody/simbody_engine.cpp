@@ -29,7 +29,7 @@ MethodInfo semi_explicit_euler() {
   return {.name = "semi-explicit-euler",
           .summary = "velocities first, then positions; no loops nor rods, whose projection would feed it energy",
           .leapfrog_stagger = 0.5,
-          .lacks = {"joint-loop", "joint:distance"}};
+          .lacks = {Feature::joint_loop, joint_feature<DistanceJoint>()}};
 }
 
 MethodInfo adaptive(const std::string& name, const std::string& summary, int order, const std::string& accuracy) {
@@ -58,9 +58,11 @@ EngineInfo SimbodyEngine::info() const {
   return {.name = "simbody",
           .version = simbody_version(),
           .precision = "double",
-          .features = {"spring", "timed-force", "fixed-body", "joint:ball", "joint:distance", "joint:fixed",
-                       "joint:cylindrical", "joint:hinge", "joint:slider", "joint:universal", "joint-spring",
-                       "joint-damper", "joints-with-dampers", "motor:effort", "motor:servo", "motor:table"},
+          .features = {Feature::spring, Feature::timed_force, Feature::fixed_body, joint_feature<BallJoint>(),
+                       joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(), joint_feature<CylindricalJoint>(),
+                       joint_feature<HingeJoint>(), joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(),
+                       Feature::joint_spring, Feature::joint_damper, Feature::joints_with_dampers,
+                       Feature::motor_effort, Feature::motor_servo, Feature::motor_table},
           .methods = methods()};
 }
 

@@ -149,7 +149,8 @@ Integrator row(const std::string& method, int order, std::unique_ptr<Stepper> (*
           .default_orientation = "",
           .takes_contact = false,
           .takes_joints = true,
-          .lacks = {"joint:distance", "joint-limit", "joint-loop", "joint-friction", "motor:servo", "motor:speed"},
+          .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joint_loop, Feature::joint_friction,
+                    Feature::motor_servo, Feature::motor_speed},
           .twin_of = "simbody",
           .make = make};
 }

@@ -81,11 +81,6 @@ void check_not_held_to_itself(const TableReader& table, const Vocabulary& words,
 
 }  // namespace
 
-const std::vector<std::string>& case_keys() {
-  static const Keys keys = {"title", "source", "scene", "run", "truth", "gate"};
-  return keys;
-}
-
 Case read_case(const std::string& path, const std::string& id, const Vocabulary& words) {
   return read_case_text(read_text_file(path), path, id, words);
 }

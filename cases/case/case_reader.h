@@ -9,9 +9,6 @@
 
 namespace rigor {
 
-// The keys of a case file, in the order in which messages list them.
-const std::vector<std::string>& case_keys();
-
 // Throws InputError, "file:line:column: key: what was found, what is allowed (near match)", for anything the format
 // does not allow, and for a metric, truth, engine or step size that is not among `words`.
 Case read_case(const std::string& path, const std::string& id, const Vocabulary& words);

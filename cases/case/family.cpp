@@ -14,21 +14,20 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kExtension = ".toml";
 
-// Properties beside the features: whether any load acts, and whether springs lose energy.
-Features features_of(const Scene& scene) {
-  Features features;
-  for (const Need& need : needs_of(scene)) features.insert(need.feature);
-  if (scene.gravity.norm() > 0) features.insert("gravity");
-  for (const Spring& spring : scene.springs) {
-    if (spring.damping > 0) features.insert("damping");
-  }
-  return features;
+// The words of the scene's features. "gravity" and "damping" (of a spring) are properties, not features.
+Keys words_of(const Scene& scene) {
+  Keys words;
+  for (const Need& need : needs_of(scene)) words.push_back(word_of(need.feature));
+  if (scene.gravity.norm() > 0) words.push_back("gravity");
+  const auto damps = [](const Spring& spring) { return spring.damping > 0; };
+  if (std::any_of(scene.springs.begin(), scene.springs.end(), damps)) words.push_back("damping");
+  return words;
 }
 
-// "contact" is any "contact:...".
-bool has(const Features& features, const std::string& word) {
-  return std::any_of(features.begin(), features.end(),
-                     [&](const std::string& feature) { return feature == word || feature.starts_with(word + ":"); });
+// "contact" stands for any "contact:...".
+bool has(const Keys& words, const std::string& wanted) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return word == wanted || word.starts_with(wanted + ":"); });
 }
 
 // The names of the other files of the folder, which no family lists.
@@ -43,12 +42,12 @@ Keys cases_beside(const std::string& path) {
   return names;
 }
 
-bool is_about(const GateTable& table, const Case& definition, const Features& features) {
+bool is_about(const GateTable& table, const Case& definition, const Keys& scene_words) {
   std::string name = definition.id.substr(definition.id.rfind('/') + 1);  // an id, or the path of a file elsewhere
   if (name.ends_with(kExtension)) name.resize(name.size() - kExtension.size());
   if (std::find(table.except.begin(), table.except.end(), name) != table.except.end()) return false;
   const bool has_scene = std::all_of(table.scene.begin(), table.scene.end(), [&](const std::string& word) {
-    return word.starts_with('!') ? !has(features, word.substr(1)) : has(features, word);
+    return word.starts_with('!') ? !has(scene_words, word.substr(1)) : has(scene_words, word);
   });
   const bool has_truth = table.truths.empty() ||
                          std::find(table.truths.begin(), table.truths.end(), definition.truth) != table.truths.end();
@@ -90,11 +89,11 @@ Family read_family(const std::string& path, const Vocabulary& words) {
 
 void add_family_gates(const Family& family, const Vocabulary& words, Case& definition) {
   const std::vector<Gate> own = definition.gates;
-  const Features features = features_of(definition.scene);
+  const Keys scene_words = words_of(definition.scene);
   for (const GateTable& table : family.gates) {
     const auto steps = selected_steps(table.steps, definition.dt);
     const std::size_t least = table.gate.at_least_order ? 2 : 1;
-    if (!is_about(table, definition, features) || steps.size() < least) continue;
+    if (!is_about(table, definition, scene_words) || steps.size() < least) continue;
     for (const std::string& metric : table.metrics) {
       Gate gate = table.gate;
       gate.metric = metric;

@@ -10,6 +10,7 @@
 #include "cases/case/selection.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
+#include "core/scene/feature.h"
 
 namespace rigor {
 namespace {
@@ -134,15 +135,27 @@ void read_limits(const TableReader& table, const Vocabulary& words, GateTable& o
   }
 }
 
-// Words of features.h, with or without !.
+// The words that select scenes: those of features, their parts before a colon, and two properties.
+Keys known_scene_words() {
+  Keys words = {"damping", "gravity"};
+  for (const FeatureWord& row : feature_words()) {
+    if (row.feature == Feature::wrench) continue;
+    words.push_back(row.word);
+    words.push_back(row.word.substr(0, row.word.find(':')));
+  }
+  std::sort(words.begin(), words.end());
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  return words;
+}
+
+// A word may have ! before it.
 std::vector<std::string> read_scene_words(const TomlValue& value) {
-  static const Keys kKnown = {"contact",     "damping", "fixed-body", "friction",   "gravity",
-                              "restitution", "joint",   "spring",     "timed-force"};
+  static const Keys kKnown = known_scene_words();
   std::vector<std::string> words;
   for (const TomlValue& item : value.items()) {
     const std::string word = item.text();
     const std::string bare = word.substr(word.starts_with('!'));
-    if (std::find(kKnown.begin(), kKnown.end(), bare.substr(0, bare.find(':'))) == kKnown.end())
+    if (!std::binary_search(kKnown.begin(), kKnown.end(), bare))
       item.refuse(fmt::format("found '{}'{}; allowed, also with ! before it: {}", word, did_you_mean(bare, kKnown),
                               listed(kKnown)));
     words.push_back(word);

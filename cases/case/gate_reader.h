@@ -23,7 +23,7 @@ struct GateTable {
   std::vector<std::string> metrics;  // one gate each
   std::vector<StepTerm> steps;       // empty: every dt of the run
   std::string order_label;           // where at_least_order stands
-  // In a family only: of which cases. Features of the scene (features.h; "contact" is any contact), with ! those it
+  // In a family only: of which cases. Features of the scene (feature.h; "contact" is any contact), with ! those it
   // must not have; and truths. Empty: of all.
   std::vector<std::string> scene, truths;
   std::vector<std::string> except;  // cases of the family that it is not about, by the names of their files

@@ -28,6 +28,7 @@ struct CommandLine {
   std::vector<std::string> plugins;  // engines from outside: paths of shared libraries, and command lines
   std::string regression;            // the engine whose recorded values `baseline` prints; empty: the baseline itself
   bool quick = false, resume = false, json = false, verbose = false;
+  bool contacts = false;                   // of trace
   Shard shard;                             // of run, gate and sweep: all, or a part for `rigor merge`
   std::vector<std::string> vary, metrics;  // of a sweep: KEY=VALUES; the metrics asked for
   std::size_t samples = 0;                 // of a sweep; 0: the full grid

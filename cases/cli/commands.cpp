@@ -23,6 +23,22 @@ CommandRow trace_row();
 CommandRow truth_row();
 CommandRow tune_row();
 
+const std::vector<NamedFact>& exit_codes() {
+  static const std::vector<NamedFact> table = {{"0", "good"},
+                                               {"1", "a gate failed or a result got worse"},
+                                               {"2", "bad usage or bad input"},
+                                               {"3", "an engine or Rigor itself failed"}};
+  return table;
+}
+
+const std::vector<NamedFact>& environment_variables() {
+  static const std::vector<NamedFact> table = {
+      {"RIGOR_HOME", "the folder of suite/ and adapters/, in place of Rigor's own"},
+      {"RIGOR_PLUGINS", "engines from outside, separated by colons; see --plugin"},
+      {"COLUMNS", "the width of tables, 60 to 100"}};
+  return table;
+}
+
 const std::vector<CommandRow>& commands() {
   static const std::vector<CommandRow> table = {
       list_row(),     run_row(),     gate_row(),    sweep_row(),    tune_row(),       merge_row(), compare_row(),

@@ -26,6 +26,13 @@ struct CommandRow {
   int (*run)(const CommandLine& line, const EngineTable& engines);  // returns an ExitCode
 };
 
+// Facts about all commands, for the manual page and the reference.
+struct NamedFact {
+  std::string name, meaning;
+};
+const std::vector<NamedFact>& exit_codes();
+const std::vector<NamedFact>& environment_variables();
+
 const std::vector<CommandRow>& commands();  // in the order of the README
 
 // The words that many commands take.

@@ -1,4 +1,4 @@
-// rigor completion: completions for shells and the manual page, from the table of commands and their --help.
+// rigor completion: completions for shells, the manual page and the reference, from the tables of the program.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/reference.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/scene/scene_formats.h"
 #include "cases/report/trace/trace_formats.h"
@@ -53,7 +54,7 @@ std::vector<std::string> engine_words(const EngineTable& engines, const std::str
 std::vector<std::string> plain_words(const CommandRow& row) {
   if (row.words == "CASE") return case_words();
   if (row.name == "history") return {"add", "show"};
-  if (row.name == "completion") return {"bash", "man", "zsh"};
+  if (row.name == "completion") return {"bash", "man", "reference", "zsh"};
   if (row.name == "list") return {"cases", "engines", "integrators", "metrics", "truths"};
   return {};
 }
@@ -138,19 +139,20 @@ std::string manual(const EngineTable&) {
     for (const Example& example : row.examples)
       text += fmt::format(".TP\n.B {}\n{}\n", roff(example.call), roff(example.does));
   }
-  return text +
-         ".SH \"EXIT STATUS\"\n0 good; 1 a gate failed or a result got worse; 2 bad usage or bad input; 3 an engine or "
-         "Rigor itself failed.\n"
-         ".SH ENVIRONMENT\n.TP\n.B RIGOR_HOME\nthe folder of suite/ and adapters/, in place of Rigor's own.\n"
-         ".TP\n.B RIGOR_PLUGINS\nengines from outside, separated by colons; see --plugin.\n"
-         ".TP\n.B COLUMNS\nthe width of tables, 60 to 100.\n";
+  text += ".SH \"EXIT STATUS\"\n";
+  for (const NamedFact& fact : exit_codes()) text += fmt::format(".TP\n.B {}\n{}\n", fact.name, fact.meaning);
+  text += ".SH ENVIRONMENT\n";
+  for (const NamedFact& fact : environment_variables())
+    text += fmt::format(".TP\n.B {}\n{}\n", fact.name, roff(fact.meaning));
+  return text;
 }
 
 struct Completion {
   std::string name;
   std::string (*text)(const EngineTable& engines);
 };
-const std::vector<Completion> kCompletions = {{"bash", bash}, {"man", manual}, {"zsh", zsh}};
+const std::vector<Completion> kCompletions = {
+    {"bash", bash}, {"man", manual}, {"reference", reference_text}, {"zsh", zsh}};
 
 }  // namespace
 
@@ -165,9 +167,9 @@ static int completion_command(const CommandLine& line, const EngineTable& engine
 
 CommandRow completion_row() {
   return {"completion",
-          "print completions for a shell, or the manual page",
+          "print completions for a shell, the manual page, or the reference in Markdown",
           "KIND",
-          "bash, zsh or man",
+          "bash, zsh, man or reference",
           {},
           {{"rigor completion bash > ~/.local/share/bash-completion/completions/rigor", "for bash"},
            {"rigor completion man | man -l -", "read the manual page"}},

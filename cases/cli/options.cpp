@@ -51,6 +51,7 @@ struct Options {
     add_repeatable("--dt", typed.dt, "step size in s, a number or a fraction such as 1/30", "DT");
     add("--duration", typed.duration, "length of the run in s", "S");
     add("--every", typed.every, "print only each N-th sample", "N");
+    add_flag("--contacts", line.contacts, "print the contact forces of each step in place of the bodies");
     add("--times", typed.times, "instants in s; default: every coarsest step of the run", "T,T...");
   }
 

@@ -42,16 +42,15 @@ int print_from_child(const std::string& what, double limit, const std::function<
   return code;
 }
 
-void send_trajectory(const Simulation& run, const Scene& scene, int every, const TraceFormat& format,
+void send_trajectory(const Simulation& run, const Scene& scene, int every, TraceWriter& writer,
                      const Channel& channel) {
-  const auto writer = format.writer(scene);
   const std::string start(1, kData);
-  std::string data = start + writer->begin();
+  std::string data = start + writer.begin();
   for (std::size_t i = 0; i < run.trajectory.samples.size(); i += every) {
-    data += writer->add(run.trajectory.samples[i]);
+    data += writer.add(run.trajectory.samples[i]);
     if (data.size() > kChunk) channel.send(data), data = start;
   }
-  channel.send(data + writer->end());
+  channel.send(data + writer.end());
   if (run.not_finite) {
     channel.send(fmt::format("{}blown up: from {:.6g} s on the state of '{}' is not finite", kNote,
                              run.not_finite->time, scene.body_name(run.not_finite->body)));
@@ -106,6 +105,8 @@ static int trace_command(const CommandLine& line, const EngineTable& engines) {
   const std::vector<StepSize> steps = line.dt.empty() ? definition.dt : line.dt;
   if (steps.size() != 1) throw InputError("rigor trace: takes exactly one --dt; " + steps_of(definition));
   const TraceFormat& format = line.format.empty() ? trace_formats().front() : find_trace_format(line.format);
+  if (line.contacts && !line.format.empty() && line.format != "csv")
+    throw InputError(fmt::format("rigor trace: --contacts prints CSV; --format {} has no contacts", line.format));
   override_run(definition, {steps, line.duration});
   const RunName run = run_of_option(line.engines.front(), engines.infos());
   const Engine& engine = engines.find(run.engine);
@@ -114,8 +115,12 @@ static int trace_command(const CommandLine& line, const EngineTable& engines) {
   if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
   return print_from_child(run.text, line.limit, [&](const Channel& channel) {
     try {
-      send_trajectory(simulate(engine, run.settings, definition.scene, dt, definition.duration), definition.scene,
-                      line.every, format, channel);
+      const Simulation done =
+          simulate(engine, run.settings, definition.scene, dt, definition.duration, {.has_contacts = line.contacts});
+      if (line.contacts && !done.trajectory.has_contacts)
+        throw InputError(fmt::format("{}: unsupported: the engine does not report contact forces here", run.text));
+      const auto writer = line.contacts ? contacts_trace(definition.scene) : format.writer(definition.scene);
+      send_trajectory(done, definition.scene, line.every, *writer, channel);
     } catch (const EngineFailure& failure) {
       if (failure.kind() != FailureKind::unsupported) throw;
       throw InputError(fmt::format("{}: unsupported: {}", run.text, failure.what()));
@@ -143,10 +148,11 @@ CommandRow trace_row() {
           "print one trajectory as CSV, JSON lines, MCAP or glTF",
           "CASE",
           "a case or a file",
-          {"--dt", "--duration", "--engine", "--every", "--format", "--plugin", "--suite", "--timeout"},
+          {"--contacts", "--dt", "--duration", "--engine", "--every", "--format", "--plugin", "--suite", "--timeout"},
           {{"rigor trace springs/fixed-spring --engine ode --dt 1/240 > ode.csv", "a table of all samples"},
            {"rigor trace robot.urdf --engine core:rk4 --dt 1/240 --format gltf > robot.gltf", "an animation"},
-           {"rigor trace ballistic/fast-spin --engine bullet --dt 1/60 --every 6", "each sixth sample"}},
+           {"rigor trace ballistic/fast-spin --engine bullet --dt 1/60 --every 6", "each sixth sample"},
+           {"rigor trace contact/lying-still --engine ode --dt 1/240 --contacts", "contact forces of each step"}},
           trace_command};
 }
 

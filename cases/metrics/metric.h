@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -93,10 +94,14 @@ struct MetricRow {
   std::string summary;  // one line
   MetricResult (*measure)(const JudgedRun& run);
   bool higher_is_better = false;
-  bool is_costly = false;  // many times a simulation's own work: a gate that does not name it does without
+  bool is_costly = false;       // many times a simulation's own work: a gate that does not name it does without
+  bool needs_contacts = false;  // the engine's contact forces
 };
 
 const std::vector<MetricRow>& metrics();  // alphabetical
+
+// The names of those that judge contact forces. An engine is asked for its contacts only where one of them is needed.
+const std::set<std::string>& contact_metrics();
 
 // What is measured across the cells of a case; a gate may name it as it names a metric of one run.
 struct CrossMetricRow {

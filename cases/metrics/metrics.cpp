@@ -6,13 +6,18 @@ namespace rigor {
 MetricRow angular_momentum_drift();
 MetricRow angular_velocity_error();
 MetricRow collapse_time();
+MetricRow contact_balance();
+MetricRow contact_force_error();
 MetricRow cost();
+MetricRow coulomb_residual();
 MetricRow creep();
 MetricRow energy_drift();
 MetricRow energy_drift_synchronised();
 MetricRow energy_gain();
 MetricRow ensemble_distance();
 MetricRow ensemble_p_value();
+MetricRow force_peak();
+MetricRow force_ripple();
 MetricRow friction_anisotropy();
 MetricRow impact_time_error();
 MetricRow internal_energy_drift();
@@ -45,13 +50,18 @@ const std::vector<MetricRow>& metrics() {
       angular_momentum_drift(),
       angular_velocity_error(),
       collapse_time(),
+      contact_balance(),
+      contact_force_error(),
       cost(),
+      coulomb_residual(),
       creep(),
       energy_drift(),
       energy_drift_synchronised(),
       energy_gain(),
       ensemble_distance(),
       ensemble_p_value(),
+      force_peak(),
+      force_ripple(),
       friction_anisotropy(),
       impact_time_error(),
       internal_energy_drift(),
@@ -80,6 +90,16 @@ const std::vector<MetricRow>& metrics() {
       velocity_error(),
   };
   return table;
+}
+
+const std::set<std::string>& contact_metrics() {
+  static const std::set<std::string> names = [] {
+    std::set<std::string> found;
+    for (const MetricRow& row : metrics())
+      if (row.needs_contacts) found.insert(row.name);
+    return found;
+  }();
+  return names;
 }
 
 const std::vector<CrossMetricRow>& cross_metrics() {

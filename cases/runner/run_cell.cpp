@@ -48,6 +48,13 @@ bool is_asked_for(const std::set<std::string>& metrics, const Case& definition, 
   return std::any_of(only.begin(), only.end(), [&](const std::string& name) { return metrics.contains(name); });
 }
 
+// Whether a gate or the options name one of them.
+bool is_named(const std::set<std::string>& metrics, const Case& definition, const GridOptions& options) {
+  return has_gate_on(definition, metrics) ||
+         std::any_of(options.only_metrics.begin(), options.only_metrics.end(),
+                     [&](const std::string& name) { return metrics.contains(name); });
+}
+
 const std::set<std::string> kOfReports = {"reported_reaction_error", "reported_reaction_torque_error"};
 
 // Steps from one whose reactions are asked for to the next, as far as the truth is good for; 0: none is.
@@ -98,7 +105,10 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   const bool is_timed = is_asked_for({"cost"}, definition, options);
   const long reactions_every = truth ? steps_between_reports(definition, cell.dt.seconds, facts, options) : 0;
   const Simulation run =
-      simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {}, is_timed, reactions_every);
+      simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration,
+               {.is_timed = is_timed,
+                .reactions_every = reactions_every,
+                .has_contacts = anything_can_touch(scene) && is_named(contact_metrics(), definition, options)});
   if (!truth) check_start(run, scene);
   cell.settings = run.settings;
   cell.reduced_order = run.reduced_order;

@@ -16,6 +16,8 @@
 namespace rigor {
 namespace {
 
+constexpr std::size_t kMostContacts = 1'000'000;  // of a step: 100 MB
+
 // Includes all threads, because an engine may let others do its work.
 double cpu_seconds_so_far() {
   timespec now{};
@@ -70,6 +72,31 @@ void check_orientations(BodyColumns bodies, const Scene& scene, double t) {
   }
 }
 
+// Throws EngineFailure (invalid) for a contact that cannot be one.
+std::vector<ReportedContact> checked_contacts(World& world, const Scene& scene) {
+  constexpr double kUnit = 1e-5;  // of a normal in single precision
+  std::vector<ReportedContact> contacts = reported_contacts(world);
+  const auto refuse = [](const std::string& why) {
+    throw EngineFailure(FailureKind::invalid, "the engine reports a contact " + why);
+  };
+  if (contacts.size() > kMostContacts)
+    throw EngineFailure(FailureKind::invalid, fmt::format("the engine reports {} contacts of one step; {} are allowed",
+                                                          contacts.size(), kMostContacts));
+  const int bodies = static_cast<int>(scene.bodies.size());
+  for (const ReportedContact& contact : contacts) {
+    if (std::min(contact.a, contact.b) < 0 || std::max(contact.a, contact.b) >= bodies || contact.a == contact.b)
+      refuse(fmt::format("of bodies {} and {}; the scene has {}", contact.a, contact.b, bodies));
+    const std::string of =
+        fmt::format("of '{}' and '{}' whose ", scene.bodies[static_cast<std::size_t>(contact.a)].name,
+                    scene.bodies[static_cast<std::size_t>(contact.b)].name);
+    if (!contact.point.allFinite()) refuse(of + "point is not finite");
+    if (!contact.force.allFinite()) refuse(of + "force is not finite");
+    if (!std::isfinite(contact.gap)) refuse(of + "gap is not finite");
+    if (!(std::abs(contact.normal.norm() - 1) < kUnit)) refuse(of + "normal is no unit vector");
+  }
+  return contacts;
+}
+
 // Steps from one recorded sample to the next.
 long steps_per_sample(long steps, BodyColumns bodies, std::size_t joints) {
   const double bytes =
@@ -121,7 +148,7 @@ std::optional<int> body_not_finite(BodyColumns bodies) {
 }
 
 Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
-                    std::optional<long> steps_per_sample_told, bool is_timed, long reactions_every) {
+                    const RecordingOptions& options) {
   const std::unique_ptr<World> world = engine.load(scene, settings);
   Simulation run;
   run.trajectory.dt = dt;
@@ -130,14 +157,16 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
   Snapshot now;
   world->read(now);
   const long steps = steps_in(duration, dt),
-             every = steps_per_sample_told.value_or(steps_per_sample(steps, now.bodies(), scene.joints.size()));
+             every = options.steps_per_sample.value_or(steps_per_sample(steps, now.bodies(), scene.joints.size()));
   run.steps_per_sample = every;
   expect_steps(*world, dt, steps, 1);  // each is looked at
+  const long reactions_every = options.reactions_every;
   const auto is_reported = [&](long step) {
     return reactions_every > 0 && step >= 2 && (step - 2) % reactions_every == 0;
   };
+  run.trajectory.has_contacts = options.has_contacts && ask_for_contacts(*world);
   ask_for_reactions(*world);  // always: to be asked may change an engine's roundings
-  if (!is_timed) run.cpu_seconds = std::numeric_limits<double>::quiet_NaN();
+  if (!options.is_timed) run.cpu_seconds = std::numeric_limits<double>::quiet_NaN();
   for (long n = 0;; ++n) {
     if (const auto body = body_not_finite(now.bodies())) {
       run.not_finite = NotFinite{now.time, *body};
@@ -147,8 +176,10 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     }
     check_orientations(now.bodies(), scene, now.time);
     if (n % every == 0 || n == steps)
-      run.trajectory.samples.push_back({now.time, KeptBodies(now.bodies()),
-                                        is_reported(n) ? reported_reactions(*world) : std::vector<ReportedReaction>()});
+      run.trajectory.samples.push_back(
+          {now.time, KeptBodies(now.bodies()),
+           is_reported(n) ? reported_reactions(*world) : std::vector<ReportedReaction>(),
+           run.trajectory.has_contacts ? checked_contacts(*world, scene) : std::vector<ReportedContact>()});
     if (n == steps) {
       run.settings = world->settings_in_force();  // some worlds report settings that depend on the run
       run.reduced_order = reduced_order_of(*world);
@@ -157,7 +188,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
     }
     report_reactions(*world, is_reported(n + 1));
     const auto step = [&] { step_as_agreed(*world, dt, n); };
-    if (is_timed) {
+    if (options.is_timed) {
       run.cpu_seconds += seconds_of_step(*world, step);
     } else {
       step();

@@ -7,11 +7,18 @@
 
 namespace rigor {
 
-// Records the joint loads that the engine reports, of the second step and of each `reactions_every`-th after it.
-// Records every step, or every n-th if all of them would exceed kLargestTrajectory bytes, or as requested.
-inline constexpr double kLargestTrajectory = 512e6;
+// Every step is recorded, or every n-th if all of them would exceed this.
+inline constexpr double kLargestTrajectory = 512e6;  // bytes
+
+struct RecordingOptions {
+  std::optional<long> steps_per_sample = {};  // in place of the limit above
+  bool is_timed = true;
+  // Joint loads that the engine reports are recorded of the second step, and of each n-th step after it; 0: of none.
+  long reactions_every = 0;
+  bool has_contacts = false;  // whether the contacts that the engine reports are recorded, with each sample
+};
 Simulation simulate(const Engine& engine, const Settings& settings, const Scene& scene, double dt, double duration,
-                    std::optional<long> steps_per_sample = {}, bool is_timed = true, long reactions_every = 0);
+                    const RecordingOptions& options = {});
 
 // The first body with a number that is not finite.
 std::optional<int> body_not_finite(BodyColumns bodies);

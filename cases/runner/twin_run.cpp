@@ -19,7 +19,8 @@ const Quat kTurns[] = {Quat(0.7, 0.3, -0.5, 0.4).normalized(), Quat(-0.2, 0.6, 0
 
 Simulation simulate_twin(const EngineTable& engines, const RunName& twin, const Scene& scene, double dt,
                          double duration, long steps_per_sample) {
-  return simulate(find_engine(engines, twin.engine), twin.settings, scene, dt, duration, steps_per_sample, false);
+  return simulate(find_engine(engines, twin.engine), twin.settings, scene, dt, duration,
+                  {.steps_per_sample = steps_per_sample, .is_timed = false});
 }
 
 // A world and where it stands, step by step.

@@ -62,11 +62,31 @@ class ReportsReactions {
   virtual void report_reactions(bool) {}
 };
 
+// One point at which two bodies touch, or may touch within the step; in W. It belongs to the last step.
+struct ReportedContact {
+  int a = kWorld, b = kWorld;   // bodies
+  Vec3 point = Vec3::Zero();    // m
+  Vec3 normal = Vec3::UnitX();  // unit, from a to b
+  double gap = 0;               // m; negative if they overlap
+  Vec3 force = Vec3::Zero();    // N on b at the point: the impulses of the step divided by its length
+};
+
+// A world whose engine reports its contact forces.
+class ReportsContacts {
+ public:
+  virtual ~ReportsContacts() = default;
+  // Switches the reports on. They may cost time.
+  virtual void ask_for_contacts() = 0;
+  // All points of the last step; none before the first step.
+  virtual std::vector<ReportedContact> contacts() const = 0;
+};
+
 struct Capabilities {
   RemoteRuns* remote = nullptr;
   MayReduceOrder* reduced_order = nullptr;
   MayDivideSteps* divided_steps = nullptr;
   ReportsReactions* reactions = nullptr;
+  ReportsContacts* contacts = nullptr;
 };
 
 }  // namespace rigor

@@ -35,8 +35,8 @@ std::string why_choice_fails(const std::string& engine, const OptionInfo& option
   const std::string choice = named == settings.options.end() ? option.choices.back() : named->second;
   const Need* need = unmet(option, choice, needs);
   if (!need) return "";
-  return fmt::format("{} with {}={} has no {}, which {} asks for; {}", engine, option.name, choice, need->feature,
-                     need->because,
+  return fmt::format("{} with {}={} has no {}, which {} asks for; {}", engine, option.name, choice,
+                     word_of(need->feature), need->because,
                      would_do.empty() ? "no other choice has all that the scene needs"
                                       : fmt::format("{} would do", fmt::join(would_do, " or ")));
 }
@@ -46,7 +46,7 @@ std::string why_choice_fails(const std::string& engine, const OptionInfo& option
 std::string why_unsupported(const EngineInfo& engine, const Scene& scene, double dt) {
   for (const Need& need : needs_of(scene)) {
     if (!engine.features.contains(need.feature)) {
-      return fmt::format("{} has no {}, which {} asks for", engine.name, need.feature, need.because);
+      return fmt::format("{} has no {}, which {} asks for", engine.name, word_of(need.feature), need.because);
     }
   }
   for (const Body& body : scene.bodies) {
@@ -68,8 +68,8 @@ std::string why_unsupported(const EngineInfo& engine, const Settings& settings, 
   asked.insert(asked.begin(), needs.begin(), needs.end());
   for (const Need& need : asked) {
     if (method.lacks.contains(need.feature))
-      return fmt::format("{}:{} has no {}, which {} asks for; its method: {}", engine.name, method.name, need.feature,
-                         need.because, method.summary);
+      return fmt::format("{}:{} has no {}, which {} asks for; its method: {}", engine.name, method.name,
+                         word_of(need.feature), need.because, method.summary);
   }
   for (const OptionInfo& option : method.options) {
     if (option.features_of_choice.empty()) continue;

@@ -53,7 +53,8 @@ struct EngineInfo {
   std::string name;
   std::string version;
   std::string precision;                                                   // "double", "single"
-  Features features = {};                                                  // features that it expresses; see features.h
+  Features features = {};                                                  // that it expresses
+  std::vector<std::string> unknown_features = {};                          // words of a plug-in that no Feature has
   std::vector<MethodInfo> methods = {};                                    // the first is the default
   double max_rotation_per_step = std::numeric_limits<double>::infinity();  // rad; beyond it the engine clamps
   // Rigor's own engine: all its methods run by default, and other engines are compared with the best
@@ -129,6 +130,17 @@ inline std::vector<ReportedReaction> reported_reactions(World& world) {
 }
 inline void report_reactions(World& world, bool are_read) {
   if (ReportsReactions* reports = world.capabilities().reactions) reports->report_reactions(are_read);
+}
+
+// Whether the world will report its contacts from now on.
+inline bool ask_for_contacts(World& world) {
+  ReportsContacts* reports = world.capabilities().contacts;
+  if (reports) reports->ask_for_contacts();
+  return reports != nullptr;
+}
+inline std::vector<ReportedContact> reported_contacts(World& world) {
+  const ReportsContacts* reports = world.capabilities().contacts;
+  return reports ? reports->contacts() : std::vector<ReportedContact>();
 }
 
 class Engine {

@@ -12,11 +12,13 @@ struct Sample {
   double time;  // s
   KeptBodies bodies;
   std::vector<ReportedReaction> reactions = {};  // by joint, of the step that ended then; none where no engine says
+  std::vector<ReportedContact> contacts = {};    // of the step that ended then; none if they were not asked for
 };
 
 struct Trajectory {
   double dt = 0;  // s, the step size (samples may be several steps apart)
   std::vector<Sample> samples;
+  bool has_contacts = false;  // whether the engine was asked for its contacts, and reports them
 };
 
 }  // namespace rigor

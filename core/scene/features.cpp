@@ -15,24 +15,24 @@ namespace {
 
 class NeedList {
  public:
-  void add(const std::string& feature, const std::string& because) {
+  void add(Feature feature, const std::string& because) {
     if (seen_.insert(feature).second) needs_.push_back({feature, because});
   }
   std::vector<Need> take() { return std::move(needs_); }
 
  private:
-  std::set<std::string> seen_;
+  Features seen_;
   std::vector<Need> needs_;
 };
 
-std::string friction_feature(double friction) {
-  if (friction == 0) return "friction:none";
-  return friction == kInfiniteFriction ? "friction:infinite" : "friction:coulomb";
+Feature friction_feature(double friction) {
+  if (friction == 0) return Feature::friction_none;
+  return friction == kInfiniteFriction ? Feature::friction_infinite : Feature::friction_coulomb;
 }
 
 void add_contact_law(const ContactLaw& law, const std::string& because, NeedList& needs) {
   needs.add(friction_feature(law.friction), because);
-  if (law.restitution > 0) needs.add("restitution", because);
+  if (law.restitution > 0) needs.add(Feature::restitution, because);
 }
 
 // The word of a body's shape, and whether the body is fixed.
@@ -82,7 +82,7 @@ bool add_contacts(const Scene& scene, NeedList& needs) {
       if (touching == 0) continue;
       const auto [a, b] = first_pair(first->second, second->second, laws);
       because = fmt::format("bodies '{}' and '{}' may touch", scene.bodies[a].name, scene.bodies[b].name);
-      needs.add(contact_feature(first->first.first, second->first.first), because);
+      needs.add(contact_feature(*scene.bodies[a].shape, *scene.bodies[b].shape), because);
       pairs_that_touch += touching;
     }
   }
@@ -94,7 +94,7 @@ bool add_contacts(const Scene& scene, NeedList& needs) {
     const std::string of_pair =
         fmt::format("the contact of '{}' and '{}'", scene.body_name(pair.a), scene.body_name(pair.b));
     if (!pair.law.collides) {
-      needs.add("contact-filter", of_pair + ", which never touch,");
+      needs.add(Feature::contact_filter, of_pair + ", which never touch,");
       continue;
     }
     ++laws_given;
@@ -107,21 +107,14 @@ bool add_contacts(const Scene& scene, NeedList& needs) {
 void add_joint(const Scene& scene, std::size_t k, NeedList& needs) {
   const Joint& joint = scene.joints[k];
   const std::string because = scene.joint_name(k);
-  needs.add("joint:" + joint_type_name(joint), because);
-  if (joint.stiffness > 0) needs.add("joint-spring", because);
-  if (joint.damping > 0) needs.add("joint-damper", because);
-  if (joint.has_limits()) needs.add("joint-limit", because);
+  needs.add(joint_feature(joint.type), because);
+  if (joint.stiffness > 0) needs.add(Feature::joint_spring, because);
+  if (joint.damping > 0) needs.add(Feature::joint_damper, because);
+  if (joint.has_limits()) needs.add(Feature::joint_limit, because);
   // A joint whose angle counts from -pi to pi never reaches such a limit.
   const bool beyond = (std::isfinite(joint.lower) && joint.lower < -std::numbers::pi) ||
                       (std::isfinite(joint.upper) && joint.upper > std::numbers::pi);
-  if (beyond && turns(joint)) needs.add("joint-limit:beyond-half-turn", because);
-}
-
-const char* feature_of(const Motor& motor) {
-  if (motor.is_friction) return "joint-friction";
-  if (motor.speed) return "motor:speed";
-  if (motor.servo) return "motor:servo";
-  return motor.efforts ? "motor:table" : "motor:effort";
+  if (beyond && turns(joint)) needs.add(Feature::joint_limit_beyond_half_turn, because);
 }
 
 bool is_damped(const Scene& scene) {
@@ -135,45 +128,26 @@ bool is_damped(const Scene& scene) {
 
 }  // namespace
 
-std::string contact_feature(const std::string& shape_a, const std::string& shape_b) {
-  const auto [first, second] = std::minmax(shape_a, shape_b);
-  return fmt::format("contact:{}-{}", first, second);
-}
-
-Features contacts_of_all_shapes() {
-  const std::vector<std::string> solids = {"box", "capsule", "sphere"};
-  Features contacts;
-  for (const std::string& solid : solids) {
-    contacts.insert(contact_feature(solid, "plane"));
-    for (const std::string& other : solids) contacts.insert(contact_feature(solid, other));
-  }
-  return contacts;
-}
-
-Features joints_of_all_types() {
-  Features joints;
-  for (const JointTypeInfo& type : joint_types()) joints.insert("joint:" + type.word);
-  return joints;
-}
-
-Features joined(Features a, const Features& b) {
-  a.insert(b.begin(), b.end());
-  return a;
+Feature feature_of(const Motor& motor) {
+  if (motor.is_friction) return Feature::joint_friction;
+  if (motor.speed) return Feature::motor_speed;
+  if (motor.servo) return Feature::motor_servo;
+  return motor.efforts ? Feature::motor_table : Feature::motor_effort;
 }
 
 std::vector<Need> needs_of(const Scene& scene) {
   NeedList needs;
   for (const Body& body : scene.bodies) {
     const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
-    if (body.fixed && !is_plane) needs.add("fixed-body", fmt::format("body '{}' is fixed", body.name));
+    if (body.fixed && !is_plane) needs.add(Feature::fixed_body, fmt::format("body '{}' is fixed", body.name));
   }
   if (!scene.springs.empty()) {
     const Spring& spring = scene.springs.front();
-    needs.add("spring",
+    needs.add(Feature::spring,
               fmt::format("a spring between '{}' and '{}'", scene.body_name(spring.a), scene.body_name(spring.b)));
   }
   if (!scene.forces.empty()) {
-    needs.add("timed-force", fmt::format("a force on '{}'", scene.body_name(scene.forces.front().body)));
+    needs.add(Feature::timed_force, fmt::format("a force on '{}'", scene.body_name(scene.forces.front().body)));
   }
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_joint(scene, k, needs);
   for (const Motor& motor : scene.motors) {
@@ -185,9 +159,14 @@ std::vector<Need> needs_of(const Scene& scene) {
   }
   const bool touches = add_contacts(scene, needs);
   if (scene.joints.empty()) return needs.take();
-  if (touches) needs.add("joints-with-contacts", "the scene, which has both joints and bodies that may touch,");
-  if (is_damped(scene)) needs.add("joints-with-dampers", "the scene, which has both joints and dampers,");
+  if (touches) needs.add(Feature::joints_with_contacts, "the scene, which has both joints and bodies that may touch,");
+  if (is_damped(scene)) needs.add(Feature::joints_with_dampers, "the scene, which has both joints and dampers,");
   return needs.take();
+}
+
+bool needs(const Scene& scene, Feature feature) {
+  const std::vector<Need> all = needs_of(scene);
+  return std::any_of(all.begin(), all.end(), [&](const Need& need) { return need.feature == feature; });
 }
 
 }  // namespace rigor

@@ -44,12 +44,12 @@ std::vector<Need> joint_traits_of(const Scene& scene) {
   ConnectedBodies connected(scene);
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     if (connected.connect(scene.joints[k].a, scene.joints[k].b)) continue;
-    traits.push_back({"joint-loop", scene.joint_name(k)});
+    traits.push_back({Feature::joint_loop, scene.joint_name(k)});
     break;
   }
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     if (!scene.joints[k].has_limits() || scene.joints[k].restitution == 0) continue;
-    traits.push_back({"joint-limit-that-bounces", scene.joint_name(k)});
+    traits.push_back({Feature::joint_limit_that_bounces, scene.joint_name(k)});
     break;
   }
   const auto drives_limited_joint = [&](const Motor& motor) {
@@ -57,11 +57,11 @@ std::vector<Need> joint_traits_of(const Scene& scene) {
   };
   const auto motor = std::find_if(scene.motors.begin(), scene.motors.end(), drives_limited_joint);
   if (motor != scene.motors.end())
-    traits.push_back({"speed-motor-with-limits", scene.joint_name(static_cast<std::size_t>(motor->joint))});
+    traits.push_back({Feature::speed_motor_with_limits, scene.joint_name(static_cast<std::size_t>(motor->joint))});
   for (auto one = scene.motors.begin(); one != scene.motors.end(); ++one) {
     if (std::none_of(scene.motors.begin(), one, [&](const Motor& other) { return keep_two_speeds(*one, other); }))
       continue;
-    traits.push_back({"two-speeds-at-once", scene.joint_name(static_cast<std::size_t>(one->joint))});
+    traits.push_back({Feature::two_speeds_at_once, scene.joint_name(static_cast<std::size_t>(one->joint))});
     break;
   }
   return traits;

@@ -65,10 +65,7 @@ BodyPose Scene::pose(int body) const {
 
 Mat3 inertia_of(const Shape& shape, double mass) { return std::visit(SolidInertia{mass}, shape); }
 
-std::string shape_name(const Shape& shape) {
-  constexpr const char* kNames[] = {"sphere", "box", "capsule", "plane"};
-  return kNames[shape.index()];
-}
+std::string shape_name(const Shape& shape) { return kShapeWords[shape.index()]; }
 
 std::string joint_type_name(const Joint& joint) { return joint_types()[joint.type.index()].word; }
 

@@ -33,6 +33,9 @@ struct Plane {
   double offset;  // m; the plane is normal · x = offset
 };
 using Shape = std::variant<Sphere, Box, Capsule, Plane>;
+// The words of shapes in files, in the order of Shape.
+inline constexpr const char* kShapeWords[] = {"sphere", "box", "capsule", "plane"};
+static_assert(std::size(kShapeWords) == std::variant_size_v<Shape>);
 
 struct Body {
   std::string name;

@@ -41,13 +41,13 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
     scene.gravity = {0, 0, -g};
     scene.bodies = {solid("above", pair.above, {0, 0, pair.height + drop}), solid("below", pair.below, Vec3::Zero())};
     scene.bodies[1].fixed = true;
-    const std::string feature = contact_feature(shape_name(pair.above), shape_name(pair.below));
+    const Feature feature = contact_feature(pair.above, pair.below);
     for (const Run& run : all_runs()) {
-      scene.contact_default = {0, run.info.features.contains("friction:infinite") ? kInfiniteFriction : 1};
+      scene.contact_default = {0, run.info.features.contains(Feature::friction_infinite) ? kInfiniteFriction : 1};
       // The stock direct solver of Bullet throws away the load of too many contacts; see bullet_engine_test.cpp. DART
       // turns spheres into meshes.
       if (!run.supports(scene, dt) || run.name() == "bullet:mlcp@stock" || has_spheres_of_meshes(run)) continue;
-      BOOST_TEST_CONTEXT(run.name() << " " << feature) {
+      BOOST_TEST_CONTEXT(run.name() << " " << word_of(feature)) {
         const auto world = run.load(scene);
         const BodyState found = state_after(*world, dt, 480).columns().body(0);
         // The largest overlap from the one step before the contact is seen, if the engine does not push the body out
@@ -56,13 +56,13 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
         BOOST_TEST(std::abs(found.position.z() - pair.height) < deepest);
         BOOST_TEST(found.velocity.norm() < g * dt * (1 + 1e-12));  // at rest but for one step's fall, and its rounding
       }
-      rested.insert(run.info.name + " " + feature);
+      rested.insert(run.info.name + " " + word_of(feature));
     }
   }
   for (const EngineInfo& info : infos_of(engines())) {
-    for (const std::string& feature : info.features) {
-      if (feature.starts_with("contact:"))
-        BOOST_TEST(rested.contains(info.name + " " + feature), info.name + " " + feature);
+    for (const Feature feature : info.features) {
+      if (is_contact(feature))
+        BOOST_TEST(rested.contains(info.name + " " + word_of(feature)), info.name + " " + word_of(feature));
     }
   }
 }
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(a_pair_that_the_scene_keeps_apart_never_touches) {
   scene.contact_pairs = {{1, 0, kApart}, {2, 4, kApart}};
   std::set<std::string> asked;
   for (const Run& run : all_runs()) {
-    scene.contact_default = {0, run.info.features.contains("friction:infinite") ? kInfiniteFriction : 1};
+    scene.contact_default = {0, run.info.features.contains(Feature::friction_infinite) ? kInfiniteFriction : 1};
     if (!run.supports(scene, dt)) continue;
     asked.insert(run.info.name);
     BOOST_TEST_CONTEXT(run.name()) {
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(a_pair_that_the_scene_keeps_apart_never_touches) {
     }
   }
   for (const EngineInfo& info : infos_of(engines()))
-    BOOST_TEST(asked.contains(info.name) == info.features.contains("contact-filter"), info.name);
+    BOOST_TEST(asked.contains(info.name) == info.features.contains(Feature::contact_filter), info.name);
 }
 
 // A ball without friction slides off a fixed box that is turned by 30°: half of g along the slope.

@@ -129,8 +129,7 @@ CheckResult bodies_rest_on_each_other(const Trial& trial) {
   int asked = 0;
   std::string why = "it declares no contact";
   for (const Resting& pair : resting_pairs()) {
-    const std::string feature = contact_feature(shape_name(pair.above), shape_name(pair.below));
-    if (!trial.info.features.contains(feature)) continue;
+    if (!trial.info.features.contains(contact_feature(pair.above, pair.below))) continue;
     const CheckResult result = of_contact(trial, pair);
     if (result.answer == CheckResult::Answer::broken) return result;
     if (result.answer == CheckResult::Answer::not_asked) why = result.why;

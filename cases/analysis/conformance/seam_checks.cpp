@@ -11,25 +11,14 @@
 namespace rigor::conformance {
 namespace {
 
-// The words of features.h, and what plug-ins may say beside them.
-std::vector<std::string> known_features() {
-  std::vector<std::string> words = {"spring",         "timed-force",          "fixed-body",          "restitution",
-                                    "friction:none",  "friction:coulomb",     "friction:infinite",   "joint-spring",
-                                    "joint-damper",   "joint-limit",          "motor:effort",        "motor:speed",
-                                    "contact-filter", "joints-with-contacts", "joints-with-dampers", "wrench",
-                                    "joint-friction", "motor:servo",          "motor:table"};
-  for (const JointTypeInfo& type : joint_types()) words.push_back("joint:" + type.word);
-  for (const std::string& contact : contacts_of_all_shapes()) words.push_back(contact);
-  return words;
-}
-
+// A word of a later version is ignored. A mistyped word is rejected, because the engine would lack that feature.
 CheckResult says_what_it_is(const Trial& trial) {
-  const auto known = known_features();
-  for (const std::string& feature : trial.info.features) {
-    if (std::find(known.begin(), known.end(), feature) != known.end()) continue;
-    const std::string meant = did_you_mean(feature, known);
-    if (!meant.empty())  // a word of a later version is ignored, a mistyped one is a feature that is missed
-      return broken("info", fmt::format("the feature '{}'{}", feature, meant), "one of: " + listed(known));
+  std::vector<std::string> known;
+  for (const FeatureWord& row : feature_words()) known.push_back(row.word);
+  for (const std::string& word : trial.info.unknown_features) {
+    const std::string meant = did_you_mean(word, known);
+    if (!meant.empty())
+      return broken("info", fmt::format("the feature '{}'{}", word, meant), "one of: " + listed(known));
   }
   return holds();
 }
@@ -167,9 +156,10 @@ CheckResult what_is_not_declared_is_refused(const Trial& trial) {
                                                     SliderJoint{{0, 0, 1}}, FixedJoint{}};
   for (const auto& type : types) {
     scene.joints = {{kWorld, 0, type}};
-    const std::string feature = "joint:" + joint_type_name(scene.joints[0]), why = why_not(trial, scene, 1e-2);
-    if (trial.info.features.contains(feature) || why.find(feature) != std::string::npos) continue;
-    return broken("a scene with " + feature, why.empty() ? "that it can" : why, "a refusal that names " + feature);
+    const Feature feature = joint_feature(type);
+    const std::string word = word_of(feature), why = why_not(trial, scene, 1e-2);
+    if (trial.info.features.contains(feature) || why.find(word) != std::string::npos) continue;
+    return broken("a scene with " + word, why.empty() ? "that it can" : why, "a refusal that names " + word);
   }
   return holds();
 }

@@ -33,7 +33,7 @@ std::vector<Hypothesis> of_table() {
 // then also changes the motion. Such a mistake is compared in the loaded state alone, before any load acts.
 bool is_fed_back(const Fault& fault, const Scene& scene, const EngineInfo& engine) {
   const bool tells_wrongly = fault.read || fault.reads_late;
-  return tells_wrongly && engine.features.contains("wrench") && !(scene.springs.empty() && scene.forces.empty());
+  return tells_wrongly && engine.features.contains(Feature::wrench) && !(scene.springs.empty() && scene.forces.empty());
 }
 
 Hypothesis pair_of(const Hypothesis& first, const Hypothesis& second) {

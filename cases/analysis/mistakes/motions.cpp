@@ -46,7 +46,8 @@ StateSeries simulated(const MotionTask& task) {
   StateSeries motion;
   try {
     const double duration = task.dt * static_cast<double>(task.steps);
-    const Simulation run = simulate(engine, task.settings, *task.scene, task.dt, duration, task.every, false);
+    const Simulation run = simulate(engine, task.settings, *task.scene, task.dt, duration,
+                                    {.steps_per_sample = task.every, .is_timed = false});
     for (const Sample& sample : run.trajectory.samples) append_state(sample.bodies.columns(), motion.states);
   } catch (const std::exception& error) {
     motion.why = error.what();

@@ -1,23 +1,13 @@
 #include "cases/metrics/measures/stop_distances.h"
 
-#include <algorithm>
-
 #include "cases/metrics/measures/measuring.h"
 #include "core/scene/features.h"
 
 namespace rigor {
 
-namespace {
-
-bool has_friction(const Scene& scene) {
-  const std::vector<Need> needs = needs_of(scene);
-  return std::any_of(needs.begin(), needs.end(), [](const Need& need) { return need.feature == "friction:coulomb"; });
-}
-
-}  // namespace
-
 std::vector<Stop> stops_of(const JudgedRun& run, std::string& why_none) {
-  if (!has_friction(run.scene)) return why_none = "no finite friction brings a body to a stop", std::vector<Stop>{};
+  if (!needs(run.scene, Feature::friction_coulomb))
+    return why_none = "no finite friction brings a body to a stop", std::vector<Stop>{};
   if (!run.truth) return why_none = kNoTruth, std::vector<Stop>{};
   const std::size_t count = samples_within(run, kTruthNeededPosition);
   if (count == 0) return why_none = kNoSamples, std::vector<Stop>{};

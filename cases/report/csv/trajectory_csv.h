@@ -12,6 +12,7 @@ namespace rigor {
 
 std::string csv_header();
 std::string csv_field(const std::string& text);
+void append_number(std::string& out, double value);  // as printf's %.17g
 
 // The rows of one instant. `last_column` is appended to each: "" or ",<number>".
 void append_csv_rows(std::string& out, const Scene& scene, double time, BodyColumns bodies,

@@ -27,6 +27,7 @@ struct TraceFormat {
 const std::vector<TraceFormat>& trace_formats();                // "csv" first, which is the default
 const TraceFormat& find_trace_format(const std::string& name);  // throws InputError
 
+std::unique_ptr<TraceWriter> contacts_trace(const Scene& scene);  // CSV of contact forces in place of bodies
 std::unique_ptr<TraceWriter> csv_trace(const Scene& scene);
 std::unique_ptr<TraceWriter> gltf_trace(const Scene& scene);
 std::unique_ptr<TraceWriter> jsonl_trace(const Scene& scene);

@@ -60,13 +60,11 @@ std::unique_ptr<Truth> closed_form(const Scene& scene,
   return std::make_unique<ClosedForm>(scene, motion_of);
 }
 
-void check_needs(const Scene& scene, const std::string& truth, const std::string& is_for,
-                 const std::vector<std::string>& allowed) {
+void check_needs(const Scene& scene, const std::string& truth, const std::string& is_for, const Features& allowed) {
   for (const Need& need : needs_of(scene)) {
-    if (need.feature == "fixed-body" || std::find(allowed.begin(), allowed.end(), need.feature) != allowed.end())
-      continue;
-    throw InputError(
-        fmt::format("the truth '{}' is for {}; this scene has {}: {}", truth, is_for, need.feature, need.because));
+    if (need.feature == Feature::fixed_body || allowed.contains(need.feature)) continue;
+    throw InputError(fmt::format("the truth '{}' is for {}; this scene has {}: {}", truth, is_for,
+                                 word_of(need.feature), need.because));
   }
 }
 

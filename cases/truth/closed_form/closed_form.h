@@ -52,10 +52,9 @@ class BodyMotion {
 std::unique_ptr<Truth> closed_form(const Scene& scene,
                                    const std::function<std::unique_ptr<BodyMotion>(const Body&)>& motion_of);
 
-// Throws InputError unless the scene needs only fixed bodies and features in `allowed` (features.h). `is_for` completes
+// Throws InputError unless the scene needs only fixed bodies and features in `allowed`. `is_for` completes
 // the sentence: the truth 'bounce' is for <spheres above a plane>.
-void check_needs(const Scene& scene, const std::string& truth, const std::string& is_for,
-                 const std::vector<std::string>& allowed = {});
+void check_needs(const Scene& scene, const std::string& truth, const std::string& is_for, const Features& allowed = {});
 
 // p = p0 + v0 t + g t²/2.
 class Parabola {

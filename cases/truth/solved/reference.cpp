@@ -41,14 +41,15 @@ class Reference final : public Truth {
 };
 
 std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
-  static const Features solved = {"fixed-body",    "spring",       "timed-force", "joints-with-dampers",
-                                  "joint-spring",  "joint-damper", "joint-limit", "joint-limit:beyond-half-turn",
-                                  "motor:effort",  "motor:speed",  "motor:servo", "motor:table",
-                                  "joint-friction"};
+  static const Features solved = {
+      Feature::fixed_body,   Feature::spring,       Feature::timed_force,    Feature::joints_with_dampers,
+      Feature::joint_spring, Feature::joint_damper, Feature::joint_limit,    Feature::joint_limit_beyond_half_turn,
+      Feature::motor_effort, Feature::motor_speed,  Feature::joint_friction, Feature::motor_servo,
+      Feature::motor_table};
   for (const Need& need : needs_of(scene)) {
-    if (solved.contains(need.feature) || need.feature.starts_with("joint:")) continue;
+    if (solved.contains(need.feature) || is_joint(need.feature)) continue;
     throw InputError(fmt::format("the truth 'reference' is for scenes without contacts; this one has {}: {}",
-                                 need.feature, need.because));
+                                 word_of(need.feature), need.because));
   }
   return std::make_unique<Reference>(scene, reference_solution(scene, duration));
 }

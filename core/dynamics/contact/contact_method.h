@@ -36,6 +36,9 @@ class ContactStepper : public Stepper {
   // s, of the parts in which the last step was taken; none if it was taken as one.
   virtual std::optional<double> sub_step() const { return {}; }
 
+  // Its contact forces; null if the method does not compute them.
+  virtual ReportsContacts* contact_reports() { return nullptr; }
+
   // Asks it to look for ties from now on. A method that does not look finds none.
   virtual void watch_ties() {}
   virtual std::vector<ContactTie> ties() const { return {}; }
@@ -54,7 +57,7 @@ struct ContactParts {
 struct ContactMethod {
   std::string name;
   std::string summary;
-  Features features;                     // the contacts it expresses; see features.h
+  Features features;                     // the contacts it expresses; see feature.h
   std::vector<OptionInfo> options = {};  // of this method alone
   std::unique_ptr<ContactStepper> (*make)(const Scene& scene, const ContactParts& parts);
 };

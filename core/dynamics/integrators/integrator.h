@@ -59,7 +59,7 @@ struct Integrator {
   bool takes_joints = false;
   bool holds_at_stages = false;  // each of its stages asks StepperParts::constraints(), so that they keep its order
   bool takes_dampers_with_joints = true;  // only for methods that take joints
-  Features lacks = {};                    // what else of features.h it cannot express
+  Features lacks = {};                    // what else of feature.h it cannot express
   std::vector<OptionInfo> options = {};   // of this method alone
   std::string twin_of = "";               // see MethodInfo
   std::unique_ptr<Stepper> (*make)(const StepperParts& parts);

@@ -163,6 +163,11 @@ class SceneReader {
 
 }  // namespace
 
+const std::vector<std::string>& case_keys() {
+  static const Keys keys = {"title", "source", "scene", "run", "truth", "gate"};
+  return keys;
+}
+
 const std::vector<std::string>& scene_keys() {
   static const Keys keys = {"gravity", "body",    "array",           "spring", "joint",
                             "motor",   "contact", "contact_default", "force",  "self_contact"};

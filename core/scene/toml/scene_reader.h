@@ -7,6 +7,8 @@ namespace rigor {
 
 class TomlValue;
 
+// The keys of a case file, in the order in which messages list them. The core reads "scene" only.
+const std::vector<std::string>& case_keys();
 // The keys of [scene], in the order in which messages list them.
 const std::vector<std::string>& scene_keys();
 

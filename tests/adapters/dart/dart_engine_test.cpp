@@ -198,8 +198,9 @@ BOOST_AUTO_TEST_CASE(what_it_cannot_say_is_refused) {
   slippery.contact_default = {5e-4, 0};
   check_refused(slippery, "takes a restitution of 0.001 or less for none");
   const EngineInfo info = DartEngine().info();
-  for (const char* missing : {"friction:infinite", "joint:distance", "contact:capsule-plane"})
-    BOOST_TEST(!info.features.contains(missing), missing);
+  for (const Feature missing :
+       {Feature::friction_infinite, joint_feature<DistanceJoint>(), contact_feature<Capsule, Plane>()})
+    BOOST_TEST(!info.features.contains(missing), word_of(missing));
 }
 
 BOOST_AUTO_TEST_CASE(a_body_that_leaves_the_box_under_it_does_not_fall_in_silence) {

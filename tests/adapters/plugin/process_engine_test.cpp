@@ -197,16 +197,17 @@ BOOST_AUTO_TEST_CASE(quoted_words_of_a_command_are_split_as_a_shell_does) {
 BOOST_AUTO_TEST_CASE(wrenches_give_it_what_it_does_not_declare_itself) {
   const ProcessEngine toy = engine_of(kToy);
   const Features features = toy.info().features;
-  for (const char* feature : {"wrench", "spring", "timed-force", "fixed-body"}) BOOST_TEST(features.contains(feature));
-  BOOST_TEST(!features.contains("joint-spring"));  // it has no joints
+  for (const Feature feature : {Feature::wrench, Feature::spring, Feature::timed_force, Feature::fixed_body})
+    BOOST_TEST(features.contains(feature));
+  BOOST_TEST(!features.contains(Feature::joint_spring));  // it has no joints
 
   PluginInfo info = toy.plugin_info();
   const Scene scene = test::coupled_bodies(0.5);
   BOOST_TEST(
       (loads_left_to_rigor(scene, info).springs.size() == 2 && loads_left_to_rigor(scene, info).forces.size() == 1));
-  info.declared.insert("spring");
+  info.declared.insert(Feature::spring);
   BOOST_TEST((loads_left_to_rigor(scene, info).springs.empty() && loads_left_to_rigor(scene, info).forces.size() == 1));
-  info.declared = {"timed-force"};
+  info.declared = {Feature::timed_force};
   BOOST_TEST((loads_left_to_rigor(scene, info).springs.empty() && loads_left_to_rigor(scene, info).forces.empty()));
 }
 

@@ -242,8 +242,9 @@ BOOST_AUTO_TEST_CASE(what_it_would_make_nonsense_of_is_refused) {
   plate.bodies[0].inertia = Vec3(1, 1, 2).asDiagonal();
   BOOST_CHECK_NO_THROW(load_run("simbody", plate));
   const EngineInfo info = SimbodyEngine().info();
-  for (const std::string feature : {"restitution", "joint-limit", "motor:speed", "contact:plane-sphere"})
-    BOOST_TEST(!info.features.contains(feature), feature);
+  for (const Feature feature :
+       {Feature::restitution, Feature::joint_limit, Feature::motor_speed, contact_feature<Plane, Sphere>()})
+    BOOST_TEST(!info.features.contains(feature), word_of(feature));
 }
 
 // A spring that does not converge at this step is Verlet's own doing: it says so, and its twin does likewise.

@@ -94,6 +94,7 @@ BOOST_AUTO_TEST_CASE(errors_of_a_family_have_their_place) {
       {"title = 'x'", "1:1: title: unknown key", {"gate"}},
       {"", "1:1: gate: missing", {}},
       {gate("max = 1\nscene = ['sprng']"), "5:10: gate.scene[0]: ", {"did you mean 'spring'?"}},
+      {gate("max = 1\nscene = ['!contact:box-pane']"), "5:10: gate.scene[0]: ", {"did you mean 'contact:box-plane'?"}},
       {gate("max = 1\ntruth = 'projectil'"), "5:9: gate.truth: ", {"did you mean 'projectile'?"}},
       {gate("max = 1\nengines = 'order>=40'"), "5:11: gate.engines: ", {"selects no run"}},
       {gate("max = 1\nexcept = ['fre']"), "5:11: gate.except[0]: ", {"did you mean 'free'?"}},

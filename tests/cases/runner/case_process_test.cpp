@@ -32,7 +32,7 @@ class TimedEngine : public FaultyEngine {
         is_adaptive_(is_adaptive) {}
   EngineInfo info() const override {
     EngineInfo info = FaultyEngine::info();
-    info.methods[0].adaptive = is_adaptive_, info.features = {"joint:ball"};
+    info.methods[0].adaptive = is_adaptive_, info.features = {joint_feature<BallJoint>()};
     return info;
   }
   std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {

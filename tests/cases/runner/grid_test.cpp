@@ -70,7 +70,8 @@ class HangingWithContacts : public FaultyEngine {
   HangingWithContacts() : FaultyEngine("hangs", [](double&) { spin(); }) {}
   EngineInfo info() const override {
     EngineInfo info = FaultyEngine::info();
-    info.features = joined(contacts_of_all_shapes(), {"restitution", "friction:none", "friction:coulomb"});
+    info.features =
+        joined(contacts_of_all_shapes(), {Feature::restitution, Feature::friction_none, Feature::friction_coulomb});
     return info;
   }
 };

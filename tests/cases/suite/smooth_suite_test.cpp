@@ -13,9 +13,8 @@ namespace {
 // Nothing in it happens at an instant: neither contacts nor joints.
 bool is_smooth(const Case& c) {
   const std::vector<Need> needs = needs_of(c.scene);
-  return std::none_of(needs.begin(), needs.end(), [](const Need& need) {
-    return need.feature.starts_with("contact:") || need.feature.starts_with("joint:");
-  });
+  return std::none_of(needs.begin(), needs.end(),
+                      [](const Need& need) { return is_contact(need.feature) || is_joint(need.feature); });
 }
 
 std::vector<Case> smooth_cases() { return test::suite_cases(is_smooth); }

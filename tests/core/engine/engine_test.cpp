@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(what_an_engine_lacks_is_said_with_what_asks_for_it) {
   Scene scene = test::fixed_spring();
   BOOST_TEST(why_unsupported(engine, scene, 0.1) ==
              "plain has no spring, which a spring between 'world' and 'cube' asks for");
-  engine.features = {"spring"};
+  engine.features = {Feature::spring};
   BOOST_TEST(why_unsupported(engine, scene, 0.1) == "");
   scene.bodies[0].angular_velocity = {0, 30, 0};
   engine.max_rotation_per_step = 1;
@@ -68,9 +68,11 @@ BOOST_AUTO_TEST_CASE(what_an_engine_lacks_is_said_with_what_asks_for_it) {
 
 BOOST_AUTO_TEST_CASE(a_choice_that_cannot_express_the_scene_is_refused_with_one_that_can) {
   EngineInfo engine{.name = "plain", .version = "1", .precision = "double"};
-  engine.features = {"contact:plane-sphere", "friction:infinite", "friction:coulomb", "restitution"};
+  engine.features = {contact_feature<Plane, Sphere>(), Feature::friction_infinite, Feature::friction_coulomb,
+                     Feature::restitution};
   OptionInfo contact{.name = "contact", .meaning = "how", .choices = {"rough", "true"}};
-  contact.features_of_choice["rough"] = {"contact:plane-sphere", "friction:infinite", "restitution"};
+  contact.features_of_choice["rough"] = {contact_feature<Plane, Sphere>(), Feature::friction_infinite,
+                                         Feature::restitution};
   contact.features_of_choice["true"] = engine.features;
   engine.methods = {{.name = "euler", .summary = "first order", .options = {contact}}};
   Scene scene = test::dropped_sphere(0.5);

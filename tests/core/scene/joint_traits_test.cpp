@@ -20,7 +20,7 @@ Scene chain(int links) {
 
 std::string traits(const Scene& scene) {
   std::string words;
-  for (const Need& need : joint_traits_of(scene)) words += need.feature + " ";
+  for (const Need& need : joint_traits_of(scene)) words += word_of(need.feature) + " ";
   return words;
 }
 

@@ -18,8 +18,8 @@ bool inside(const Shape& shape, const Vec3& p) {
   return (p - nearest).norm() <= c.radius;
 }
 
-std::set<std::string> features_of(const Scene& scene) {
-  std::set<std::string> features;
+Features features_of(const Scene& scene) {
+  Features features;
   for (const Need& need : needs_of(scene)) features.insert(need.feature);
   return features;
 }
@@ -63,20 +63,20 @@ BOOST_AUTO_TEST_CASE(pairs_that_never_touch_ask_for_a_filter_and_for_no_contact)
                   test::on_its_own("b", Box{{1, 1, 1}}, 1, Vec3::Zero()), test::plane()};
   scene.contact_pairs = {{0, 1, kApart}};
   const auto some = features_of(scene);
-  BOOST_TEST((some.contains("contact-filter") && some.contains("contact:plane-sphere") &&
-              !some.contains("contact:box-sphere")));
+  BOOST_TEST((some.contains(Feature::contact_filter) && some.contains(contact_feature<Plane, Sphere>()) &&
+              !some.contains(contact_feature<Box, Sphere>())));
   scene.contact_pairs = {{0, 1, kApart}, {0, 2, kApart}, {1, 2, kApart}};
-  BOOST_TEST((features_of(scene) == std::set<std::string>{}));  // nothing touches, so nothing has to be filtered
+  BOOST_TEST((features_of(scene) == Features{}));  // nothing touches, so nothing has to be filtered
 }
 
 BOOST_AUTO_TEST_CASE(a_scene_asks_for_what_it_uses_and_no_more) {
-  BOOST_TEST((features_of(test::tumbling_body()) == std::set<std::string>{}));
-  BOOST_TEST((features_of(test::fixed_spring()) == std::set<std::string>{"spring"}));
-  BOOST_TEST((features_of(test::coupled_bodies(1)) == std::set<std::string>{"spring", "timed-force"}));
+  BOOST_TEST((features_of(test::tumbling_body()) == Features{}));
+  BOOST_TEST((features_of(test::fixed_spring()) == Features{Feature::spring}));
+  BOOST_TEST((features_of(test::coupled_bodies(1)) == Features{Feature::spring, Feature::timed_force}));
   BOOST_TEST(
-      (features_of(test::dropped_sphere(0)) == std::set<std::string>{"contact:plane-sphere", "friction:infinite"}));
+      (features_of(test::dropped_sphere(0)) == Features{contact_feature<Plane, Sphere>(), Feature::friction_infinite}));
   BOOST_TEST((features_of(test::dropped_sphere(1)) ==
-              std::set<std::string>{"contact:plane-sphere", "friction:infinite", "restitution"}));
+              Features{contact_feature<Plane, Sphere>(), Feature::friction_infinite, Feature::restitution}));
 
   Scene scene = test::dropped_sphere(0);
   scene.bodies[0].collides = false;
@@ -84,12 +84,14 @@ BOOST_AUTO_TEST_CASE(a_scene_asks_for_what_it_uses_and_no_more) {
 
   scene = test::dropped_sphere(0);
   scene.contact_pairs = {{0, 1, {0.5, 0.3}}};  // the only pair: the default plays no part
-  BOOST_TEST((features_of(scene) == std::set<std::string>{"contact:plane-sphere", "friction:coulomb", "restitution"}));
+  BOOST_TEST((features_of(scene) ==
+              Features{contact_feature<Plane, Sphere>(), Feature::friction_coulomb, Feature::restitution}));
   scene.bodies.push_back(scene.bodies[0]);
-  BOOST_TEST((features_of(scene) == std::set<std::string>{"contact:plane-sphere", "contact:sphere-sphere",
-                                                          "friction:coulomb", "friction:infinite", "restitution"}));
+  BOOST_TEST(
+      (features_of(scene) == Features{contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(),
+                                      Feature::friction_coulomb, Feature::friction_infinite, Feature::restitution}));
   scene.joints = {{0, 1, HingeJoint{{0, 0, 0}, {0, 0, 1}}}};
-  BOOST_TEST(features_of(scene).contains("joint:hinge"));
+  BOOST_TEST(features_of(scene).contains(joint_feature<HingeJoint>()));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

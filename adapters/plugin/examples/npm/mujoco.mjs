@@ -1,5 +1,5 @@
 // MuJoCo 3 (npm @mujoco/mujoco, double precision): each request one step of dt. A scene is handed over as MJCF.
-import { Diverged, oneLaw, principal, pose, rotate, back, serve } from "./serve.mjs";
+import { Diverged, Unsupported, add, oneLaw, principal, pose, rotate, back, serve } from "./serve.mjs";
 import loadMujoco from "@mujoco/mujoco";
 
 const mujoco = await loadMujoco({ print: console.error, printErr: console.error });
@@ -40,9 +40,26 @@ function places(scene) {
   return scene.body.map((body) => (body.fixed ? -1 : moving++));
 }
 
+// Those of the step's start, with the forces held over the step. Rows of a contact's frame are in W, and the first is the
+// normal, from the first body to the second. Body 0 is the world.
+function contactsOf(model, data, wrench) {
+  const found = [];
+  for (let k = 0; k < data.ncon; ++k) {
+    const at = data.contact.get(k), frame = Array.from(at.frame), body = (geom) => model.geom_bodyid[geom] - 1;
+    mujoco.mj_contactForce(model, data, k, wrench);
+    const force = Array.from(wrench.GetView()).slice(0, 3), row = (r) => frame.slice(3 * r, 3 * r + 3);
+    found.push({
+      a: body(at.geom1), b: body(at.geom2), point: Array.from(at.pos), normal: row(0), gap: at.dist,
+      force: [0, 1, 2].reduce((sum, r) => add(sum, row(r), force[r]), [0, 0, 0]),
+    });
+    at.delete();
+  }
+  return found;
+}
+
 serve({
   info: {
-    name: "mujoco-js", version: mujoco.mj_versionString(), precision: "double", calls: ["run"],
+    name: "mujoco-js", version: mujoco.mj_versionString(), precision: "double", calls: ["run", "contacts"],
     features: ["wrench", "fixed-body", "friction:none", "friction:coulomb", "contact:plane-sphere", "contact:box-plane",
                "contact:capsule-plane", "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere",
                "contact:box-capsule", "contact:capsule-capsule"],
@@ -54,7 +71,7 @@ serve({
   },
   load(scene, { method, track }) {
     const model = mujoco.MjModel.from_xml_string(mjcf(scene, method, track === "matched")), data = new mujoco.MjData(model);
-    const at = places(scene);
+    const at = places(scene), wrench = new mujoco.DoubleBuffer(6);
     scene.body.forEach((body, i) => {
       if (at[i] < 0) return;
       data.qvel.set(body.velocity, 6 * at[i]);
@@ -76,7 +93,11 @@ serve({
         const p = Array.from(data.qpos.subarray(7 * at[i], 7 * at[i] + 7)), v = Array.from(data.qvel.subarray(6 * at[i], 6 * at[i] + 6));
         return [...p, ...v.slice(0, 3), ...rotate(p.slice(3), v.slice(3))];
       }),
-      free: () => (data.delete(), model.delete()),
+      contacts() {
+        if (method === "rk4") throw new Unsupported("of RK4 the forces of the last stage alone are known, which are no mean over the step");
+        return contactsOf(model, data, wrench);
+      },
+      free: () => (wrench.delete(), data.delete(), model.delete()),
     };
   },
 });

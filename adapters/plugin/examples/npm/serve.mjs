@@ -1,5 +1,6 @@
 // Shared code of this folder's engines: the protocol's loop over an engine { info, load(scene, settings) }, whose load
-// returns a world { step(dt, wrenches), rows(), settings, free() }, and helpers for conversions.
+// returns a world { step(dt, wrenches), rows(), settings, free() }, and helpers for conversions. A world with contacts()
+// returns the contact forces of its last step.
 import { readSync, writeSync } from "node:fs";
 
 // What an engine or its runtime prints must not get among the answers. Import this before the engine.
@@ -22,6 +23,9 @@ const calls = {
   read({ worlds }, { world }) {
     const { time, of } = worlds.get(world), bodies = of.rows();
     return bodies.flat().every(Number.isFinite) ? { ok: true, time, bodies } : diverged(time);
+  },
+  contacts({ worlds }, { world }) {
+    return { ok: true, contacts: worlds.get(world).of.contacts() };
   },
   run(state, { world, dt, count, every }) {
     const samples = [];

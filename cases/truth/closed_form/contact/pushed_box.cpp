@@ -173,8 +173,9 @@ class PushedBox {
 
 std::unique_ptr<Truth> make_pushed(const Scene& scene, double duration) {
   check_needs(scene, kPushed, kPushedIsFor,
-              {"contact:box-plane", "contact:box-sphere", "contact:plane-sphere", "contact:sphere-sphere",
-               "friction:none", "friction:coulomb", "friction:infinite", "restitution", "timed-force"});
+              {contact_feature<Box, Plane>(), contact_feature<Box, Sphere>(), contact_feature<Plane, Sphere>(),
+               contact_feature<Sphere, Sphere>(), Feature::friction_none, Feature::friction_coulomb,
+               Feature::friction_infinite, Feature::restitution, Feature::timed_force});
   const PushedBox pushed(scene, duration);
   return closed_form(scene, [&](const Body& body) { return pushed.motion_of(body); });
 }

@@ -119,8 +119,8 @@ class Roller {
 
 std::unique_ptr<Truth> make_rolling(const Scene& scene, double duration) {
   check_needs(scene, kRolling, kRollingIsFor,
-              {"contact:plane-sphere", "contact:sphere-sphere", "friction:none", "friction:coulomb",
-               "friction:infinite", "restitution"});
+              {contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(), Feature::friction_none,
+               Feature::friction_coulomb, Feature::friction_infinite, Feature::restitution});
   const Ground ground(scene, kRolling, kRollingIsFor);
   std::vector<SweptDisk> sweeps;
   const auto motion_of = [&](const Body& body) {

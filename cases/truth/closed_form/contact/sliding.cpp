@@ -100,8 +100,8 @@ class Slider {
 
 std::unique_ptr<Truth> make_sliding(const Scene& scene, double duration) {
   check_needs(scene, kSliding, kSlidingIsFor,
-              {"contact:box-plane", "contact:box-box", "friction:none", "friction:coulomb", "friction:infinite",
-               "restitution"});
+              {contact_feature<Box, Plane>(), contact_feature<Box, Box>(), Feature::friction_none,
+               Feature::friction_coulomb, Feature::friction_infinite, Feature::restitution});
   const Ground ground(scene, kSliding, kSlidingIsFor);
   std::vector<SweptDisk> sweeps;
   const auto motion_of = [&](const Body& body) {

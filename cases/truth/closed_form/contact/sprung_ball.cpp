@@ -150,8 +150,8 @@ TruthRow sprung_ball_truth() {
   return {kSprungBall, "a ball on a spring that strikes a wall, blow by blow, in closed form",
           [](const Scene& scene, double duration) {
             check_needs(scene, kSprungBall, kSprungBallIsFor,
-                        {"spring", "contact:plane-sphere", "restitution", "friction:none", "friction:coulomb",
-                         "friction:infinite"});
+                        {Feature::spring, contact_feature<Plane, Sphere>(), Feature::restitution,
+                         Feature::friction_none, Feature::friction_coulomb, Feature::friction_infinite});
             const SwingAtWall swing = find_swing(scene);
             return closed_form(scene,
                                [&](const Body& body) { return std::make_unique<SprungBall>(body, swing, duration); });

@@ -159,7 +159,8 @@ TruthRow toppling_truth() {
   return {kName, "a box that turns over its edge without slipping, as an inverted pendulum",
           [](const Scene& scene, double duration) {
             check_needs(scene, kName, kIsFor,
-                        {"contact:box-plane", "restitution", "friction:none", "friction:coulomb", "friction:infinite"});
+                        {contact_feature<Box, Plane>(), Feature::restitution, Feature::friction_none,
+                         Feature::friction_coulomb, Feature::friction_infinite});
             return closed_form(scene,
                                [&](const Body& body) { return std::make_unique<Toppling>(scene, body, duration); });
           }};

@@ -225,7 +225,7 @@ class CardanBody final : public BodyMotion {
 };
 
 std::unique_ptr<Truth> make_cardan_shaft(const Scene& scene, double) {
-  check_needs(scene, "cardan-shaft", "two shafts joined by a cross", {"joint:hinge"});
+  check_needs(scene, "cardan-shaft", "two shafts joined by a cross", {joint_feature<HingeJoint>()});
   if (!scene.gravity.isZero(0)) refuse_cardan("gravity acts");
   CardanShaft shaft = shaft_of(scene);
   check_geometry(shaft);

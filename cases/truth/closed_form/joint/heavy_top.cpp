@@ -211,7 +211,8 @@ HeavyBody bob_on(const Scene& scene, int index, const Joint& joint) {
 }
 
 std::unique_ptr<Truth> make_heavy_top(const Scene& scene, double) {
-  check_needs(scene, "heavy-top", "one body on one joint", {"joint:ball", "joint:distance"});
+  check_needs(scene, "heavy-top", "one body on one joint",
+              {joint_feature<BallJoint>(), joint_feature<DistanceJoint>()});
   if (scene.joints.size() != 1) refuse_heavy_top(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
   if (stands(scene, joint.a) == stands(scene, joint.b))

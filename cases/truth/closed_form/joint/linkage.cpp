@@ -169,7 +169,8 @@ class Linkage {
 };
 
 std::unique_ptr<Truth> make_linkage(const Scene& scene, double) {
-  check_needs(scene, "linkage", "hinges and sliders in a plane", {"joint:hinge", "joint:slider"});
+  check_needs(scene, "linkage", "hinges and sliders in a plane",
+              {joint_feature<HingeJoint>(), joint_feature<SliderJoint>()});
   const Linkage linkage(scene);
   return swinging(scene, linkage.axis(), linkage.swings(), false, refuse_linkage);
 }

@@ -77,7 +77,8 @@ std::unique_ptr<Truth> on_distance(const Scene& scene, const Hung& hung, const D
 }
 
 std::unique_ptr<Truth> make_pendulum(const Scene& scene, double) {
-  check_needs(scene, "pendulum", "one body on one joint", {"joint:ball", "joint:distance", "joint:hinge"});
+  check_needs(scene, "pendulum", "one body on one joint",
+              {joint_feature<BallJoint>(), joint_feature<DistanceJoint>(), joint_feature<HingeJoint>()});
   const Hung hung = find_hung(scene);
   if (const auto* ball = std::get_if<BallJoint>(&hung.joint->type)) return on_ball(scene, hung, ball->anchor);
   if (const auto* distance = std::get_if<DistanceJoint>(&hung.joint->type)) return on_distance(scene, hung, *distance);

@@ -224,8 +224,9 @@ std::pair<Pieces, Pieces> in_cradle(const Hanging& lead, double duration) {
 
 std::unique_ptr<Truth> make_pendulum_impacts(const Scene& scene, double duration) {
   check_needs(scene, "pendulum-impacts", kImpactsAreFor,
-              {"joint:hinge", "joint:distance", "joints-with-contacts", "contact:plane-sphere", "contact:sphere-sphere",
-               "restitution", "friction:none"});
+              {joint_feature<HingeJoint>(), joint_feature<DistanceJoint>(), Feature::joints_with_contacts,
+               contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(), Feature::restitution,
+               Feature::friction_none});
   std::vector<int> balls, walls;
   std::vector<Hanging> hangings(scene.bodies.size());
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {

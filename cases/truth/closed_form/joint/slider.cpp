@@ -93,7 +93,8 @@ class Sliding final : public BodyMotion {
 
 std::unique_ptr<Truth> make_slider(const Scene& scene, double duration) {
   check_needs(scene, "slider", "one body on a slider",
-              {"joint:slider", "joint-spring", "joint-damper", "joints-with-dampers", "spring"});
+              {joint_feature<SliderJoint>(), Feature::joint_spring, Feature::joint_damper, Feature::joints_with_dampers,
+               Feature::spring});
   if (scene.joints.size() != 1) refuse_slider(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
   if (stands(scene, joint.a) == stands(scene, joint.b))

@@ -96,7 +96,7 @@ class Part final : public BodyMotion {
 };
 
 std::unique_ptr<Truth> make_welded(const Scene& scene, double) {
-  check_needs(scene, "welded", "bodies fixed to each other", {"joint:fixed"});
+  check_needs(scene, "welded", "bodies fixed to each other", {joint_feature<FixedJoint>()});
   const Body whole = united(scene);
   check(scene, whole);
   return closed_form(scene, [&](const Body& body) { return std::make_unique<Part>(body, whole, scene.gravity); });

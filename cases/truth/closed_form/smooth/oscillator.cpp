@@ -138,7 +138,7 @@ class Oscillator final : public BodyMotion {
 TruthRow oscillator_truth() {
   return {"oscillator", "a body on a spring and damper through its centre of mass, in closed form",
           [](const Scene& scene, double duration) {
-            check_needs(scene, "oscillator", "a body on a spring", {"spring"});
+            check_needs(scene, "oscillator", "a body on a spring", {Feature::spring});
             const Hanging hanging = find_hanging(scene);
             return closed_form(scene,
                                [&](const Body&) { return std::make_unique<Oscillator>(scene, hanging, duration); });

@@ -92,7 +92,7 @@ class TorquedSpin final : public BodyMotion {
 TruthRow principal_torque_truth() {
   return {"principal-torque", "timed torques about the principal axis a body turns about, in closed form",
           [](const Scene& scene, double) {
-            check_needs(scene, "principal-torque", "free bodies under timed torques", {"timed-force"});
+            check_needs(scene, "principal-torque", "free bodies under timed torques", {Feature::timed_force});
             return closed_form(scene, [&](const Body& body) {
               std::vector<TimedForce> torques;
               for (const TimedForce& force : scene.forces) {

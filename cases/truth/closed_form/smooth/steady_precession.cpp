@@ -114,7 +114,7 @@ ExtendedVec3 find_pivot(const Scene& scene) {
 TruthRow steady_precession_truth() {
   return {"steady-precession", "a heavy symmetric top on a ball joint, precessing steadily, in closed form",
           [](const Scene& scene, double) {
-            check_needs(scene, "steady-precession", "a top on a ball joint", {"joint:ball"});
+            check_needs(scene, "steady-precession", "a top on a ball joint", {joint_feature<BallJoint>()});
             const ExtendedVec3 pivot = find_pivot(scene);
             const auto moving =
                 std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return !body.fixed; });

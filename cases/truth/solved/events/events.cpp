@@ -75,10 +75,12 @@ bool is_by_events(const RunName& run, const Scene& scene) {
 }
 
 // The supported features beside contacts, limits and motors of given speed.
-const Features kWhatAnyMethodTakes = {"fixed-body",      "joint-damper",        "joint-spring", "joint:ball",
-                                      "joint:distance",  "joint:fixed",         "joint:hinge",  "joint:slider",
-                                      "joint:universal", "joints-with-dampers", "motor:effort", "joint-friction",
-                                      "spring",          "timed-force"};
+const Features kWhatAnyMethodTakes = {
+    Feature::fixed_body,          Feature::joint_damper,          Feature::joint_spring,
+    joint_feature<BallJoint>(),   joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(),
+    joint_feature<HingeJoint>(),  joint_feature<SliderJoint>(),   joint_feature<UniversalJoint>(),
+    Feature::joints_with_dampers, Feature::motor_effort, Feature::joint_friction,          Feature::spring,
+    Feature::timed_force};
 
 // A solution that is taken up between two of its nodes knows a hinge's angle, but not how often it has turned round.
 bool may_pass_half_a_turn_from_a_limit(const Joint& joint) {
@@ -92,7 +94,7 @@ std::unique_ptr<Truth> make_events(const Scene& scene, double duration) {
   for (const Need& need : needs_of(scene)) {
     if (kWhatAnyMethodTakes.contains(need.feature) || contact_method("event").features.contains(need.feature)) continue;
     throw InputError(fmt::format("the truth 'events' is for what contact by events expresses; this scene has {}: {}",
-                                 need.feature, need.because));
+                                 word_of(need.feature), need.because));
   }
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     if (may_pass_half_a_turn_from_a_limit(scene.joints[k]))

@@ -154,7 +154,8 @@ extern const ContactMethod kCourseContact;
 const ContactMethod kCourseContact = {
     .name = "course",
     .summary = "the course's impulse: spheres on planes and on each other, restitution, infinite friction",
-    .features = {"contact-filter", "contact:plane-sphere", "contact:sphere-sphere", "friction:infinite", "restitution"},
+    .features = {Feature::contact_filter, contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(),
+                 Feature::friction_infinite, Feature::restitution},
     .make = make_contact_stepper<CourseStepper>,
 };
 

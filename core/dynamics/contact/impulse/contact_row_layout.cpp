@@ -211,14 +211,35 @@ void ContactRowLayout::store_impulses(std::vector<ContactConstraint>& constraint
     ContactConstraint& constraint = constraints[i];
     double* block = groups_[g].block(point);
     constraint.normal_impulse = at(block, kImpulse, k);
-    const Vec3 p = vector(block, kFrictionImpulse, k);
-    if (groups_[g].of_balls) {
-      constraint.friction_impulse = p;
-    } else {
-      const Vec3 t = vector(block, kTangent, k);
-      constraint.friction_impulse = p.x() * t + p.y() * constraint.normal.cross(t);
-    }
+    constraint.friction_impulse = friction_impulse(groups_[g], block, k, constraint.normal);
   });
+}
+
+// In W. Rows of balls hold it so, others by two tangents.
+Vec3 ContactRowLayout::friction_impulse(const RowGroup& group, double* block, std::size_t k, const Vec3& normal) {
+  const Vec3 p = vector(block, kFrictionImpulse, k);
+  if (group.of_balls) return p;
+  const Vec3 t = vector(block, kTangent, k);
+  return p.x() * t + p.y() * normal.cross(t);
+}
+
+void ContactRowLayout::add_impulses(const std::vector<ContactConstraint>& constraints, Vec3* impulses) const {
+  for (std::size_t thread = 0; thread < threads_; ++thread) {
+    for_each_row(thread, [&](std::size_t g, std::size_t k, std::size_t i, std::size_t point) {
+      double* block = groups_[g].block(point);
+      const Vec3& normal = constraints[i].normal;
+      impulses[i] += at(block, kImpulse, k) * normal + friction_impulse(groups_[g], block, k, normal);
+    });
+  }
+}
+
+std::size_t ContactRowLayout::constraint_of(const double* first) const {
+  const auto next = std::upper_bound(groups_.begin(), groups_.end(), first,
+                                     [](const double* row, const RowGroup& group) { return row < group.rows; });
+  const RowGroup& group = *std::prev(next);
+  const auto offset = static_cast<std::size_t>(first - group.rows), size = group.columns() * kRowsPerBlock;
+  const auto pair = pairs_of_group_[static_cast<std::size_t>(&group - groups_.data())][offset % size];
+  return pairs_[static_cast<std::size_t>(pair)].first + offset / size;
 }
 
 }  // namespace rigor

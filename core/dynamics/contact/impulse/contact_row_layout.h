@@ -41,6 +41,11 @@ class ContactRowLayout {
   // Impulses of a thread's rows back to the constraints they were assigned from.
   void store_impulses(std::vector<ContactConstraint>& constraints, std::size_t thread) const;
 
+  // Adds the impulse of each constraint, on its body a, to its place in `impulses` [N s, in W].
+  void add_impulses(const std::vector<ContactConstraint>& constraints, Vec3* impulses) const;
+  // The constraint that a row stands for; `first` is the row's element of column 0.
+  std::size_t constraint_of(const double* first) const;
+
   std::size_t colours() const { return first_group_.size() / kKinds; }
   Share share(std::size_t colour, std::size_t thread) const;
   const std::vector<RowGroup>& groups() const { return groups_; }
@@ -66,6 +71,7 @@ class ContactRowLayout {
   void fetch_group(std::size_t number, const std::vector<ContactConstraint>& constraints) const;
   void fill_group(std::size_t number, const std::vector<ContactConstraint>& constraints, double impulse_scale,
                   std::size_t thread);
+  static Vec3 friction_impulse(const RowGroup& group, double* block, std::size_t k, const Vec3& normal);
   template <typename Visit>
   void for_each_row(std::size_t thread, const Visit& visit) const;
 

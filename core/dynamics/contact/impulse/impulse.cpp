@@ -17,6 +17,7 @@
 #include "core/dynamics/contact/impulse/jointed_impulse.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
 #include "core/dynamics/contact/impulse/rebounds.h"
+#include "core/dynamics/contact/impulse/step_impulses.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
 #include "core/dynamics/kernels/contact_kernels.h"
 
@@ -63,18 +64,25 @@ class ImpulseStepper : public ContactStepper {
     if (!(dt > 0)) return integrator_->step(state, t, dt);
     const int count = sub_steps_.of(dt), updates = sub_steps_.contact_updates(dt, count);
     const double h = dt / count;
+    reports_.begin_step();
     for (int update = 0, k = 0; update < updates; ++update) {
       const int end = (update + 1) * count / updates;
       std::vector<ContactConstraint>& constraints = manifolds_.find(state, (end - k) * h);
       prepare(state, constraints, h);
+      if (reports_.is_asked()) reports_.begin_update(constraints, state);
       for (const int first = k; k < end; ++k) {
         prepare_sub_step();
         move_freely(state, t + k * h);
         threads_->run([&](std::size_t thread) { solve_sub_step(state, k == first, thread); });
+        if (reports_.is_asked()) reports_.add_rows(rows_, constraints);
       }
       threads_->run([&](std::size_t thread) { rows_.store_impulses(constraints, thread); });
+      if (reports_.is_asked()) reports_.end_update();
     }
+    reports_.end_step(dt);
   }
+
+  ReportsContacts* contact_reports() override { return &reports_; }
 
   std::string solver_warning() const override {
     const std::string warning = integrator_->solver_warning();
@@ -127,7 +135,9 @@ class ImpulseStepper : public ContactStepper {
     const bool are_rebounds = rows_.has_restitution() && impacts_.are_any();
     if (are_rebounds) rebounds_.begin(state);
     integrator_->step(state, t, parameters_.h);
-    if (are_rebounds) rebounds_.resolve(rows_.groups(), parameters_, state);
+    if (!are_rebounds) return;
+    rebounds_.resolve(rows_.groups(), parameters_, state);
+    if (reports_.is_asked()) reports_.add_impacts(rows_, rebounds_.impulses());
   }
 
   // A thread's share of the effects of impulses. Between two contact updates an impulse always has the same effect on
@@ -208,6 +218,7 @@ class ImpulseStepper : public ContactStepper {
   ImpactSearch search_;
   RowSweeps impacts_, deep_;  // points that meet in this sub-step, and those that overlap deeply from the start
   Rebounds rebounds_;
+  StepImpulses reports_;
   SolverParameters parameters_{};
   AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies
   AlignedDoubles pushes_;  // the velocity changes by the impulses of the last sub-step
@@ -226,9 +237,10 @@ extern const ContactMethod kImpulseContact;
 const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
-    .features = joined(contacts_of_all_shapes(),
-                       {"contact-filter", "friction:coulomb", "friction:infinite", "friction:none", "restitution",
-                        "joints-with-contacts", "joint-limit", "joint-friction", "motor:speed"}),
+    .features =
+        joined(contacts_of_all_shapes(),
+               {Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none,
+                Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit, Feature::motor_speed, Feature::joint_friction}),
     .options = {{.name = "substeps",
                  .meaning = "of contact=impulse in a step; default: at least 4, and more if the step is long for the "
                             "time in which bodies fall by their size",

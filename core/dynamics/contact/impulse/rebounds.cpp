@@ -91,7 +91,7 @@ void Rebounds::find_hits(bool all) {
 }
 
 void Rebounds::choose() {
-  impacts_.clear();
+  impacts_.clear(), rows_of_impacts_.clear();
   std::fill(is_new_.begin(), is_new_.end(), 0);
   const auto is_next = [&](const Row& row, int body) {
     return !moves(body) || row.hit <= next_[static_cast<std::size_t>(body)] + kSameInstant * h_;
@@ -137,6 +137,7 @@ void Rebounds::add(const Row& row, double instant, double wanted, double wanted_
   }
   prepare(impact);
   impacts_.push_back(impact);
+  rows_of_impacts_.push_back(row.first);
 }
 
 // Uses the inertia in the body's orientation at the instant.
@@ -152,9 +153,11 @@ void Rebounds::set_response(ImpactEnd& end, const Impact& impact) const {
 }
 
 void Rebounds::commit_round() {
-  for (const Impact& impact : impacts_) {
+  for (std::size_t n = 0; n < impacts_.size(); ++n) {
+    const Impact& impact = impacts_[n];
     const Vec3* d = impact.directions;
     const Vec3 impulse = impact.impulse.x() * d[0] + impact.impulse.y() * d[1] + impact.impulse.z() * d[2];
+    impulses_.push_back({rows_of_impacts_[n], impulse});
     for (const double sign : {1.0, -1.0}) {
       const ImpactEnd& end = sign > 0 ? impact.a : impact.b;
       const auto i = static_cast<std::size_t>(end.body);
@@ -179,6 +182,7 @@ void Rebounds::move(MutableBodyColumns state) {
     state.set_orientation(i, (turn * state.orientation(i)).normalized());
   }
   const double share = share_without_gain(state, momentum);
+  for (RowImpulse& given : impulses_) given.impulse *= share;
   for (std::size_t i = 0; i < state.size(); ++i) {
     if (!is_changed_[i]) continue;
     const Vec3 L = momentum[i] + share * angular_impulse_[i];
@@ -231,6 +235,7 @@ void Rebounds::resolve(const std::vector<RowGroup>& groups, const SolverParamete
   angular_impulse_.assign(state.size(), Vec3::Zero());
   last_.assign(state.size(), 0.0), next_.assign(state.size(), kNever);
   is_changed_.assign(state.size(), 0), is_new_.assign(state.size(), 0);
+  impulses_.clear();
   find_rows(groups);
   find_hits(true);
   int rounds = 0;

@@ -31,6 +31,13 @@ class Rebounds {
   // biases of the rows whose bodies it has changed.
   void resolve(const std::vector<RowGroup>& groups, const SolverParameters& parameters, MutableBodyColumns state);
 
+  struct RowImpulse {
+    const double* row;  // its element of column 0
+    Vec3 impulse;       // N s on body a, in W
+  };
+  // Of the last resolve().
+  const std::vector<RowImpulse>& impulses() const { return impulses_; }
+
  private:
   struct Row {
     double* first;   // its column 0
@@ -75,6 +82,8 @@ class Rebounds {
   std::vector<char> is_changed_, is_new_;      // by an impact; by one of this round
   std::vector<Row> rows_;
   std::vector<Impact> impacts_;
+  std::vector<const double*> rows_of_impacts_;
+  std::vector<RowImpulse> impulses_;
   BodyColumns state_;  // that of resolve(), while it runs
 };
 

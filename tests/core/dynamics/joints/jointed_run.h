@@ -6,7 +6,6 @@
 #include <string>
 
 #include "adapters/core/core_engine.h"
-#include "cases/case/case_reader.h"
 #include "cases/case/suite.h"
 #include "core/engine/engine.h"
 #include "core/scene/toml/scene_reader.h"

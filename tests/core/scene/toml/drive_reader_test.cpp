@@ -2,6 +2,8 @@
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <string>
 
 #include "core/scene/features.h"
 #include "core/scene/toml/scene_writer.h"
@@ -70,9 +72,9 @@ class CaseFolder {
   std::filesystem::path path_;
 };
 
-Features features_of(const Scene& scene) {
-  Features features;
-  for (const Need& need : needs_of(scene)) features.insert(need.feature);
+std::set<std::string> features_of(const Scene& scene) {
+  std::set<std::string> features;
+  for (const Need& need : needs_of(scene)) features.insert(word_of(need.feature));
   return features;
 }
 
@@ -99,7 +101,7 @@ BOOST_AUTO_TEST_CASE(a_table_is_linear_or_keeps_the_previous_value) {
   BOOST_TEST(linear.next_switch(1, 10) == 3);
   BOOST_TEST(linear.next_switch(3, 10) == 10);
   BOOST_TEST(linear.next_switch(10, 0) == 3);
-  BOOST_TEST((features_of(scene_of(kWheel + rows)) == Features{"joint:hinge", "motor:table"}));
+  BOOST_TEST((features_of(scene_of(kWheel + rows)) == std::set<std::string>{"joint:hinge", "motor:table"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_column_of_a_file_beside_the_case_is_a_table) {
@@ -159,14 +161,14 @@ BOOST_AUTO_TEST_CASE(servos_tables_and_friction_are_written_as_they_are_read) {
   BOOST_TEST(again.motors.size() == 1u);
   BOOST_TEST(scene_json(again) == scene_json(scene));
   BOOST_TEST(scene_json(scene).find("\"friction\":0.5") != std::string::npos);
-  BOOST_TEST((features_of(scene) == Features{"joint:hinge", "joint-friction"}));
+  BOOST_TEST((features_of(scene) == std::set<std::string>{"joint:hinge", "joint-friction"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_servo_needs_its_feature_and_a_continuous_one_with_kd_is_a_damper) {
   BOOST_TEST((features_of(scene_of(kWheel + "kp = 1\nkd = 1\ntarget = 1\nperiod = 0.1")) ==
-              Features{"joint:hinge", "motor:servo"}));
+              std::set<std::string>{"joint:hinge", "motor:servo"}));
   BOOST_TEST((features_of(scene_of(kWheel + "kp = 1\nkd = 1\ntarget = 1")) ==
-              Features{"joint:hinge", "joints-with-dampers", "motor:servo"}));
+              std::set<std::string>{"joint:hinge", "joints-with-dampers", "motor:servo"}));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -116,8 +116,9 @@ BOOST_AUTO_TEST_CASE(a_joints_coordinate_and_its_motor_are_read) {
 
   Features features;
   for (const Need& need : needs_of(scene)) features.insert(need.feature);
-  BOOST_TEST((features == Features{"fixed-body", "joint:hinge", "joint-spring", "joint-damper", "joint-limit",
-                                   "joints-with-dampers", "motor:effort", "motor:speed"}));
+  BOOST_TEST((features == Features{Feature::fixed_body, joint_feature<HingeJoint>(), Feature::joint_spring,
+                                   Feature::joint_damper, Feature::joint_limit, Feature::joints_with_dampers,
+                                   Feature::motor_effort, Feature::motor_speed}));
 }
 
 // A grid of 3 by 2, joined along x, with each copy of the first row hung from the world.

@@ -3,7 +3,6 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "cases/case/case_reader.h"
 #include "cases/case/suite.h"
 #include "cases/truth/truth.h"
 #include "core/scene/toml/scene_reader.h"

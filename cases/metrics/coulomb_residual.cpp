@@ -1,0 +1,44 @@
+// How far a reported contact force is outside Coulomb's cone, |f_t| <= mu f_n: the larger of |f_t| - mu f_n and the
+// pull -f_n. Horak, Trinkle (On the similarities and differences among contact models in robot simulation, 2019) and Le
+// Lidec et al. (Contact models in robotics, 2023) compare engines by such residuals.
+#include "cases/metrics/measures/contact/pair_forces.h"
+#include "cases/metrics/measures/measuring.h"
+#include "core/scene/contact_laws.h"
+
+namespace rigor {
+namespace {
+
+MetricResult measure_coulomb(const JudgedRun& run) {
+  if (const std::string why = why_no_contacts(run); !why.empty()) return {{}, why};
+  const ContactLaws laws(run.scene);
+  TimeSeries series;
+  for (const Sample& sample : run.trajectory.samples) {
+    double largest = 0;
+    Instant worst{sample.time, kWorld, "force", 0, 0};
+    for (const ReportedContact& contact : sample.contacts) {
+      const double friction = laws.of(contact.a, contact.b).friction, normal = contact.force.dot(contact.normal),
+                   tangential = (contact.force - normal * contact.normal).norm();
+      const double allowed = friction == kInfiniteFriction ? tangential : friction * normal;
+      const double outside = std::max(tangential - allowed, -normal);
+      if (outside <= largest) continue;
+      largest = outside;
+      worst = {sample.time, contact.b, "tangential force", tangential, allowed};
+    }
+    series.add(largest, worst);
+  }
+  return {std::move(series).finish(), ""};
+}
+
+}  // namespace
+
+MetricRow coulomb_residual() {
+  return {"coulomb_residual",
+          "N",
+          "farthest that a reported contact force is outside the cone of friction",
+          measure_coulomb,
+          false,
+          false,
+          true};
+}
+
+}  // namespace rigor
