@@ -82,14 +82,13 @@ std::string shown(std::string_view text, std::size_t longest) {
   return end < text.size() ? out + "..." : out;
 }
 
+const std::string& TomlValue::path() const { return document_->path; }
 std::string TomlValue::where() const { return place(document_->path, node_->source().begin); }
 
 TextRange TomlValue::range() const {
   const auto offset = [&](const toml::source_position& at) { return offset_of(document_->text, at.line, at.column); };
   return {offset(node_->source().begin), offset(node_->source().end)};
 }
-
-std::string TomlValue::path() const { return document_->path; }
 
 std::string TomlValue::label() const { return name_.empty() ? where() : fmt::format("{}: {}", where(), name_); }
 

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include "core/base/error.h"
 #include "core/base/near_match.h"
+#include "core/scene/shapes/mesh_file.h"
 #include "core/scene/toml/file_reader.h"
 
 namespace rigor {
 namespace {
-
-namespace fs = std::filesystem;
 
 TimeTable table_of_rows(const TomlValue& value) {
   TimeTable table;
@@ -27,18 +25,12 @@ TimeTable table_of_rows(const TomlValue& value) {
   return table;
 }
 
-// A text beside the case file that cannot be taken from elsewhere.
-std::string path_beside(const TomlValue& file) {
-  const std::string name = file.text();
-  const fs::path folder = fs::path(file.path()).parent_path(), path = fs::path(name).lexically_normal();
-  std::error_code error;
-  const fs::path base = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error),
-                 target = fs::weakly_canonical(base / path, error);
-  const bool is_outside = path.is_absolute() || path.begin() == path.end() || *path.begin() == ".." ||
-                          std::mismatch(base.begin(), base.end(), target.begin(), target.end()).first != base.end();
-  if (is_outside)
-    file.refuse(fmt::format("found '{}'; allowed: a file in the case file's folder or below it", shown(name)));
-  return (folder / path).string();
+std::string path_of(const TomlValue& file) {
+  try {
+    return path_beside(file.path(), file.text());
+  } catch (const InputError& error) {
+    file.refuse(shown(error.what(), 400));
+  }
 }
 
 std::vector<std::string_view> cells_of(std::string_view line) {
@@ -130,7 +122,7 @@ std::optional<TimeTable> read_effort_or_target(const TableReader& row, const std
   if (inline_value) {
     table = table_of_rows(*inline_value);
   } else {
-    const std::string path = path_beside(*file);
+    const std::string path = path_of(*file);
     table = CsvColumn(read_text_file(path), path).read(row.at("column"));
   }
   if (const auto way = row.find("interpolate")) table.is_linear = way->choice({"linear", "previous"}) == "linear";

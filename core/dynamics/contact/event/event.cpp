@@ -232,7 +232,11 @@ class EventStepper : public ContactStepper {
     return distance_from_event();
   }
 
-  double distance_from_event() { return std::min(persistent_contact_.distance_from_change(), least_gap()); }
+  // Finite, for the search of a root.
+  double distance_from_event() {
+    constexpr double kFar = 1;
+    return std::min({kFar, persistent_contact_.distance_from_change(), least_gap()});
+  }
 
   double commit(MutableBodyColumns state, double done) {
     copy_columns(std::as_const(end_).columns(), state);
@@ -349,9 +353,10 @@ const ContactMethod kEventContact = {
     .name = "event",
     .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
     .features =
-        joined(contacts_of_all_shapes(),
-               {Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none,
-                Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit, Feature::motor_speed, Feature::joint_friction}),
+        joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
+               {Feature::placed_shapes, Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite,
+                Feature::friction_none, Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit,
+                Feature::motor_speed, Feature::joint_friction}),
     .options = {{"restitution-threshold",
                  "m/s, from below which nothing rebounds; default 5e-8 of the scene's speed",
                  {},
