@@ -154,6 +154,7 @@ void read_drive(const TableReader& row, const std::string& effort, Motor& motor)
 
 Motor read_motor(const TableReader& row, const Scene& scene) {
   Motor motor;
+  if (const auto way = row.find("interpolate")) way->choice({"linear", "previous"});
   const std::size_t joint = find_joint(row.at("joint"), scene);
   motor.joint = static_cast<int>(joint);
   const std::string type = joint_type_name(scene.joints[joint]);
