@@ -12,6 +12,7 @@
 #include "cases/runner/simulate.h"
 #include "cases/runner/twin_run.h"
 #include "cases/truth/provenance.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
