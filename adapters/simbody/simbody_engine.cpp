@@ -56,15 +56,15 @@ std::vector<MethodInfo> methods() {
 }  // namespace
 
 EngineInfo SimbodyEngine::info() const {
-  return {
-      .name = "simbody",
-      .version = simbody_version(),
-      .precision = "double",
-      .features = {Feature::spring, Feature::timed_force, Feature::fixed_body, joint_feature<BallJoint>(),
-                   joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(), joint_feature<CylindricalJoint>(),
-                   joint_feature<HingeJoint>(), joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(),
-                   Feature::joint_spring, Feature::joint_damper, Feature::joints_with_dampers, Feature::motor_effort},
-      .methods = methods()};
+  return {.name = "simbody",
+          .version = simbody_version(),
+          .precision = "double",
+          .features = {Feature::spring, Feature::timed_force, Feature::fixed_body, joint_feature<BallJoint>(),
+                       joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(), joint_feature<CylindricalJoint>(),
+                       joint_feature<HingeJoint>(), joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(),
+                       Feature::joint_spring, Feature::joint_damper, Feature::joints_with_dampers,
+                       Feature::motor_effort, Feature::motor_servo, Feature::motor_table},
+          .methods = methods()};
 }
 
 std::unique_ptr<World> SimbodyEngine::load(const Scene& scene, const Settings& settings) const {

@@ -151,7 +151,8 @@ Integrator row(const std::string& method, int order, std::unique_ptr<Stepper> (*
           .default_orientation = "",
           .takes_contact = false,
           .takes_joints = true,
-          .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joint_loop, Feature::motor_speed},
+          .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joint_loop, Feature::joint_friction,
+                    Feature::motor_servo, Feature::motor_speed},
           .twin_of = "simbody",
           .make = make};
 }
