@@ -38,6 +38,7 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
     set_initial_state(scene, state_.columns());
     if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_), on_loop_ = joints_on_loops(scene);
     if (anything_can_touch(scene)) {
+      has_servos_ = JointStops::has_servos(scene);
       if (JointStops::has_speed_motors(scene))
         motors_ = std::make_unique<JointStops>(scene, system_, system_.loads, *joints_, JointStops::Of::motors);
       auto stepper =
@@ -58,7 +59,10 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
 
   void step(double dt) override {
     if (joints_) joints_->begin_step();
-    stepper_->step(state_.columns(), clock_.time(), dt);
+    if (contact_ && has_servos_)
+      step_between_samples(clock_.time(), dt);
+    else
+      stepper_->step(state_.columns(), clock_.time(), dt);
     if (joints_) joints_->end_step(state_.columns());
     clock_.advance(dt);
     if (contact_ && !contact_->was_smooth()) passages_.interrupt();
@@ -98,6 +102,16 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
   std::optional<double> sub_step() const override { return contact_ ? contact_->sub_step() : std::nullopt; }
 
  private:
+  // Contact methods do not locate the events of servos.
+  void step_between_samples(double t, double dt) {
+    for (double from = t; from < t + dt;) {
+      const double to = system_.loads.next_sample(from, t + dt);
+      system_.loads.sample_servos(state_.columns(), from);
+      stepper_->step(state_.columns(), from, from == t && to == t + dt ? dt : to - from);
+      from = to;
+    }
+  }
+
   // With the rule by which it was taken where none was named.
   std::string name_of_contact(const Scene& scene, const Settings& settings) const {
     if (settings.options.contains("contact")) return contact_method_.name;
@@ -117,7 +131,8 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
   BodyTable state_;
   std::unique_ptr<Joints> joints_;      // null where there are none
   std::unique_ptr<JointStops> motors_;  // of given speed, where bodies can touch; null where there are none
-  std::vector<bool> on_loop_;           // by joint: no other joint can be in a singular position
+  bool has_servos_ = false;
+  std::vector<bool> on_loop_;  // by joint: no other joint can be in a singular position
   SingularPassages passages_;
   std::unique_ptr<Stepper> stepper_;
   Clock clock_;
@@ -125,7 +140,8 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
 const Features kJointFeatures = joined(
-    joints_of_all_types(), {Feature::joint_spring, Feature::joint_damper, Feature::motor_effort, Feature::motor_speed,
+    joints_of_all_types(), {Feature::joint_spring, Feature::joint_damper, Feature::joint_friction,
+                            Feature::motor_effort, Feature::motor_servo, Feature::motor_speed, Feature::motor_table,
                             Feature::joints_with_dampers, Feature::joint_limit, Feature::joint_limit_beyond_half_turn});
 
 template <typename Rows>

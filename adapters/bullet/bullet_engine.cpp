@@ -23,13 +23,23 @@ const Features kBulletContacts = contacts_among<Box, Capsule, Convex, Cylinder, 
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
-const Features kJoints = {joint_feature<BallJoint>(),   joint_feature<CylindricalJoint>(),
-                          joint_feature<FixedJoint>(),  joint_feature<HingeJoint>(),
-                          joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(),
-                          Feature::joint_spring,        Feature::joint_damper,
-                          Feature::joints_with_dampers, Feature::joints_with_contacts,
-                          Feature::joint_limit,         Feature::motor_effort,
-                          Feature::motor_speed,         Feature::joint_limit_beyond_half_turn};
+const Features kJoints = {joint_feature<BallJoint>(),
+                          joint_feature<CylindricalJoint>(),
+                          joint_feature<FixedJoint>(),
+                          joint_feature<HingeJoint>(),
+                          joint_feature<SliderJoint>(),
+                          joint_feature<UniversalJoint>(),
+                          Feature::joint_spring,
+                          Feature::joint_damper,
+                          Feature::joints_with_dampers,
+                          Feature::joints_with_contacts,
+                          Feature::joint_limit,
+                          Feature::motor_effort,
+                          Feature::motor_speed,
+                          Feature::joint_friction,
+                          Feature::motor_servo,
+                          Feature::motor_table,
+                          Feature::joint_limit_beyond_half_turn};
 
 std::vector<OptionInfo> options_of_rigid_bodies() {
   return {{"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},

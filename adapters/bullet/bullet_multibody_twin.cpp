@@ -21,7 +21,8 @@ const Integrator kBulletMultibodyTwin = {
     .default_orientation = "",
     .takes_contact = false,
     .takes_joints = true,
-    .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joint_loop, Feature::motor_speed},
+    .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joint_loop, Feature::joint_friction,
+              Feature::motor_servo, Feature::motor_speed},
     .twin_of = "bullet",
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, turned_by_bullet); },
 };

@@ -158,7 +158,7 @@ const Integrator kBulletTwin = {
     .default_orientation = "",
     .takes_joints = true,
     .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joints_with_contacts,
-              Feature::motor_speed},  // no rows with bounds
+              Feature::joint_friction, Feature::motor_servo, Feature::motor_speed},  // no rows with bounds
     .options = {{"gyroscopic",
                  "the gyroscopic torque; default implicit-body",
                  {"implicit-body", "implicit-world", "explicit", "off"}},

@@ -9,15 +9,17 @@ namespace rigor {
 
 class ExternalLoads {
  public:
-  explicit ExternalLoads(const Scene& scene) : loads_(scene) {}
+  explicit ExternalLoads(const Scene& scene) : loads_(scene), shortest_period_(loads_.shortest_period()) {}
 
   bool empty() const { return loads_.empty(); }
+  // Throws EngineFailure where a servo would have to sample within the step.
   // Force and torque about the centre of mass, in W, on each body over the step of dt that begins now. Valid until the
   // next call.
   const Wrenches& over_step(const World& world, double dt);
 
  private:
   Loads loads_;
+  double shortest_period_;  // s, of servos
   Snapshot now_;
   Wrenches wrenches_;
 };

@@ -29,6 +29,9 @@ const Features kDartJoints = {joint_feature<BallJoint>(),
                               Feature::joints_with_contacts,
                               Feature::joints_with_dampers,
                               Feature::motor_effort,
+                              Feature::joint_friction,
+                              Feature::motor_servo,
+                              Feature::motor_table,
                               Feature::motor_speed};
 
 std::vector<OptionInfo> options_of_solvers() {

@@ -48,7 +48,7 @@ const Integrator kDartTwin = {
     .takes_contact = false,
     .takes_joints = true,
     .lacks = {joint_feature<DistanceJoint>(), Feature::joint_damper, Feature::joint_limit, Feature::joint_loop,
-              Feature::joint_spring, Feature::motor_speed},
+              Feature::joint_spring, Feature::joint_friction, Feature::motor_servo, Feature::motor_speed},
     .twin_of = "dart",
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, turned_by_dart); },
 };

@@ -71,7 +71,9 @@ EngineInfo MujocoEngine::info() const {
                                                         Feature::joint_limit,
                                                         Feature::joint_limit_beyond_half_turn,
                                                         Feature::joints_with_dampers,
-                                                        Feature::motor_effort}),
+                                                        Feature::motor_effort,
+                                                        Feature::motor_servo,
+                                                        Feature::motor_table}),
           .methods = {euler(), implicit(), rk4()}};
 }
 

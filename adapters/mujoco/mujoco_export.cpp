@@ -252,7 +252,8 @@ class Exporter {
 
   void add_motors() {
     for (const Motor& motor : scene_.motors)
-      leave_out(fmt::format("a motor on {}", scene_.joint_name(static_cast<std::size_t>(motor.joint))),
+      leave_out(fmt::format("{} {}", motor.is_friction ? "friction in" : "a motor on",
+                            scene_.joint_name(static_cast<std::size_t>(motor.joint))),
                 "MuJoCo's files have no efforts that last for a time");
   }
 

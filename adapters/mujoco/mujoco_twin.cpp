@@ -166,7 +166,7 @@ const Integrator kMujocoEulerTwin = {
     .takes_contact = false,
     .takes_joints = true,
     .lacks = {joint_feature<DistanceJoint>(), Feature::joint_damper, Feature::joint_limit, Feature::joint_loop,
-              Feature::motor_speed},
+              Feature::joint_friction, Feature::motor_servo, Feature::motor_speed},
     .twin_of = "mujoco",
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, exact_turn); }};
 

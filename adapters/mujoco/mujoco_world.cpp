@@ -14,14 +14,17 @@ namespace {
 // What is left for the loads that MuJoCo does not know: the timed forces.
 Scene only_forces(const Scene& scene) {
   Scene left;
-  left.bodies = scene.bodies, left.forces = scene.forces;
+  left.bodies = scene.bodies, left.forces = scene.forces, left.joints = scene.joints;
+  for (Joint& joint : left.joints) joint.stiffness = joint.damping = 0;
+  std::copy_if(scene.motors.begin(), scene.motors.end(), std::back_inserter(left.motors),
+               [](const Motor& motor) { return motor.servo.has_value(); });
   return left;
 }
 
 std::vector<Motor> motors_of_effort(const Scene& scene) {
   std::vector<Motor> motors;
   for (const Motor& motor : scene.motors) {
-    if (!motor.speed) motors.push_back(motor);
+    if (motor.gives_effort()) motors.push_back(motor);
   }
   return motors;
 }
@@ -119,8 +122,7 @@ void MujocoWorld::apply_loads(double dt) {
   for (const Motor& motor : motors_) data_->qfrc_applied[made_.coordinate[motor.joint].velocity] = 0;
   for (const Motor& motor : motors_) {
     const MujocoModel::Coordinate& at = made_.coordinate[motor.joint];
-    const double share = share_of_step(motor.from, motor.until, clock_.time(), dt);
-    data_->qfrc_applied[at.velocity] += at.sign * share * motor.effort;
+    data_->qfrc_applied[at.velocity] += at.sign * motor.mean_effort(clock_.time(), dt);
   }
 }
 

@@ -46,6 +46,9 @@ Features joints_of_all_kinds() {
           Feature::joint_limit,
           Feature::motor_effort,
           Feature::motor_speed,
+          Feature::joint_friction,
+          Feature::motor_servo,
+          Feature::motor_table,
           Feature::joints_with_contacts,
           Feature::joints_with_dampers,
           Feature::joint_limit_beyond_half_turn};

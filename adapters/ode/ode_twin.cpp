@@ -81,7 +81,7 @@ const Integrator kOdeTwin = {
     .leapfrog_stagger = 0.5,
     .default_orientation = "",
     .takes_joints = true,
-    .lacks = {Feature::joint_limit, Feature::joints_with_contacts,
+    .lacks = {Feature::joint_limit, Feature::joints_with_contacts, Feature::joint_friction, Feature::motor_servo,
               Feature::motor_speed},  // rows that act on one side or up to a bound
     .options = {{"gyroscopic", "the implicit gyroscopic torque; default on", {"on", "off"}},
                 {"rotation",

@@ -155,8 +155,8 @@ Features with_wrenches(Features features) {
   if (!features.contains(Feature::wrench)) return features;
   features.insert({Feature::spring, Feature::timed_force});
   if (std::any_of(features.begin(), features.end(), is_joint))
-    features.insert(
-        {Feature::joint_damper, Feature::joint_spring, Feature::joints_with_dampers, Feature::motor_effort});
+    features.insert({Feature::joint_damper, Feature::joint_spring, Feature::joints_with_dampers, Feature::motor_effort,
+                     Feature::motor_servo, Feature::motor_table});
   return features;
 }
 
@@ -202,7 +202,7 @@ Scene loads_left_to_rigor(Scene scene, const PluginInfo& info) {
   const bool gets_wrenches = does(Feature::wrench);
   if (does(Feature::spring) || !gets_wrenches) scene.springs.clear();
   if (does(Feature::timed_force) || !gets_wrenches) scene.forces.clear();
-  if (does(Feature::motor_effort) || !gets_wrenches) scene.motors.clear();
+  std::erase_if(scene.motors, [&](const Motor& motor) { return !gets_wrenches || does(feature_of(motor)); });
   for (Joint& joint : scene.joints) {
     if (does(Feature::joint_spring) || !gets_wrenches) joint.stiffness = 0;
     if (does(Feature::joint_damper) || !gets_wrenches) joint.damping = 0;

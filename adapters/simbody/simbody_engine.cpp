@@ -41,29 +41,30 @@ MethodInfo adaptive(const std::string& name, const std::string& summary, int ord
 }
 
 std::vector<MethodInfo> methods() {
-  return {runge_kutta("merson", "Runge, Kutta and Merson's five stages", 4),
-          adaptive("cpodes", "backward differences of order 1 to 5, by error control", 1, "1e-9"),
-          {.name = "explicit-euler", .summary = "everything from the step's start: swings grow"},
-          adaptive("feldberg", "Runge, Kutta and Fehlberg's six stages, by error control", 4, "1e-9"),
-          runge_kutta("rk2", "the explicit trapezoid", 2),
-          runge_kutta("rk3", "Kutta's three stages", 3),
-          semi_explicit_euler(),
-          adaptive("semi-explicit-euler-2", "semi-explicit Euler, its steps halved, by error control", 1, "1e-4"),
-          {.name = "verlet", .summary = "positions by Taylor, velocities by an iterated trapezoid", .order = 2}};
+  return {
+      runge_kutta("merson", "Runge, Kutta and Merson's five stages", 4),
+      adaptive("cpodes", "backward differences of order 1 to 5, by error control", 1, "1e-9"),
+      {.name = "explicit-euler", .summary = "everything from the step's start: swings grow", .leapfrog_stagger = -0.5},
+      adaptive("feldberg", "Runge, Kutta and Fehlberg's six stages, by error control", 4, "1e-9"),
+      runge_kutta("rk2", "the explicit trapezoid", 2),
+      runge_kutta("rk3", "Kutta's three stages", 3),
+      semi_explicit_euler(),
+      adaptive("semi-explicit-euler-2", "semi-explicit Euler, its steps halved, by error control", 1, "1e-4"),
+      {.name = "verlet", .summary = "positions by Taylor, velocities by an iterated trapezoid", .order = 2}};
 }
 
 }  // namespace
 
 EngineInfo SimbodyEngine::info() const {
-  return {
-      .name = "simbody",
-      .version = simbody_version(),
-      .precision = "double",
-      .features = {Feature::spring, Feature::timed_force, Feature::fixed_body, joint_feature<BallJoint>(),
-                   joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(), joint_feature<CylindricalJoint>(),
-                   joint_feature<HingeJoint>(), joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(),
-                   Feature::joint_spring, Feature::joint_damper, Feature::joints_with_dampers, Feature::motor_effort},
-      .methods = methods()};
+  return {.name = "simbody",
+          .version = simbody_version(),
+          .precision = "double",
+          .features = {Feature::spring, Feature::timed_force, Feature::fixed_body, joint_feature<BallJoint>(),
+                       joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(), joint_feature<CylindricalJoint>(),
+                       joint_feature<HingeJoint>(), joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(),
+                       Feature::joint_spring, Feature::joint_damper, Feature::joints_with_dampers,
+                       Feature::motor_effort, Feature::motor_servo, Feature::motor_table},
+          .methods = methods()};
 }
 
 std::unique_ptr<World> SimbodyEngine::load(const Scene& scene, const Settings& settings) const {

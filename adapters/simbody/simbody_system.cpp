@@ -226,11 +226,18 @@ void SimbodySystem::set_start(const Mobilizer& joint) {
       start_, SimTK::SpatialVec(simbody_of(joint.axes.transpose() * w), simbody_of(joint.axes.transpose() * v)));
 }
 
+// A number that changes where the motor's effort jumps.
+double SimbodySystem::share_of_motor(const Motor& motor, double t, double dt) {
+  if (motor.efforts) return motor.mean_effort(t, dt);
+  const double share = share_of_step(motor.from, motor.until, t, dt);
+  return motor.servo && motor.servo->period > 0 && share > 0 ? 1 + motor.sample_at(t) : share;
+}
+
 bool SimbodySystem::set_interval(double from, double to) {
   from_ = from, to_ = to;
   std::vector<double> shares;
   for (const TimedForce& force : scene_.forces) shares.push_back(share_of_step(force, from, to - from));
-  for (const Motor& motor : scene_.motors) shares.push_back(share_of_step(motor.from, motor.until, from, to - from));
+  for (const Motor& motor : scene_.motors) shares.push_back(share_of_motor(motor, from, to - from));
   const bool differ = shares != shares_;
   shares_ = std::move(shares);
   return differ;

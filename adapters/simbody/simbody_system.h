@@ -30,6 +30,7 @@ class SimbodySystem {
 
   // The loads that are Rigor's own: timed forces, and the springs, dampers and motors of joints.
   const Loads& loads() const { return loads_; }
+  void sample_servos(BodyColumns bodies, double t) { loads_.sample_servos(bodies, t); }
   // Selects the loads of the step from `from` to `to` [s]; returns false if they are unchanged.
   bool set_interval(double from, double to);
 
@@ -56,6 +57,8 @@ class SimbodySystem {
   SimTK::Transform frame_in(int body, const Mat3& axes_W, const Vec3& origin_W) const;
 
   Scene scene_;
+  static double share_of_motor(const Motor& motor, double t, double dt);
+
   Loads loads_;
   double from_ = 0, to_ = 0;    // s
   std::vector<double> shares_;  // of the step, in which each timed force, then each motor acts

@@ -145,11 +145,14 @@ Integrator row(const std::string& method, int order, std::unique_ptr<Stepper> (*
           .summary = "repeats Simbody's own step, to explain its error",
           .order = order,
           .symplectic = false,
-          .leapfrog_stagger = method == "semi-explicit-euler" ? 0.5 : 0,
+          .leapfrog_stagger = method == "semi-explicit-euler" ? 0.5
+                              : method == "explicit-euler"    ? -0.5
+                                                              : 0,
           .default_orientation = "",
           .takes_contact = false,
           .takes_joints = true,
-          .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joint_loop, Feature::motor_speed},
+          .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joint_loop, Feature::joint_friction,
+                    Feature::motor_servo, Feature::motor_speed},
           .twin_of = "simbody",
           .make = make};
 }

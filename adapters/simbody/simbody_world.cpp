@@ -84,6 +84,8 @@ class SimbodyWorld : public World, public ReportsReactions {
     // An integrator that steps past the end and interpolates would also step past a jump of the loads.
     const bool jumps = !scene.forces.empty() || !scene.motors.empty();
     if (!steps.reads_between || jumps) integrator_->setAllowInterpolation(false);
+    has_servos_ =
+        std::any_of(scene.motors.begin(), scene.motors.end(), [](const Motor& m) { return m.servo.has_value(); });
     moves_ = system_.start().getNU() > 0;
     if (!moves_) return;
     refuse_what_has_no_forces();
@@ -98,6 +100,7 @@ class SimbodyWorld : public World, public ReportsReactions {
     note_start(dt);
     while (moves_ && !lost_ && from < end) {  // parts in which no load begins or ends, so that none lies within a step
       const double to = system_.loads().next_switch(from, end);
+      if (has_servos_) sample_servos(from);
       advance(from, to);
       from = to;
     }
@@ -130,6 +133,7 @@ class SimbodyWorld : public World, public ReportsReactions {
   void refuse_what_has_no_forces() const;
   bool reports() const { return reactions_ && are_read_; }
   void note_start(double dt);
+  void sample_servos(double t);
   void note_begin_of_part(double from, bool differs);
   void note_end_of_part(double from, double to, bool is_last);
   SimbodyReactions::Instant reactions_now() const;
@@ -142,6 +146,7 @@ class SimbodyWorld : public World, public ReportsReactions {
   bool is_fixed_step_;
   IntegratorPointer integrator_;
   Clock clock_;
+  bool has_servos_ = false;
   std::optional<SimbodyReactions> reactions_;  // once asked
   bool are_read_ = true;                       // in this step
   BodyTable start_;                            // of the step
@@ -193,6 +198,13 @@ SimbodyReactions::Instant SimbodyWorld::reactions_now() const {
   SimTK::State state = integrator_->getAdvancedState();  // a copy: a run that is asked does not get its work done
   system_.system().realize(state, SimTK::Stage::Acceleration);
   return reactions_->at(state);
+}
+
+void SimbodyWorld::sample_servos(double t) {
+  BodyTable now(system_.scene().bodies.size());
+  system_.system().realize(integrator_->getState(), SimTK::Stage::Velocity);
+  system_.read(integrator_->getState(), now.columns());
+  system_.sample_servos(now.columns(), t);
 }
 
 void SimbodyWorld::note_start(double dt) {

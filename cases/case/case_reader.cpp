@@ -26,6 +26,19 @@ void read_ensemble(const TomlValue& value, Case& out) {
   if (!out.scene.joints.empty()) value.refuse("starts that are moved about would break the scene's joints");
 }
 
+// A servo that samples more often than in each of the steps cannot be told from a continuous one.
+void check_servo_periods(const TableReader& table, const Case& of) {
+  const auto by_length = [](const StepSize& a, const StepSize& b) { return a.seconds < b.seconds; };
+  const StepSize shortest = *std::min_element(of.dt.begin(), of.dt.end(), by_length);
+  for (const Motor& motor : of.scene.motors) {
+    constexpr double kRounding = 1 + 1e-9;
+    if (motor.servo && motor.servo->period > 0 && shortest.seconds > motor.servo->period * kRounding)
+      table.at("dt").refuse(
+          fmt::format("found {} s at least, and a servo samples every {:g} s; allowed: a step of at most its period",
+                      shortest.text, motor.servo->period));
+  }
+}
+
 void read_run(const TableReader& table, Case& out) {
   out.duration = read_seconds(table.at("duration")).seconds;
   for (const TomlValue& value : table.at("dt").items()) {
@@ -35,6 +48,7 @@ void read_run(const TableReader& table, Case& out) {
       value.refuse(fmt::format("the step {} s is given twice", dt.text));
     out.dt.push_back(dt);
   }
+  check_servo_periods(table, out);
   if (const auto ensemble = table.find("ensemble")) read_ensemble(*ensemble, out);
 }
 

@@ -23,6 +23,7 @@ enum class Feature : int {
   friction_infinite,
   friction_none,
   joint_damper,
+  joint_friction,  // Coulomb friction of a hinge or slider
   joint_limit,
   joint_limit_beyond_half_turn,  // a limit of an angle beyond -pi or pi
   joint_limit_that_bounces,      // a limit with a restitution
@@ -31,7 +32,9 @@ enum class Feature : int {
   joints_with_contacts,
   joints_with_dampers,
   motor_effort,
+  motor_servo,
   motor_speed,
+  motor_table,  // an effort that changes in time
   placed_shapes,  // shapes with poses, several of them for one body
   restitution,
   speed_motor_with_limits,  // a joint with limits and a motor that keeps a speed

@@ -132,10 +132,20 @@ void add_joint(const Scene& scene, std::size_t k, NeedList& needs) {
 bool is_damped(const Scene& scene) {
   const auto damps = [](const auto& row) { return row.damping != 0; };
   return std::any_of(scene.springs.begin(), scene.springs.end(), damps) ||
-         std::any_of(scene.joints.begin(), scene.joints.end(), damps);
+         std::any_of(scene.joints.begin(), scene.joints.end(), damps) ||
+         std::any_of(scene.motors.begin(), scene.motors.end(), [](const Motor& motor) {
+           return motor.servo && motor.servo->period == 0 && motor.servo->kd != 0;
+         });
 }
 
 }  // namespace
+
+Feature feature_of(const Motor& motor) {
+  if (motor.is_friction) return Feature::joint_friction;
+  if (motor.speed) return Feature::motor_speed;
+  if (motor.servo) return Feature::motor_servo;
+  return motor.efforts ? Feature::motor_table : Feature::motor_effort;
+}
 
 std::vector<Need> needs_of(const Scene& scene) {
   NeedList needs;
@@ -153,8 +163,11 @@ std::vector<Need> needs_of(const Scene& scene) {
   }
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_joint(scene, k, needs);
   for (const Motor& motor : scene.motors) {
-    needs.add(motor.speed ? Feature::motor_speed : Feature::motor_effort,
-              fmt::format("a motor on {}", scene.joint_name(static_cast<std::size_t>(motor.joint))));
+    needs.add(feature_of(motor), fmt::format("{} {}",
+                                             motor.is_friction ? "friction in"
+                                             : motor.servo     ? "a servo on"
+                                                               : "a motor on",
+                                             scene.joint_name(static_cast<std::size_t>(motor.joint))));
   }
   const bool touches = add_contacts(scene, needs);
   if (scene.joints.empty()) return needs.take();

@@ -19,5 +19,6 @@ struct Need {
 // of which at least one can move.
 std::vector<Need> needs_of(const Scene& scene);
 bool needs(const Scene& scene, Feature feature);
+Feature feature_of(const Motor& motor);
 
 }  // namespace rigor

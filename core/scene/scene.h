@@ -10,6 +10,7 @@
 
 #include "core/base/math.h"
 #include "core/scene/body_pose.h"
+#include "core/scene/drives.h"
 #include "core/scene/joint_types.h"
 #include "core/scene/shape_types.h"
 
@@ -58,17 +59,6 @@ struct Joint {
   double restitution = 0;                                   // of its limits, 0..1
 
   bool has_limits() const { return std::isfinite(lower) || std::isfinite(upper); }
-};
-
-// Acts on a hinge's angle or a slider's displacement while from <= t < until: by a given effort, or by what keeps a
-// given speed.
-struct Motor {
-  int joint;                                               // index
-  double effort = 0;                                       // N m, N: on b along the axis, the opposite on a
-  std::optional<double> speed;                             // rad/s, m/s: kept instead, with an effort of at most `most`
-  double most = 0;                                         // N m, N
-  double from = 0;                                         // s
-  double until = std::numeric_limits<double>::infinity();  // s
 };
 
 // Values of a pair of bodies, because engines combine per-body values by different rules.

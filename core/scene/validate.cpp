@@ -115,6 +115,28 @@ struct JointFault {
   }
 };
 
+Fault fault_of_table(const TimeTable& table, const char* key) {
+  if (table.times.empty() || table.times.size() != table.values.size())
+    return SceneFault{key, "allowed: at least one time, and a value for each"};
+  for (std::size_t i = 0; i < table.times.size(); ++i) {
+    if (!std::isfinite(table.times[i]) || !std::isfinite(table.values[i])) return SceneFault{key, "it is not finite"};
+    if (i > 0 && !(table.times[i] > table.times[i - 1]))
+      return SceneFault{
+          key, fmt::format("found the time {} after {}; allowed: times that rise", table.times[i], table.times[i - 1])};
+  }
+  return {};
+}
+
+Fault fault_of_servo(const Servo& servo) {
+  for (const auto& [key, value] : {std::pair{"kp", servo.kp}, {"kd", servo.kd}, {"period", servo.period}}) {
+    if (const Fault negative = not_at_least_zero(key, value)) return negative;
+  }
+  if (!std::isfinite(servo.target_speed)) return SceneFault{"target_speed", "it is not finite"};
+  if (!(servo.most > 0))
+    return SceneFault{"most", fmt::format("found {}; allowed: a number greater than 0", servo.most)};
+  return fault_of_table(servo.target, "target");
+}
+
 Fault fault_of_limits(const Joint& joint) {
   if (!(joint.lower < joint.upper)) {
     return SceneFault{"upper", fmt::format("found {}, and lower is {}; allowed: limits of which the upper is greater",
@@ -221,10 +243,24 @@ Fault fault_of(const Motor& motor, const Scene& scene) {
     return SceneFault{"", "what it drives by is not finite"};
   if (motor.speed && !(motor.most > 0))
     return SceneFault{"most", fmt::format("found {}; allowed: a number greater than 0", motor.most)};
+  if (motor.efforts) {
+    if (const Fault table =
+            fault_of_table(motor.efforts.value(), turns(scene.joints[motor.joint]) ? "torque" : "force"))
+      return table;
+  }
+  if (motor.servo) {
+    if (const Fault servo = fault_of_servo(motor.servo.value())) return servo;
+  }
   for (const Motor& other : scene.motors) {
-    if (&other != &motor && other.joint == motor.joint && other.speed && motor.speed && other.from < motor.until &&
-        motor.from < other.until)
-      return SceneFault{"speed", "another motor prescribes the speed of the same joint at the same time"};
+    const bool overlap =
+        &other != &motor && other.joint == motor.joint && other.from < motor.until && motor.from < other.until;
+    if (overlap && other.speed && motor.speed)
+      return SceneFault{"speed",
+                        other.is_friction || motor.is_friction
+                            ? "the joint has friction, and that acts like a motor of speed 0; allowed: one of the two"
+                            : "another motor prescribes the speed of the same joint at the same time"};
+    if (overlap && other.servo && motor.servo)
+      return SceneFault{"kp", "another servo drives the same joint at the same time; allowed: one at a time"};
   }
   return fault_of_times(motor.from, motor.until);
 }

@@ -10,7 +10,8 @@
 
 namespace rigor {
 
-namespace sweep_drawing {  // px, of the area between the axes
+// px, of the area between the axes
+namespace sweep_drawing {
 inline constexpr double kLeft = 88, kTop = 14, kWidth = 300, kHeight = 210;
 }  // namespace sweep_drawing
 

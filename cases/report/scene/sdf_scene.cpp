@@ -186,8 +186,9 @@ class SdfWriter {
       leave_out(fmt::format("a spring between '{}' and '{}'", scene_.body_name(spring.a), scene_.body_name(spring.b)),
                 "it", "SDF has no springs between points");
     for (const Motor& motor : scene_.motors)
-      leave_out(fmt::format("a motor on {}", scene_.joint_name(static_cast<std::size_t>(motor.joint))), "it",
-                "SDF has no motors");
+      leave_out(fmt::format("{} {}", motor.is_friction ? "friction in" : "a motor on",
+                            scene_.joint_name(static_cast<std::size_t>(motor.joint))),
+                "it", "SDF has no motors");
     for (const TimedForce& force : scene_.forces)
       leave_out(fmt::format("a force on '{}'", scene_.body_name(force.body)), "it", "SDF has no timed forces");
     for (const ContactPair& pair : scene_.contact_pairs) {

@@ -13,6 +13,7 @@ namespace rigor {
 template <typename Real>
 struct AxisMotion {
   Real x = 0, rate = 0, acceleration = 0;  // rad or m, and per s, per s²
+  Real servo = 0, servo_change = 0;        // the effort of its continuous servo before its bound, and per s; see Stops
   Real effort = 0;  // on b, of the row that keeps it: N m or N, or of an impact N m s or N s; 0 without a row
 };
 

@@ -6,7 +6,8 @@
 // A moving body has 13 numbers: p_WB, q (w, x, y, z), v_W, and then either w_B or L_W:
 //   body_rates:  I w' = R^T torque - w x I w,   q' = 1/2 q (0, w_B)
 //   momentum:    L' = torque,  w_W = R I^-1 R^T L,   q' = 1/2 (0, w_W) q
-// After those of all bodies stands one of each axis (joint_axis.h): the integral of its rate, for its whole turns.
+// After those of all bodies stands one of each axis (joint_axis.h): the integral of its rate, for its whole turns. Then
+// come the clock and the held efforts of axis_drive.h, where the scene needs them.
 // (Goldstein, Classical Mechanics, 3rd ed., sections 4.9 and 5.5). R is the rotation of q / |q|.
 #pragma once
 
@@ -41,7 +42,7 @@ class EquationsOfMotion {
   }
 
   State start() const {
-    State state(moving_.size() * kNumbersPerBody + axes_.size());
+    State state(moving_.size() * kNumbersPerBody + axes_.size() + clock_numbers(scene_, axes_.size()));
     for (const int i : moving_) {
       const Body& body = scene_.bodies[i];
       Real* s = &state[slot_[i]];
@@ -99,6 +100,8 @@ class EquationsOfMotion {
   int slot(int body) const { return slot_[body]; }  // -1 if fixed
   const std::vector<JointAxis<Real>>& axes() const { return axes_; }
   Real turned(const State& state, std::size_t axis) const { return state[moving_.size() * kNumbersPerBody + axis]; }
+  // Where the clock stands, or the state ends.
+  std::size_t clock_place() const { return moving_.size() * kNumbersPerBody + axes_.size(); }
   const Matrix& inverse_inertia(int body) const { return inverse_inertia_[body]; }
 
   static Matrix rotation_of(const Real* q) {
@@ -156,7 +159,9 @@ class EquationsOfMotion {
 
   // Along the free axis n, fixed in a: a hinge's effort rotates b about it, a slider's effort pushes b's centre along
   // it, and a gets the opposite. Returns the coordinate's rate.
-  Real add_joint_effort(const JointAxis<Real>& axis, Real driving, Real turned, std::vector<Pose>& poses) const {
+  Real add_joint_effort(std::size_t k, const AxisDrive<Real>& drive, const State& state,
+                        std::vector<Pose>& poses) const {
+    const JointAxis<Real>& axis = axes_[k];
     const Joint& joint = scene_.joints[axis.joint];
     Pose world;
     Pose& a = joint.a == kWorld ? world : poses[joint.a];
@@ -164,9 +169,10 @@ class EquationsOfMotion {
     const Vector n = a.R * axis.direction_a, apart = b.position - a.position;
     Real rate = n.dot(b.w - a.w);
     if (!axis.is_hinge) rate = n.dot(b.velocity - a.velocity) + a.w.cross(n).dot(apart);
-    const Real effort = driving - static_cast<Real>(joint.damping) * rate -
-                        static_cast<Real>(joint.stiffness) *
-                            (axis.coordinate(a.position, a.R, b.position, b.R, turned) - static_cast<Real>(joint.rest));
+    const Real x = axis.coordinate(a.position, a.R, b.position, b.R, turned(state, k));
+    const Real effort = drive.effort(x, rate, state.data() + clock_place(), k) -
+                        static_cast<Real>(joint.damping) * rate -
+                        static_cast<Real>(joint.stiffness) * (x - static_cast<Real>(joint.rest));
     if (axis.is_hinge) {
       b.torque += effort * n, a.torque -= effort * n;
     } else {
@@ -184,9 +190,10 @@ class EquationsOfMotion {
       pose.force += force, pose.torque += timed->torque.template cast<Real>() + arm.cross(force);
     }
     change.resize(state.size());
-    for (const auto& [axis, effort] : acting.efforts)
-      change[moving_.size() * kNumbersPerBody + axis] =
-          add_joint_effort(axes_[axis], effort, turned(state, axis), poses);
+    for (std::size_t k = 0; k < axes_.size(); ++k)
+      change[moving_.size() * kNumbersPerBody + k] = add_joint_effort(k, acting.drives[k], state, poses);
+    std::fill(change.begin() + static_cast<std::ptrdiff_t>(clock_place()), change.end(), Real(0));
+    if (clock_place() < change.size()) change[clock_place()] = 1;
     for (const int i : moving_) change_of_body(i, poses[i], &state[slot_[i]], &change[slot_[i]]);
   }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "cases/truth/solved/axis_drive.h"
 #include "cases/truth/solved/axis_modes.h"
 #include "core/scene/scene.h"
 
@@ -59,20 +60,14 @@ struct JointAxis {
 template <typename Real>
 struct ActingLoads {
   std::vector<const TimedForce*> forces;
-  std::vector<std::pair<std::size_t, Real>> efforts;  // index in `axes`, and what motors give [N m or N]
+  std::vector<AxisDrive<Real>> drives;  // of each axis
 
   ActingLoads(const Scene& scene, const std::vector<JointAxis<Real>>& axes, double t, const AxisModes& modes) {
     for (const TimedForce& force : scene.forces) {
       if (t >= force.from && t < force.until) forces.push_back(&force);
     }
-    for (std::size_t k = 0; k < axes.size(); ++k) {
-      Real driven = modes.empty() ? 0 : static_cast<Real>(modes[k].push * modes[k].most);
-      for (const Motor& motor : scene.motors) {
-        const bool acts = t >= motor.from && t < motor.until;
-        if (acts && static_cast<std::size_t>(motor.joint) == axes[k].joint) driven += static_cast<Real>(motor.effort);
-      }
-      efforts.emplace_back(k, driven);
-    }
+    for (std::size_t k = 0; k < axes.size(); ++k)
+      drives.emplace_back(scene, axes[k].joint, t, modes.empty() ? AxisMode() : modes[k]);
   }
 };
 

@@ -56,6 +56,7 @@ class JointedMotion {
     return rows.size() == of_joints ? choice_ : choose_rows<Rows>(rows, inverse_masses(poses));
   }
   const std::vector<JointAxis<Real>>& axes() const { return free_.axes(); }
+  std::size_t clock_place() const { return free_.clock_place(); }
   const Scene& scene() const { return free_.scene(); }
 
   template <typename Number>

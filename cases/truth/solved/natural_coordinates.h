@@ -70,6 +70,7 @@ class NaturalCoordinates {
   }
   const std::vector<JointAxis<Real>>& axes() const { return axes_; }
   const Scene& scene() const { return scene_; }
+  std::size_t clock_place() const { return kNumbersPerBody * moving_.size() + axes_.size(); }
 
   template <typename Number>
   void write(const Number* state, MutableBodyColumns out) const {
@@ -91,7 +92,7 @@ class NaturalCoordinates {
   static constexpr int kNumbersPerBody = Frame::kNumbers;
 
   State start_as_read() const {
-    State state(kNumbersPerBody * moving_.size() + axes_.size());
+    State state(clock_place() + clock_numbers(scene_, axes_.size()));
     for (const int i : moving_) {
       const Body& body = scene_.bodies[i];
       const Matrix R = body.orientation.template cast<Real>().normalized().toRotationMatrix();
@@ -219,21 +220,25 @@ class NaturalCoordinates {
       at(timed->body).push(timed->force.template cast<Real>(), timed->point.template cast<Real>());
       at(timed->body).turn(timed->torque.template cast<Real>());
     }
-    for (const auto& [axis, driven] : acting.efforts) {
-      change[kNumbersPerBody * moving_.size() + axis] = add_effort(axes_[axis], driven, turned(state, axis), at);
-    }
+    for (std::size_t k = 0; k < axes_.size(); ++k)
+      change[kNumbersPerBody * moving_.size() + k] = add_effort(k, acting.drives[k], state, at);
+    if (clock_place() == state.size()) return;
+    change[clock_place()] = 1;
+    for (std::size_t k = 0; k < axes_.size(); ++k) change[clock_place() + 1 + k] = 0;
   }
 
   // A slider's effort on a acts where b's centre is, as a point of a. Returns the coordinate's rate.
   template <typename At>
-  Real add_effort(const JointAxis<Real>& axis, Real driven, Real turned, const At& at) const {
+  Real add_effort(std::size_t k, const AxisDrive<Real>& drive, const State& state, const At& at) const {
+    const JointAxis<Real>& axis = axes_[k];
     const Joint& joint = scene_.joints[axis.joint];
     Frame &a = at(joint.a), &b = at(joint.b);
     const Vector n = a.R * axis.direction_a, there = a.R.transpose() * (b.x - a.x);
     const Real rate = axis.is_hinge ? n.dot(b.w() - a.w()) : n.dot(b.dx - a.rate_of(there)),
-               coordinate = axis.coordinate(a.x, a.R, b.x, b.R, turned) - static_cast<Real>(joint.rest),
-               effort =
-                   driven - static_cast<Real>(joint.stiffness) * coordinate - static_cast<Real>(joint.damping) * rate;
+               x = axis.coordinate(a.x, a.R, b.x, b.R, turned(state, k)),
+               effort = drive.effort(x, rate, state.data() + clock_place(), k) -
+                        static_cast<Real>(joint.stiffness) * (x - static_cast<Real>(joint.rest)) -
+                        static_cast<Real>(joint.damping) * rate;
     if (axis.is_hinge) {
       b.turn(effort * n), a.turn(-effort * n);
     } else {

@@ -58,7 +58,20 @@ std::vector<double> switch_times(const Scene& scene, double duration) {
     }
   };
   for (const TimedForce& force : scene.forces) add(force);
-  for (const Motor& motor : scene.motors) add(motor);
+  for (const Motor& motor : scene.motors) {
+    add(motor);
+    const auto add_times = [&](const std::vector<double>& table) {
+      std::copy_if(table.begin(), table.end(), std::back_inserter(times),
+                   [&](double t) { return t > std::max(0.0, motor.from) && t < std::min(duration, motor.until); });
+    };
+    if (motor.efforts) add_times(motor.efforts->times);
+    if (!motor.servo) continue;
+    add_times(motor.servo->target.times);
+    const double period = motor.servo->period;
+    for (double n = 1;
+         period > 0 && std::isfinite(duration) && motor.from + n * period < std::min(duration, motor.until); ++n)
+      times.push_back(motor.from + n * period);
+  }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;

@@ -1,5 +1,6 @@
 // The solution of a scene with limits or motors that keep a speed: smooth from one event to the next. An event is a
 // root of a function of the coordinates' motion. It is located by repeating its step with other lengths:
+//   a servo reaches its bound or leaves it               the effort beyond that, and its rate
 //   a limit is reached, or a motor comes to its speed    its distance, and its rate, which say whether it turned
 //   between a limit lets go, or a motor can keep its speed no more    the effort beyond what it may be
 #pragma once
@@ -56,6 +57,7 @@ class StoppedSolution {
 
   // To the next event, or to `end`.
   bool go_on(Real end, double during) {
+    during_ = during;
     Interval interval = motion_.during(during, stops_.modes(), motion_.choice_at(state_, stops_.modes()));
     while (t_ < end) {
       start_ = state_, from_ = t_;
@@ -80,13 +82,15 @@ class StoppedSolution {
   Values values_at(Interval& interval, const State& state, Real t) const {
     State change;
     interval(state, change, t);
-    return interval.axes_at(state);
+    Values values = interval.axes_at(state);
+    stops_.add_servos(values, t, during_);
+    return values;
   }
 
   // The function that becomes positive at an event, and its rate; nothing if the event cannot occur.
   struct Watch {
     std::size_t axis;
-    enum class Kind { reach_limit, leave_limit, reach_speed, lose_speed } kind;
+    enum class Kind { reach_limit, leave_limit, reach_speed, lose_speed, reach_bound, leave_bound } kind;
     int side = 0;
   };
 
@@ -95,6 +99,11 @@ class StoppedSolution {
     std::vector<Watch> all;
     for (std::size_t k = 0; k < stops_.modes().size(); ++k) {
       const AxisMode& mode = stops_.modes()[k];
+      if (mode.saturated != 0) all.push_back({k, Kind::leave_bound, mode.saturated});
+      for (const int side : {1, -1}) {
+        if (mode.saturated == 0 && std::isfinite(stops_.most_of_servo(k, during_)))
+          all.push_back({k, Kind::reach_bound, side});
+      }
       if (mode.limit != 0) {
         all.push_back({k, Kind::leave_limit, mode.limit});
         continue;
@@ -121,6 +130,10 @@ class StoppedSolution {
         return watch.side * effort - static_cast<Real>(stops_.no_effort());
       case Kind::reach_speed:
         return watch.side * (axis.rate - static_cast<Real>(mode.speed));
+      case Kind::reach_bound:
+        return watch.side * axis.servo - static_cast<Real>(stops_.most_of_servo(watch.axis, during_));
+      case Kind::leave_bound:
+        return static_cast<Real>(stops_.most_of_servo(watch.axis, during_)) - watch.side * axis.servo;
       case Kind::lose_speed:
         break;
     }
@@ -129,6 +142,8 @@ class StoppedSolution {
   std::optional<Real> rate(const Watch& watch, const Values& at) const {
     using Kind = typename Watch::Kind;
     if (watch.kind == Kind::reach_limit) return watch.side * at[watch.axis].rate;
+    if (watch.kind == Kind::reach_bound) return watch.side * at[watch.axis].servo_change;
+    if (watch.kind == Kind::leave_bound) return -watch.side * at[watch.axis].servo_change;
     if (watch.kind == Kind::reach_speed) return watch.side * at[watch.axis].acceleration;
     return std::nullopt;
   }
@@ -180,6 +195,7 @@ class StoppedSolution {
   Stops<Motion> stops_;
   State state_, start_;  // now, and where the step at hand began
   Real t_ = 0, from_ = 0, h_ = kFirstStep;
+  double during_ = 0;  // s: an instant of the interval at hand, in which nothing switches
   std::size_t tries_left_ = kMostTries;
   Nodes nodes_;
 };

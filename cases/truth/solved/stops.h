@@ -40,7 +40,7 @@ class Stops {
 
   static bool are_in(const Scene& scene) {
     return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.has_limits(); }) ||
-           std::any_of(scene.motors.begin(), scene.motors.end(), [](const Motor& m) { return m.speed.has_value(); });
+           std::any_of(scene.motors.begin(), scene.motors.end(), [](const Motor& m) { return m.speed || m.servo; });
   }
 
   const AxisModes& modes() const { return modes_; }
@@ -65,7 +65,10 @@ class Stops {
       is_hit |= touched_[k] * before[k].rate > kStill;
     }
     if (is_hit && !strike(state, before, during)) return false;
-    guess_motors(interval(state, during).axes_at(state), during);
+    const Values struck = interval(state, during).axes_at(state);
+    sample_servos(state, struck, t, during);
+    guess_motors(struck, during);
+    saturate_servos(state, t, during);
     Interval free = interval(state, during);
     guess_limits(look(free, state, t));
     return find_modes(state, t, during);
@@ -141,6 +144,54 @@ class Stops {
   bool rests(int side, const AxisMotion<Real>& at) const {
     const double speed = std::abs(static_cast<double>(at.rate)), back = static_cast<double>(side * at.acceleration);
     return side != 0 && (speed <= kStill || speed <= rest_time_ * back);
+  }
+
+  // Fills in what a continuous servo asks for at t.
+ public:
+  void add_servos(Values& at, const Real& t, double during) const {
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const Motor* const motor = servo_at(motion_.scene(), motion_.axes()[k].joint, during);
+      if (!motor || motor->servo->period > 0) continue;
+      const ServoLaw<Real> law(*motor->servo, motion_.axes()[k].is_hinge, during);
+      at[k].servo = law.effort(at[k].x, at[k].rate, t);
+      at[k].servo_change = law.change(at[k].rate, at[k].acceleration);
+    }
+  }
+  // The bound of an axis's continuous servo; infinite if it has none.
+  double most_of_servo(std::size_t k, double during) const {
+    const Motor* const motor = servo_at(motion_.scene(), motion_.axes()[k].joint, during);
+    return motor && motor->servo->period == 0 ? motor->servo->most : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  // Holds new efforts where a sample is due at t.
+  void sample_servos(State& state, const Values& at, double t, double during) {
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
+      const Motor* const motor = servo_at(motion_.scene(), motion_.axes()[k].joint, during);
+      if (!motor || motor->servo->period == 0) continue;
+      const double periods = (t - motor->from) / motor->servo->period;
+      constexpr double kSameInstant = 1e-9;  // of a period
+      if (std::abs(periods - std::round(periods)) > kSameInstant) continue;
+      const ServoLaw<Real> law(*motor->servo, motion_.axes()[k].is_hinge, during);
+      const Real most = static_cast<Real>(motor->servo->most);
+      state[motion_.clock_place() + 1 + k] =
+          std::clamp<Real>(law.effort(at[k].x, at[k].rate, static_cast<Real>(t)), -most, most);
+    }
+  }
+  // At its bound, a servo is saturated if it goes beyond it.
+  void saturate_servos(const State& state, double t, double during) {
+    Interval free = interval(state, during);
+    Values at = look(free, state, t);
+    add_servos(at, static_cast<Real>(t), during);
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
+      const double most = most_of_servo(k, during);
+      if (!std::isfinite(most)) continue;
+      const int side = at[k].servo > 0 ? 1 : -1;
+      const double beyond = static_cast<double>(side * at[k].servo) - most;
+      constexpr double kAtBound = 1e-12;  // of the bound
+      const bool leaves = static_cast<double>(side * at[k].servo_change) > 0;
+      modes_[k].saturated = beyond > kAtBound * most || (beyond > -kAtBound * most && leaves) ? side : 0;
+    }
   }
 
   // If two motors drive one joint, the later one in the scene counts, as everywhere.

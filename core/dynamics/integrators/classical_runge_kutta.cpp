@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kClassicalStages = 4;
 constexpr std::array<double, kClassicalStages> kWeight = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
-constexpr std::array<double, kClassicalStages> kNextStage = {0.5, 0.5, 1, 0};
+constexpr std::array<double, kClassicalStages> kNextStage = {0.5, 0.5, 1, 0}, kStageTime = {0, 0.5, 0.5, 1};
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void ClassicalRungeKutta::smooth_part(MutableBodyColumns state, double t, double
   }
   for (std::size_t s = 0; s < kClassicalStages; ++s) {
     const BodyColumns at = s == 0 ? state : stage_.columns();
-    const double* wrench = loads_.over_step(at, t, dt);
+    const double* wrench = loads_.over_step(at, t, dt, t + kStageTime[s] * dt);
     using Rows = ConstraintForces::Rows;
     if (constraints) wrench = constraints->hold(at, wrench, s == 0 ? Rows::chosen_anew : Rows::as_chosen);
     bodies.for_each_block([&](const Bodies& block) { take_stage(s, block, state, wrench, dt); });

@@ -5,6 +5,7 @@
 // is below the tolerance (relative_size() of motion_equations.h). A timed force that begins or ends inside the step
 // divides it there. Every step begins with the whole of dt: nothing is remembered from the one before.
 #include <fmt/format.h>
+#include <numeric>
 
 #include <algorithm>
 
@@ -56,11 +57,11 @@ class DormandPrince : public Stepper {
   void smooth_part(double t, double length) {
     double left = length, longest = std::abs(length);
     int tries = 0;
-    equations_.rates(y_, t, length, equations_.rates_of_stage(0), ConstraintForces::Rows::chosen_anew);
+    equations_.rates(y_, t, length, equations_.rates_of_stage(0), ConstraintForces::Rows::chosen_anew, t);
     while (left != 0) {
       const double count = std::ceil(std::abs(left) / longest), h = left / count;
       const std::string noted = parts_.joints ? parts_.joints->noted() : "";
-      take_stages(t, length, h);
+      take_stages(t, length, t + (length - left), h);
       const double error = error_of_stages(h) / tolerance_;
       const bool is_stuck = parts_.joints && error > 1 && std::abs(h) < kShortest * std::abs(length);
       const bool given_up =
@@ -71,14 +72,15 @@ class DormandPrince : public Stepper {
         std::swap(y_, next_);
         left = count == 1 || given_up ? 0 : left - h;
         if (left != 0)
-          equations_.rates(y_, t, length, equations_.rates_of_stage(0), ConstraintForces::Rows::chosen_anew);
+          equations_.rates(y_, t, length, equations_.rates_of_stage(0), ConstraintForces::Rows::chosen_anew,
+                           t + (length - left));
       }
       if (given_up) {
         is_beyond_ |= is_stuck;
-        solver_warning_ = fmt::format("{}the tolerance of {} was not met in {} inner steps; the rest of the step was "
-                                      "left out",
-                                      is_stuck ? "in a singular position of the joints, or beside it, " : "",
-                                      tolerance_, tries);
+        solver_warning_ = fmt::format(
+            "{}the tolerance of {} was not met in {} inner steps; the rest of the step was "
+            "left out",
+            is_stuck ? "in a singular position of the joints, or beside it, " : "", tolerance_, tries);
       }
       longest = std::abs(h) * next_length(error);
     }
@@ -91,11 +93,13 @@ class DormandPrince : public Stepper {
     return error == 0 ? kMost : std::clamp(kSafety * std::pow(error, -1.0 / 8), kLeast, kMost);
   }
 
-  // Computes the other stages and next_ from y_ and its rates in stage 0.
-  void take_stages(double t, double dt, double h) {
+  // Computes the other stages and next_ from y_, which belongs to `now`, and its rates in stage 0.
+  void take_stages(double t, double dt, double now, double h) {
     for (std::size_t s = 1; s < kStages; ++s) {
-      equations_.combine(&y_, h, std::span(dormand_prince::kStage[s]).first(s), next_);
-      equations_.rates(next_, t, dt, equations_.rates_of_stage(s));
+      const auto weights = std::span(dormand_prince::kStage[s]).first(s);
+      equations_.combine(&y_, h, weights, next_);
+      equations_.rates(next_, t, dt, equations_.rates_of_stage(s), ConstraintForces::Rows::as_chosen,
+                       now + h * std::accumulate(weights.begin(), weights.end(), 0.0));
     }
     equations_.combine(&y_, h, dormand_prince::kWeight, next_);
   }

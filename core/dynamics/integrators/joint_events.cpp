@@ -29,7 +29,7 @@ void JointEvents::step(MutableBodyColumns state, double t, double dt) {
   solver_warning_.clear();
   if (!(dt > 0)) {
     inner_->step(state, t, dt);
-    return warn("limits of joints and motors of a given speed cannot be run back in time");
+    return warn("limits of joints, servos and motors of a given speed cannot be run back in time");
   }
   whole_step_ = dt;
   stops_.read(state, 0);
@@ -90,9 +90,9 @@ double JointEvents::time_of(std::size_t stop, JointStops::Event event, double t,
     return stops_.distance_to(stop, event);
   };
   if (stops_.distance_to(stop, event) >= 0) return root(distance, h, stops_.distance_to(stop, event));
-  const double sign = stops_.rate(stop) > 0 ? 1 : -1;
-  const double turns =
-      root([&](double at) { return attempt(t, at), sign * stops_.rate(stop); }, h, sign * stops_.rate(stop));
+  const double sign = stops_.rate(stop, event) > 0 ? 1 : -1;
+  const double turns = root([&](double at) { return attempt(t, at), sign * stops_.rate(stop, event); }, h,
+                            sign * stops_.rate(stop, event));
   const double at_turn = distance(turns);
   return at_turn < 0 ? h : root(distance, turns, at_turn);
 }

@@ -35,26 +35,27 @@ void LeapfrogComposition::free_step(MutableBodyColumns state, double dt) {
 
 void LeapfrogComposition::smooth_part(MutableBodyColumns state, double t, double dt) {
   double owed = 0;  // the second half kick of the stage before
+  double now = t;   // to which the drifts have led
   for (const double weight : weights_) {
     const double half = 0.5 * weight * dt;
     // Two undamped kicks in a row are one; two damped ones are not quite.
     if (kick_.damped() && owed != 0) {
-      kick(state, owed, t, dt);
+      kick(state, owed, t, dt, now);
       owed = 0;
     }
-    kick(state, owed + half, t, dt);
+    kick(state, owed + half, t, dt, now);
     drift_.drift(state, kick_.carried_columns(), weight * dt, [&](MutableBodyColumns at, const double* carried) {
       parts_.system.constants.for_each_block(
           [&](const Bodies& block) { kernels().free_drift(block, at.column(0), carried, weight * dt); });
     });
-    owed = half;
+    owed = half, now += weight * dt;
   }
-  kick(state, owed, t, dt);
+  kick(state, owed, t, dt, now);
   drift_.settle(state, kick_.carried_columns());
 }
 
-void LeapfrogComposition::kick(MutableBodyColumns state, double h, double t, double dt) {
-  if (!kick_.apply(state, h, t, dt)) solver_warning_ = kNoSymmetricKick;
+void LeapfrogComposition::kick(MutableBodyColumns state, double h, double t, double dt, double instant) {
+  if (!kick_.apply(state, h, t, dt, instant)) solver_warning_ = kNoSymmetricKick;
 }
 
 }  // namespace rigor

@@ -23,7 +23,7 @@ class LeapfrogComposition : public Stepper {
  private:
   void free_step(MutableBodyColumns state, double dt);
   void smooth_part(MutableBodyColumns state, double t, double dt);
-  void kick(MutableBodyColumns state, double h, double t, double dt);
+  void kick(MutableBodyColumns state, double h, double t, double dt, double instant);
 
   StepperParts parts_;
   std::span<const double> weights_;

@@ -96,7 +96,7 @@ const Integrator kLinearlyImplicitEuler = {
         "equations have no multipliers",
     .order = 1,
     .symplectic = false,
-    .leapfrog_stagger = 0,
+    .leapfrog_stagger = 0.5,
     .default_orientation = "",
     .make = make_stepper<LinearlyImplicitEuler>,
 };

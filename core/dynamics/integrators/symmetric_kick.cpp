@@ -20,13 +20,13 @@ void SymmetricKick::end(MutableBodyColumns state) const {
       [&](const Bodies& block) { kernels().velocity_of(block, state.column(0), carried_.data()); });
 }
 
-bool SymmetricKick::apply(MutableBodyColumns state, double h, double t, double dt) {
+bool SymmetricKick::apply(MutableBodyColumns state, double h, double t, double dt, std::optional<double> instant) {
   if (damped()) {
     end(state);  // dampers need w
     system_.wrenches(state, t, dt, wrenches_);
     return damped_kick(state, h, t, dt);
   }
-  const double* const wrench = loads_.over_step(state, t, dt);
+  const double* const wrench = loads_.over_step(state, t, dt, instant);
   system_.constants.for_each_block(
       [&](const Bodies& block) { kernels().momentum_kick(block, state.column(0), carried(), wrench, h); });
   return true;

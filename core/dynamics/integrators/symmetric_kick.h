@@ -27,7 +27,7 @@ class SymmetricKick {
 
   // Over h, inside the step [t, t + dt] in which timed forces count with their mean. False where the equations for the
   // velocities are singular (an h < 0 with strong damping); the state is then left as it is.
-  bool apply(MutableBodyColumns state, double h, double t, double dt);
+  bool apply(MutableBodyColumns state, double h, double t, double dt, std::optional<double> instant = {});
 
  private:
   bool damped_kick(MutableBodyColumns state, double h, double t, double dt);

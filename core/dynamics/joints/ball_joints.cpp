@@ -31,7 +31,7 @@ bool invert(const double* s, Mat3& inverse) {
 
 bool BallJoints::are_all_of(const Scene& scene) {
   std::set<std::pair<int, int>> held;
-  const bool are_free = std::none_of(scene.motors.begin(), scene.motors.end(), [](const Motor& m) { return m.speed; });
+  const bool are_free = std::none_of(scene.motors.begin(), scene.motors.end(), [](const Motor& m) { return !m.gives_effort(); });
   return are_free && std::all_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
            const bool is_hinge = std::holds_alternative<HingeJoint>(joint.type) && !joint.has_limits();
            return (is_hinge || std::holds_alternative<BallJoint>(joint.type)) &&

@@ -17,9 +17,9 @@ void set_row(JointRow& joint, int k, const Vec6& on_a, const Vec6& on_b) {
   }
 }
 
-bool has_speed_motor(const Scene& scene, std::size_t joint) {
+bool has_speed_motor_or_servo(const Scene& scene, std::size_t joint) {
   return std::any_of(scene.motors.begin(), scene.motors.end(),
-                     [&](const Motor& motor) { return motor.joint == static_cast<int>(joint) && motor.speed; });
+                     [&](const Motor& motor) { return motor.joint == static_cast<int>(joint) && !motor.gives_effort(); });
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ void JointRows::add_joint(const Scene& scene, std::size_t k) {
   JointRow& row = joints_[k];
   row.constraint = make_constraint(scene, joint);
   row.rows = row.most_rows = row.constraint->rows();
-  if (joint.has_limits() || has_speed_motor(scene, k)) {
+  if (joint.has_limits() || has_speed_motor_or_servo(scene, k)) {
     row.coordinate.emplace(scene, joint);
     ++row.most_rows;
   }

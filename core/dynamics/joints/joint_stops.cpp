@@ -41,15 +41,19 @@ JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, J
       if (motor.joint == static_cast<int>(k) && motor.speed) motors.push_back(motor);
     }
     const bool has_limits = joint.has_limits() && what == Of::limits_and_motors;
-    if (!has_limits && motors.empty()) continue;
+    std::vector<ServoDrive>* const servos = what == Of::limits_and_motors ? loads.servos_of(k) : nullptr;
+    if (!has_limits && motors.empty() && !servos) continue;
     constexpr double kNone = std::numeric_limits<double>::infinity();
     stops_.push_back({k, JointCoordinate(scene, joint), has_limits ? joint.lower : -kNone,
-                      has_limits ? joint.upper : kNone, joint.restitution, motors, unit_of(joint, scales.length)});
+                      has_limits ? joint.upper : kNone, joint.restitution, motors, unit_of(joint, scales.length),
+                      servos});
+    if (!servos) continue;
+    for (ServoDrive& servo : *servos) servo.locate_events();
   }
 }
 
 bool JointStops::are_in(const Scene& scene) {
-  return has_speed_motors(scene) ||
+  return has_speed_motors(scene) || has_servos(scene) ||
          std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.has_limits(); });
 }
 
@@ -58,7 +62,13 @@ bool JointStops::has_speed_motors(const Scene& scene) {
                      [](const Motor& motor) { return motor.speed.has_value(); });
 }
 
+bool JointStops::has_servos(const Scene& scene) {
+  return std::any_of(scene.motors.begin(), scene.motors.end(),
+                     [](const Motor& motor) { return motor.servo.has_value(); });
+}
+
 void JointStops::read(BodyColumns state, double since) {
+  now_ = settled_at_ + since;
   for (Stop& stop : stops_) {
     const JointCoordinate::Value at = stop.coordinate.at(state);
     const double expected = since == 0 ? stop.x : stop.settled_x + 0.5 * since * (stop.settled_rate + at.rate);
@@ -67,16 +77,16 @@ void JointStops::read(BodyColumns state, double since) {
 }
 
 void JointStops::read_settled() {
-  for (Stop& stop : stops_) stop.x = stop.settled_x, stop.rate = stop.settled_rate;
+  now_ = settled_at_;
+  for (Stop& stop : stops_)
+    stop.x = stop.settled_x, stop.rate = stop.settled_rate, stop.acceleration = stop.settled_acceleration;
 }
 
 double JointStops::next_switch(double t, double end) const {
   for (const Stop& stop : stops_) {
-    for (const Motor& motor : stop.motors) {
-      for (const double s : {motor.from, motor.until}) {
-        if (s > t && s < end) end = s;
-      }
-    }
+    for (const Motor& motor : stop.motors) end = motor.next_switch(t, end);
+    if (!stop.servos) continue;
+    for (const ServoDrive& servo : *stop.servos) end = servo.next_switch(t, end);
   }
   return end;
 }
@@ -94,10 +104,34 @@ int JointStops::hit_side(const Stop& stop) const { return is_hit(stop, 1) ? 1 : 
 bool JointStops::settle(MutableBodyColumns state, double t, double shortest_flight) {
   choose_motors(t);
   bool decided = resolve_impacts(state, t, shortest_flight);
+  settled_at_ = now_ = t;
+  for (Stop& stop : stops_) {
+    if (!stop.servos) continue;
+    for (ServoDrive& servo : *stop.servos) servo.choose_branch(stop.x, stop.rate, t);
+  }
   guess_modes();
   decided = find_modes(state, loads_at(state, t)) && decided;
-  for (Stop& stop : stops_) stop.settled_x = stop.x, stop.settled_rate = stop.rate;
+  for (Stop& stop : stops_) {
+    if (stop.servos) stop.acceleration = joints_.coordinate_acceleration(stop.joint, state);
+    stop.settled_x = stop.x, stop.settled_rate = stop.rate, stop.settled_acceleration = stop.acceleration;
+  }
   return decided;
+}
+
+ServoDrive::Distance JointStops::servo_distance(const Stop& stop, double x, double rate, double acceleration,
+                                                double t) const {
+  ServoDrive::Distance nearest;
+  for (const ServoDrive& servo : *stop.servos) {
+    const ServoDrive::Distance distance = servo.to_change(x, rate, acceleration, t);
+    if (distance.value > nearest.value) nearest = distance;
+  }
+  return nearest;
+}
+
+double JointStops::rate(std::size_t i, Event event) const {
+  const Stop& stop = stops_[i];
+  if (event != Event::servo) return stop.rate;
+  return servo_distance(stop, stop.x, stop.rate, stop.acceleration, now_).rate;
 }
 
 void JointStops::let_go(BodyColumns state) {
@@ -263,6 +297,8 @@ bool JointStops::change_if_violated(Stop& stop, BodyColumns state) {
 
 double JointStops::distance_to(std::size_t i, Event event) const {
   const Stop& stop = stops_[i];
+  if (event == Event::servo)
+    return stop.servos ? servo_distance(stop, stop.x, stop.rate, stop.acceleration, now_).value : -1;
   if (event == Event::motor) {
     if (stop.drive == Drive::keeping && stop.at == 0)
       return std::abs(stop.effort) - stop.motor->most - effort_tolerance_;
@@ -284,6 +320,14 @@ double JointStops::distance_to(std::size_t i, Event event) const {
 
 bool JointStops::may_have_touched(std::size_t i, Event event, double since) const {
   const Stop& stop = stops_[i];
+  if (event == Event::servo) {
+    if (!stop.servos) return false;
+    const ServoDrive::Distance before = servo_distance(stop, stop.settled_x, stop.settled_rate,
+                                                       stop.settled_acceleration, settled_at_),
+                               after = servo_distance(stop, stop.x, stop.rate, stop.acceleration, now_);
+    return std::isfinite(before.value) && std::isfinite(after.value) && before.rate > 0 && after.rate < 0 &&
+           peak_between(before.value, before.rate, after.value, after.rate, since) > 0;
+  }
   if (event == Event::motor || stop.at != 0) return false;
   const double side = event == Event::upper ? 1 : -1, limit = event == Event::upper ? stop.upper : stop.lower;
   const double peak =
@@ -293,7 +337,7 @@ bool JointStops::may_have_touched(std::size_t i, Event event, double since) cons
 
 bool JointStops::needs_efforts() const {
   return std::any_of(stops_.begin(), stops_.end(),
-                     [](const Stop& stop) { return stop.at != 0 || stop.drive == Drive::keeping; });
+                     [](const Stop& stop) { return stop.at != 0 || stop.drive == Drive::keeping || stop.servos; });
 }
 
 void JointStops::note_efforts(BodyColumns state, double t) { note_efforts(state, wrenches_.over_step(state, t, 0)); }
@@ -302,6 +346,9 @@ void JointStops::note_efforts(BodyColumns state, const double* wrench) {
   const double tolerance = effort_tolerance_;
   hold(state, wrench);
   effort_tolerance_ = tolerance;  // one for a whole step: events are roots against it
+  for (Stop& stop : stops_) {
+    if (stop.servos) stop.acceleration = joints_.coordinate_acceleration(stop.joint, state);
+  }
 }
 
 double JointStops::margin_of_motors() const {

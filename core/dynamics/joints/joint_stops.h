@@ -24,6 +24,7 @@ class JointStops {
 
   static bool are_in(const Scene& scene);  // whether there is anything for it to do
   static bool has_speed_motors(const Scene& scene);
+  static bool has_servos(const Scene& scene);
 
   // Takes x and x' from a state, `since` [s] after the last; x is in the turn nearest to where x' has led.
   void read(BodyColumns state, double since);
@@ -40,12 +41,14 @@ class JointStops {
   bool settle_motors(BodyColumns state, double t, const Wrench& wrench);
 
   // The distance of each possible event of a coordinate at the state read last; below zero until it happens.
-  enum class Event { upper, lower, motor };
-  static constexpr Event kEvents[] = {Event::upper, Event::lower, Event::motor};
+  enum class Event { upper, lower, motor, servo };
+  static constexpr Event kEvents[] = {Event::upper, Event::lower, Event::motor, Event::servo};
   std::size_t size() const { return stops_.size(); }
   double distance_to(std::size_t stop, Event event) const;
-  double rate(std::size_t stop) const { return stops_[stop].rate; }
-  // Whether x may have gone over a limit and come back between the last settled state and the one read after `since`.
+  // The rate of what has to turn for an event to have come and gone: of x, or of a servo's distance.
+  double rate(std::size_t stop, Event event) const;
+  // Whether x may have gone over a limit and come back between the last settled state and the one read after `since`,
+  // or a servo's effort over its bound.
   bool may_have_touched(std::size_t stop, Event event, double since) const;
   // Whether distance_to() needs efforts, which note_efforts() takes from the state that was read last.
   bool needs_efforts() const;
@@ -54,7 +57,8 @@ class JointStops {
   // How far the motors are from a change at the state that was read last: negative beyond it.
   double margin_of_motors() const;
 
-  // The first instant in (t, end) at which a motor of given speed begins or ends; `end` if none does.
+  // The first instant in (t, end) at which a motor of given speed begins or ends, or a servo samples or has a corner;
+  // `end` if there is none.
   double next_switch(double t, double end) const;
 
  private:
@@ -63,10 +67,12 @@ class JointStops {
     std::size_t joint;
     JointCoordinate coordinate;
     double lower, upper, restitution;
-    std::vector<Motor> motors;  // of given speed
-    double unit = 1;            // rad or m: of the thresholds of x
+    std::vector<Motor> motors;                  // of given speed
+    double unit = 1;                            // rad or m: of the thresholds of x
+    std::vector<ServoDrive>* servos = nullptr;  // the loads' own; null if there are none
     double x = 0, rate = 0;
-    double settled_x = 0, settled_rate = 0;  // when settle() was called last
+    double settled_x = 0, settled_rate = 0;             // when settle() was called last
+    double acceleration = 0, settled_acceleration = 0;  // of x, with servos
     double effort = 0;
     int at = 0;  // kept at its lower (-1) or upper (1) limit, or at none
     Drive drive = Drive::off;
@@ -90,6 +96,8 @@ class JointStops {
   bool find_modes(BodyColumns state, const Wrench& wrench);
   Wrench loads_at(BodyColumns state, double t);
   bool change_if_violated(Stop& stop, BodyColumns state);
+  // Of the servo whose branch changes next.
+  ServoDrive::Distance servo_distance(const Stop& stop, double x, double rate, double acceleration, double t) const;
 
   Joints& joints_;
   Loads& loads_;
@@ -98,6 +106,7 @@ class JointStops {
   BodyTable before_, after_;
   double time_unit_ = 1;  // s
   double effort_tolerance_ = 0;
+  double settled_at_ = 0, now_ = 0;  // s: of the states settled and read last
 };
 
 }  // namespace rigor

@@ -64,8 +64,14 @@ class FastestRate {
     const Joint& joint = scene_.joints[motor.joint];
     const double arm = arm_of(joint);
     take(std::abs(motor.speed.value_or(0)) * arm / L_);
-    for (const int body : {joint.a, joint.b})
-      take(std::sqrt(std::max(std::abs(motor.effort), motor.most) * per_mass(body) / (arm * L_)));
+    const double servo = motor.servo && std::isfinite(motor.servo->most) ? motor.servo->most : 0;
+    double effort = std::max({std::abs(motor.effort), motor.most, servo});
+    for (const double value : motor.efforts ? motor.efforts->values : std::vector<double>())
+      effort = std::max(effort, std::abs(value));
+    for (const int body : {joint.a, joint.b}) {
+      take(std::sqrt(effort * per_mass(body) / (arm * L_)));
+      if (motor.servo) take(std::sqrt(motor.servo->kp * per_mass(body)) / arm);
+    }
   }
 
   const Scene& scene_;

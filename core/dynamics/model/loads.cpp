@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace rigor {
 namespace {
@@ -44,9 +45,10 @@ double share_of_step(double from, double until, double t, double dt) {
   return std::clamp((std::min(until, last) - std::max(from, first)) / std::abs(dt), 0.0, 1.0);
 }
 
-double JointDrive::effort(const JointCoordinate::Value& at, double t, double dt) const {
+double JointDrive::effort(const JointCoordinate::Value& at, double t, double dt, std::optional<double> instant) const {
   double sum = push - stiffness * (at.x - rest) - damping * at.rate;
-  for (const Motor& motor : motors) sum += share_of_step(motor.from, motor.until, t, dt) * motor.effort;
+  for (const Motor& motor : motors) sum += motor.mean_effort(t, dt, instant);
+  for (const ServoDrive& servo : servos) sum += servo.effort(at.x, at.rate, t, dt, instant);
   return sum;
 }
 
@@ -55,22 +57,27 @@ Loads::Loads(const Scene& scene)
   for (const Body& body : scene.bodies) masses_.push_back(body.fixed ? 0 : body.mass);
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_drive(scene, k);
   const auto damps = [](const auto& row) { return row.damping != 0; };
-  damped_ = std::any_of(springs_.begin(), springs_.end(), damps) || std::any_of(drives_.begin(), drives_.end(), damps);
+  damped_ = std::any_of(springs_.begin(), springs_.end(), damps) ||
+            std::any_of(drives_.begin(), drives_.end(), [&](const JointDrive& drive) {
+              return damps(drive) || std::any_of(drive.servos.begin(), drive.servos.end(),
+                                                 [](const ServoDrive& servo) { return servo.damps(); });
+            });
 }
 
 void Loads::add_drive(const Scene& scene, std::size_t k) {
   const Joint& joint = scene.joints[k];
   std::vector<Motor> motors;
+  std::vector<ServoDrive> servos;
   bool has_speed = false;
   for (const Motor& motor : scene.motors) {
     if (motor.joint != static_cast<int>(k)) continue;
-    if (motor.speed)
-      has_speed = true;
-    else
-      motors.push_back(motor);
+    has_speed |= motor.speed.has_value();
+    if (motor.servo) servos.emplace_back(motor, turns(joint));
+    if (motor.gives_effort()) motors.push_back(motor);
   }
-  if (joint.stiffness == 0 && joint.damping == 0 && motors.empty() && !has_speed) return;
-  drives_.push_back({JointCoordinate(scene, joint), k, joint.stiffness, joint.damping, joint.rest, std::move(motors)});
+  if (joint.stiffness == 0 && joint.damping == 0 && motors.empty() && servos.empty() && !has_speed) return;
+  drives_.push_back({JointCoordinate(scene, joint), k, joint.stiffness, joint.damping, joint.rest, std::move(motors),
+                     std::move(servos)});
 }
 
 void Loads::set_push(std::size_t joint, double effort) {
@@ -108,13 +115,40 @@ void Loads::evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenc
 double Loads::next_switch(double t, double end) const {
   end = schedule_.next_switch(t, end);
   for (const JointDrive& drive : drives_) {
-    for (const Motor& motor : drive.motors) {
-      for (const double s : {motor.from, motor.until}) {
-        if ((s - t) * (end - s) > 0) end = s;
-      }
-    }
+    for (const Motor& motor : drive.motors) end = motor.next_switch(t, end);
+    for (const ServoDrive& servo : drive.servos) end = servo.next_switch(t, end);
   }
   return end;
+}
+
+void Loads::sample_servos(BodyColumns bodies, double t) {
+  for (JointDrive& drive : drives_) {
+    if (drive.servos.empty()) continue;
+    const JointCoordinate::Value at = drive.coordinate.at(bodies);
+    for (ServoDrive& servo : drive.servos) servo.sample(at.x, at.rate, t);
+  }
+}
+
+double Loads::next_sample(double t, double end) const {
+  for (const JointDrive& drive : drives_) {
+    for (const ServoDrive& servo : drive.servos) end = servo.next_sample(t, end);
+  }
+  return end;
+}
+
+double Loads::shortest_period() const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const JointDrive& drive : drives_) {
+    for (const ServoDrive& servo : drive.servos) {
+      if (servo.period() > 0) shortest = std::min(shortest, servo.period());
+    }
+  }
+  return shortest;
+}
+
+std::vector<ServoDrive>* Loads::servos_of(std::size_t joint) {
+  const auto drive = std::find_if(drives_.begin(), drives_.end(), [&](const auto& d) { return d.joint == joint; });
+  return drive == drives_.end() || drive->servos.empty() ? nullptr : &drive->servos;
 }
 
 }  // namespace rigor

@@ -3,10 +3,12 @@
 // without such springs use them before each step, so all engines have the same law.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/dynamics/model/force_schedule.h"
 #include "core/dynamics/model/joint_coordinate.h"
+#include "core/dynamics/model/servo_drive.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
@@ -39,9 +41,12 @@ struct JointDrive {
   std::size_t joint;  // index
   double stiffness, damping, rest;
   std::vector<Motor> motors = {};  // that give an effort
-  double push = 0;                 // N m, N: of motors that are on the way to their speed; see Loads::set_push()
+  std::vector<ServoDrive> servos = {};
+  double push = 0;  // N m, N: of motors that are on the way to their speed; see Loads::set_push()
 
-  double effort(const JointCoordinate::Value& at, double t, double dt) const;
+  // Over the step from t to t + dt, an effort that changes in time counts with its mean. A method whose stages belong
+  // to an `instant` of a smooth part gets the value of that instant.
+  double effort(const JointCoordinate::Value& at, double t, double dt, std::optional<double> instant = {}) const;
 };
 
 class Loads {
@@ -54,8 +59,8 @@ class Loads {
   // The same, with m g added for every body that is not fixed.
   void evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenches& out) const;
 
-  // The first instant strictly between t and `end` at which a timed force or motor begins or ends; `end` if there is
-  // none.
+  // The first instant strictly between t and `end` at which a timed force or motor begins, ends or turns a corner, or a
+  // servo samples; `end` if there is none.
   double next_switch(double t, double end) const;
   // Calls part(from, length) in order for each part of the step [t, t + dt] in which no timed force begins or ends.
   // Methods of high order thus never step across a jump.
@@ -88,6 +93,11 @@ class Loads {
   // Sets the effort of a joint's motors [N m, N] on its coordinate from now on, for a joint with a motor of given
   // speed.
   void set_push(std::size_t joint, double effort);
+  // Samples the servos of which a sample is due at t. Methods that do not locate events call it before each step.
+  void sample_servos(BodyColumns bodies, double t);
+  double next_sample(double t, double end) const;  // the first instant between the two at which a servo samples
+  double shortest_period() const;                  // s: of the servos that sample; infinite if there are none
+  std::vector<ServoDrive>* servos_of(std::size_t joint);
   const std::vector<JointDrive>& drives() const { return drives_; }
   bool empty() const { return springs_.empty() && forces_.empty() && drives_.empty(); }
   bool damped() const { return damped_; }

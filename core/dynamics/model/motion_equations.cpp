@@ -24,11 +24,12 @@ void MotionEquations::begin(BodyColumns state, BodyTable& y) {
     std::copy_n(carried_.column(kMomentum + k), system_.size(), y.columns().column(kAngularVelocity + k));
 }
 
-void MotionEquations::rates(const BodyTable& y, double t, double dt, BodyTable& out, ConstraintForces::Rows rows) {
+void MotionEquations::rates(const BodyTable& y, double t, double dt, BodyTable& out, ConstraintForces::Rows rows,
+                            std::optional<double> instant) {
   double* const stage = stage_.columns().column(0);
   system_.constants.for_each_block(
       [&](const Bodies& block) { kernels().motion_of(block, y.columns().column(0), y.columns().stride(), stage); });
-  const double* wrench = loads_.over_step(stage_.columns(), t, dt);
+  const double* wrench = loads_.over_step(stage_.columns(), t, dt, instant);
   if (constraints_) wrench = constraints_->hold(stage_.columns(), wrench, rows);
   system_.constants.for_each_block(
       [&](const Bodies& block) { kernels().rates_at(block, stage, wrench, out.columns().column(0)); });

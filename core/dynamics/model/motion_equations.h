@@ -4,6 +4,7 @@
 // Only the quaternion's direction counts.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/dynamics/model/constraint_forces.h"
@@ -19,9 +20,10 @@ class MotionEquations {
 
   // Reads y from `state`.
   void begin(BodyColumns state, BodyTable& y);
-  // f(y), with the timed forces' mean over the step [t, t + dt]. For `rows` see ConstraintForces.
+  // f(y), with the timed forces' mean over the step [t, t + dt]. For `rows` see ConstraintForces, for `instant`
+  // JointDrive::effort().
   void rates(const BodyTable& y, double t, double dt, BodyTable& out,
-             ConstraintForces::Rows rows = ConstraintForces::Rows::as_chosen);
+             ConstraintForces::Rows rows = ConstraintForces::Rows::as_chosen, std::optional<double> instant = {});
   // Writes y to the state.
   void write(const BodyTable& y, MutableBodyColumns state) const;
 

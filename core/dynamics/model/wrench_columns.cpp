@@ -47,7 +47,7 @@ void WrenchColumns::list_pulls_on_bodies() {
   }
 }
 
-const double* WrenchColumns::over_step(BodyColumns state, double t, double dt) {
+const double* WrenchColumns::over_step(BodyColumns state, double t, double dt, std::optional<double> instant) {
   if (loads_.empty()) return nullptr;
   const bool has_springs = !loads_.springs().empty();
   if (has_springs) {
@@ -64,7 +64,7 @@ const double* WrenchColumns::over_step(BodyColumns state, double t, double dt) {
     bodies_.for_each_share(bodies_.size(), [&](std::size_t first, std::size_t last) { sum_pulls(first, last); });
   }
   bool acts = add_forces(state, t, dt, has_springs) || has_springs;
-  if (!loads_.drives().empty()) add_drives(state, t, dt, acts), acts = true;
+  if (!loads_.drives().empty()) add_drives(state, t, dt, instant, acts), acts = true;
   return acts ? wrenches_.data() : nullptr;
 }
 
@@ -104,7 +104,7 @@ bool WrenchColumns::add_forces(BodyColumns state, double t, double dt, bool is_c
   return acts;
 }
 
-void WrenchColumns::add_drives(BodyColumns state, double t, double dt, bool is_clear) {
+void WrenchColumns::add_drives(BodyColumns state, double t, double dt, std::optional<double> instant, bool is_clear) {
   if (!is_clear) std::fill_n(wrenches_.data(), kWrenchColumns * wrenches_.stride(), 0.0);
   const auto add = [&](int body, double effort, const Vec3& force, const Vec3& torque) {
     if (body == kWorld) return;
@@ -115,7 +115,7 @@ void WrenchColumns::add_drives(BodyColumns state, double t, double dt, bool is_c
   };
   for (const JointDrive& drive : loads_.drives()) {
     const JointCoordinate::Value at = drive.coordinate.at(state);
-    const double effort = drive.effort(at, t, dt);
+    const double effort = drive.effort(at, t, dt, instant);
     add(drive.coordinate.a(), effort, -at.force, at.torque_a);
     add(drive.coordinate.b(), effort, at.force, at.torque_b);
   }

@@ -15,14 +15,15 @@ class WrenchColumns {
 
   // Columns of WrenchColumn, as Loads::evaluate() has them; null where nothing acts in that step. Valid until the next
   // call.
-  const double* over_step(BodyColumns state, double t, double dt);
+  // `instant` as in JointDrive::effort().
+  const double* over_step(BodyColumns state, double t, double dt, std::optional<double> instant = {});
 
  private:
   void set_spring(std::size_t k, const Spring& spring);
   void list_pulls_on_bodies();
   void sum_pulls(std::size_t first, std::size_t last);
   bool add_forces(BodyColumns state, double t, double dt, bool is_clear);
-  void add_drives(BodyColumns state, double t, double dt, bool is_clear);
+  void add_drives(BodyColumns state, double t, double dt, std::optional<double> instant, bool is_clear);
 
   const Loads& loads_;
   const BodyConstants& bodies_;

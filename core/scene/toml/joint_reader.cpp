@@ -8,12 +8,13 @@
 
 #include "core/base/near_match.h"
 #include "core/scene/joint_rates.h"
+#include "core/scene/toml/time_table_reader.h"
 
 namespace rigor {
 namespace {
 
 const Keys kOfEvery = {"type", "name", "a", "b"};
-const Keys kOfCoordinate = {"stiffness", "damping", "rest", "lower", "upper", "restitution"};
+const Keys kOfCoordinate = {"stiffness", "damping", "rest", "friction", "lower", "upper", "restitution"};
 
 JointType read_type(const TableReader& row, const Ends& ends, JointType type) {
   for_each_vector(type, [&](const char* key, JointVector kind, Vec3& vector) {
@@ -72,7 +73,8 @@ const Keys& joint_keys() {
 }
 
 const Keys& motor_keys() {
-  static const Keys keys = {"joint", "torque", "force", "speed", "most", "from", "until"};
+  static const Keys keys = {"joint",  "torque", "force", "interpolate",  "file",   "column", "speed", "most",
+                            "target", "kp",     "kd",    "target_speed", "period", "from",   "until"};
   return keys;
 }
 
@@ -104,8 +106,55 @@ void read_times(const TableReader& row, double& from, double& until) {
   if (const auto value = row.find("until")) until = value->number();
 }
 
+namespace {
+
+const Keys kOfServo = {"kp", "kd", "target", "target_speed", "period"};
+
+Servo read_servo(const TableReader& row) {
+  Servo servo;
+  if (const auto kp = row.find("kp")) servo.kp = kp->non_negative();
+  if (const auto kd = row.find("kd")) servo.kd = kd->non_negative();
+  if (servo.kp == 0 && servo.kd == 0) row.refuse("its servo has neither kp nor kd; allowed: at least one above 0");
+  const auto target = read_effort_or_target(row, "target");
+  if (servo.kp > 0 && !target) row.refuse("gives kp and no target; allowed: target, or file and column, too");
+  if (servo.kp == 0 && target) row.at("target").refuse("without kp a target has no effect; allowed: kp, too");
+  servo.target = target.value_or(TimeTable::constant(0));
+  if (const auto speed = row.find("target_speed")) {
+    servo.target_speed = speed->number();
+    if (servo.kd == 0) speed->refuse("without kd it has no effect; allowed: kd, too");
+  }
+  if (const auto most = row.find("most")) servo.most = most->positive();
+  if (const auto period = row.find("period")) servo.period = period->positive();
+  return servo;
+}
+
+void read_drive(const TableReader& row, const std::string& effort, Motor& motor) {
+  const auto given = row.find(effort), speed = row.find("speed"), most = row.find("most");
+  const auto servo = std::find_if(kOfServo.begin(), kOfServo.end(), [&](const auto& key) { return row.find(key); });
+  const bool is_servo = servo != kOfServo.end(), has_effort = given || (row.find("file") && !is_servo);
+  const int ways = int(has_effort) + int(speed.has_value()) + int(is_servo);
+  if (ways != 1)
+    row.refuse(fmt::format("gives {}; allowed: {}, or speed and most, or kp and target",
+                           ways == 0 ? "neither" : "more than one drive", effort));
+  if (is_servo) {
+    motor.servo = read_servo(row);
+  } else if (has_effort) {
+    const TimeTable table = *read_effort_or_target(row, effort);
+    motor.effort = table.values.front();
+    if (!table.is_constant()) motor.efforts = table, motor.effort = 0;
+  } else {
+    motor.speed = speed->number(), motor.most = row.at("most").positive();
+  }
+  if (speed) refuse_table_keys(row, "a speed is a number");
+  if (most && has_effort)
+    most->refuse(fmt::format("bounds what keeps a speed; allowed: speed, too, or {} alone", effort));
+}
+
+}  // namespace
+
 Motor read_motor(const TableReader& row, const Scene& scene) {
   Motor motor;
+  if (const auto way = row.find("interpolate")) way->choice({"linear", "previous"});
   const std::size_t joint = find_joint(row.at("joint"), scene);
   motor.joint = static_cast<int>(joint);
   const std::string type = joint_type_name(scene.joints[joint]);
@@ -113,14 +162,18 @@ Motor read_motor(const TableReader& row, const Scene& scene) {
   const bool is_angle = turns(scene.joints[joint]);
   const std::string effort = is_angle ? "torque" : "force", other = is_angle ? "force" : "torque";
   if (const auto wrong = row.find(other)) wrong->refuse(fmt::format("a {} takes a {}", type, effort));
-  const auto given = row.find(effort), speed = row.find("speed"), most = row.find("most");
-  if (given.has_value() == speed.has_value())
-    row.refuse(fmt::format("gives {}; allowed: {}, or speed and most", given ? "both" : "neither", effort));
-  if (given) motor.effort = given->number();
-  if (speed) motor.speed = speed->number(), motor.most = row.at("most").positive();
-  if (most && !speed) most->refuse(fmt::format("bounds what keeps a speed; allowed: speed, too, or {} alone", effort));
+  read_drive(row, effort, motor);
   read_times(row, motor.from, motor.until);
   refuse_if(fault_of(motor, scene), row);
+  return motor;
+}
+
+std::optional<Motor> read_friction(const TableReader& row, const Scene& scene) {
+  const auto friction = row.find("friction");
+  if (!friction || friction->non_negative() == 0) return std::nullopt;
+  Motor motor;
+  motor.joint = static_cast<int>(scene.joints.size()) - 1;
+  motor.speed = 0, motor.most = friction->number(), motor.is_friction = true;
   return motor;
 }
 

@@ -17,6 +17,9 @@ Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool che
 // The joint is one of the scene's, by name.
 Motor read_motor(const TableReader& row, const Scene& scene);
 
+// The Coulomb friction of the joint that was read last, from its row; empty without.
+std::optional<Motor> read_friction(const TableReader& row, const Scene& scene);
+
 // [from, until) of a force or motor [s].
 void read_times(const TableReader& row, double& from, double& until);
 

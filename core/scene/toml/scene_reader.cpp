@@ -106,6 +106,7 @@ class SceneReader {
       if (!joint.name.empty() && !joint_names_.insert(joint.name).second)
         row.at("name").refuse(fmt::format("there is already a joint '{}'; allowed: another name", shown(joint.name)));
       scene_.joints.push_back(joint);
+      if (const auto friction = read_friction(row, scene_)) scene_.motors.push_back(*friction);
     }
   }
 

@@ -71,6 +71,10 @@ Json row_of(const Joint& joint, const Scene& scene) {
   for_each_vector(joint.type, [&](const char* key, JointVector, const Vec3& vector) { row[key] = list(vector); });
   if (!free_axis(joint)) return row;
   row["stiffness"] = joint.stiffness, row["damping"] = joint.damping;
+  for (const Motor& motor : scene.motors) {
+    if (motor.is_friction && &scene.joints[static_cast<std::size_t>(motor.joint)] == &joint)
+      row["friction"] = motor.most;
+  }
   if (joint.stiffness > 0) row["rest"] = joint.rest;
   add_unless_infinite(row, "lower", joint.lower);
   add_unless_infinite(row, "upper", joint.upper);
@@ -83,13 +87,34 @@ void add_times(Json& row, double from, double until) {
   add_unless_infinite(row, "until", until);
 }
 
+// A number, or rows [t, value].
+void add_table(const char* key, const TimeTable& table, Json& row) {
+  if (table.is_constant()) {
+    row[key] = table.values.front();
+    return;
+  }
+  for (std::size_t i = 0; i < table.times.size(); ++i) row[key].push_back({table.times[i], table.values[i]});
+  row["interpolate"] = table.is_linear ? "linear" : "previous";
+}
+
+void add_servo(const Servo& servo, Json& row) {
+  row["kp"] = servo.kp, row["kd"] = servo.kd;
+  if (servo.kp > 0) add_table("target", servo.target, row);
+  if (servo.kd > 0) row["target_speed"] = servo.target_speed;
+  add_unless_infinite(row, "most", servo.most);
+  if (servo.period > 0) row["period"] = servo.period;
+}
+
 Json row_of(const Motor& motor, const Scene& scene) {
   const Joint& joint = scene.joints[static_cast<std::size_t>(motor.joint)];
   Json row = {{"joint", joint.name}};
   if (motor.speed) {
     row["speed"] = *motor.speed, row["most"] = motor.most;
+  } else if (motor.servo) {
+    add_servo(*motor.servo, row);
   } else {
-    row[turns(joint) ? "torque" : "force"] = motor.effort;
+    add_table(turns(joint) ? "torque" : "force", motor.efforts ? *motor.efforts : TimeTable::constant(motor.effort),
+              row);
   }
   add_times(row, motor.from, motor.until);
   return row;
@@ -129,7 +154,9 @@ Json tree_of(const Scene& scene) {
   for (const Body& body : scene.bodies) tree["body"].push_back(row_of(body));
   add_rows(tree, "spring", scene.springs, scene);
   add_rows(tree, "joint", scene.joints, scene);
-  add_rows(tree, "motor", scene.motors, scene);
+  for (const Motor& motor : scene.motors) {
+    if (!motor.is_friction) tree["motor"].push_back(row_of(motor, scene));  // friction is its joint's
+  }
   add_rows(tree, "contact", scene.contact_pairs, scene);
   add_rows(tree, "force", scene.forces, scene);
   return tree;

@@ -41,6 +41,7 @@ std::string why_reactions_are_unknown(const Scene& scene) {
   }
   for (const Motor& motor : scene.motors) {
     if (motor.speed) return "a motor keeps a speed, and what it gives is not known";
+    if (motor.servo && motor.servo->period > 0) return "a servo holds its effort between samples, which no state shows";
   }
   return "";
 }

@@ -98,8 +98,8 @@ class EnergyReasons {
     });
     if (list.empty()) return;
     messages_.push_back({"sampling",
-                         fmt::format("The raw energy drift is mostly sampling: a semi-implicit step leaves velocities "
-                                     "half a step behind positions. Drift: {}.",
+                         fmt::format("The raw energy drift is mostly sampling: these methods store velocities that "
+                                     "belong half a step before or after the positions. Drift: {}.",
                                      list),
                          "", claims.take()});
   }

@@ -129,17 +129,29 @@ class JointReasons {
         kName, list, claims.quantity(claim(found, "order of energy_drift_synchronised", found.beside), ""));
   }
 
-  // From the finest step that reports one, where it is seen best.
+  static std::string reported_positions(const Cell& cell) {
+    for (const auto& [key, value] : cell.settings) {
+      if (key == "singular positions") return value;
+    }
+    return "";
+  }
+
+  bool is_finest_of_its_run(const Cell& cell) const {
+    return std::none_of(result_.cells.begin(), result_.cells.end(), [&](const Cell& other) {
+      return other.run == cell.run && !other.metrics.empty() && other.dt.seconds < cell.dt.seconds;
+    });
+  }
+
+  // A singular position belongs to the mechanism, so the finest step of a run sees it too. A coarse step may take a
+  // position near one for it.
   std::optional<Message> singular_positions() const {
     const Cell* finest = nullptr;
-    std::string times;
     for (const Cell& cell : result_.cells) {
-      for (const auto& [key, value] : cell.settings) {
-        if (key != "singular positions" || (finest && finest->dt.seconds <= cell.dt.seconds)) continue;
-        finest = &cell, times = value;
-      }
+      if (reported_positions(cell).empty() || !is_finest_of_its_run(cell)) continue;
+      if (!finest || cell.dt.seconds < finest->dt.seconds) finest = &cell;
     }
     if (!finest) return {};
+    const std::string times = reported_positions(*finest);
     return Message{
         "singular position",
         fmt::format(

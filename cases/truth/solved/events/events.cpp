@@ -79,7 +79,7 @@ const Features kWhatAnyMethodTakes = {
     Feature::fixed_body,          Feature::joint_damper,          Feature::joint_spring,
     joint_feature<BallJoint>(),   joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(),
     joint_feature<HingeJoint>(),  joint_feature<SliderJoint>(),   joint_feature<UniversalJoint>(),
-    Feature::joints_with_dampers, Feature::motor_effort,          Feature::spring,
+    Feature::joints_with_dampers, Feature::motor_effort, Feature::joint_friction,          Feature::spring,
     Feature::timed_force};
 
 // A solution that is taken up between two of its nodes knows a hinge's angle, but not how often it has turned round.

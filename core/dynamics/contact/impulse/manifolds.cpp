@@ -61,11 +61,11 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
   return (inner.low.array() >= outer.low.array()).all() && (inner.high.array() <= outer.high.array()).all();
 }
 
-// Four points hold a face as well as eight: the deepest, the one furthest from it, the one furthest aside of the line
-// between these, and the one furthest to the other side. Of points that are equally deep but for rounding the one
-// furthest from their centre is taken. Edges that are nearly parallel cross far from their ends, and a crossing in
-// place of a corner would leave the face without support there. Of points that are equal in all this the first counts.
-// Returns the end of those kept of [begin, end).
+// Four points hold a face as well as eight. The first is the deepest, the second the one furthest from it. The third
+// and fourth are furthest from the line between these, one on each side. Several points can be equally deep but for
+// rounding. The one furthest from the centre of all is then the first. Edges that are nearly parallel cross far from
+// their ends. A crossing in place of a corner would leave the face without support there. In a tie the earlier point
+// counts. Returns the end of those kept of [begin, end).
 int reduce_to_four(Manifold& points, int begin, int end) {
   if (end - begin <= kMostOfPair) return end;
   const double equal = kEqualScores * (points[begin + kMostOfPair].point - points[begin].point).norm();

@@ -29,6 +29,22 @@ std::string joints_found(const Results& grid) {
 
 BOOST_AUTO_TEST_SUITE(cases_report_wording_joint_explanation)
 
+// A slider-crank whose rod is longer than its crank has no singular position. One step of 1/30 s took it for one.
+BOOST_AUTO_TEST_CASE(a_singular_position_is_told_only_where_the_finest_step_reports_it) {
+  Results grid = test::jointed_results(test::chain_of(2, 1));
+  std::vector<Cell*> cells;
+  for (Cell& cell : grid.cases[0].cells) {
+    if (cell.run == 0) cells.push_back(&cell), cell.metrics["cost"] = MetricValue();
+  }
+  std::sort(cells.begin(), cells.end(), [](const Cell* a, const Cell* b) { return a->dt.seconds > b->dt.seconds; });
+  BOOST_TEST_REQUIRE(cells.size() > 1u);
+  cells.front()->settings.emplace_back("singular positions", "at 0.5291 s");
+  BOOST_TEST(said_of(grid).empty());
+  cells.back()->settings.emplace_back("singular positions", "at 0.5 s");
+  BOOST_TEST_REQUIRE(said_of(grid).size() == 1u);
+  BOOST_TEST(has(said_of(grid)[0], "at 0.5 s"), said_of(grid)[0]);
+}
+
 // Every step opens the joint by ½ a dt²; at a share of 0.2 five of these stand.
 BOOST_AUTO_TEST_CASE(a_gap_that_stands_is_told_with_what_a_step_opens) {
   Results grid = test::jointed_results(test::chain_of(2, 1));

@@ -25,7 +25,7 @@ Simulation run_of(const Scene& scene, double time_unit) {
   return simulate(engines().find("core"), settings, scene, kStep * time_unit, kDuration * time_unit, 1, false);
 }
 
-// From here on the run has no claim to be the exact motion, in the original's time.
+// s, in the original's time: the run does not claim to be exact from here on.
 double reported_end(const Simulation& run, double time_unit) {
   double end = kForever;
   if (run.reduced_order) end = std::min(end, run.reduced_order->from);

@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(a_ball_with_spin_slides_on_a_parabola_and_rolls) {
   check_within_claim(scene, 1.5, 0, due);
 }
 
-// Rolling needs a friction of 2/7 of the spring's force. Where that leaves the cone, the ball slips.
+// Rolling needs a friction of 2/7 of the spring's force. The ball slips as soon as that leaves the cone.
 BOOST_AUTO_TEST_CASE(a_ball_that_rolls_on_a_spring_slips_and_rolls_again) {
   const double r = 0.1, mu = 0.2, k = 50, v = 1.5;
   Scene scene = on_ground({on_its_own("ball", Sphere{r}, 1, {0, 0, r})}, mu);

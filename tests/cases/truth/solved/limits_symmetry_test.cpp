@@ -65,9 +65,8 @@ double most_apart(const Scene& scene, const std::string& method, const Equivalen
 
 BOOST_AUTO_TEST_SUITE(cases_truth_solved_limits_symmetry)
 
-// Powers of two scale every product exactly, so that rounding alone is left, at events and where joints are closed.
-// Where joints are closed, gaps in metres and sines of angles have one bound, which grows with the length: 2.6e-9 at
-// 2^20.
+// Powers of two scale every product exactly, so that rounding alone is left. One bound serves gaps in metres and sines
+// of angles where joints are closed, and it grows with the length: at 2^20 it leaves 2.6e-9.
 BOOST_AUTO_TEST_CASE(units_change_nothing_but_rounding) {
   for (const Scene& scene : {bouncing_blocks(), driven_arm()}) {
     for (const char* method : {"rk4", "rkmk4", "semi-implicit-euler"}) {
