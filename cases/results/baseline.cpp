@@ -24,12 +24,6 @@ constexpr const char* kTitleKey = "rigor_baseline";
 constexpr int kForm = 2;
 constexpr int kOldestSchema = 1, kSchema = 2;  // of results.json; in version 1 non-finite numbers are null
 
-// A time is measured anew each run, and a p-value is as good as another until it is very small.
-bool is_compared(const std::string& metric) {
-  if (metric == "cost" || metric == "ensemble_p_value") return false;
-  return std::any_of(metrics().begin(), metrics().end(), [&](const MetricRow& row) { return row.name == metric; });
-}
-
 std::string text_at(const Json& json, const char* key) { return json.at(key).get<std::string>(); }
 
 CellKey key_at(const Json& json) { return {text_at(json, "case"), text_at(json, "engine"), text_at(json, "dt")}; }
@@ -76,7 +70,8 @@ Baseline::Cell cell_from(const Json& json, const std::string& place) {
   Baseline::Cell cell{status_at(json, place)};
   if (const Json& verdict = json.at("verdict"); !verdict.is_null()) cell.verdict = verdict_at(verdict, "word", place);
   for (const auto& [name, metric] : object_at(json, "metrics", place).items()) {
-    if (!is_compared(name)) continue;
+    const MetricRow* row = find_metric(name);
+    if (!row || !row->is_compared) continue;
     if (!metric.contains("value")) {
       if (text_at(metric, "not_applicable").starts_with("not measured")) cell.not_asked.insert(name);
       continue;
@@ -220,8 +215,8 @@ std::string joined_parts(std::initializer_list<std::string> parts, const std::st
 }
 
 bool is_higher_better(const std::string& metric) {
-  return std::any_of(metrics().begin(), metrics().end(),
-                     [&](const MetricRow& row) { return row.name == metric && row.higher_is_better; });
+  const MetricRow* row = find_metric(metric);
+  return row && row->higher_is_better;
 }
 
 Baseline read_baseline(const std::string& path) {
