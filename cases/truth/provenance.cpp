@@ -5,6 +5,7 @@
 
 #include "cases/metrics/metric.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/world.h"
 
 namespace rigor {
 
@@ -23,7 +24,7 @@ const Provenance* row_of(const std::string& truth) {
 // The reference of ensembles is the core, with the contact that it gives a scene by itself (runner/ensemble.h).
 bool is_made_like_ensembles(const RunName& run, const Scene& scene) {
   const auto& options = run.settings.options;
-  return run.engine == "core" &&
+  return run.engine == core_info().name &&
          (!options.contains("contact") || options.at("contact") == contact_method_for(scene).name);
 }
 

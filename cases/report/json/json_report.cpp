@@ -40,6 +40,7 @@ Json run_json(const RunName& run, const std::vector<EngineInfo>& engines) {
             {"engine", engine.name},
             {"version", engine.version},
             {"precision", engine.precision},
+            {"in_house", engine.is_in_house},
             {"method", method.name},
             {"order", method.order},
             {"symplectic", method.symplectic},
