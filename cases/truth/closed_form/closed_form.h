@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cases/truth/truth.h"
+#include "core/scene/feature.h"
 
 namespace rigor {
 
