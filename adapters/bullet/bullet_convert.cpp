@@ -5,9 +5,12 @@
 namespace rigor::bullet {
 namespace {
 
-// Ours: a box by full edge lengths, Bullet's by half ones. Both: a capsule along z by the length of the cylinder alone,
-// without its caps; a plane by n · x = d with the solid behind it.
+// Ours: a box by full edge lengths, Bullet's by half ones; likewise a cylinder's length. Both: a capsule along z by the
+// length of the cylinder alone, without its caps; a plane by n · x = d with the solid behind it.
 struct MakeShape {
+  Shapes& shapes;  // takes the parts of a compound
+  bool has_margins;
+
   std::unique_ptr<btCollisionShape> operator()(const Sphere& s) const {
     return std::make_unique<btSphereShape>(s.radius);
   }
@@ -17,6 +20,29 @@ struct MakeShape {
   std::unique_ptr<btCollisionShape> operator()(const Capsule& c) const {
     return std::make_unique<btCapsuleShapeZ>(c.radius, c.length);
   }
+  std::unique_ptr<btCollisionShape> operator()(const Compound& c) const {
+    auto compound = std::make_unique<btCompoundShape>(true, static_cast<int>(c.parts.size()));
+    for (const PlacedShape& part : c.parts) {
+      auto own = std::visit(*this, part.shape);
+      shapes.push_back(std::move(own));
+      const BodyPose& pose = part.pose;
+      compound->addChildShape(btTransform(to_bullet(pose.orientation), to_bullet(pose.position)), shapes.back().get());
+    }
+    return compound;
+  }
+  // Bullet rounds a hull off by a margin of 4 cm outside it. A matched hull has none.
+  std::unique_ptr<btCollisionShape> operator()(const Convex& c) const {
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const Vec3& point : c.hull->points) hull->addPoint(to_bullet(point), false);
+    hull->recalcLocalAabb();
+    if (!has_margins) hull->setMargin(0);
+    return hull;
+  }
+  std::unique_ptr<btCollisionShape> operator()(const Cylinder& c) const {
+    return std::make_unique<btCylinderShapeZ>(btVector3(c.radius, c.radius, 0.5 * c.length));
+  }
+  // Bullet has none: no feature of its contacts names it.
+  std::unique_ptr<btCollisionShape> operator()(const Ellipsoid&) const { return std::make_unique<btEmptyShape>(); }
   std::unique_ptr<btCollisionShape> operator()(const Plane& p) const {
     return std::make_unique<btStaticPlaneShape>(to_bullet(p.normal), p.offset);
   }
@@ -32,8 +58,9 @@ PrincipalFrame principal_frame(const Mat3& inertia_B) {
   return {principal.values, axes, true};
 }
 
-btCollisionShape* add_shape(const Shape& shape, const PrincipalFrame& frame, Shapes& shapes) {
-  shapes.push_back(std::visit(MakeShape{}, shape));
+btCollisionShape* add_shape(const Shape& shape, const PrincipalFrame& frame, bool has_margins, Shapes& shapes) {
+  auto own = std::visit(MakeShape{shapes, has_margins}, shape);
+  shapes.push_back(std::move(own));
   btCollisionShape* made = shapes.back().get();
   if (!frame.turned) return made;
   // A child turned from B into P; without a tree of bounding boxes, which one child does not need.

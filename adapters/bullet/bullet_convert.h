@@ -40,7 +40,7 @@ PrincipalFrame principal_frame(const Mat3& inertia_B);
 using Shapes = std::vector<std::unique_ptr<btCollisionShape>>;
 
 // The shape, given in B, for a body whose own frame is P. A plane is given in the world frame, and its body stands
-// there.
-btCollisionShape* add_shape(const Shape& shape, const PrincipalFrame& frame, Shapes& shapes);
+// there. `has_margins`: hulls keep the margin that Bullet ships.
+btCollisionShape* add_shape(const Shape& shape, const PrincipalFrame& frame, bool has_margins, Shapes& shapes);
 
 }  // namespace rigor::bullet

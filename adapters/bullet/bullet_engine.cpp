@@ -17,6 +17,9 @@
 namespace rigor {
 namespace {
 
+// Bullet has no ellipsoid.
+const Features kBulletContacts = contacts_among<Box, Capsule, Convex, Cylinder, Plane, Sphere>();
+
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
@@ -71,10 +74,11 @@ EngineInfo BulletEngine::info() const {
   return {.name = "bullet",
           .version = version(),
           .precision = sizeof(btScalar) == sizeof(double) ? "double" : "single",
-          .features = joined(kJoints, joined(contacts_of_all_shapes(),
-                                             {Feature::contact_filter, Feature::spring, Feature::timed_force,
-                                              Feature::fixed_body, Feature::restitution, Feature::friction_none,
-                                              Feature::friction_coulomb, Feature::friction_infinite})),
+          .features = joined(
+              kJoints,
+              joined(kBulletContacts, {Feature::placed_shapes, Feature::contact_filter, Feature::spring,
+                                       Feature::timed_force, Feature::fixed_body, Feature::restitution,
+                                       Feature::friction_none, Feature::friction_coulomb, Feature::friction_infinite})),
           .methods = {sequential_impulse(), mlcp(), multibody()},
           .max_rotation_per_step = bullet::kLargestTurn};  // a faster body keeps its speed and turns too little
 }

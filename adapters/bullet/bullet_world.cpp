@@ -29,11 +29,11 @@ std::string gyroscopic_mode(const btRigidBody& body) {
   return fmt::format("flags {}", body.getFlags());
 }
 
-double inner_radius(const Shape& shape) {  // m, of the largest ball inside
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) return 0.5 * box->size.minCoeff();
-  return 0;
+// m, of the largest ball inside about the body's centre; 0 where that centre may lie outside.
+double inner_radius(const Shape& shape) {
+  return std::visit(ForShapes{[](const Compound&) { return 0.0; }, [](const Convex&) { return 0.0; },
+                              [](const Plane&) { return 0.0; }, [](const auto& centred) { return centred.inradius(); }},
+                    shape);
 }
 
 // A body that moves by more than its inner ball's radius in a step is stopped where that ball first touches another. It
@@ -121,7 +121,7 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
   const bullet::PrincipalFrame frame = body.fixed ? bullet::PrincipalFrame{} : bullet::principal_frame(body.inertia);
   row.turned = frame.turned;
   row.R_PB = frame.R_BP.transpose();
-  btCollisionShape* shape = body.collides ? bullet::add_shape(*body.shape, frame, shapes_) : &no_shape_;
+  btCollisionShape* shape = body.collides ? bullet::add_shape(*body.shape, frame, !matched_, shapes_) : &no_shape_;
   const bool is_plane = body.collides && std::holds_alternative<Plane>(*body.shape);
 
   // A mass of zero is Bullet's word for fixed.

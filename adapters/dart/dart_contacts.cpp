@@ -99,7 +99,12 @@ struct MakeShape {
   dyn::ShapePtr operator()(const Plane&) const {
     return std::make_shared<dyn::BoxShape>(Vec3::Constant(2 * kDartPlaneReach));
   }
-  dyn::ShapePtr operator()(const Capsule&) const { return nullptr; }  // no feature: nothing that it could touch
+  // No feature: nothing that they could touch.
+  dyn::ShapePtr operator()(const Capsule&) const { return nullptr; }
+  dyn::ShapePtr operator()(const Convex&) const { return nullptr; }
+  dyn::ShapePtr operator()(const Cylinder&) const { return nullptr; }
+  dyn::ShapePtr operator()(const Ellipsoid&) const { return nullptr; }
+  dyn::ShapePtr operator()(const Compound&) const { return nullptr; }  // its parts are made
 };
 
 // Of a box with its face in the plane, over the point of it next to the origin.
@@ -108,10 +113,15 @@ Eigen::Isometry3d pose_of_plane(const Plane& plane) {
   return dart_transform((plane.offset - kDartPlaneReach) * plane.normal, turn);
 }
 
-double bounding_radius_of(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) return box->size.norm() / 2;
-  return 0;
+void add_dart_part(const dyn::ShapePtr& shape, const BodyPose& pose, std::size_t body, DartBodies& made,
+                   LawFilter& filter) {
+  for (const std::size_t number : filter.laws().of_body(body)) {
+    auto* node = made.bodies[body]->createShapeNodeWith<dyn::CollisionAspect, dyn::DynamicsAspect>(shape);
+    node->setRelativeTransform(dart_transform(pose.position, pose.orientation));
+    node->getDynamicsAspect()->setFrictionCoeff(filter.laws().law(number).friction);
+    node->getDynamicsAspect()->setRestitutionCoeff(std::sqrt(filter.laws().law(number).restitution));
+    filter.add(node, static_cast<int>(body), number);
+  }
 }
 
 }  // namespace
@@ -120,16 +130,12 @@ std::shared_ptr<::dart::collision::CollisionFilter> add_dart_shapes(const Scene&
   auto filter = std::make_shared<LawFilter>(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    const dyn::ShapePtr shape = body.collides ? std::visit(MakeShape{}, *body.shape) : nullptr;
-    if (!shape) continue;
+    if (!body.collides) continue;
     if (const auto* plane = std::get_if<Plane>(&*body.shape))  // it is given in W
       made.bodies[i]->getParentJoint()->setTransformFromParentBodyNode(pose_of_plane(*plane));
-    for (const std::size_t number : filter->laws().of_body(i)) {
-      auto* node = made.bodies[i]->createShapeNodeWith<dyn::CollisionAspect, dyn::DynamicsAspect>(shape);
-      node->getDynamicsAspect()->setFrictionCoeff(filter->laws().law(number).friction);
-      node->getDynamicsAspect()->setRestitutionCoeff(std::sqrt(filter->laws().law(number).restitution));
-      filter->add(node, static_cast<int>(i), number);
-    }
+    for_each_part(*body.shape, [&](const Shape& part, const BodyPose& pose) {
+      if (const dyn::ShapePtr shape = std::visit(MakeShape{}, part)) add_dart_part(shape, pose, i, made, *filter);
+    });
   }
   for (const dyn::SkeletonPtr& skeleton : made.skeletons) {  // joined bodies touch each other like any others
     skeleton->enableSelfCollisionCheck();
@@ -145,7 +151,7 @@ DartPlaneEdges::DartPlaneEdges(const Scene& scene) {
     if (const auto* plane = std::get_if<Plane>(&*body.shape)) {
       planes_.push_back(*plane), names_.push_back(body.name);
     } else if (!body.fixed) {
-      solids_.push_back({i, body.name, bounding_radius_of(*body.shape)});
+      solids_.push_back({i, body.name, bounding_radius(*body.shape)});
     }
   }
 }

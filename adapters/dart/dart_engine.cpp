@@ -50,9 +50,10 @@ EngineInfo DartEngine::info() const {
   return {.name = "dart",
           .version = DART_VERSION,
           .precision = "double",  // it is written for no other
-          .features = joined(joined(kDartContacts, kDartJoints),
-                             {Feature::contact_filter, Feature::spring, Feature::timed_force, Feature::fixed_body,
-                              Feature::restitution, Feature::friction_none, Feature::friction_coulomb}),
+          .features =
+              joined(joined(kDartContacts, kDartJoints),
+                     {Feature::placed_shapes, Feature::contact_filter, Feature::spring, Feature::timed_force,
+                      Feature::fixed_body, Feature::restitution, Feature::friction_none, Feature::friction_coulomb}),
           .methods = {by_solver("dantzig", "Dantzig's direct solver"),
                       by_solver("pgs", "projected Gauss-Seidel, 30 sweeps")}};
 }

@@ -18,11 +18,28 @@ std::function<void(Scene&)> each_law(F change) {
   };
 }
 
+void grow_shape(Shape& shape, double by) {
+  std::visit(
+      ForShapes{[=](Box& box) { box.size += Vec3::Constant(2 * by); }, [=](Capsule& capsule) { capsule.radius += by; },
+                [=](Compound& compound) {
+                  for (PlacedShape& part : compound.parts) grow_shape(part.shape, by);
+                },
+                [=](Convex& convex) { convex.hull = scaled_hull(*convex.hull, 1 + by / convex.hull->inradius); },
+                [=](Cylinder& cylinder) { cylinder.radius += by, cylinder.length += 2 * by; },
+                [=](Ellipsoid& ellipsoid) { ellipsoid.radii += Vec3::Constant(by); }, [](Plane&) {},
+                [=](Sphere& sphere) { sphere.radius += by; }},
+      shape);
+}
+
 void grow(Body& body, double by) {
-  if (!body.shape) return;
-  if (auto* sphere = std::get_if<Sphere>(&*body.shape)) sphere->radius += by;
-  if (auto* box = std::get_if<Box>(&*body.shape)) box->size += Vec3::Constant(2 * by);
-  if (auto* capsule = std::get_if<Capsule>(&*body.shape)) capsule->radius += by;
+  if (body.shape) grow_shape(*body.shape, by);
+}
+
+// The parts of a body's shape lie at its origin, as where a shape's pose is left out.
+void leave_out_poses(Body& body) {
+  if (auto* compound = body.shape ? std::get_if<Compound>(&*body.shape) : nullptr) {
+    for (PlacedShape& part : compound->parts) part.pose = {};
+  }
 }
 
 template <typename F>
@@ -59,14 +76,11 @@ void friction_as_pyramid(Scene& scene) {
   scene.contact_pairs = pairs;
 }
 
-// m: from the body's centre to its farthest point along a unit direction; 0 for other shapes.
+// m: from the body's centre to its farthest point along a unit direction; 0 for a plane.
 double reach_along(const Vec3& direction, const Body& body) {
-  const Mat3 R = matrix_of(body.orientation);
-  if (!body.shape) return 0;
-  if (const auto* sphere = std::get_if<Sphere>(&*body.shape)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&*body.shape))
-    return 0.5 * (R.transpose() * direction).cwiseAbs().dot(box->size);
-  return 0;
+  if (!body.shape || std::holds_alternative<Plane>(*body.shape)) return 0;
+  const Vec3 n = matrix_of(body.orientation).transpose() * direction;
+  return n.dot(support(*body.shape, n));
 }
 
 // Friction on a sphere or box that slides on a plane acts against the slip of the step before. The engine's own
@@ -131,6 +145,7 @@ std::vector<Fault> contact_faults() {
                 [](double mm) { return on_loading("", each_plane([=](Plane& plane) { plane.offset += 1e-3 * mm; })); }),
       on_loading("contact normal flipped", each_plane([](Plane& p) { p.normal *= -1; })),
       on_loading("capsule without its cylinder", each_body(shorten_capsule)),
+      on_loading("pose of a shape left out", each_body(leave_out_poses)),
       on_loading("every mass the same in contact", equal_masses),
       on_loading("inertia of a rolling body off by half", each_body([](Body& b) { b.inertia *= 1.5; })),
   };

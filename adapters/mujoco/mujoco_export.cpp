@@ -49,7 +49,9 @@ class Exporter {
 
   std::string body_of_file() {
     add("<mujoco>\n  <compiler angle=\"radian\" balanceinertia=\"false\" autolimits=\"false\"/>\n");
-    add("  <option gravity=\"{}\" cone=\"elliptic\"/>\n  <worldbody>\n", numbers(scene_.gravity));
+    add("  <option gravity=\"{}\" cone=\"elliptic\"/>\n", numbers(scene_.gravity));
+    add_meshes();
+    add("  <worldbody>\n");
     add_sites(kWorld, 4);
     for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
       if (scene_.bodies[i].fixed) add_fixed(i);
@@ -128,11 +130,37 @@ class Exporter {
   // A shape that nothing touches is there to be seen.
   void add_geom(const Body& body, int indent) {
     if (!body.shape) return;
+    const bool is_placed = std::holds_alternative<Compound>(*body.shape);
+    int part = 0;
+    for_each_part(*body.shape, [&](const Shape& shape, const BodyPose& pose) {
+      const std::string name = part_name(body, part++);
+      add("{:{}}<geom name=\"{}\" {}{}{}/>\n", "", indent, name, mjcf_shape(shape, name),
+          is_placed ? mjcf_pose(pose) : "", touch_of(body));
+    });
+  }
+
+  static std::string part_name(const Body& body, int part) {
+    return escaped(body.name) + (part == 0 ? "" : fmt::format("/{}", part + 1));
+  }
+
+  std::string touch_of(const Body& body) const {
     const double mu = scene_.contact_default.friction;
-    const std::string touch = !body.collides ? R"( contype="0" conaffinity="0")"
-                              : mu == 0      ? R"( condim="1")"
-                                        : fmt::format(R"( condim="3" friction="{} 0.005 0.0001")", std::min(mu, 1e6));
-    add("{:{}}<geom name=\"{}\" {}{}/>\n", "", indent, escaped(body.name), mjcf_shape(*body.shape), touch);
+    return !body.collides ? R"( contype="0" conaffinity="0")"
+           : mu == 0      ? R"( condim="1")"
+                          : fmt::format(R"( condim="3" friction="{} 0.005 0.0001")", std::min(mu, 1e6));
+  }
+
+  void add_meshes() {
+    std::string meshes;
+    for (const Body& body : scene_.bodies) {
+      int part = 0;
+      if (!body.shape) continue;
+      for_each_part(*body.shape, [&](const Shape& shape, const BodyPose&) {
+        const std::string name = part_name(body, part++);
+        if (const auto* convex = std::get_if<Convex>(&shape)) meshes += "    " + mjcf_mesh(*convex, name);
+      });
+    }
+    if (!meshes.empty()) add("  <asset>\n{}  </asset>\n", meshes);
   }
 
   // The points of springs and distance joints.

@@ -26,10 +26,20 @@ std::string friction_of(const ContactLaw& law, bool of_a_pair) {
 }
 
 struct GeomOf {
+  const std::string& mesh;
+
   std::string operator()(const Sphere& s) const { return fmt::format(R"(type="sphere" size="{}")", s.radius); }
   std::string operator()(const Box& b) const { return fmt::format(R"(type="box" size="{}")", text_of(b.size / 2)); }
   std::string operator()(const Capsule& c) const {
     return fmt::format(R"(type="capsule" size="{} {}")", c.radius, c.length / 2);
+  }
+  std::string operator()(const Compound&) const { return ""; }  // its parts are written
+  std::string operator()(const Convex&) const { return fmt::format(R"(type="mesh" mesh="{}")", mesh); }
+  std::string operator()(const Cylinder& c) const {
+    return fmt::format(R"(type="cylinder" size="{} {}")", c.radius, c.length / 2);
+  }
+  std::string operator()(const Ellipsoid& e) const {
+    return fmt::format(R"(type="ellipsoid" size="{}")", text_of(e.radii));
   }
   std::string operator()(const Plane& p) const {
     return fmt::format(R"(type="plane" size="0 0 1" pos="{}" zaxis="{}")", text_of(p.normal * p.offset),
@@ -47,6 +57,7 @@ class Writer {
     add(R"(<compiler angle="radian" balanceinertia="false" boundmass="0" boundinertia="0" autolimits="false"/>)");
     write_options();
     write_size();
+    write_meshes();
     add("<worldbody>\n");
     write_sites(kWorld);
     for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
@@ -88,9 +99,25 @@ class Writer {
   // eight points between boxes. More than fits is a solver warning.
   void write_size() {
     std::size_t shapes = 0;
-    for (const Body& body : scene_.bodies) shapes += body.collides;
+    for (const Body& body : scene_.bodies) {
+      if (body.collides) for_each_part(*body.shape, [&](const Shape&, const BodyPose&) { ++shapes; });
+    }
     const std::size_t contacts = std::max<std::size_t>(100, 12 * shapes);
     add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, 4 * contacts + 7 * scene_.joints.size());
+  }
+
+  void write_meshes() {
+    add("<asset>\n");
+    for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
+      const Body& body = scene_.bodies[i];
+      int part = 0;
+      if (!body.collides) continue;
+      for_each_part(*body.shape, [&](const Shape& shape, const BodyPose&) {
+        if (const auto* convex = std::get_if<Convex>(&shape)) add("{}", mjcf_mesh(*convex, mjcf_geom_name(i, part)));
+        ++part;
+      });
+    }
+    add("</asset>\n");
   }
 
   void write_fixed(int index) {
@@ -139,10 +166,21 @@ class Writer {
   void write_geom(int index) {
     const Body& body = scene_.bodies[index];
     if (!body.collides) return;
-    Shape shape = *body.shape;
-    auto* plane = std::get_if<Plane>(&shape);
+    Shape whole = *body.shape;
+    auto* plane = std::get_if<Plane>(&whole);
     if (plane && is_kept_apart(index)) plane->offset -= plane->normal.dot(body.position);  // in the body's frame
-    add(R"(<geom name="g{}" {} {}/>)", index, mjcf_shape(shape), friction_of(scene_.contact_default, false));
+    int part = 0;
+    for_each_part(whole, [&](const Shape& shape, const BodyPose& pose) {
+      const std::string name = mjcf_geom_name(index, part++);
+      const bool is_placed = std::holds_alternative<Compound>(whole);
+      add(R"(<geom name="{}" {}{} {}/>)", name, mjcf_shape(shape, name), is_placed ? mjcf_pose(pose) : "",
+          friction_of(scene_.contact_default, false));
+    });
+  }
+
+  int parts_of(int body) const {
+    const auto* compound = std::get_if<Compound>(&*scene_.bodies[body].shape);
+    return compound ? static_cast<int>(compound->parts.size()) : 1;
   }
 
   // The points of springs and distance joints.
@@ -256,7 +294,11 @@ class Writer {
         add("<exclude body1=\"{}\" body2=\"{}\"/>\n", name_of(pair.a), name_of(pair.b));
         continue;
       }
-      add("<pair geom1=\"g{}\" geom2=\"g{}\" {}/>\n", pair.a, pair.b, friction_of(pair.law, true));
+      for (int part_a = 0; part_a < parts_of(pair.a); ++part_a) {
+        for (int part_b = 0; part_b < parts_of(pair.b); ++part_b)
+          add("<pair geom1=\"{}\" geom2=\"{}\" {}/>\n", mjcf_geom_name(pair.a, part_a), mjcf_geom_name(pair.b, part_b),
+              friction_of(pair.law, true));
+      }
     }
     add("</contact>\n");
   }
@@ -269,7 +311,21 @@ class Writer {
 
 }  // namespace
 
-std::string mjcf_shape(const Shape& shape) { return std::visit(GeomOf{}, shape); }
+std::string mjcf_geom_name(int body, int part) {
+  return part == 0 ? fmt::format("g{}", body) : fmt::format("g{}p{}", body, part);
+}
+
+std::string mjcf_shape(const Shape& shape, const std::string& mesh) { return std::visit(GeomOf{mesh}, shape); }
+
+std::string mjcf_pose(const BodyPose& pose) {
+  return fmt::format(R"( pos="{}" quat="{}")", text_of(pose.position), text_of(pose.orientation));
+}
+
+std::string mjcf_mesh(const Convex& convex, const std::string& name) {
+  std::string points;
+  for (const Vec3& point : convex.hull->points) points += (points.empty() ? "" : "  ") + text_of(point);
+  return fmt::format("<mesh name=\"{}\" vertex=\"{}\"/>\n", name, points);
+}
 
 std::vector<MjcfJoint> mjcf_joints(const Joint& joint, int hanging_body) {
   using Elements = std::vector<MjcfJoint>;

@@ -17,8 +17,13 @@ namespace rigor {
 // Bodies that hang on each other: TinyXML-2, which reads for MuJoCo, nests a hundred elements.
 inline constexpr int kDeepestBody = 95;
 
-// The attributes of a shape.
-std::string mjcf_shape(const Shape& shape);
+// The attributes of a shape that is no compound. A hull refers to the mesh of this name, the element of mjcf_mesh().
+std::string mjcf_shape(const Shape& shape, const std::string& mesh);
+std::string mjcf_pose(const BodyPose& pose);
+std::string mjcf_mesh(const Convex& convex, const std::string& name);
+
+// Of the part of a body's shape with this number.
+std::string mjcf_geom_name(int body, int part);
 
 // The elements of the joint between a body and its parent, with MuJoCo's types "ball", "hinge" and "slide". The first
 // of several moves with the parent. A fixed joint has none.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "adapters/mujoco/mujoco_mjcf.h"
 #include "core/dynamics/model/loads.h"
 
 namespace rigor {
@@ -84,8 +85,12 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
   mujoco_library::take_warnings();
   body_of_geom_.assign(static_cast<std::size_t>(made_.model->ngeom), kWorld);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const int geom = mj_name2id(made_.model.get(), mjOBJ_GEOM, fmt::format("g{}", i).c_str());
-    if (geom >= 0) body_of_geom_[static_cast<std::size_t>(geom)] = static_cast<int>(i);
+    const int body = static_cast<int>(i);
+    for (int part = 0;; ++part) {
+      const int geom = mj_name2id(made_.model.get(), mjOBJ_GEOM, mjcf_geom_name(body, part).c_str());
+      if (geom < 0) break;
+      body_of_geom_[static_cast<std::size_t>(geom)] = body;
+    }
   }
 }
 

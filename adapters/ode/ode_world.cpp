@@ -39,6 +39,15 @@ dMass mass_of(const Body& body) {
 // a plane by n · x = d with the solid behind it.
 struct MakeGeom {
   dSpaceID space;
+  std::vector<std::unique_ptr<OdeHull>>& hulls;
+
+  dGeomID operator()(const Compound&) const { return nullptr; }  // its parts are made
+  dGeomID operator()(const Convex& c) const {
+    hulls.push_back(std::make_unique<OdeHull>(*c.hull));
+    return hulls.back()->add_to(space);
+  }
+  dGeomID operator()(const Cylinder& c) const { return dCreateCylinder(space, c.radius, c.length); }
+  dGeomID operator()(const Ellipsoid&) const { return nullptr; }  // ODE has none: no feature of its contacts names it
   dGeomID operator()(const Sphere& s) const { return dCreateSphere(space, s.radius); }
   dGeomID operator()(const Box& b) const { return dCreateBox(space, b.size.x(), b.size.y(), b.size.z()); }
   dGeomID operator()(const Capsule& c) const { return dCreateCapsule(space, c.radius, c.length); }
@@ -120,15 +129,25 @@ void OdeWorld::add_body(const Body& body, const Settings& settings) {
 }
 
 void OdeWorld::add_geometry(const Body& body, dBodyID moving) {
-  const dGeomID geom = std::visit(MakeGeom{moving ? moving_ : fixed_}, *body.shape);
+  for_each_part(*body.shape, [&](const Shape& shape, const BodyPose& pose) { add_part(body, shape, pose, moving); });
+}
+
+void OdeWorld::add_part(const Body& body, const Shape& shape, const BodyPose& pose, dBodyID moving) {
+  const dGeomID geom = std::visit(MakeGeom{moving ? moving_ : fixed_, hulls_}, shape);
+  if (!geom) return;
   const auto index = static_cast<std::intptr_t>(bodies_.size()) - 1;
   dGeomSetData(geom, reinterpret_cast<void*>(index));
+  dQuaternion q;
   if (moving) {
     dGeomSetBody(geom, moving);
-  } else if (!std::holds_alternative<Plane>(*body.shape)) {  // a plane is given in the world frame, in ODE as here
-    dQuaternion q;
-    copy_to(body.orientation, q);
-    dGeomSetPosition(geom, body.position.x(), body.position.y(), body.position.z());
+    if (!std::holds_alternative<Compound>(*body.shape)) return;
+    copy_to(pose.orientation, q);
+    dGeomSetOffsetPosition(geom, pose.position.x(), pose.position.y(), pose.position.z());
+    dGeomSetOffsetQuaternion(geom, q);
+  } else if (!std::holds_alternative<Plane>(shape)) {  // a plane is given in the world frame, in ODE as here
+    const BodyPose in_W = BodyPose{body.position, body.orientation} * pose;
+    copy_to(in_W.orientation, q);
+    dGeomSetPosition(geom, in_W.position.x(), in_W.position.y(), in_W.position.z());
     dGeomSetQuaternion(geom, q);
   }
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "adapters/common/external_loads.h"
+#include "adapters/ode/ode_hull.h"
 #include "adapters/ode/ode_joints.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
@@ -42,6 +43,7 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts {
   void apply(const Settings& settings, const Scene& scene);
   void add_body(const Body& body, const Settings& settings);
   void add_geometry(const Body& body, dBodyID moving);
+  void add_part(const Body& body, const Shape& shape, const BodyPose& pose, dBodyID moving);
   void advance(double dt);
   void set_cfm(double cfm);
   bool runs_away() const;
@@ -71,8 +73,9 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts {
   unsigned long random_seed_ = 0;  // ODE's own at its start
 
   dWorldID world_;
-  dSpaceID moving_, fixed_;  // two spaces: fixed shapes are never tried against each other
-  dJointGroupID contacts_;   // lives for one step
+  std::vector<std::unique_ptr<OdeHull>> hulls_;  // ODE keeps pointers into them
+  dSpaceID moving_, fixed_;                      // two spaces: fixed shapes are never tried against each other
+  dJointGroupID contacts_;                       // lives for one step
   struct Reported {
     ReportedContact contact;  // without its force
     bool a_moves, b_moves;

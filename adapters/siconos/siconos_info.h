@@ -9,6 +9,8 @@ inline constexpr const char* kSiconosInfo = R"({"ok": true, "rigor": 1, "name": 
   "features": ["spring", "timed-force", "fixed-body", "restitution", "contact-filter", "friction:none", "friction:coulomb",
     "contact:box-box", "contact:box-capsule", "contact:box-plane", "contact:box-sphere", "contact:capsule-capsule",
     "contact:capsule-plane", "contact:capsule-sphere", "contact:plane-sphere", "contact:sphere-sphere",
+    "contact:box-convex", "contact:capsule-convex", "contact:convex-convex", "contact:convex-plane", "contact:convex-sphere",
+    "contact:cylinder-plane", "contact:cylinder-sphere", "contact:ellipsoid-plane", "contact:ellipsoid-sphere", "placed-shapes",
     "joint:ball", "joint:fixed", "joint:hinge", "joint:slider", "joint-spring", "joint-damper", "motor:effort",
     "joints-with-contacts", "joints-with-dampers"],
   "methods": [{"name": "moreau-jean", "summary": "Moreau and Jean's theta method, Coulomb's cone by Gauss-Seidel",

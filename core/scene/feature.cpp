@@ -23,6 +23,7 @@ const FeatureWord kPlainWords[] = {
     {Feature::joints_with_dampers, "joints-with-dampers"},
     {Feature::motor_effort, "motor:effort"},
     {Feature::motor_speed, "motor:speed"},
+    {Feature::placed_shapes, "placed-shapes"},
     {Feature::restitution, "restitution"},
     {Feature::speed_motor_with_limits, "speed-motor-with-limits"},
     {Feature::spring, "spring"},
@@ -34,13 +35,14 @@ static_assert(std::size(kPlainWords) == static_cast<std::size_t>(Feature::first_
 
 constexpr int kShapes = static_cast<int>(std::variant_size_v<Shape>);
 
-// Calls visitor(a, b) for each pair of indices in Shape of which at least one is no plane.
+// Calls visitor(a, b) for each pair of indices in Shape that can meet: not two planes, and of a compound its parts.
 template <typename Visitor>
 void for_each_pair(const Visitor& visitor) {
-  constexpr int plane = index_among<Plane>(static_cast<const Shape*>(nullptr));
+  constexpr const Shape* shapes = nullptr;
+  constexpr int plane = index_among<Plane>(shapes), compound = index_among<Compound>(shapes);
   for (int b = 0; b < kShapes; ++b) {
     for (int a = 0; a <= b; ++a)
-      if (a != plane || b != plane) visitor(a, b);
+      if (a != compound && b != compound && (a != plane || b != plane)) visitor(a, b);
   }
 }
 
@@ -48,7 +50,9 @@ std::vector<FeatureWord> all_words() {
   std::vector<FeatureWord> rows(std::begin(kPlainWords), std::end(kPlainWords));
   for (const JointTypeInfo& type : joint_types()) rows.push_back({joint_feature(type.prototype), "joint:" + type.word});
   for_each_pair([&](int a, int b) {
-    const auto [first, second] = std::minmax({std::string(kShapeWords[a]), std::string(kShapeWords[b])});
+    const auto& table = shape_types();
+    const auto [first, second] =
+        std::minmax(table[static_cast<std::size_t>(a)].word, table[static_cast<std::size_t>(b)].word);
     rows.push_back({contact_feature(a, b), fmt::format("contact:{}-{}", first, second)});
   });
   return rows;

@@ -32,6 +32,7 @@ enum class Feature : int {
   joints_with_dampers,
   motor_effort,
   motor_speed,
+  placed_shapes,  // shapes with poses, several of them for one body
   restitution,
   speed_motor_with_limits,  // a joint with limits and a motor that keeps a speed
   spring,
@@ -87,7 +88,18 @@ constexpr Feature joint_feature() {
 }
 inline bool is_joint(Feature feature) { return feature >= Feature::first_joint && feature < Feature::first_contact; }
 
-// Every pair of shapes that can meet.
+// Every pair of these shapes, and of all shapes, that can meet.
+template <typename... Types>
+Features contacts_among() {
+  Features contacts;
+  constexpr const Shape* shapes = nullptr;
+  constexpr int places[] = {index_among<Types>(shapes)...}, plane = index_among<Plane>(shapes);
+  for (const int a : places) {
+    for (const int b : places)
+      if (a != plane || b != plane) contacts.insert(contact_feature(a, b));
+  }
+  return contacts;
+}
 Features contacts_of_all_shapes();
 Features joints_of_all_types();
 template <typename... Types>

@@ -35,9 +35,14 @@ void add_contact_law(const ContactLaw& law, const std::string& because, NeedList
   if (law.restitution > 0) needs.add(Feature::restitution, because);
 }
 
-// The word of a body's shape, and whether the body is fixed.
-using Kind = std::pair<std::string, bool>;
-Kind kind_of(const Body& body) { return {shape_name(*body.shape), body.fixed}; }
+// The body's shapes, each once, by their place in the table; and whether the body is fixed.
+using Kind = std::pair<std::set<int>, bool>;
+Kind kind_of(const Body& body) {
+  Kind kind{{}, body.fixed};
+  for_each_part(*body.shape,
+                [&](const Shape& shape, const BodyPose&) { kind.first.insert(static_cast<int>(shape.index())); });
+  return kind;
+}
 
 std::pair<Kind, Kind> kinds_of(const Body& a, const Body& b) { return std::minmax({kind_of(a), kind_of(b)}); }
 
@@ -82,11 +87,18 @@ bool add_contacts(const Scene& scene, NeedList& needs) {
       if (touching == 0) continue;
       const auto [a, b] = first_pair(first->second, second->second, laws);
       because = fmt::format("bodies '{}' and '{}' may touch", scene.bodies[a].name, scene.bodies[b].name);
-      needs.add(contact_feature(*scene.bodies[a].shape, *scene.bodies[b].shape), because);
+      for (const int of_a : first->first.first) {
+        for (const int of_b : second->first.first) needs.add(contact_feature(of_a, of_b), because);
+      }
       pairs_that_touch += touching;
     }
   }
   if (pairs_that_touch == 0) return false;
+  for (const Body& body : scene.bodies) {
+    if (body.collides && std::holds_alternative<Compound>(*body.shape))
+      needs.add(Feature::placed_shapes,
+                fmt::format("body '{}' has several shapes, or one that is not centred,", body.name));
+  }
 
   std::size_t laws_given = 0;
   for (const ContactPair& pair : scene.contact_pairs) {

@@ -38,13 +38,4 @@ std::vector<std::string> LeftOut::losses() const {
   return all;
 }
 
-BodyPose operator*(const BodyPose& a, const BodyPose& b) {
-  return {a.position + a.orientation * b.position, (a.orientation * b.orientation).normalized()};
-}
-
-BodyPose inverse(const BodyPose& pose) {
-  const Quat back = pose.orientation.conjugate();
-  return {-(back * pose.position), back};
-}
-
 }  // namespace rigor

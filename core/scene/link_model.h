@@ -81,7 +81,4 @@ struct LinkModel {
   LeftOut left_out;
 };
 
-BodyPose operator*(const BodyPose& a, const BodyPose& b);  // b, given in a's frame, in the frame that a is given in
-BodyPose inverse(const BodyPose& pose);
-
 }  // namespace rigor

@@ -9,32 +9,14 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/scene/body_pose.h"
 #include "core/scene/joint_types.h"
+#include "core/scene/shape_types.h"
 
 namespace rigor {
 
 inline constexpr int kWorld = -1;  // stands where a body's index would: the world itself, its points in W
 inline constexpr double kInfiniteFriction = std::numeric_limits<double>::infinity();
-
-// Shapes are centred on the body's origin.
-struct Sphere {
-  double radius;  // m
-};
-struct Box {
-  Vec3 size;  // m, full edge lengths along B's axes
-};
-struct Capsule {
-  double radius;  // m
-  double length;  // m, of the cylinder between the two half-spheres, along B's z axis
-};
-struct Plane {
-  Vec3 normal;    // unit, in W; the solid half-space lies behind it
-  double offset;  // m; the plane is normal · x = offset
-};
-using Shape = std::variant<Sphere, Box, Capsule, Plane>;
-// The words of shapes in files, in the order of Shape.
-inline constexpr const char* kShapeWords[] = {"sphere", "box", "capsule", "plane"};
-static_assert(std::size(kShapeWords) == std::variant_size_v<Shape>);
 
 struct Body {
   std::string name;
@@ -44,9 +26,9 @@ struct Body {
   Quat orientation = Quat::Identity();   // unit, B to W
   Vec3 velocity = Vec3::Zero();          // m/s, in W
   Vec3 angular_velocity = Vec3::Zero();  // rad/s, in W
-  std::optional<Shape> shape;
-  bool collides = false;  // takes part in contact; needs a shape
-  bool fixed = false;     // static; a plane always is
+  std::optional<Shape> shape;            // in B, but for a plane; several, or one that is not centred: a Compound
+  bool collides = false;                 // takes part in contact; needs a shape
+  bool fixed = false;                    // static; a plane always is
 };
 
 // A straight spring and damper between two points. The force on b's point is -(k (d - d0) + c d') along the line from
@@ -112,11 +94,6 @@ struct TimedForce {
   double until = std::numeric_limits<double>::infinity();  // s
 };
 
-struct BodyPose {
-  Vec3 position = Vec3::Zero();         // m, in W
-  Quat orientation = Quat::Identity();  // B to W
-};
-
 struct Scene {
   Vec3 gravity = Vec3::Zero();  // m/s²
   std::vector<Body> bodies;
@@ -132,12 +109,6 @@ struct Scene {
   std::string joint_name(std::size_t index) const;  // its own, or "the hinge of 'world' and 'rod'"
   BodyPose pose(int body) const;                    // at t = 0; of the world, W itself
 };
-
-// The inertia about the centre of mass [kg m², in B] of a solid body of even density. A plane has none.
-Mat3 inertia_of(const Shape& shape, double mass);
-
-// "sphere", "box", "capsule", "plane": the word the case file uses.
-std::string shape_name(const Shape& shape);
 
 // The word of the joint's type in case files: "hinge".
 std::string joint_type_name(const Joint& joint);

@@ -24,22 +24,35 @@ Fault not_at_least_zero(const char* key, double value) {
   return SceneFault{key, fmt::format("found {}; allowed: a number of at least 0", value)};
 }
 
-struct ShapeFault {
-  Fault operator()(const Sphere& sphere) const { return not_positive("radius", sphere.radius); }
-  Fault operator()(const Box& box) const { return not_positive("size", box.size.minCoeff()); }
-  Fault operator()(const Capsule& capsule) const {
-    const Fault radius = not_positive("radius", capsule.radius);
-    return radius ? radius : not_positive("length", capsule.length);
+Fault fault_of_field(const char* key, ShapeQuantity quantity, double value) {
+  if (std::isfinite(value) && (quantity == ShapeQuantity::number || value > 0)) return {};
+  return SceneFault{"shape", fmt::format("its {} is {}; allowed: a number greater than 0", key, value)};
+}
+Fault fault_of_field(const char* key, ShapeQuantity quantity, const Vec3& value) {
+  if (quantity != ShapeQuantity::direction) return fault_of_field(key, ShapeQuantity::length, value.minCoeff());
+  if (is_unit(value.squaredNorm())) return {};
+  return SceneFault{"shape", fmt::format("its {} is no unit vector", key)};
+}
+
+Fault fault_of_shape(const Shape& shape) {
+  Fault fault;
+  for_each_field(shape, [&](const char* key, ShapeQuantity quantity, const auto& value) {
+    if (!fault) fault = fault_of_field(key, quantity, value);
+  });
+  if (const auto* convex = std::get_if<Convex>(&shape); convex && !convex->hull)
+    return SceneFault{"shape", "a convex shape has no hull"};
+  if (fault || !std::holds_alternative<Compound>(shape)) return fault;
+  const std::vector<PlacedShape>& parts = std::get<Compound>(shape).parts;
+  if (parts.empty()) return SceneFault{"shapes", "found none; allowed: at least one shape"};
+  for (const PlacedShape& part : parts) {
+    if (!shape_types()[part.shape.index()].is_solid)
+      return SceneFault{"shapes", fmt::format("a {} cannot be one of several shapes", shape_name(part.shape))};
+    if (!part.pose.position.allFinite() || !is_unit(part.pose.orientation.squaredNorm()))
+      return SceneFault{"shapes", "a shape's pose is not finite, or its orientation no unit quaternion"};
+    if (Fault of_part = fault_of_shape(part.shape)) return of_part;
   }
-  Fault operator()(const Plane& plane) const {
-    if (is_unit(plane.normal.squaredNorm()) && std::isfinite(plane.offset)) return {};
-    return SceneFault{"shape", "a plane has a unit normal and a finite offset"};
-  }
-  static Fault not_positive(const char* what, double value) {
-    if (value > 0 && std::isfinite(value)) return {};
-    return SceneFault{"shape", fmt::format("its {} is {}; allowed: a number greater than 0", what, value)};
-  }
-};
+  return fault;
+}
 
 Fault fault_of_motion(const Body& body) {
   if (!body.position.allFinite()) return SceneFault{"position", "it is not finite"};
@@ -151,7 +164,7 @@ Fault fault_of(const Body& body) {
   if (const Fault name = fault_of_name(body.name)) return name;
   const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
   if (body.shape) {
-    if (Fault shape = std::visit(ShapeFault(), *body.shape)) return shape;
+    if (Fault shape = fault_of_shape(*body.shape)) return shape;
   }
   if (is_plane && !body.fixed)
     return SceneFault{"fixed", "found false, but a plane never moves; allowed: true, or no such key"};
@@ -201,8 +214,9 @@ Fault fault_of(const Motor& motor, const Scene& scene) {
   if (motor.joint < 0 || motor.joint >= static_cast<int>(scene.joints.size()))
     return SceneFault{"joint", fmt::format("there is no joint number {}", motor.joint)};
   if (!free_axis(scene.joints[motor.joint]))
-    return SceneFault{"joint", fmt::format("is a {} joint, which has no coordinate of its own to drive; allowed: a hinge or a slider",
-                                           joint_type_name(scene.joints[motor.joint]))};
+    return SceneFault{
+        "joint", fmt::format("is a {} joint, which has no coordinate of its own to drive; allowed: a hinge or a slider",
+                             joint_type_name(scene.joints[motor.joint]))};
   if (!std::isfinite(motor.effort) || !std::isfinite(motor.speed.value_or(0)))
     return SceneFault{"", "what it drives by is not finite"};
   if (motor.speed && !(motor.most > 0))

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/dynamics/collision/convex_distance.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -31,14 +32,6 @@ Rod rod_of(const Capsule& c, const BodyPose& pose) {
 }
 Cuboid cuboid_of(const Box& b, const BodyPose& pose) {
   return {pose.position, pose.orientation.toRotationMatrix(), b.size / 2};
-}
-
-double over_plane(const Plane& plane, const Rod& rod) {
-  return plane.normal.dot(rod.middle) - std::abs(plane.normal.dot(rod.half)) - plane.offset - rod.radius;
-}
-
-double over_plane(const Plane& plane, const Cuboid& box) {
-  return plane.normal.dot(box.centre) - (box.axes.transpose() * plane.normal).cwiseAbs().dot(box.half) - plane.offset;
 }
 
 double point_to_rod(const Vec3& p, const Rod& rod) {
@@ -113,34 +106,48 @@ BodyPose pose_of(BodyColumns bodies, int i) { return {bodies.position(i), bodies
 
 bool is_plane(const Body& body) { return std::holds_alternative<Plane>(*body.shape); }
 
-}  // namespace
+bool is_rod_or_box(const Shape& shape) {
+  return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Capsule>(shape) ||
+         std::holds_alternative<Box>(shape);
+}
 
-double shape_gap(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
+double gap_of_rods_and_boxes(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
   const auto with = [](const auto& shape, const BodyPose& pose, const auto& then) {
     if (const auto* s = std::get_if<Sphere>(&shape)) return then(rod_of(*s, pose));
     if (const auto* c = std::get_if<Capsule>(&shape)) return then(rod_of(*c, pose));
     return then(cuboid_of(std::get<Box>(shape), pose));
   };
-  const auto *plane_a = std::get_if<Plane>(&a), *plane_b = std::get_if<Plane>(&b);
-  if (plane_a && plane_b) return kInfinity;  // neither moves
-  if (plane_a) return with(b, pose_b, [&](const auto& solid) { return over_plane(*plane_a, solid); });
-  if (plane_b) return with(a, pose_a, [&](const auto& solid) { return over_plane(*plane_b, solid); });
   return with(a, pose_a,
               [&](const auto& one) { return with(b, pose_b, [&](const auto& other) { return between(one, other); }); });
 }
 
-double bounding_radius(const Shape& shape) {
-  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
-  if (const auto* c = std::get_if<Capsule>(&shape)) return c->radius + c->length / 2;
-  if (const auto* b = std::get_if<Box>(&shape)) return b->size.norm() / 2;
-  return kInfinity;
+double over_plane(const Plane& plane, const Shape& shape, const BodyPose& pose) {
+  const Vec3 down = -(pose.orientation.conjugate() * plane.normal);
+  return plane.normal.dot(pose.position) - down.dot(support(shape, down)) - plane.offset;
 }
 
-double inradius(const Shape& shape) {
-  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
-  if (const auto* c = std::get_if<Capsule>(&shape)) return c->radius;
-  if (const auto* b = std::get_if<Box>(&shape)) return b->size.minCoeff() / 2;
-  return kInfinity;
+Pose matrix_pose(const BodyPose& pose) { return {pose.position, matrix_of(pose.orientation)}; }
+
+// Neither shape is a compound.
+double gap_of_parts(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
+  const auto *plane_a = std::get_if<Plane>(&a), *plane_b = std::get_if<Plane>(&b);
+  if (plane_a && plane_b) return kInfinity;  // neither moves
+  if (plane_a) return over_plane(*plane_a, b, pose_b);
+  if (plane_b) return over_plane(*plane_b, a, pose_a);
+  if (is_rod_or_box(a) && is_rod_or_box(b)) return gap_of_rods_and_boxes(a, pose_a, b, pose_b);
+  return convex_distance(a, matrix_pose(pose_a), b, matrix_pose(pose_b)).gap;
+}
+
+}  // namespace
+
+double shape_gap(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
+  double least = kInfinity;
+  for_each_part(a, [&](const Shape& part_a, const BodyPose& in_a) {
+    for_each_part(b, [&](const Shape& part_b, const BodyPose& in_b) {
+      least = std::min(least, gap_of_parts(part_a, pose_a * in_a, part_b, pose_b * in_b));
+    });
+  });
+  return least;
 }
 
 void for_each_near_pair(const Scene& scene, BodyColumns bodies, double reach,

@@ -14,9 +14,6 @@ namespace rigor {
 // whose axis is inside a box it is the depth of its deepest point.
 double shape_gap(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b);
 
-double bounding_radius(const Shape& shape);  // m, round the body's origin; infinite for a plane
-double inradius(const Shape& shape);  // m, of the largest sphere inside: half its thickness; infinite for a plane
-
 // Calls `visit(a, b, gap)` for each pair of the scene's colliding bodies, one of which can move, that may be nearer
 // than `distance` [m]. Neighbours are found by sorting along one axis.
 void for_each_near_pair(const Scene& scene, BodyColumns bodies, double distance,

@@ -13,10 +13,7 @@ constexpr double kMostPoses = 1e5;      // looked at when thinning, bodies times
 
 double bounding_radius_of(const Body& body) {
   if (!body.shape) return 0.1;
-  if (const auto* sphere = std::get_if<Sphere>(&*body.shape)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&*body.shape)) return 0.5 * box->size.norm();
-  if (const auto* capsule = std::get_if<Capsule>(&*body.shape)) return capsule->radius + 0.5 * capsule->length;
-  return 0;
+  return std::holds_alternative<Plane>(*body.shape) ? 0 : bounding_radius(*body.shape);
 }
 
 bool is_within(BodyColumns bodies, const Vec3& centre, double farthest) {

@@ -1,5 +1,6 @@
 #include "cases/report/json/scene_json.h"
 #include "core/base/json.h"
+#include "core/scene/toml/shape_json.h"
 
 #include <cmath>
 
@@ -8,14 +9,22 @@ namespace {
 
 Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-Json json_of_shape(const Shape& shape) {
-  Json json = {{"type", shape_name(shape)}};
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) json["radius"] = sphere->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) json["size"] = list(box->size);
-  if (const auto* capsule = std::get_if<Capsule>(&shape))
-    json["radius"] = capsule->radius, json["length"] = capsule->length;
-  if (const auto* plane = std::get_if<Plane>(&shape))
-    json["normal"] = list(plane->normal), json["offset"] = plane->offset;
+// As the page draws it: a compound as its parts, and a hull with the triangles of its surface.
+Json drawn_shape_json(const Shape& shape) {
+  if (const auto* compound = std::get_if<Compound>(&shape)) {
+    Json json = {{"type", "compound"}, {"parts", json_of_shape(shape)}};
+    for (std::size_t k = 0; k < compound->parts.size(); ++k)
+      json["parts"][k].update(drawn_shape_json(compound->parts[k].shape));
+    return json;
+  }
+  Json json = json_of_shape(shape);
+  if (const auto* convex = std::get_if<Convex>(&shape)) {
+    json["triangles"] = Json::array();
+    for (const Hull::Face& face : convex->hull->faces) {
+      for (std::size_t k = 1; k + 1 < face.corners.size(); ++k)
+        json["triangles"].push_back({face.corners[0], face.corners[k], face.corners[k + 1]});
+    }
+  }
   return json;
 }
 
@@ -27,7 +36,7 @@ Json json_of_body(const Body& body) {
           {"inertia", {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}},
           {"position", list(body.position)},
           {"orientation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"shape", body.shape ? json_of_shape(*body.shape) : Json(nullptr)},
+          {"shape", body.shape ? drawn_shape_json(*body.shape) : Json(nullptr)},
           {"collides", body.collides},
           {"fixed", body.fixed}};
 }

@@ -33,6 +33,14 @@ struct SdfGeometry {
   std::string operator()(const Capsule& c) const {
     return fmt::format("<capsule><radius>{}</radius><length>{}</length></capsule>", c.radius, c.length);
   }
+  std::string operator()(const Cylinder& c) const {
+    return fmt::format("<cylinder><radius>{}</radius><length>{}</length></cylinder>", c.radius, c.length);
+  }
+  std::string operator()(const Ellipsoid& e) const {
+    return fmt::format("<ellipsoid><radii>{}</radii></ellipsoid>", sdf_numbers(e.radii));
+  }
+  std::string operator()(const Convex&) const { return ""; }    // SDF has meshes in files of their own alone
+  std::string operator()(const Compound&) const { return ""; }  // its parts are written
   std::string operator()(const Plane& p) const {
     return fmt::format("<plane><normal>{}</normal></plane>", sdf_numbers(p.normal));
   }
@@ -64,14 +72,26 @@ class SdfWriter {
 
   void add_shape(const Body& body, const char* indent) {
     if (!body.shape) return;
+    int number = 0;
+    for_each_part(*body.shape, [&](const Shape& shape, const BodyPose& pose) {
+      add_part(body, shape, pose, number == 0 ? "shape" : fmt::format("shape{}", number + 1), indent);
+      ++number;
+    });
+  }
+
+  void add_part(const Body& body, const Shape& shape, const BodyPose& at, const std::string& name, const char* indent) {
+    const std::string geometry_of_shape = std::visit(SdfGeometry(), shape);
+    if (geometry_of_shape.empty())
+      return leave_out(fmt::format("body '{}'", body.name), "its convex hull", "a mesh of SDF is a file of its own");
     const double mu = scene_.contact_default.friction;
-    const auto* plane = std::get_if<Plane>(&*body.shape);
-    const std::string pose =
-        plane ? fmt::format("<pose>{} 0 0 0</pose>", sdf_numbers(Vec3(plane->normal * plane->offset))) : "";
-    const std::string geometry = fmt::format("{}<geometry>{}</geometry>", pose, std::visit(SdfGeometry(), *body.shape));
-    add("{}<visual name=\"shape\">{}</visual>\n", indent, geometry);
+    const auto* plane = std::get_if<Plane>(&shape);
+    std::string pose;
+    if (plane) pose = fmt::format("<pose>{} 0 0 0</pose>", sdf_numbers(Vec3(plane->normal * plane->offset)));
+    if (std::holds_alternative<Compound>(*body.shape)) pose = sdf_pose_of(at);
+    const std::string geometry = fmt::format("{}<geometry>{}</geometry>", pose, geometry_of_shape);
+    add("{}<visual name=\"{}\">{}</visual>\n", indent, name, geometry);
     if (!body.collides) return;
-    add("{}<collision name=\"shape\">{}<surface><friction><ode><mu>{}</mu><mu2>{}</mu2></ode></friction>", indent,
+    add("{}<collision name=\"{}\">{}<surface><friction><ode><mu>{}</mu><mu2>{}</mu2></ode></friction>", indent, name,
         geometry, std::min(mu, 1e6), std::min(mu, 1e6));
     add("<bounce><restitution_coefficient>{}</restitution_coefficient></bounce></surface></collision>\n",
         scene_.contact_default.restitution);

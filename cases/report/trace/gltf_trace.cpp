@@ -17,63 +17,6 @@ namespace {
 enum Component { kUnsignedShort = 5123, kFloat = 5126 };
 enum Target { kVertices = 34962, kIndices = 34963 };
 
-struct TriangleMesh {
-  std::vector<Vec3> points, normals;
-  std::vector<int> corners;  // three a triangle, anticlockwise as seen from outside
-};
-
-// Edges of 1.
-TriangleMesh cube() {
-  TriangleMesh mesh;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-0.5, 0.5}) {
-      const Vec3 normal = 2 * side * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
-      const int first = static_cast<int>(mesh.points.size());
-      for (const auto& [a, b] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
-        mesh.points.push_back(normal / 2 + a * u + b * v), mesh.normals.push_back(normal);
-      }
-      for (const int corner : {0, 1, 2, 0, 2, 3}) mesh.corners.push_back(first + corner);
-    }
-  }
-  return mesh;
-}
-
-constexpr int kRound = 24;  // points round a circle
-
-// A surface of rings about z, each of kRound + 1 points, from below upwards.
-TriangleMesh rings(const std::vector<std::array<double, 4>>& profile) {  // radius, height, and the normal's two parts
-  TriangleMesh mesh;
-  for (const auto& [radius, height, outwards, upwards] : profile) {
-    for (int k = 0; k <= kRound; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kRound;
-      const Vec3 out(std::cos(angle), std::sin(angle), 0);
-      mesh.points.push_back(radius * out + height * Vec3::UnitZ());
-      mesh.normals.push_back((outwards * out + upwards * Vec3::UnitZ()).normalized());
-    }
-  }
-  for (int ring = 0; ring + 1 < static_cast<int>(profile.size()); ++ring) {
-    for (int k = 0; k < kRound; ++k) {
-      const int low = ring * (kRound + 1) + k, high = low + kRound + 1;
-      for (const int corner : {low, low + 1, high + 1, low, high + 1, high}) mesh.corners.push_back(corner);
-    }
-  }
-  return mesh;
-}
-
-// Diameter and length 1, open at its ends.
-TriangleMesh tube() { return rings({{0.5, -0.5, 1, 0}, {0.5, 0.5, 1, 0}}); }
-
-// Diameter 1.
-TriangleMesh ball() {
-  std::vector<std::array<double, 4>> profile;
-  for (int k = 0; k <= kRound / 2; ++k) {
-    const double latitude = std::numbers::pi * (2.0 * k / kRound - 0.5), c = std::max(0.0, std::cos(latitude)),
-                 s = std::sin(latitude);
-    profile.push_back({c / 2, s / 2, c, s});
-  }
-  return rings(profile);
-}
-
 // A square of edge 1 that looks along z.
 TriangleMesh square() {
   return {{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}},
@@ -90,7 +33,7 @@ class GltfFile {
     json_["nodes"] = Json::array();
     json_["materials"] = {material(0.25, 0.5, 0.85), material(0.6, 0.6, 0.6)};
     for (const int material : {0, 1}) {
-      for (const TriangleMesh& mesh : {cube(), tube(), ball(), square()}) add_mesh(mesh, material);
+      for (const TriangleMesh& mesh : {unit_cube(), unit_tube(), unit_ball(), square()}) add_mesh(mesh, material);
     }
   }
 
@@ -121,27 +64,8 @@ class GltfFile {
     return json_.dump() + "\n";
   }
 
- private:
-  static Json material(double r, double g, double b) {
-    return {
-        {"pbrMetallicRoughness", {{"baseColorFactor", {r, g, b, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.7}}},
-        {"doubleSided", true}};
-  }
-
-  int add_view(const void* data, std::size_t size, int target) {
-    while (bytes_.size() % 4 != 0) bytes_ += '\0';
-    Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
-    if (target != 0) view["target"] = target;
-    bytes_.append(static_cast<const char*>(data), size);
-    json_["bufferViews"].push_back(view);
-    return static_cast<int>(json_["bufferViews"].size()) - 1;
-  }
-  int add_accessor(const Json& accessor) {
-    json_["accessors"].push_back(accessor);
-    return static_cast<int>(json_["accessors"].size()) - 1;
-  }
-
-  void add_mesh(const TriangleMesh& mesh, int material) {
+  // Returns its number.
+  int add_mesh(const TriangleMesh& mesh, int material) {
     std::vector<float> points, normals;
     Vec3 low = mesh.points.front(), high = low;
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -164,6 +88,27 @@ class GltfFile {
                                 {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
                                   {"indices", indices},
                                   {"material", material}}}}});
+    return static_cast<int>(json_["meshes"].size()) - 1;
+  }
+
+ private:
+  static Json material(double r, double g, double b) {
+    return {
+        {"pbrMetallicRoughness", {{"baseColorFactor", {r, g, b, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.7}}},
+        {"doubleSided", true}};
+  }
+
+  int add_view(const void* data, std::size_t size, int target) {
+    while (bytes_.size() % 4 != 0) bytes_ += '\0';
+    Json view = {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", size}};
+    if (target != 0) view["target"] = target;
+    bytes_.append(static_cast<const char*>(data), size);
+    json_["bufferViews"].push_back(view);
+    return static_cast<int>(json_["bufferViews"].size()) - 1;
+  }
+  int add_accessor(const Json& accessor) {
+    json_["accessors"].push_back(accessor);
+    return static_cast<int>(json_["accessors"].size()) - 1;
   }
 
   Json json_;
@@ -176,26 +121,41 @@ Json gltf_turn(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 // The nodes of a shape, below that of its body.
 struct ShapeNodes {
   GltfFile& file;
-  int meshes;  // the first of those in its colour
+  int material;
   std::vector<int> nodes = {};
+  BodyPose at = {};  // of the shape in B
 
-  void add(MeshIndex mesh, const Vec3& scale, const Vec3& at = Vec3::Zero(), const Quat& turn = Quat::Identity()) {
-    nodes.push_back(file.add_node({{"mesh", meshes + mesh},
+  void add(MeshIndex mesh, const Vec3& scale, const BodyPose& pose = {}) {
+    constexpr int kMeshes = 4;  // in each colour
+    add_node(kMeshes * material + mesh, scale, pose);
+  }
+  void add_node(int mesh, const Vec3& scale, const BodyPose& pose) {
+    const BodyPose in_B = at * pose;
+    nodes.push_back(file.add_node({{"mesh", mesh},
                                    {"scale", gltf_vector(scale)},
-                                   {"translation", gltf_vector(at)},
-                                   {"rotation", gltf_turn(turn)}}));
+                                   {"translation", gltf_vector(in_B.position)},
+                                   {"rotation", gltf_turn(in_B.orientation)}}));
   }
   void operator()(const Sphere& sphere) { add(kBall, Vec3::Constant(2 * sphere.radius)); }
   void operator()(const Box& box) { add(kCube, box.size); }
   void operator()(const Capsule& capsule) {
     const double width = 2 * capsule.radius;
     add(kTube, {width, width, capsule.length});
-    for (const double side : {-0.5, 0.5}) add(kBall, Vec3::Constant(width), side * capsule.length * Vec3::UnitZ());
+    for (const double side : {-0.5, 0.5})
+      add(kBall, Vec3::Constant(width), {side * capsule.length * Vec3::UnitZ(), Quat::Identity()});
   }
-  void operator()(const Plane& plane) {
-    const BodyPose pose = pose_of_plane(plane);
-    add(kSquare, Vec3::Constant(2 * kDrawnPlane), pose.position, pose.orientation);
+  void operator()(const Compound& compound) {
+    for (const PlacedShape& part : compound.parts) {
+      at = part.pose;
+      std::visit([this](const auto& shape) { (*this)(shape); }, part.shape);
+    }
+    at = {};
   }
+  void operator()(const Convex& convex) { add_own(convex.drawn()); }
+  void operator()(const Cylinder& cylinder) { add_own(cylinder.drawn()); }
+  void operator()(const Ellipsoid& ellipsoid) { add(kBall, 2 * ellipsoid.radii); }
+  void add_own(const TriangleMesh& mesh) { add_node(file.add_mesh(mesh, material), Vec3::Ones(), {}); }
+  void operator()(const Plane& plane) { add(kSquare, Vec3::Constant(2 * kDrawnPlane), pose_of_plane(plane)); }
 };
 
 class GltfTrace : public TraceWriter {
@@ -228,9 +188,8 @@ class GltfTrace : public TraceWriter {
         times_.empty() ? -1 : file.add_floats(times_, 1, {{"min", {times_.front()}}, {"max", {times_.back()}}});
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const Body& body = scene_.bodies[i];
-      constexpr int kMeshes = 4;  // in each colour
-      ShapeNodes shape{file, body.fixed ? kMeshes : 0};
-      std::visit(shape, drawn_shape(body));
+      ShapeNodes shape{file, body.fixed ? 1 : 0};
+      std::visit([&](const auto& its) { shape(its); }, drawn_shape(body));
       const int node = file.add_node({{"name", body.name},
                                       {"translation", gltf_vector(body.position)},
                                       {"rotation", gltf_turn(body.orientation)},

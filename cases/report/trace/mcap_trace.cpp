@@ -81,16 +81,37 @@ class Entity {
       json_[kind] = Json::array();
     colour_ = body.fixed ? Json{{"r", 0.6}, {"g", 0.6}, {"b", 0.6}, {"a", 0.5}}
                          : Json{{"r", 0.25}, {"g", 0.5}, {"b", 0.85}, {"a", 1}};
-    std::visit(*this, drawn_shape(body));
+    std::visit([this](const auto& shape) { (*this)(shape); }, drawn_shape(body));
   }
-  void operator()(const Sphere& sphere) { add("spheres", BodyPose(), Vec3::Constant(2 * sphere.radius)); }
-  void operator()(const Box& box) { add("cubes", BodyPose(), box.size); }
+  void operator()(const Sphere& sphere) { add("spheres", at_, Vec3::Constant(2 * sphere.radius)); }
+  void operator()(const Box& box) { add("cubes", at_, box.size); }
   void operator()(const Capsule& capsule) {
-    add("cylinders", BodyPose(), {2 * capsule.radius, 2 * capsule.radius, capsule.length});
-    json_["cylinders"].back()["bottom_scale"] = json_["cylinders"].back()["top_scale"] = 1;
+    (*this)(Cylinder{capsule.radius, capsule.length});
     for (const double side : {-0.5, 0.5})
-      add("spheres", {side * capsule.length * Vec3::UnitZ()}, Vec3::Constant(2 * capsule.radius));
+      add("spheres", at_ * BodyPose{side * capsule.length * Vec3::UnitZ()}, Vec3::Constant(2 * capsule.radius));
   }
+  void operator()(const Compound& compound) {
+    for (const PlacedShape& part : compound.parts) {
+      at_ = part.pose;
+      std::visit([this](const auto& shape) { (*this)(shape); }, part.shape);
+    }
+    at_ = {};
+  }
+  void operator()(const Convex& convex) {
+    const TriangleMesh mesh = convex.drawn();
+    Json points = Json::array();
+    for (const Vec3& point : mesh.points) points.push_back(xyz(point));
+    json_["triangles"].push_back({{"pose", pose_json(at_)},
+                                  {"points", points},
+                                  {"color", colour_},
+                                  {"colors", Json::array()},
+                                  {"indices", mesh.corners}});
+  }
+  void operator()(const Cylinder& cylinder) {
+    add("cylinders", at_, {2 * cylinder.radius, 2 * cylinder.radius, cylinder.length});
+    json_["cylinders"].back()["bottom_scale"] = json_["cylinders"].back()["top_scale"] = 1;
+  }
+  void operator()(const Ellipsoid& ellipsoid) { add("spheres", at_, 2 * ellipsoid.radii); }
   // The frame of a plane's body is W itself.
   void operator()(const Plane& plane) {
     constexpr double kThin = 0.01;  // m
@@ -105,6 +126,7 @@ class Entity {
     json_[kind].push_back({{"pose", pose_json(pose)}, {"size", xyz(size)}, {"color", colour_}});
   }
   Json json_, colour_;
+  BodyPose at_;  // of the shape in B
 };
 
 class McapTrace : public TraceWriter {

@@ -1,33 +1,40 @@
 #include "core/dynamics/collision/colliders.h"
 
-#include <limits>
-
 namespace rigor {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct BoundingRadius {
-  double operator()(const Sphere& s) const { return s.radius; }
-  double operator()(const Box& b) const { return 0.5 * b.size.norm(); }
-  double operator()(const Capsule& c) const { return c.radius + 0.5 * c.length; }
-  double operator()(const Plane&) const { return kInfinity; }
-};
-
-struct Inradius {
-  double operator()(const Sphere& s) const { return s.radius; }
-  double operator()(const Box& b) const { return 0.5 * b.size.minCoeff(); }
-  double operator()(const Capsule& c) const { return c.radius; }
-  double operator()(const Plane&) const { return kInfinity; }
-};
-
-// Half the width along each of W's axes.
-struct HalfWidth {
+// What a shape fills along W's axes, relative to the pose's origin.
+struct Extent {
   const Mat3& R;
-  Vec3 operator()(const Sphere& s) const { return Vec3::Constant(s.radius); }
-  Vec3 operator()(const Box& b) const { return R.cwiseAbs() * (0.5 * b.size); }
-  Vec3 operator()(const Capsule& c) const { return R.col(2).cwiseAbs() * (0.5 * c.length) + Vec3::Constant(c.radius); }
-  Vec3 operator()(const Plane&) const { return Vec3::Constant(kInfinity); }
+
+  static Aabb symmetric(const Vec3& half) { return {-half, half}; }
+  Aabb operator()(const Box& b) const { return symmetric(R.cwiseAbs() * (0.5 * b.size)); }
+  Aabb operator()(const Capsule& c) const {
+    return symmetric(R.col(2).cwiseAbs() * (0.5 * c.length) + Vec3::Constant(c.radius));
+  }
+  Aabb operator()(const Compound& c) const {
+    Aabb all = {Vec3::Constant(kUnbounded), Vec3::Constant(-kUnbounded)};
+    for (const PlacedShape& part : c.parts) {
+      const Aabb box = aabb_of(part.shape, Pose{Vec3::Zero(), R} * part.pose, 0);
+      all.low = all.low.cwiseMin(box.low), all.high = all.high.cwiseMax(box.high);
+    }
+    return all;
+  }
+  Aabb operator()(const Convex& c) const {
+    Aabb all = {Vec3::Constant(kUnbounded), Vec3::Constant(-kUnbounded)};
+    for (const Vec3& point : c.hull->points) {
+      const Vec3 at = R * point;
+      all.low = all.low.cwiseMin(at), all.high = all.high.cwiseMax(at);
+    }
+    return all;
+  }
+  Aabb operator()(const Cylinder& c) const {
+    const Vec3 along = R.col(2).cwiseAbs(), across = (1 - along.array().square()).cwiseMax(0).sqrt().matrix();
+    return symmetric(along * (0.5 * c.length) + across * c.radius);
+  }
+  Aabb operator()(const Ellipsoid& e) const { return symmetric((R * e.radii.asDiagonal()).rowwise().norm()); }
+  Aabb operator()(const Plane&) const { return symmetric(Vec3::Constant(kUnbounded)); }
+  Aabb operator()(const Sphere& s) const { return symmetric(Vec3::Constant(s.radius)); }
 };
 
 }  // namespace
@@ -37,8 +44,7 @@ std::vector<Collider> colliders_of(const Scene& scene) {
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     const Body& body = scene.bodies[i];
     if (!body.collides) continue;
-    colliders.push_back(
-        {i, *body.shape, std::visit(BoundingRadius{}, *body.shape), std::visit(Inradius{}, *body.shape), body.fixed});
+    colliders.push_back({i, *body.shape, bounding_radius(*body.shape), inradius(*body.shape), body.fixed});
   }
   return colliders;
 }
@@ -46,8 +52,8 @@ std::vector<Collider> colliders_of(const Scene& scene) {
 Pose pose_of(BodyColumns state, int body) { return {state.position(body), state.rotation(body)}; }
 
 Aabb aabb_of(const Shape& shape, const Pose& pose, double margin) {
-  const Vec3 half = std::visit(HalfWidth{pose.R}, shape) + Vec3::Constant(margin);
-  return {pose.p - half, pose.p + half};
+  const Aabb extent = std::visit(Extent{pose.R}, shape);
+  return {pose.p + (extent.low - Vec3::Constant(margin)), pose.p + (extent.high + Vec3::Constant(margin))};
 }
 
 }  // namespace rigor

@@ -6,6 +6,33 @@
 namespace rigor {
 namespace {
 
+// Calls add(centre, radius) for balls whose hull encloses the shape.
+template <typename Add>
+struct BallsAround {
+  const Add& add;
+
+  void operator()(const Box& box) const {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
+      add(sign.cwiseProduct(box.size), 0);
+    }
+  }
+  void operator()(const Capsule& capsule) const { add_ends(capsule.length, capsule.radius); }
+  void operator()(const Compound& compound) const { add(Vec3::Zero(), compound.bounding_radius()); }
+  void operator()(const Convex& convex) const {
+    for (const Vec3& corner : convex.hull->points) add(corner, 0);
+  }
+  void operator()(const Cylinder& cylinder) const { add_ends(cylinder.length, cylinder.radius); }
+  void operator()(const Ellipsoid& ellipsoid) const { add(Vec3::Zero(), ellipsoid.bounding_radius()); }
+  void operator()(const Plane& plane) const { add(Vec3::Zero(), plane.bounding_radius()); }
+  void operator()(const Sphere& sphere) const { add(Vec3::Zero(), sphere.radius); }
+
+ private:
+  void add_ends(double length, double radius) const {
+    for (const double end : {-0.5, 0.5}) add(end * length * Vec3::UnitZ(), radius);
+  }
+};
+
 // The support of a shape along n after t, at most.
 struct SupportBound {
   BodyColumns state;
@@ -23,6 +50,22 @@ struct SupportBound {
     return n.dot(state.position(body) + arm + t * velocity) + 0.5 * bend.of_points * t * t;
   }
   double operator()(const Sphere& sphere) const { return centre() + sphere.radius; }
+  // A shape that is the hull of balls about points of the body.
+  double operator()(const Compound& compound) const { return of_balls(compound); }
+  double operator()(const Convex& convex) const { return of_balls(convex); }
+  double operator()(const Cylinder& cylinder) const { return of_balls(cylinder); }
+  double operator()(const Ellipsoid& ellipsoid) const { return of_balls(ellipsoid); }
+  double of_balls(const Shape& shape) const {
+    const Mat3 R = state.rotation(body);
+    double most = -std::numeric_limits<double>::infinity();
+    for_each_part(shape, [&](const Shape& part, const BodyPose& pose) {
+      const auto add = [&](const Vec3& at, double radius) {
+        most = std::max(most, point(R * (pose.position + pose.orientation * at)) + radius);
+      };
+      std::visit(BallsAround<decltype(add)>{add}, part);
+    });
+    return std::min(most, centre() + bounding_radius);
+  }
   double operator()(const Capsule& capsule) const {
     const Vec3 arm = 0.5 * capsule.length * state.rotation(body).col(2);
     return std::min(std::max(point(arm), point(-arm)) + capsule.radius, centre() + bounding_radius);

@@ -1,7 +1,10 @@
 #include "core/dynamics/collision/narrow_phase.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
+
+#include "core/dynamics/collision/convex_distance.h"
 
 namespace rigor {
 namespace {
@@ -40,8 +43,8 @@ std::pair<double, double> nearest_on_axes(const Capsule& a, const Pose& pose_a, 
   return {s, t};
 }
 
-// Alphabetical pairs; the normal points from the second to the first.
-struct Collide {
+// The pairs with an algorithm of their own, in alphabetical order; the normal points from the second to the first.
+struct Exact {
   const Pose& a;
   const Pose& b;
   Manifold& out;
@@ -120,13 +123,84 @@ struct Collide {
   void operator()(const Box& box, const Box& other) const { collide_boxes(box, a, other, b, out); }
   void operator()(const Box& box, const Capsule& capsule) const { collide_box_capsule(box, a, capsule, b, out); }
 
-  void operator()(const Plane&, const Plane&) const {}
+  void operator()(const Box& box, const Convex& convex) const { collide_hulls(box, a, convex, b, out); }
+  void operator()(const Capsule& capsule, const Convex& convex) const {
+    collide_capsule_hull(capsule, a, convex, b, out);
+  }
+  void operator()(const Convex& convex, const Convex& other) const { collide_hulls(convex, a, other, b, out); }
+  void operator()(const Convex& convex, const Plane& plane) const { collide_hull_plane(convex, a, plane, out); }
+  void operator()(const Convex& convex, const Sphere& sphere) const { collide_hull_sphere(convex, a, sphere, b, out); }
+  void operator()(const Cylinder& cylinder, const Plane& plane) const {
+    collide_cylinder_plane(cylinder, a, plane, out);
+  }
+  void operator()(const Cylinder& cylinder, const Sphere& sphere) const {
+    collide_cylinder_sphere(cylinder, a, sphere, b, out);
+  }
+  void operator()(const Ellipsoid& ellipsoid, const Plane& plane) const {
+    collide_ellipsoid_plane(ellipsoid, a, plane, out);
+  }
+  void operator()(const Ellipsoid& ellipsoid, const Sphere& sphere) const {
+    collide_ellipsoid_sphere(ellipsoid, a, sphere, b, out);
+  }
 
-  // The pairs in the other order.
+  void operator()(const Plane&, const Plane&) const {}
+};
+
+template <typename A, typename B>
+constexpr bool kIsExact = std::is_invocable_v<Exact, const A&, const B&>;
+
+void reverse(Manifold& points) {
+  for (ManifoldPoint& point : points) point.normal *= -1, std::swap(point.part_a, point.part_b);
+}
+
+struct Collide {
+  const Shape& of_a;
+  const Shape& of_b;
+  const Pose& a;
+  const Pose& b;
+  Manifold& out;
+
   template <typename A, typename B>
   void operator()(const A& first, const B& second) const {
-    Collide{b, a, out}(second, first);
-    for (ManifoldPoint& point : out) point.normal *= -1;
+    if constexpr (std::is_same_v<A, Compound> || std::is_same_v<B, Compound>) {
+      collide_parts();
+    } else if constexpr (kIsExact<A, B>) {
+      Exact{a, b, out}(first, second);
+    } else if constexpr (kIsExact<B, A>) {
+      Exact{b, a, out}(second, first);
+      reverse(out);
+    } else {
+      const ConvexGap gap = convex_distance(of_a, a, of_b, b);
+      out.add(gap.normal, gap.point, gap.gap, 0);
+    }
+  }
+
+  // The points of each two parts. Their features differ by the numbers of the parts.
+  void collide_parts() const {
+    Manifold points;
+    std::uint16_t part_a = 0;
+    for_each_part(of_a, [&](const Shape& shape_a, const BodyPose& pose_a) {
+      std::uint16_t part_b = 0;
+      for_each_part(of_b, [&](const Shape& shape_b, const BodyPose& pose_b) {
+        const bool a_is_placed = std::holds_alternative<Compound>(of_a),
+                   b_is_placed = std::holds_alternative<Compound>(of_b);
+        collide(shape_a, a_is_placed ? a * pose_a : a, shape_b, b_is_placed ? b * pose_b : b, points);
+        for (ManifoldPoint point : points) {
+          point.part_a = part_a, point.part_b = part_b;
+          point.feature ^= 0x9E3779B1u * part_a + 0x85EBCA77u * part_b;
+          add_nearest(point);
+        }
+        ++part_b;
+      });
+      ++part_a;
+    });
+  }
+
+  void add_nearest(const ManifoldPoint& point) const {
+    if (out.size() < Manifold::kMost) return out.add(point);
+    const auto furthest =
+        std::max_element(out.begin(), out.end(), [](const auto& x, const auto& y) { return x.gap < y.gap; });
+    if (point.gap < furthest->gap) *furthest = point;
   }
 };
 
@@ -134,7 +208,7 @@ struct Collide {
 
 void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out) {
   out.clear();
-  std::visit(Collide{pose_a, pose_b, out}, a, b);
+  std::visit(Collide{a, b, pose_a, pose_b, out}, a, b);
 }
 
 }  // namespace rigor

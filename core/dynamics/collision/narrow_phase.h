@@ -1,7 +1,8 @@
-// Contact points, normals and signed gaps between sphere, box, capsule and plane, in every combination. A gap is exact
-// while the shapes are apart or just touch. Two boxes use the separation along the best of fifteen axes (the face
-// normals of both and the products of the edges). It equals the distance for every kind of touch, and never exceeds it.
-// Flat and long contacts have several points, each with its own gap.
+// Contact points, normals and signed gaps of any two shapes. A gap is exact while the shapes are apart or just touch.
+// Two polyhedra (boxes, hulls) use the separation along the best axis, among the face normals of both and the products
+// of the edges. It equals the distance for every kind of touch, and never exceeds it. Flat and long contacts have
+// several points, each with its own gap. Pairs without an algorithm of their own have one point, by convex_distance.h.
+// A compound has the points of all its parts.
 #pragma once
 
 #include <array>
@@ -14,6 +15,8 @@ namespace rigor {
 struct Pose {
   Vec3 p = Vec3::Zero();      // m, p_WB
   Mat3 R = Mat3::Identity();  // B to W
+
+  Pose operator*(const BodyPose& part) const { return {p + R * part.position, R * matrix_of(part.orientation)}; }
 };
 
 struct ManifoldPoint {
@@ -21,14 +24,18 @@ struct ManifoldPoint {
   Vec3 point;             // m, in W, midway between the two surfaces
   double gap;             // m, negative where they overlap
   std::uint32_t feature;  // the same from one instant to the next for the same corner, end or crossing of edges
+  std::uint16_t part_a = 0, part_b = 0;  // of compounds: which part touches
 };
 
 class Manifold {
  public:
-  static constexpr int kMost = 8;
+  static constexpr int kMost = 64;  // further points are dropped: of a compound, those with the largest gaps
   void clear() { count_ = 0; }
   void add(const Vec3& normal, const Vec3& point, double gap, std::uint32_t feature) {
-    if (count_ < kMost) points_[count_++] = {normal, point, gap, feature};
+    if (count_ < kMost) points_[count_++] = {normal, point, gap, feature, 0, 0};
+  }
+  void add(const ManifoldPoint& point) {
+    if (count_ < kMost) points_[count_++] = point;
   }
   void keep(int first) { count_ = first; }
   int size() const { return count_; }
@@ -47,8 +54,18 @@ class Manifold {
 // Every point at which the shapes touch or come closest, however far apart they are. Two planes have none.
 void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out);
 
-// The two harder pairs, in files of their own; normals from the second to the first.
+// The harder pairs, in files of their own; normals from the second to the first.
 void collide_boxes(const Box& a, const Pose& pose_a, const Box& b, const Pose& pose_b, Manifold& out);
 void collide_box_capsule(const Box& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b, Manifold& out);
+void collide_hulls(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Manifold& out);
+void collide_hulls(const Box& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Manifold& out);
+void collide_hull_sphere(const Convex& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b, Manifold& out);
+void collide_hull_plane(const Convex& a, const Pose& pose_a, const Plane& b, Manifold& out);
+void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Manifold& out);
+void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out);
+void collide_cylinder_sphere(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b, Manifold& out);
+void collide_ellipsoid_plane(const Ellipsoid& a, const Pose& pose_a, const Plane& b, Manifold& out);
+void collide_ellipsoid_sphere(const Ellipsoid& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
+                              Manifold& out);
 
 }  // namespace rigor

@@ -2,70 +2,31 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-
 #include "core/base/unit_vector.h"
+#include "core/scene/toml/pose_reader.h"
 #include "core/scene/toml/row_fault.h"
+#include "core/scene/toml/shape_reader.h"
 
 namespace rigor {
 namespace {
-
-struct ShapeRow {
-  std::string name;
-  Keys keys;
-  Shape (*read)(const TableReader& table);
-};
-
-const std::vector<ShapeRow>& shape_rows() {
-  static const std::vector<ShapeRow> rows = {
-      {"box",
-       {"type", "size"},
-       [](const TableReader& t) -> Shape {
-         const TomlValue size = t.at("size");
-         const Vec3 edges = size.vector();
-         if (edges.minCoeff() <= 0)
-           size.refuse("found an edge that is not greater than 0; allowed: three lengths in m");
-         return Box{edges};
-       }},
-      {"capsule",
-       {"type", "radius", "length"},
-       [](const TableReader& t) -> Shape {
-         return Capsule{t.at("radius").positive(), t.at("length").positive()};
-       }},
-      {"plane",
-       {"type", "normal", "offset"},
-       [](const TableReader& t) -> Shape {
-         return Plane{t.at("normal").direction(), t.at("offset").number()};
-       }},
-      {"sphere", {"type", "radius"}, [](const TableReader& t) -> Shape { return Sphere{t.at("radius").positive()}; }},
-  };
-  return rows;
-}
-
-Shape read_shape(const TomlValue& value) {
-  Keys names, keys = {"type"};
-  for (const ShapeRow& row : shape_rows()) {
-    names.push_back(row.name);
-    std::copy_if(row.keys.begin(), row.keys.end(), std::back_inserter(keys), [&](const std::string& key) {
-      return std::find(keys.begin(), keys.end(), key) == keys.end();
-    });
-  }
-  TableReader table = value.table(keys);
-  const std::string type = table.at("type").choice(names);
-  for (const ShapeRow& row : shape_rows()) {
-    if (row.name != type) continue;
-    table.narrow(row.keys, fmt::format("a {}", type));
-    return row.read(table);
-  }
-  table.at("type").refuse_found("a shape");  // not reached: the type is one of the names
-}
 
 // Rows and columns xx, yy, zz, xy, xz, yz of the matrix itself, so that xy is minus the product of inertia.
 Mat3 matrix_of_six(const std::vector<double>& v) {
   Mat3 m;
   m << v[0], v[3], v[4], v[3], v[1], v[5], v[4], v[5], v[2];
   return m;
+}
+
+// The inertia that a shape gives is about the centre of mass, which is the origin of B.
+void refuse_off_centre(const TomlValue& value, const Shape& shape) {
+  if (std::holds_alternative<Plane>(shape)) return;
+  constexpr double kRounded = 1e-6;  // of the bounding radius: coordinates may have been written with six digits
+  const Vec3 centre = centre_of(shape);
+  if (centre.norm() <= kRounded * bounding_radius(shape)) return;
+  value.refuse(
+      fmt::format("found the centre of mass at [{:.9g}, {:.9g}, {:.9g}] m in the body's frame; allowed: at its origin. "
+                  "Move the shapes by the opposite, or give the inertia",
+                  centre.x(), centre.y(), centre.z()));
 }
 
 Mat3 read_inertia(const TableReader& row, const Body& body) {
@@ -80,18 +41,13 @@ Mat3 read_inertia(const TableReader& row, const Body& body) {
   if (!body.shape)
     row.refuse(
         fmt::format("body '{}' can move and has neither an inertia nor a shape to take it from", shown(body.name)));
+  const TomlValue shape = row.at(row.find("shape") ? "shape" : "shapes");
+  refuse_off_centre(shape, *body.shape);
   const Mat3 inertia = inertia_of(*body.shape, body.mass);
   if (const auto why = why_no_inertia(inertia); !why.empty()) {
-    row.at("shape").refuse(fmt::format("no inertia can be taken from this shape: {}", why));
+    shape.refuse(fmt::format("no inertia can be taken from this shape: {}", why));
   }
   return inertia;
-}
-
-Quat read_orientation(const TomlValue& value) {
-  const auto q = value.numbers({4});
-  const auto unit = unit_vector(Eigen::Vector4d(q[0], q[1], q[2], q[3]));
-  if (!unit) value.refuse("found the zero quaternion, which is no rotation; allowed: [w, x, y, z] of any other length");
-  return {(*unit)[0], (*unit)[1], (*unit)[2], (*unit)[3]};
 }
 
 bool read_fixed(const TableReader& row, bool is_plane) {
@@ -112,10 +68,17 @@ void read_pose(const TableReader& row, bool is_plane, Body& body) {
 
 }  // namespace
 
+Quat read_orientation(const TomlValue& value) {
+  const auto q = value.numbers({4});
+  const auto unit = unit_vector(Eigen::Vector4d(q[0], q[1], q[2], q[3]));
+  if (!unit) value.refuse("found the zero quaternion, which is no rotation; allowed: [w, x, y, z] of any other length");
+  return {(*unit)[0], (*unit)[1], (*unit)[2], (*unit)[3]};
+}
+
 const std::vector<std::string>& body_keys() {
   static const Keys keys = {
-      "name",  "mass",     "inertia", "position", "orientation_wxyz", "velocity", "angular_velocity",
-      "shape", "collides", "fixed"};
+      "name",  "mass",   "inertia",  "position", "orientation_wxyz", "velocity", "angular_velocity",
+      "shape", "shapes", "collides", "fixed"};
   return keys;
 }
 
@@ -123,7 +86,7 @@ Body read_body(const TableReader& row) {
   Body body;
   body.name = row.at("name").text();
   refuse_if(fault_of_name(body.name), row);
-  if (const auto shape = row.find("shape")) body.shape = read_shape(*shape);
+  body.shape = read_shapes(row);
   const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
   body.fixed = read_fixed(row, is_plane);
   const auto collides = row.find("collides");

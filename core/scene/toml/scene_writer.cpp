@@ -8,6 +8,7 @@
 
 #include "core/base/json.h"
 #include "core/scene/contact_laws.h"
+#include "core/scene/toml/shape_json.h"
 
 namespace rigor {
 namespace {
@@ -16,19 +17,6 @@ Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 void add_unless_infinite(Json& row, const char* key, double value) {
   if (std::isfinite(value)) row[key] = value;
-}
-
-struct ShapeJson {
-  Json operator()(const Sphere& sphere) const { return {{"radius", sphere.radius}}; }
-  Json operator()(const Box& box) const { return {{"size", list(box.size)}}; }
-  Json operator()(const Capsule& capsule) const { return {{"radius", capsule.radius}, {"length", capsule.length}}; }
-  Json operator()(const Plane& plane) const { return {{"normal", list(plane.normal)}, {"offset", plane.offset}}; }
-};
-
-Json row_of(const Shape& shape) {
-  Json row = {{"type", shape_name(shape)}};
-  row.update(std::visit(ShapeJson(), shape));
-  return row;
 }
 
 Json row_of(const Body& body) {
@@ -41,7 +29,7 @@ Json row_of(const Body& body) {
     row["orientation_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
   }
   row["velocity"] = list(body.velocity), row["angular_velocity"] = list(body.angular_velocity);
-  if (body.shape) row["shape"] = row_of(*body.shape);
+  if (body.shape) row[std::holds_alternative<Compound>(*body.shape) ? "shapes" : "shape"] = json_of_shape(*body.shape);
   row["collides"] = body.collides, row["fixed"] = body.fixed;
   return row;
 }
@@ -150,10 +138,14 @@ void shorten_contacts(Json& tree, const Scene& scene) {
   tree["self_contact"] = false;
 }
 
-// Numbers, texts, flags and lists of JSON are TOML as they stand; only its objects are not.
+// Numbers, texts, flags and lists of these are TOML as they stand; only objects are not.
 std::string toml_of(const Json& value) {
-  if (!value.is_object()) return value.dump();
   std::string text;
+  if (value.is_array() && !value.empty() && value.front().is_object()) {
+    for (const Json& part : value) text += (text.empty() ? "" : ", ") + toml_of(part);
+    return "[" + text + "]";
+  }
+  if (!value.is_object()) return value.dump();
   for (const auto& [key, part] : value.items())
     text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, toml_of(part));
   return "{ " + text + " }";

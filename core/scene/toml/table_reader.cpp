@@ -82,6 +82,7 @@ std::string shown(std::string_view text, std::size_t longest) {
   return end < text.size() ? out + "..." : out;
 }
 
+const std::string& TomlValue::path() const { return document_->path; }
 std::string TomlValue::where() const { return place(document_->path, node_->source().begin); }
 
 TextRange TomlValue::range() const {

@@ -33,9 +33,10 @@ struct TextRange {
 // A value, and the name by which messages call it: "scene.body.mass".
 class TomlValue {
  public:
-  std::string where() const;  // "file:line:column"
-  TextRange range() const;    // of the value in the file's text
-  std::string label() const;  // "file:line:column: key", how a message begins
+  std::string where() const;        // "file:line:column"
+  const std::string& path() const;  // of the file
+  TextRange range() const;          // of the value in the file's text
+  std::string label() const;        // "file:line:column: key", how a message begins
   bool is_text() const;
   bool is_array() const;
 

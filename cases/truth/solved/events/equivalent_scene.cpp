@@ -32,6 +32,19 @@ struct MirrorJoint {
   }
 };
 
+// The other shapes are their own mirror images.
+Shape mirrored_shape(Shape shape) {
+  if (auto* plane = std::get_if<Plane>(&shape)) plane->normal = mirrored(plane->normal);
+  if (auto* convex = std::get_if<Convex>(&shape)) convex->hull = mirrored_hull(*convex->hull);
+  if (auto* compound = std::get_if<Compound>(&shape)) {
+    for (PlacedShape& part : compound->parts) {
+      part.shape = mirrored_shape(part.shape);
+      part.pose = {mirrored(part.pose.position), mirrored(part.pose.orientation)};
+    }
+  }
+  return shape;
+}
+
 void mirror(Scene& scene) {
   const Mat3 S = Vec3(-1, 1, 1).asDiagonal();
   scene.gravity = mirrored(scene.gravity);
@@ -39,8 +52,7 @@ void mirror(Scene& scene) {
     body.inertia = (S * body.inertia * S).eval();
     body.position = mirrored(body.position), body.orientation = mirrored(body.orientation);
     body.velocity = mirrored(body.velocity), body.angular_velocity = mirrored_axial(body.angular_velocity);
-    if (!body.shape) continue;
-    if (auto* plane = std::get_if<Plane>(&*body.shape)) plane->normal = mirrored(plane->normal);
+    if (body.shape) body.shape = mirrored_shape(*body.shape);
   }
   for (Spring& spring : scene.springs)
     spring.point_a = mirrored(spring.point_a), spring.point_b = mirrored(spring.point_b);
@@ -62,14 +74,6 @@ void reverse(Scene& scene) {
   for (ContactPair& pair : scene.contact_pairs) move(pair.a), move(pair.b);
   for (TimedForce& force : scene.forces) move(force.body);
 }
-
-struct ScaleShape {
-  double L;
-  void operator()(Sphere& sphere) const { sphere.radius *= L; }
-  void operator()(Box& box) const { box.size *= L; }
-  void operator()(Capsule& capsule) const { capsule.radius *= L, capsule.length *= L; }
-  void operator()(Plane& plane) const { plane.offset *= L; }
-};
 
 struct ScaleJoint {
   double L;
@@ -107,7 +111,7 @@ void scale(Scene& scene, double L, double T) {
   for (Body& body : scene.bodies) {
     body.inertia *= L * L;
     body.position *= L, body.velocity *= L / T, body.angular_velocity /= T;
-    if (body.shape) std::visit(ScaleShape{L}, *body.shape);
+    if (body.shape) body.shape = scaled_shape(*body.shape, L);
   }
   for (Spring& spring : scene.springs) {
     spring.point_a *= L, spring.point_b *= L, spring.rest_length *= L;

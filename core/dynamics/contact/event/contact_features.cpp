@@ -1,7 +1,9 @@
 #include "core/dynamics/contact/event/contact_features.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace rigor {
 namespace {
@@ -37,6 +39,42 @@ struct SurfacePoint {
     return choices;
   }
 
+  // A curved rim or surface is no feature of this method; no scene with one gets here.
+  Choices operator()(const Cylinder&) const { return {{}, {}, {.at = at}}; }
+  Choices operator()(const Ellipsoid&) const { return {{}, {}, {.at = at}}; }
+  Choices operator()(const Compound&) const { return {{}, {}, {.at = at}}; }  // its part is asked instead
+
+  Choices operator()(const Convex& convex) const {
+    const Hull& hull = *convex.hull;
+    std::vector<int> faces;  // that the point lies on
+    Choices choices;
+    for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+      const Hull::Face& face = hull.faces[f];
+      if (face.normal.dot(at) < face.offset - kOnEdge * hull.bounding_radius) continue;
+      faces.push_back(static_cast<int>(f));
+      if (face.normal.dot(normal) > 1 - kAligned)
+        choices.plane = ContactFeature{Kind::plane, face.offset * face.normal, face.normal};
+    }
+    choices.point.at = at;
+    choices.is_corner = faces.size() > 2;
+    if (choices.is_corner) choices.point.at = *nearest_corner(hull);
+    if (faces.size() != 2) return choices;
+    for (const Hull::Edge& edge : hull.edges) {
+      if (std::minmax(edge.left, edge.right) != std::minmax(faces[0], faces[1])) continue;
+      const Vec3 &from = hull.points[static_cast<std::size_t>(edge.from)],
+                 along = (hull.points[static_cast<std::size_t>(edge.to)] - from).normalized();
+      choices.point.at = from + along.dot(at - from) * along;
+      choices.line = ContactFeature{Kind::line, choices.point.at, along};
+    }
+    return choices;
+  }
+
+  std::vector<Vec3>::const_iterator nearest_corner(const Hull& hull) const {
+    return std::min_element(hull.points.begin(), hull.points.end(), [this](const Vec3& p, const Vec3& q) {
+      return (p - at).squaredNorm() < (q - at).squaredNorm();
+    });
+  }
+
   Choices operator()(const Box& box) const {
     const Vec3 half = 0.5 * box.size;
     Vec3 snapped = at;
@@ -60,6 +98,22 @@ struct SurfacePoint {
     return choices;
   }
 };
+
+// From the part's frame to B.
+ContactFeature placed(ContactFeature feature, const BodyPose& pose) {
+  feature.at = pose.position + pose.orientation * feature.at;
+  feature.direction = pose.orientation * feature.direction;
+  return feature;
+}
+
+Choices choices_of_part(const PlacedShape& part, const Vec3& at, const Vec3& normal) {
+  const Quat to_part = part.pose.orientation.conjugate();
+  Choices choices = std::visit(SurfacePoint{to_part * (at - part.pose.position), to_part * normal}, part.shape);
+  if (choices.plane) choices.plane = placed(*choices.plane, part.pose);
+  if (choices.line) choices.line = placed(*choices.line, part.pose);
+  choices.point = placed(choices.point, part.pose);
+  return choices;
+}
 
 struct Moving {  // a feature in W
   Vec3 p, v;     // of `at`
@@ -132,13 +186,17 @@ RigidMotion motion_of(BodyColumns state, const Collider& collider) {
 
 FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pose& pose_a, const Collider& b,
                         const Pose& pose_b) {
-  const auto choices_of = [&](const Collider& collider, const Pose& pose, const Vec3& outward) {
+  const auto choices_of = [&](const Collider& collider, const Pose& pose, const Vec3& outward, std::size_t part) {
     if (std::holds_alternative<Plane>(collider.shape))
       return std::visit(SurfacePoint{point.point, outward}, collider.shape);
     const Mat3 to_B = pose.R.transpose();
-    return std::visit(SurfacePoint{to_B * (point.point - pose.p), to_B * outward}, collider.shape);
+    const Vec3 at = to_B * (point.point - pose.p), normal = to_B * outward;
+    const auto* compound = std::get_if<Compound>(&collider.shape);
+    return compound ? choices_of_part(compound->parts[part], at, normal)
+                    : std::visit(SurfacePoint{at, normal}, collider.shape);
   };
-  const Choices of_a = choices_of(a, pose_a, -point.normal), of_b = choices_of(b, pose_b, point.normal);
+  const Choices of_a = choices_of(a, pose_a, -point.normal, point.part_a),
+                of_b = choices_of(b, pose_b, point.normal, point.part_b);
   if (of_a.line && of_b.line) {
     const Vec3 across = (pose_a.R * of_a.line->direction).cross(pose_b.R * of_b.line->direction);
     if (across.norm() > kParallel) return {*of_a.line, *of_b.line, across.dot(point.normal) < 0 ? -1.0 : 1.0};

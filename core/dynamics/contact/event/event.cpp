@@ -348,10 +348,10 @@ extern const ContactMethod kEventContact;
 const ContactMethod kEventContact = {
     .name = "event",
     .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
-    .features =
-        joined(contacts_of_all_shapes(),
-               {Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none,
-                Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit, Feature::motor_speed}),
+    .features = joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
+                       {Feature::placed_shapes, Feature::contact_filter, Feature::friction_coulomb,
+                        Feature::friction_infinite, Feature::friction_none, Feature::restitution,
+                        Feature::joints_with_contacts, Feature::joint_limit, Feature::motor_speed}),
     .options = {{"restitution-threshold",
                  "m/s, from below which nothing rebounds; default 5e-8 of the scene's speed",
                  {},

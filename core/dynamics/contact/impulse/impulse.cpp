@@ -238,8 +238,10 @@ const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
     .features =
-        joined(contacts_of_all_shapes(),
-               {Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none,
+        joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
+               {contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>(),
+                contact_feature<Ellipsoid, Plane>(), contact_feature<Ellipsoid, Sphere>(), Feature::placed_shapes,
+                Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none,
                 Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit, Feature::motor_speed}),
     .options = {{.name = "substeps",
                  .meaning = "of contact=impulse in a step; default: at least 4, and more if the step is long for the "

@@ -21,8 +21,9 @@ constexpr double kDeep = 0.02;               // an overlap of more at the start 
 constexpr double kSunk = 0.5;                // one of more is no contact any longer
 constexpr double kTurnsFar = 0.25;           // a surface that turns farther is followed on its way
 constexpr double kNearlyCoincident = 0.999;  // an overlap of so much of both radii may have no direction
-constexpr int kMostOfPair = 4;
-constexpr double kEqualScores = 1e-6;  // of a manifold's width: points that differ by less are equally good
+constexpr int kMostOfPair = 4;               // points of two shapes
+constexpr int kMostOfBodies = 32;            // points of two bodies of several shapes: one bit each in match_impulses()
+constexpr double kEqualScores = 1e-6;        // of a manifold's width: points that differ by less are equally good
 
 double smaller_inradius(const Collider& a, const Collider& b) { return std::min(a.inradius, b.inradius); }
 
@@ -62,24 +63,40 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
 
 // Four points hold a face as well as eight: the deepest, the one furthest from it, the one furthest aside of the line
 // between these, and the one furthest to the other side. Of points that are equal but for rounding the first is taken.
-void reduce_to_four(Manifold& points) {
-  if (points.size() <= kMostOfPair) return;
-  const double equal = kEqualScores * (points[kMostOfPair].point - points[0].point).norm();
+// Returns the end of those kept of [begin, end).
+int reduce_to_four(Manifold& points, int begin, int end) {
+  if (end - begin <= kMostOfPair) return end;
+  const double equal = kEqualScores * (points[begin + kMostOfPair].point - points[begin].point).norm();
   const auto take = [&](int at, const auto& score) {
-    int best = at;
-    for (int i = at + 1; i < points.size(); ++i) {
+    int best = begin + at;
+    for (int i = begin + at + 1; i < end; ++i) {
       if (score(points[i]) > score(points[best]) + equal) best = i;
     }
-    std::swap(points[at], points[best]);
+    std::swap(points[begin + at], points[best]);
   };
   take(0, [](const ManifoldPoint& p) { return -p.gap; });
-  const ManifoldPoint first = points[0];
+  const ManifoldPoint first = points[begin];
   take(1, [&](const ManifoldPoint& p) { return (p.point - first.point).norm(); });
-  const Vec3 side = first.normal.cross(points[1].point - first.point).normalized();
+  const Vec3 side = first.normal.cross(points[begin + 1].point - first.point).normalized();
   take(2, [&](const ManifoldPoint& p) { return std::abs(side.dot(p.point - first.point)); });
-  const double sign = side.dot(points[2].point - first.point) < 0 ? 1 : -1;
+  const double sign = side.dot(points[begin + 2].point - first.point) < 0 ? 1 : -1;
   take(3, [&](const ManifoldPoint& p) { return sign * side.dot(p.point - first.point); });
-  points.keep(kMostOfPair);
+  return begin + kMostOfPair;
+}
+
+// Four points of each two parts that touch, of kMostOfBodies at most.
+void reduce(Manifold& points) {
+  if (points.size() <= kMostOfPair) return;
+  const auto same_parts = [](const ManifoldPoint& x, const ManifoldPoint& y) {
+    return x.part_a == y.part_a && x.part_b == y.part_b;
+  };
+  int kept = 0;
+  for (int begin = 0, end = 0; begin < points.size(); begin = end) {
+    for (end = begin; end < points.size() && same_parts(points[begin], points[end]);) ++end;
+    const int last = reduce_to_four(points, begin, end);
+    for (int i = begin; i < last && kept < kMostOfBodies; ++i) points[kept++] = points[i];
+  }
+  points.keep(kept);
 }
 
 }  // namespace
@@ -149,7 +166,7 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
     if (point.gap < margin + turning + dt * std::max(0.0, -point.normal.dot(v))) manifold[kept++] = point;
   }
   manifold.keep(kept);
-  reduce_to_four(manifold);
+  reduce(manifold);
   for (const ManifoldPoint& point : manifold) watch(a, b, point.gap, part);
   const ContactLaw& law = laws_.of(a.body, b.body);
   for (const ManifoldPoint& point : manifold) {

@@ -43,15 +43,6 @@ constexpr double kImpactTolerance = 1e-3;  // of the restitution threshold
 // Without gravity: the acceleration by which the fastest speed counts, in v²/L.
 constexpr double kShareOfSpeed = 0.01;
 
-struct Volume {
-  double operator()(const Sphere& s) const { return 4 * std::numbers::pi / 3 * s.radius * s.radius * s.radius; }
-  double operator()(const Box& b) const { return b.size.prod(); }
-  double operator()(const Capsule& c) const {
-    return (4.0 / 3 * c.radius + c.length) * std::numbers::pi * c.radius * c.radius;
-  }
-  double operator()(const Plane&) const { return 0; }
-};
-
 // m/s²; a moment counts by the torque's acceleration of a point at the distance `length`.
 double largest_load(const Scene& scene, double length) {
   double most = 0;
@@ -81,7 +72,7 @@ SceneScales scales_of(const Scene& scene) {
   int count = 0;
   for (const Body& body : scene.bodies) {
     if (body.fixed || !body.collides) continue;
-    sum += 0.5 * std::cbrt(std::visit(Volume(), *body.shape)), ++count;
+    sum += 0.5 * std::cbrt(volume_of(*body.shape)), ++count;
   }
   const double length = count > 0 ? sum / count : 1;
   for (const Body& body : scene.bodies) {

@@ -27,7 +27,10 @@ struct CoreOf {
   Core operator()(const Sphere& s) const { return {Vec3::Zero(), s.radius, pose}; }
   Core operator()(const Box& b) const { return {0.5 * b.size, 0, pose}; }
   Core operator()(const Capsule& c) const { return {{0, 0, 0.5 * c.length}, c.radius, pose}; }
-  Core operator()(const Plane&) const { return {Vec3::Zero(), 0, pose}; }
+  template <typename Other>
+  Core operator()(const Other&) const {
+    return {Vec3::Zero(), 0, pose};
+  }
 };
 
 // Von Neumann's alternating projections: converges to the nearest points of two convex sets.

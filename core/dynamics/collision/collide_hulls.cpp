@@ -1,0 +1,419 @@
+// Convex polyhedra with each other, and with the shapes that have a closest point to them in closed form.
+//
+// Two polyhedra: the axis of largest separation, among the face normals of both and the products of those edges whose
+// arcs cross on the Gauss map (Gregorius, The Separating Axis Test between Convex Polyhedra, 2013). An edge needs no
+// test if a point of the other polyhedron lies deeper behind both of its faces than the best face axis found. Face
+// against face: the incident face is clipped by the sides of the reference face. A box is a polyhedron here.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/dynamics/collision/narrow_phase.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kFacePreference = 1e-5;  // of the smaller inradius: by how much edges must be further apart than faces
+constexpr double kOutside = 1e-6;         // of the inradius: a face is clipped so far outside its sides
+constexpr int kMostOfFace = 16;           // points of one face contact
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+const Hull& unit_cube_hull() {
+  static const std::shared_ptr<const Hull> cube = [] {
+    std::vector<Vec3> corners;
+    for (int k = 0; k < 8; ++k) corners.emplace_back(k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5);
+    return hull_of(corners);
+  }();
+  return *cube;
+}
+
+// A hull in W. The vectors keep their memory from one call to the next.
+struct Placed {
+  const Hull* hull = nullptr;
+  double inradius = 0;  // m
+  Vec3 centre;          // m
+  std::vector<Vec3> points, normals;
+  std::vector<double> offsets;
+  std::vector<int> deepest;  // by face: the other's point that lies deepest behind it
+
+  void place(const Convex& convex, const Pose& pose) { place(*convex.hull, Vec3::Ones(), convex.hull->inradius, pose); }
+  void place(const Box& box, const Pose& pose) { place(unit_cube_hull(), box.size, box.inradius(), pose); }
+
+  Vec3 edge(const Hull::Edge& of) const { return points[index(of.to)] - points[index(of.from)]; }
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+ private:
+  // Only a cube is stretched; that leaves its normals as they are.
+  void place(const Hull& of, const Vec3& stretch, double its_inradius, const Pose& pose) {
+    hull = &of, inradius = its_inradius;
+    centre = pose.p + pose.R * of.centre;
+    points.resize(of.points.size()), normals.resize(of.faces.size()), offsets.resize(of.faces.size());
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = pose.p + pose.R * of.points[i].cwiseProduct(stretch);
+    for (std::size_t f = 0; f < normals.size(); ++f) {
+      const Hull::Face& face = of.faces[f];
+      normals[f] = pose.R * face.normal;
+      const double offset = stretch == Vec3::Ones() ? face.offset : face.normal.cwiseAbs().dot(0.5 * stretch);
+      offsets[f] = offset + normals[f].dot(pose.p);
+    }
+  }
+};
+
+struct HullAxis {
+  double separation = -kInfinity;
+  Vec3 n = Vec3::Zero();  // unit, in W, from a to b
+  int a = -1, b = -1;     // of a face axis: `a` is the face; of an edge axis: both edges
+};
+
+// Over the faces of `of`; n points out of it.
+HullAxis best_face_of(Placed& of, const Placed& other) {
+  HullAxis best;
+  of.deepest.resize(of.normals.size());
+  for (std::size_t f = 0; f < of.normals.size(); ++f) {
+    double least = kInfinity;
+    for (std::size_t i = 0; i < other.points.size(); ++i) {
+      const double along = of.normals[f].dot(other.points[i]);
+      if (along < least) least = along, of.deepest[f] = static_cast<int>(i);
+    }
+    const double separation = least - of.offsets[f];
+    if (separation > best.separation) best = {separation, of.normals[f], static_cast<int>(f), -1};
+  }
+  return best;
+}
+
+// The edges that can give an axis of more separation than `found`.
+void edges_worth_a_look(const Placed& of, const Placed& other, double found, std::vector<int>& out) {
+  out.clear();
+  const double deep = std::min(found, 0.0);
+  for (std::size_t e = 0; e < of.hull->edges.size(); ++e) {
+    const Hull::Edge& edge = of.hull->edges[e];
+    const std::size_t left = Placed::index(edge.left), right = Placed::index(edge.right);
+    const auto is_behind = [&](int point) {
+      const Vec3& p = other.points[Placed::index(point)];
+      return of.normals[left].dot(p) - of.offsets[left] < deep && of.normals[right].dot(p) - of.offsets[right] < deep;
+    };
+    if (!is_behind(of.deepest[left]) && !is_behind(of.deepest[right])) out.push_back(static_cast<int>(e));
+  }
+}
+
+HullAxis best_edges_of(const Placed& a, const Placed& b, double found) {
+  constexpr double kParallel = 1e-6;  // the sine squared
+  static thread_local std::vector<int> edges_a, edges_b;
+  edges_worth_a_look(a, b, found, edges_a);
+  edges_worth_a_look(b, a, found, edges_b);
+  HullAxis best;
+  for (const int i : edges_a) {
+    const Hull::Edge& of_a = a.hull->edges[Placed::index(i)];
+    const Vec3 u = a.edge(of_a);
+    const Vec3 &left_a = a.normals[Placed::index(of_a.left)], &right_a = a.normals[Placed::index(of_a.right)];
+    for (const int k : edges_b) {
+      const Hull::Edge& of_b = b.hull->edges[Placed::index(k)];
+      const Vec3 v = b.edge(of_b);
+      const double left_b = -b.normals[Placed::index(of_b.left)].dot(u),
+                   right_b = -b.normals[Placed::index(of_b.right)].dot(u);
+      if (!(left_b * right_b < 0)) continue;
+      const double along_left = left_a.dot(v), along_right = right_a.dot(v);
+      if (!(along_left * along_right < 0 && left_b * along_right > 0)) continue;
+      Vec3 n = u.cross(v);
+      const double square = n.squaredNorm();
+      if (square < kParallel * u.squaredNorm() * v.squaredNorm()) continue;
+      const Vec3& at = a.points[Placed::index(of_a.from)];
+      n /= (n.dot(at - a.centre) < 0 ? -1 : 1) * std::sqrt(square);
+      const double separation = n.dot(b.points[Placed::index(of_b.from)] - at);
+      if (separation > best.separation) best = {separation, n, i, k};
+    }
+  }
+  return best;
+}
+
+struct HullCorner {
+  Vec3 p;
+  std::uint32_t id;
+};
+using HullPolygon = std::vector<HullCorner>;
+
+std::uint32_t hull_crossing(std::uint32_t from, std::uint32_t to, std::uint32_t side) {
+  const std::uint32_t low = std::min(from, to), high = std::max(from, to);
+  return (low * 0x9E3779B1u) ^ (high * 0x85EBCA77u) ^ ((side + 1) * 0xC2B2AE3Du);
+}
+
+// Keeps the half-space n · p <= offset.
+void clip(const HullPolygon& polygon, const Vec3& n, double offset, std::uint32_t side, HullPolygon& out) {
+  out.clear();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const HullCorner &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+    const double d_from = n.dot(from.p) - offset, d_to = n.dot(to.p) - offset;
+    if (d_from <= 0) out.push_back(from);
+    if ((d_from < 0 && d_to > 0) || (d_from > 0 && d_to < 0))
+      out.push_back({from.p + d_from / (d_from - d_to) * (to.p - from.p), hull_crossing(from.id, to.id, side)});
+  }
+}
+
+// The face of `of` that looks most against n.
+std::size_t facing_of(const Placed& of, const Vec3& n) {
+  std::size_t best = 0;
+  double least = kInfinity;
+  for (std::size_t f = 0; f < of.normals.size(); ++f) {
+    if (const double along = of.normals[f].dot(n); along < least) least = along, best = f;
+  }
+  return best;
+}
+
+// `normal` from b to a; the reference face looks along `axis.n`.
+void add_face(const Placed& reference, const Placed& incident, const HullAxis& axis, const Vec3& normal,
+              std::uint32_t tag, Manifold& out) {
+  static thread_local HullPolygon polygon, clipped;
+  const Hull::Face& face = incident.hull->faces[facing_of(incident, axis.n)];
+  polygon.clear();
+  for (const int corner : face.corners)
+    polygon.push_back({incident.points[Placed::index(corner)], static_cast<std::uint32_t>(corner)});
+  const Hull::Face& sides = reference.hull->faces[Placed::index(axis.a)];
+  for (std::size_t k = 0; k < sides.corners.size() && !polygon.empty(); ++k) {
+    const Vec3 &from = reference.points[Placed::index(sides.corners[k])],
+               &to = reference.points[Placed::index(sides.corners[(k + 1) % sides.corners.size()])];
+    const Vec3 side = (to - from).cross(axis.n).normalized();
+    clip(polygon, side, side.dot(from) + kOutside * reference.inradius, static_cast<std::uint32_t>(k), clipped);
+    polygon.swap(clipped);
+  }
+  const double level = reference.offsets[Placed::index(axis.a)];
+  double least = kInfinity;
+  for (const HullCorner& corner : polygon) least = std::min(least, axis.n.dot(corner.p) - level);
+  if (!polygon.empty() && (axis.separation <= 0 || least <= axis.separation + kOutside * reference.inradius)) {
+    const std::size_t step = (polygon.size() + kMostOfFace - 1) / kMostOfFace;
+    for (std::size_t i = 0; i < polygon.size(); i += step) {
+      const double gap = axis.n.dot(polygon[i].p) - level;
+      out.add(normal, polygon[i].p - 0.5 * gap * axis.n, gap, polygon[i].id ^ tag);
+    }
+    return;
+  }
+  // Apart, and the deepest corner lies past the other's face: that corner stands for the pair.
+  const Vec3& corner = incident.points[Placed::index(reference.deepest[Placed::index(axis.a)])];
+  out.add(normal, corner - 0.5 * axis.separation * axis.n, axis.separation, tag);
+}
+
+void add_edges(const Placed& a, const Placed& b, const HullAxis& axis, Manifold& out) {
+  const Hull::Edge &of_a = a.hull->edges[Placed::index(axis.a)], &of_b = b.hull->edges[Placed::index(axis.b)];
+  const Vec3 u = a.edge(of_a), v = b.edge(of_b);
+  const Vec3 &from_a = a.points[Placed::index(of_a.from)], &from_b = b.points[Placed::index(of_b.from)];
+  const Vec3 line = from_b - from_a;
+  const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), both = uu * vv - uv * uv;
+  const double s = std::clamp((vv * u.dot(line) - uv * v.dot(line)) / both, 0.0, 1.0),
+               t = std::clamp((uv * u.dot(line) - uu * v.dot(line)) / both, 0.0, 1.0);
+  const Vec3 point = 0.5 * (from_a + s * u + from_b + t * v);
+  out.add(
+      -axis.n, point, axis.separation,
+      hull_crossing(static_cast<std::uint32_t>(axis.a) + 0x40000u, static_cast<std::uint32_t>(axis.b) + 0x80000u, 0));
+}
+
+void collide_placed(Placed& a, Placed& b, Manifold& out) {
+  const double preference = kFacePreference * std::min(a.inradius, b.inradius);
+  const HullAxis face_a = best_face_of(a, b), face_b = best_face_of(b, a);
+  const double found = std::max(face_a.separation, face_b.separation);
+  const HullAxis edges = best_edges_of(a, b, found);
+  if (edges.separation > found + preference) return add_edges(a, b, edges, out);
+  if (face_b.separation > face_a.separation + preference) return add_face(b, a, face_b, face_b.n, 0x10000000, out);
+  add_face(a, b, face_a, -face_a.n, 0x20000000, out);
+}
+
+Placed& scratch(int which) {
+  static thread_local std::array<Placed, 2> hulls;
+  return hulls[static_cast<std::size_t>(which)];
+}
+
+// The point of a face that is nearest to p, and whether it lies inside.
+Vec3 nearest_on_face(const Placed& hull, std::size_t f, const Vec3& p) {
+  const std::vector<int>& corners = hull.hull->faces[f].corners;
+  const Vec3& n = hull.normals[f];
+  const Vec3 foot = p - (n.dot(p) - hull.offsets[f]) * n;
+  bool is_inside = true;
+  Vec3 best = foot;
+  double least = kInfinity;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3 &from = hull.points[Placed::index(corners[k])],
+               &to = hull.points[Placed::index(corners[(k + 1) % corners.size()])];
+    const Vec3 side = to - from;
+    if (side.cross(n).dot(foot - from) > 0) is_inside = false;
+    const Vec3 at = from + std::clamp(side.dot(foot - from) / side.squaredNorm(), 0.0, 1.0) * side;
+    if (const double square = (at - foot).squaredNorm(); square < least) least = square, best = at;
+  }
+  return is_inside ? foot : best;
+}
+
+// The signed distance of a point from a hull, and the direction out of it.
+struct PointGap {
+  double distance;  // m
+  Vec3 n;           // unit, from the hull to the point
+  std::size_t face;
+};
+
+PointGap point_to_hull(const Placed& hull, const Vec3& p) {
+  std::size_t face = 0;
+  double most = -kInfinity;
+  for (std::size_t f = 0; f < hull.normals.size(); ++f) {
+    if (const double above = hull.normals[f].dot(p) - hull.offsets[f]; above > most) most = above, face = f;
+  }
+  if (most <= 0) return {most, hull.normals[face], face};
+  PointGap best{kInfinity, hull.normals[face], face};
+  for (std::size_t f = 0; f < hull.normals.size(); ++f) {
+    if (hull.normals[f].dot(p) - hull.offsets[f] <= 0) continue;
+    const Vec3 line = p - nearest_on_face(hull, f, p);
+    if (const double distance = line.norm(); distance < best.distance) best = {distance, line / distance, f};
+  }
+  return best;
+}
+
+struct CapsuleAxis {
+  Vec3 from, to;  // m
+  Vec3 along() const { return to - from; }
+};
+
+struct AxisGap {
+  double separation = -kInfinity;  // m, of the axis
+  Vec3 n = Vec3::Zero();           // from the hull to the axis
+  Vec3 at = Vec3::Zero();          // of the axis
+};
+
+// The least distance of a segment that stays outside: at one of its ends, at a corner, or between it and an edge.
+AxisGap outside_gap(const Placed& hull, const CapsuleAxis& axis) {
+  AxisGap best;
+  best.separation = kInfinity;
+  for (const Vec3& end : {axis.from, axis.to}) {
+    const PointGap gap = point_to_hull(hull, end);
+    if (gap.distance < best.separation) best = {gap.distance, gap.n, end};
+  }
+  const Vec3 u = axis.along();
+  for (const Vec3& corner : hull.points) {
+    const Vec3 at = axis.from + std::clamp(u.dot(corner - axis.from) / u.squaredNorm(), 0.0, 1.0) * u;
+    if (const double distance = (at - corner).norm(); distance < best.separation && distance > 0)
+      best = {distance, (at - corner) / distance, at};
+  }
+  for (const Hull::Edge& edge : hull.hull->edges) {
+    const Vec3 v = hull.edge(edge), line = hull.points[Placed::index(edge.from)] - axis.from;
+    const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), both = uu * vv - uv * uv;
+    if (both <= 1e-12 * uu * vv) continue;
+    const double s = (vv * u.dot(line) - uv * v.dot(line)) / both, t = (uv * u.dot(line) - uu * v.dot(line)) / both;
+    if (s < 0 || s > 1 || t < 0 || t > 1) continue;
+    const Vec3 apart = axis.from + s * u - hull.points[Placed::index(edge.from)] - t * v;
+    if (const double distance = apart.norm(); distance < best.separation && distance > 0)
+      best = {distance, apart / distance, axis.from + s * u};
+  }
+  return best;
+}
+
+// Whether the segment has a point inside the hull: what all faces leave of it.
+bool enters(const Placed& hull, const CapsuleAxis& axis) {
+  double low = 0, high = 1;
+  const Vec3 u = axis.along();
+  for (std::size_t f = 0; f < hull.normals.size(); ++f) {
+    const double at = hull.offsets[f] - hull.normals[f].dot(axis.from), rate = hull.normals[f].dot(u);
+    if (rate == 0 && at < 0) return false;
+    if (rate > 0) high = std::min(high, at / rate);
+    if (rate < 0) low = std::max(low, at / rate);
+  }
+  return low < high;
+}
+
+AxisGap inside_gap(const Placed& hull, const CapsuleAxis& axis) {
+  AxisGap best;
+  const auto try_direction = [&](const Vec3& n) {
+    double reach = -kInfinity;
+    for (const Vec3& point : hull.points) reach = std::max(reach, n.dot(point));
+    const double from = n.dot(axis.from), to = n.dot(axis.to), separation = std::min(from, to) - reach;
+    if (separation > best.separation) best = {separation, n, from < to ? axis.from : axis.to};
+  };
+  for (const Vec3& n : hull.normals) try_direction(n);
+  const Vec3 u = axis.along();
+  for (const Hull::Edge& edge : hull.hull->edges) {
+    const Vec3 n = u.cross(hull.edge(edge));
+    if (n.squaredNorm() < 1e-6 * u.squaredNorm() * hull.edge(edge).squaredNorm()) continue;
+    try_direction(n.normalized()), try_direction(-n.normalized());
+  }
+  return best;
+}
+
+// The part of the axis that lies over the face, from 0 to 1.
+std::pair<double, double> over_face(const Placed& hull, std::size_t f, const CapsuleAxis& axis) {
+  double low = 0, high = 1;
+  const Vec3 u = axis.along();
+  const std::vector<int>& corners = hull.hull->faces[f].corners;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3 &from = hull.points[Placed::index(corners[k])],
+               &to = hull.points[Placed::index(corners[(k + 1) % corners.size()])];
+    const Vec3 out = (to - from).cross(hull.normals[f]);
+    const double at = out.dot(from - axis.from), rate = out.dot(u);
+    if (rate == 0 && at < 0) return {1, 0};
+    if (rate > 0) high = std::min(high, at / rate);
+    if (rate < 0) low = std::max(low, at / rate);
+  }
+  return {low, high};
+}
+
+}  // namespace
+
+void collide_hulls(const Convex& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Manifold& out) {
+  scratch(0).place(a, pose_a), scratch(1).place(b, pose_b);
+  collide_placed(scratch(0), scratch(1), out);
+}
+
+void collide_hulls(const Box& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Manifold& out) {
+  scratch(0).place(a, pose_a), scratch(1).place(b, pose_b);
+  collide_placed(scratch(0), scratch(1), out);
+}
+
+void collide_hull_sphere(const Convex& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b, Manifold& out) {
+  Placed& hull = scratch(0);
+  hull.place(a, pose_a);
+  const PointGap at = point_to_hull(hull, pose_b.p);
+  const double gap = at.distance - b.radius;
+  out.add(-at.n, pose_b.p - (b.radius + 0.5 * gap) * at.n, gap, 0);
+}
+
+void collide_hull_plane(const Convex& a, const Pose& pose_a, const Plane& b, Manifold& out) {
+  constexpr std::size_t kMostCorners = 32;
+  constexpr double kNear = 0.1;  // of the inradius above the lowest corner
+  const std::vector<Vec3>& points = a.hull->points;
+  const Vec3 n_B = pose_a.R.transpose() * b.normal;
+  const double base = b.normal.dot(pose_a.p) - b.offset;
+  const auto gap_of = [&](std::size_t i) { return base + n_B.dot(points[i]); };
+  double bound = kInfinity;
+  std::size_t count = points.size();
+  if (points.size() > kMostCorners) {
+    bound = gap_of(a.hull->furthest(-n_B)) + kNear * a.hull->inradius, count = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) count += gap_of(i) <= bound;
+  }
+  const std::size_t step = (count + kMostCorners - 1) / kMostCorners;
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double gap = gap_of(i);
+    if (gap > bound || number++ % step != 0) continue;
+    out.add(b.normal, pose_a.p + pose_a.R * points[i] - 0.5 * gap * b.normal, gap, static_cast<std::uint32_t>(i));
+  }
+}
+
+void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Manifold& out) {
+  Placed& hull = scratch(1);
+  hull.place(b, pose_b);
+  const Vec3 half = 0.5 * a.length * pose_a.R.col(2);
+  const CapsuleAxis axis{pose_a.p - half, pose_a.p + half};
+  const AxisGap best = enters(hull, axis) ? inside_gap(hull, axis) : outside_gap(hull, axis);
+  const auto add = [&](const Vec3& at, double height, std::uint32_t feature) {
+    const double gap = height - a.radius;
+    out.add(best.n, at - (a.radius + 0.5 * gap) * best.n, gap, feature);
+  };
+  constexpr double kStraight = 1 - 1e-12, kAlong = 0.1;  // the cosine; the sine of the axis to the face
+  const std::size_t face = facing_of(hull, -best.n);
+  if (hull.normals[face].dot(best.n) > kStraight && std::abs(hull.normals[face].dot(pose_a.R.col(2))) < kAlong) {
+    const auto [low, high] = over_face(hull, face, axis);
+    if (low < high) {
+      for (const std::uint32_t end : {0u, 1u}) {
+        const Vec3 at = axis.from + (end ? high : low) * axis.along();
+        add(at, hull.normals[face].dot(at) - hull.offsets[face], end);
+      }
+      return;
+    }
+  }
+  add(best.at, best.separation, 2);
+}
+
+}  // namespace rigor

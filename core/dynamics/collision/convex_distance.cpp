@@ -1,0 +1,221 @@
+#include "core/dynamics/collision/convex_distance.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace rigor {
+namespace {
+
+constexpr int kMostRounds = 256;
+constexpr double kConverged = 1e-12;  // of the squared distance, or of the shapes' size
+
+// A point of the Minkowski difference a - b, and the two points that it comes from.
+struct Difference {
+  Vec3 at, of_a, of_b;
+};
+
+class Pair {
+ public:
+  Pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b)
+      : a_(a), b_(b), pose_a_(pose_a), pose_b_(pose_b), size_(rigor::bounding_radius(a) + rigor::bounding_radius(b)) {}
+
+  Difference furthest(const Vec3& n) const {
+    const Vec3 of_a = pose_a_.p + pose_a_.R * support(a_, pose_a_.R.transpose() * n),
+               of_b = pose_b_.p + pose_b_.R * support(b_, -(pose_b_.R.transpose() * n));
+    return {of_a - of_b, of_a, of_b};
+  }
+  Vec3 between() const {
+    const Vec3 line = pose_a_.p - pose_b_.p;
+    return line.norm() > 1e-9 * size_ ? line : Vec3::UnitZ();
+  }
+  double size() const { return size_; }
+
+ private:
+  const Shape& a_;
+  const Shape& b_;
+  const Pose& pose_a_;
+  const Pose& pose_b_;
+  double size_;  // m
+};
+
+// The part of a simplex nearest to the origin, and the weights of its corners.
+struct Nearest {
+  std::vector<Difference> corners;
+  std::vector<double> weights;
+  Vec3 at = Vec3::Zero();
+};
+
+// Among all parts of the simplex, the one whose nearest point lies inside it and is nearest to the origin.
+Nearest nearest_of(const std::vector<Difference>& simplex) {
+  Nearest best;
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned chosen = 1; chosen < 1u << simplex.size(); ++chosen) {
+    std::vector<Difference> corners;
+    for (std::size_t i = 0; i < simplex.size(); ++i) {
+      if (chosen >> i & 1) corners.push_back(simplex[i]);
+    }
+    const auto count = static_cast<Eigen::Index>(corners.size()) - 1;
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> sides(3, count);
+    for (Eigen::Index k = 0; k < count; ++k) sides.col(k) = corners[static_cast<std::size_t>(k) + 1].at - corners[0].at;
+    std::vector<double> weights = {1};
+    if (count > 0) {
+      const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> square = sides.transpose() * sides;
+      const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> x =
+          square.fullPivLu().solve(-(sides.transpose() * corners[0].at));
+      for (Eigen::Index k = 0; k < count; ++k) weights.push_back(x[k]), weights[0] -= x[k];
+    }
+    if (!std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; })) continue;
+    Vec3 at = Vec3::Zero();
+    for (std::size_t k = 0; k < corners.size(); ++k) at += weights[k] * corners[k].at;
+    if (at.squaredNorm() < least) least = at.squaredNorm(), best = {corners, weights, at};
+  }
+  return best;
+}
+
+ConvexGap from_weights(const Nearest& nearest) {
+  Vec3 of_a = Vec3::Zero(), of_b = Vec3::Zero();
+  for (std::size_t k = 0; k < nearest.corners.size(); ++k) {
+    of_a += nearest.weights[k] * nearest.corners[k].of_a, of_b += nearest.weights[k] * nearest.corners[k].of_b;
+  }
+  const double gap = nearest.at.norm();
+  return {gap, nearest.at / gap, 0.5 * (of_a + of_b)};
+}
+
+// A triangle of the polytope, its plane, and its outward normal.
+struct Triangle {
+  std::array<std::size_t, 3> corners;
+  Vec3 normal;
+  double offset;  // m, of the plane from the origin
+};
+
+class Polytope {
+ public:
+  Polytope(const Pair& pair, const std::vector<Difference>& tetrahedron) : pair_(pair), points_(tetrahedron) {
+    middle_ = (points_[0].at + points_[1].at + points_[2].at + points_[3].at) / 4;
+    for (const std::array<std::size_t, 3>& corners :
+         {std::array<std::size_t, 3>{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}})
+      add(corners);
+  }
+
+  ConvexGap expand() {
+    for (int round = 0; round < kMostRounds; ++round) {
+      const Triangle nearest = *std::min_element(triangles_.begin(), triangles_.end(),
+                                                 [](const auto& x, const auto& y) { return x.offset < y.offset; });
+      const Difference further = pair_.furthest(nearest.normal);
+      if (further.at.dot(nearest.normal) - nearest.offset <= kConverged * pair_.size() || round + 1 == kMostRounds)
+        return answer(nearest);
+      if (!grow(further)) return answer(nearest);
+    }
+    return {};
+  }
+
+ private:
+  bool add(const std::array<std::size_t, 3>& corners) {
+    const Vec3 &p = points_[corners[0]].at, &q = points_[corners[1]].at, &r = points_[corners[2]].at;
+    const Vec3 across = (q - p).cross(r - p);
+    const double area = across.norm();
+    if (!(area > 1e-16 * pair_.size() * pair_.size())) return false;
+    Triangle triangle{corners, across / area, 0};
+    triangle.offset = triangle.normal.dot(p);
+    if (triangle.normal.dot(middle_) > triangle.offset) triangle.normal *= -1, triangle.offset *= -1;
+    triangles_.push_back(triangle);
+    return true;
+  }
+
+  // Replaces the triangles that the point sees by those that join it to their border.
+  bool grow(const Difference& point) {
+    std::vector<std::array<std::size_t, 2>> border;
+    std::vector<Triangle> kept;
+    for (const Triangle& triangle : triangles_) {
+      // A triangle in whose plane the point lies is replaced, too: else slivers would be made.
+      if (triangle.normal.dot(point.at) <= triangle.offset - 0.1 * kConverged * pair_.size()) {
+        kept.push_back(triangle);
+        continue;
+      }
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t from = std::min(triangle.corners[k], triangle.corners[(k + 1) % 3]),
+                          to = std::max(triangle.corners[k], triangle.corners[(k + 1) % 3]);
+        const auto shared = std::find(border.begin(), border.end(), std::array<std::size_t, 2>{from, to});
+        if (shared == border.end())
+          border.push_back({from, to});
+        else
+          border.erase(shared);
+      }
+    }
+    if (border.empty()) return false;
+    triangles_.swap(kept);
+    points_.push_back(point);
+    bool all = true;
+    for (const auto& [from, to] : border) all &= add({from, to, points_.size() - 1});
+    return all;
+  }
+
+  ConvexGap answer(const Triangle& triangle) const {
+    const Vec3 foot = triangle.offset * triangle.normal;
+    Mat3 corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners.col(static_cast<Eigen::Index>(k)) = points_[triangle.corners[k]].at - foot;
+    // The weights of the foot: the null vector of the corners relative to it, with the sum 1.
+    const Vec3 u = corners.col(1) - corners.col(0), v = corners.col(2) - corners.col(0), w = -corners.col(0);
+    const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), determinant = uu * vv - uv * uv;
+    const double s = (vv * w.dot(u) - uv * w.dot(v)) / determinant, t = (uu * w.dot(v) - uv * w.dot(u)) / determinant;
+    const Difference &p = points_[triangle.corners[0]], &q = points_[triangle.corners[1]],
+                     &r = points_[triangle.corners[2]];
+    const Vec3 of_a = (1 - s - t) * p.of_a + s * q.of_a + t * r.of_a,
+               of_b = (1 - s - t) * p.of_b + s * q.of_b + t * r.of_b;
+    return {-triangle.offset, -triangle.normal, 0.5 * (of_a + of_b)};
+  }
+
+  const Pair& pair_;
+  std::vector<Difference> points_;
+  Vec3 middle_;
+  std::vector<Triangle> triangles_;
+};
+
+// Adds corners to a simplex until it is a tetrahedron, each as far from the others' point, line or plane as it can be.
+std::vector<Difference> completed(std::vector<Difference> simplex, const Pair& pair) {
+  while (simplex.size() < 4) {
+    const Vec3 &origin = simplex[0].at, side = simplex.size() > 1 ? Vec3(simplex[1].at - origin) : Vec3::Zero();
+    const auto beyond = [&](const Difference& point) {
+      const Vec3 line = point.at - origin;
+      if (simplex.size() == 1) return line.norm();
+      if (simplex.size() == 2) return side.normalized().cross(line).norm();
+      return std::abs(side.cross(simplex[2].at - origin).normalized().dot(line));
+    };
+    Difference best = simplex[0];
+    for (int k = 0; k < 27; ++k) {
+      const Vec3 n(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+      if (n.isZero(0)) continue;
+      const Difference point = pair.furthest(n);
+      if (beyond(point) > beyond(best)) best = point;
+    }
+    simplex.push_back(best);
+  }
+  return simplex;
+}
+
+}  // namespace
+
+ConvexGap convex_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+  const Pair pair(a, pose_a, b, pose_b);
+  std::vector<Difference> simplex = {pair.furthest(-pair.between())};
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Nearest nearest = nearest_of(simplex);
+    const double square = nearest.at.squaredNorm();
+    if (nearest.corners.size() == 4 && square <= kConverged * pair.size() * pair.size()) return Polytope(pair, nearest.corners).expand();
+    // The origin lies on a part of the simplex: the shapes touch, or overlap in a special way.
+    if (square <= kConverged * kConverged * pair.size() * pair.size())
+      return Polytope(pair, completed(nearest.corners, pair)).expand();
+    const Difference further = pair.furthest(-nearest.at);
+    if (square - nearest.at.dot(further.at) <= kConverged * square || round + 1 == kMostRounds)
+      return from_weights(nearest);
+    simplex = nearest.corners;
+    simplex.push_back(further);
+  }
+  return {};
+}
+
+}  // namespace rigor
