@@ -59,7 +59,7 @@ class GuardedColumns {
   std::array<double*, 13> columns_{};
 };
 
-class LibraryWorld : public World {
+class LibraryWorld : public World, public ReportsContacts {
  public:
   LibraryWorld(const rigor_engine_v1& engine, std::string name, const PluginInfo& info, const Scene& scene,
                const Settings& settings)
@@ -94,6 +94,13 @@ class LibraryWorld : public World {
 
   SettingsInForce settings_in_force() const override { return in_force_; }
   std::string solver_warning() const override { return lost_; }
+
+  Capabilities capabilities() override {
+    const bool has_it = engine_.struct_size >= sizeof(rigor_engine_v1) && engine_.contacts;
+    return {.contacts = has_it ? this : nullptr};
+  }
+  void ask_for_contacts() override {}
+  std::vector<ReportedContact> contacts() const override;
 
  private:
   rigor_text text() const {
@@ -167,6 +174,31 @@ class LibraryWorld : public World {
   mutable std::vector<char> room_;
   mutable std::string lost_;  // why the state is no longer finite; empty while it is
 };
+
+// A second call has room for all that the first one counted.
+std::vector<ReportedContact> LibraryWorld::contacts() const {
+  constexpr std::size_t kFew = 256, kMost = 1'000'000;
+  constexpr double kGuard = -7.0217481264e+201;  // no contact has such a number
+  if (last_dt_ == 0 || !lost_.empty()) return {};
+  std::vector<rigor_contact> told;
+  std::size_t count = kFew, room = 0;
+  for (int tries = 0; tries < 2 && room < count; ++tries) {
+    room = count;
+    told.assign(room + 1, rigor_contact{});
+    told.back().gap = kGuard;
+    if (!went_on("contacts", engine_.contacts(world_, told.data(), room, &count, text()))) return {};
+    if (told.back().gap != kGuard) refuse("contacts", fmt::format("it wrote past its room of {} contacts", room));
+    if (count > kMost) refuse("contacts", fmt::format("it counts {} contacts of one step; at most {}", count, kMost));
+  }
+  if (count > room) refuse("contacts", fmt::format("it first counted {} contacts and then {}", room, count));
+  std::vector<ReportedContact> contacts;
+  const auto vector = [](const double* v) { return Vec3(v[0], v[1], v[2]); };
+  for (std::size_t k = 0; k < count; ++k) {
+    const rigor_contact& at = told[k];
+    contacts.push_back({at.a, at.b, vector(at.point), vector(at.normal), at.gap, vector(at.force)});
+  }
+  return contacts;
+}
 
 }  // namespace
 

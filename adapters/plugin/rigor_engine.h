@@ -34,6 +34,15 @@ typedef struct rigor_text {
 
 typedef struct rigor_world rigor_world; /* the engine's own */
 
+/* A point at which two bodies touched in the last step; in W. Bodies by their place in the scene. */
+typedef struct rigor_contact {
+  int32_t a, b;
+  double point[3];  /* m */
+  double normal[3]; /* unit, from a to b */
+  double gap;       /* m; negative if the bodies overlap */
+  double force[3];  /* N on b: the impulses of the step divided by its length */
+} rigor_contact;
+
 typedef struct rigor_engine_v1 {
   size_t struct_size; /* sizeof(rigor_engine_v1): later versions append */
 
@@ -54,6 +63,10 @@ typedef struct rigor_engine_v1 {
 
   /* Frees the world, whatever its last call came to. */
   rigor_status (*unload)(rigor_world* world, rigor_text text);
+
+  /* Optional; the functions from here on may be NULL or beyond struct_size. The contacts of the last step: sets *count
+     to their number and writes the first `room` of them. It is called again if there are more than that. */
+  rigor_status (*contacts)(rigor_world* world, rigor_contact* contacts, size_t room, size_t* count, rigor_text text);
 } rigor_engine_v1;
 
 const rigor_engine_v1* rigor_engine_entry(uint32_t abi_major);

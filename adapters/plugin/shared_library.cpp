@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -101,9 +102,10 @@ const rigor_engine_v1& load_library(const std::string& path) {
   if (!engine)
     throw InputError(
         fmt::format("{} does not speak version {} of rigor_engine.h", called(path), RIGOR_ENGINE_ABI_MAJOR));
-  if (engine->struct_size < sizeof(rigor_engine_v1))
+  constexpr std::size_t kLeast = offsetof(rigor_engine_v1, contacts);  // what follows is optional
+  if (engine->struct_size < kLeast)
     throw InputError(fmt::format("{} has a struct of {} bytes; version {} of rigor_engine.h has {}", called(path),
-                                 engine->struct_size, RIGOR_ENGINE_ABI_MAJOR, sizeof(rigor_engine_v1)));
+                                 engine->struct_size, RIGOR_ENGINE_ABI_MAJOR, kLeast));
   if (!engine->info || !engine->load || !engine->step || !engine->read || !engine->unload)
     throw InputError(fmt::format("{} leaves out one of info, load, step, read and unload", called(path)));
   return *engine;

@@ -1,6 +1,5 @@
 #include "core/scene/shape_types.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace rigor {
@@ -33,14 +32,6 @@ const std::vector<ShapeInfo>& shape_types() {
 }
 
 std::string shape_name(const Shape& shape) { return shape_types()[shape.index()].word; }
-
-std::vector<std::string> shape_words(const Shape& shape) {
-  std::vector<std::string> words;
-  for_each_part(shape, [&](const Shape& part, const BodyPose&) { words.push_back(shape_name(part)); });
-  std::sort(words.begin(), words.end());
-  words.erase(std::unique(words.begin(), words.end()), words.end());
-  return words;
-}
 
 double volume_of(const Shape& shape) {
   return std::visit([](const auto& it) { return it.volume(); }, shape);

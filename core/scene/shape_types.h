@@ -36,8 +36,6 @@ const std::vector<ShapeInfo>& shape_types();
 
 // "box", "capsule", …: the word that case files use.
 std::string shape_name(const Shape& shape);
-// The words of the shape itself, or of a compound's parts, each once, in alphabetical order.
-std::vector<std::string> shape_words(const Shape& shape);
 
 // Calls visitor(key, quantity, value) for each field of a shape; the value is a double or a Vec3.
 template <typename Visitor>

@@ -26,9 +26,25 @@ std::vector<Resting> resting_pairs() {
   const Box box{{1, 1, 1}};
   const Capsule capsule{0.5, 1};  // stands upright: half its length plus its radius is 1
   const Plane plane{{0, 0, 1}, 0};
-  return {{sphere, plane, 0.5},   {box, plane, 0.5},      {capsule, plane, 1}, {box, box, 1},
-          {sphere, box, 1},       {capsule, box, 1.5},    {box, sphere, 1},    {sphere, sphere, 1},
-          {capsule, sphere, 1.5}, {sphere, capsule, 1.5}, {box, capsule, 1.5}, {capsule, capsule, 2}};
+  // Upright, too: 1 from its centre to each end; half a metre up the others.
+  const Cylinder cylinder{0.5, 2};
+  const Ellipsoid ellipsoid{{0.6, 0.7, 0.5}};
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k) corners.emplace_back(k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5);
+  const Convex cube{hull_of(corners)};
+  const std::vector<std::pair<Shape, double>> all = {{sphere, 0.5}, {box, 0.5},       {capsule, 1},
+                                                     {cylinder, 1}, {ellipsoid, 0.5}, {cube, 0.5}};
+  std::vector<Resting> pairs;
+  for (std::size_t i = 3; i < all.size(); ++i) {
+    pairs.push_back({all[i].first, plane, all[i].second});
+    for (std::size_t k = 0; k <= i; ++k) pairs.push_back({all[k].first, all[i].first, all[k].second + all[i].second});
+  }
+  const std::vector<Resting> basic = {{sphere, plane, 0.5},   {box, plane, 0.5},   {capsule, plane, 1},
+                                      {box, box, 1},          {sphere, box, 1},    {capsule, box, 1.5},
+                                      {box, sphere, 1},       {sphere, sphere, 1}, {capsule, sphere, 1.5},
+                                      {sphere, capsule, 1.5}, {box, capsule, 1.5}, {capsule, capsule, 2}};
+  pairs.insert(pairs.end(), basic.begin(), basic.end());
+  return pairs;
 }
 
 }  // namespace

@@ -143,6 +143,6 @@ static rigor_status unload(rigor_world* world, rigor_text text) {
 }
 
 const rigor_engine_v1* rigor_engine_entry(uint32_t abi_major) {
-  static const rigor_engine_v1 engine = {sizeof engine, info, load, step, read_state, unload};
+  static const rigor_engine_v1 engine = {sizeof engine, info, load, step, read_state, unload, NULL};
   return abi_major == RIGOR_ENGINE_ABI_MAJOR ? &engine : NULL;
 }

@@ -63,7 +63,8 @@ class DormandPrince : public Stepper {
       take_stages(t, length, h);
       const double error = error_of_stages(h) / tolerance_;
       const bool is_stuck = parts_.joints && error > 1 && std::abs(h) < kShortest * std::abs(length);
-      const bool given_up = ++tries >= (is_beyond_ ? kMostTriesBeyond : kMostTries) || is_stuck || !is_finite(y_);
+      const bool given_up =
+          ++tries >= (is_beyond_ ? kMostTriesBeyond : kMostTries) || is_stuck || !is_finite(y_) || !std::isfinite(h);
       if (!(error <= 1 || given_up)) {
         if (parts_.joints) parts_.joints->note_only(noted);
       } else {

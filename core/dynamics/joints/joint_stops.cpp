@@ -4,27 +4,36 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/collision/contact_scales.h"
 #include "core/dynamics/joints/joint_limits.h"
 
 namespace rigor {
 namespace {
 
-constexpr double kTouch = 1e-11;      // rad, m: from so near a limit on it is reached
-// rad/s, m/s: a slower coordinate, or smaller deviation from a motor's speed, counts as at rest
-constexpr double kAtRest = 1e-9;
-constexpr double kLeaves = 1e-5;      // rad/s, m/s: faster than the velocity from closing a gap of kTouch
-constexpr double kNoFlight = 4e-11;   // rad, m: a coordinate that would rise no higher off its limit stays there
+// In the coordinate's unit and the scene's unit of time (contact_scales.h).
+constexpr double kTouch = 1e-11;      // from so near a limit on it is reached
+constexpr double kAtRest = 1e-9;      // a slower coordinate, or smaller deviation from a motor's speed, is at rest
+constexpr double kLeaves = 1e-5;      // faster than the velocity from closing a gap of kTouch
+constexpr double kNoFlight = 4e-11;   // a coordinate that would rise no higher off its limit stays there
+constexpr double kNoChange = 1e-9;    // an acceleration that rounding can make
 constexpr double kNoEffort = 1e-9;    // of the largest multiplier: ten thousand times what rounding leaves of one
-constexpr double kNoChange = 1e-9;    // of 1 + |g| [m/s², rad/s²]: an acceleration that rounding can make
 constexpr int kMostChangesEach = 16;  // of a coordinate's mode in the search for which hold
+
+// m or rad. Roundings of a slider's coordinate grow with its limits.
+double unit_of(const Joint& joint, double length) {
+  if (std::holds_alternative<HingeJoint>(joint.type)) return 1;
+  for (const double limit : {joint.lower, joint.upper}) {
+    if (std::isfinite(limit)) length = std::max(length, std::abs(limit));
+  }
+  return length;
+}
 
 }  // namespace
 
 JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, Joints& joints, Of what)
-    : joints_(joints),
-      loads_(loads),
-      wrenches_(system),
-      acceleration_tolerance_(kNoChange * (1 + scene.gravity.norm())) {
+    : joints_(joints), loads_(loads), wrenches_(system) {
+  const ContactScales scales = contact_scales(scene);
+  time_unit_ = scales.time;
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     const Joint& joint = scene.joints[k];
     std::vector<Motor> motors;
@@ -35,7 +44,7 @@ JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, J
     if (!has_limits && motors.empty()) continue;
     constexpr double kNone = std::numeric_limits<double>::infinity();
     stops_.push_back({k, JointCoordinate(scene, joint), has_limits ? joint.lower : -kNone,
-                      has_limits ? joint.upper : kNone, joint.restitution, motors});
+                      has_limits ? joint.upper : kNone, joint.restitution, motors, unit_of(joint, scales.length)});
   }
 }
 
@@ -74,8 +83,12 @@ double JointStops::next_switch(double t, double end) const {
 
 // Positive by as much as x is beyond the limit of that side.
 double JointStops::Stop::touched(int side) const { return side > 0 ? x - upper : lower - x; }
-bool JointStops::touches(const Stop& stop, int side) const { return stop.touched(side) >= -kTouch; }
-bool JointStops::is_hit(const Stop& stop, int side) const { return touches(stop, side) && side * stop.rate > kAtRest; }
+double JointStops::at_rest(const Stop& stop) const { return kAtRest * stop.unit / time_unit_; }
+double JointStops::no_change(const Stop& stop) const { return kNoChange * stop.unit / (time_unit_ * time_unit_); }
+bool JointStops::touches(const Stop& stop, int side) const { return stop.touched(side) >= -kTouch * stop.unit; }
+bool JointStops::is_hit(const Stop& stop, int side) const {
+  return touches(stop, side) && side * stop.rate > at_rest(stop);
+}
 int JointStops::hit_side(const Stop& stop) const { return is_hit(stop, 1) ? 1 : is_hit(stop, -1) ? -1 : 0; }
 
 bool JointStops::settle(MutableBodyColumns state, double t, double shortest_flight) {
@@ -177,7 +190,8 @@ bool JointStops::find_impulses(MutableBodyColumns state) {
     const auto violated = std::find_if(stops_.begin(), stops_.end(), [&](Stop& stop) {
       if (stop.at != 0) return stop.at * joints_.coordinate_effort(stop.joint) > none;
       const double rate = stop.coordinate.at(after_.columns()).rate;
-      return (touches(stop, 1) && rate > kAtRest) || (touches(stop, -1) && rate < -kAtRest);
+      const double rest = at_rest(stop);
+      return (touches(stop, 1) && rate > rest) || (touches(stop, -1) && rate < -rest);
     });
     if (violated == stops_.end()) {
       copy_columns(after_.columns(), state);
@@ -192,13 +206,13 @@ bool JointStops::find_impulses(MutableBodyColumns state) {
 void JointStops::guess_modes() {
   for (Stop& stop : stops_) {
     if (stop.at != 0 && !touches(stop, stop.at)) stop.at = 0;
-    if (stop.at != 0 && std::abs(stop.rate) > kLeaves) stop.at = 0;
+    if (stop.at != 0 && std::abs(stop.rate) > kLeaves * stop.unit / time_unit_) stop.at = 0;
     if (!stop.motor) {
       stop.drive = Drive::off;
       continue;
     }
     const double behind = *stop.motor->speed - stop.rate;
-    if (std::abs(behind) > kAtRest) {
+    if (std::abs(behind) > at_rest(stop)) {
       stop.drive = Drive::pushing, stop.push = std::copysign(stop.motor->most, behind);
     } else if (stop.drive == Drive::off) {
       stop.drive = Drive::keeping;
@@ -230,17 +244,17 @@ bool JointStops::change_if_violated(Stop& stop, BodyColumns state) {
     stop.drive = Drive::pushing, stop.push = std::copysign(stop.motor->most, stop.effort);
     return true;
   }
-  const double acceleration = joints_.coordinate_acceleration(stop.joint, state);
+  const double acceleration = joints_.coordinate_acceleration(stop.joint, state), rest = at_rest(stop);
   for (const int side : {1, -1}) {
     const double back = side * acceleration, away = -side * stop.rate;
-    if (touches(stop, side) && back > acceleration_tolerance_ && away >= -kAtRest &&
-        (away <= kAtRest || away * away <= 2 * back * kNoFlight)) {
+    if (touches(stop, side) && back > no_change(stop) && away >= -rest &&
+        (away <= rest || away * away <= 2 * back * kNoFlight * stop.unit)) {
       stop.at = side;
       return true;
     }
   }
-  const bool has_speed = stop.drive == Drive::pushing && std::abs(*stop.motor->speed - stop.rate) <= kAtRest;
-  if (has_speed && std::copysign(1, stop.push) * acceleration > acceleration_tolerance_) {
+  const bool has_speed = stop.drive == Drive::pushing && std::abs(*stop.motor->speed - stop.rate) <= rest;
+  if (has_speed && std::copysign(1, stop.push) * acceleration > no_change(stop)) {
     stop.drive = Drive::keeping;
     return true;
   }
@@ -255,7 +269,8 @@ double JointStops::distance_to(std::size_t i, Event event) const {
     if (stop.drive != Drive::pushing) return -1;
     const double to = *stop.motor->speed - stop.settled_rate;
     // A motor that has its speed and still pushes is saturated. It must first leave that speed.
-    if (std::abs(to) <= kAtRest) return std::copysign(1, stop.push) * (stop.rate - *stop.motor->speed) - 2 * kAtRest;
+    const double rest = at_rest(stop);
+    if (std::abs(to) <= rest) return std::copysign(1, stop.push) * (stop.rate - *stop.motor->speed) - 2 * rest;
     return std::copysign(1, to) * (stop.rate - *stop.motor->speed);
   }
   const int side = event == Event::upper ? 1 : -1;
@@ -263,7 +278,8 @@ double JointStops::distance_to(std::size_t i, Event event) const {
   if (stop.at != 0) return -1;
   // After a bounce the coordinate must go further than it was before it counts as reaching the limit again.
   const double at_start = side > 0 ? stop.settled_x - stop.upper : stop.lower - stop.settled_x;
-  return stop.touched(side) - (at_start >= -kTouch ? std::max(0.0, at_start) + 2 * kTouch : 0);
+  const double touch = kTouch * stop.unit;
+  return stop.touched(side) - (at_start >= -touch ? std::max(0.0, at_start) + 2 * touch : 0);
 }
 
 bool JointStops::may_have_touched(std::size_t i, Event event, double since) const {

@@ -64,6 +64,7 @@ class JointStops {
     JointCoordinate coordinate;
     double lower, upper, restitution;
     std::vector<Motor> motors;  // of given speed
+    double unit = 1;            // rad or m: of the thresholds of x
     double x = 0, rate = 0;
     double settled_x = 0, settled_rate = 0;  // when settle() was called last
     double effort = 0;
@@ -74,6 +75,8 @@ class JointStops {
     double bounce = 0;  // x' that the impact at hand is to leave
     double touched(int side) const;
   };
+  double at_rest(const Stop& stop) const;
+  double no_change(const Stop& stop) const;
   bool touches(const Stop& stop, int side) const;
   bool is_hit(const Stop& stop, int side) const;
   int hit_side(const Stop& stop) const;
@@ -93,7 +96,8 @@ class JointStops {
   WrenchColumns wrenches_;
   std::vector<Stop> stops_;
   BodyTable before_, after_;
-  double effort_tolerance_ = 0, acceleration_tolerance_ = 0;
+  double time_unit_ = 1;  // s
+  double effort_tolerance_ = 0;
 };
 
 }  // namespace rigor

@@ -131,6 +131,39 @@ BOOST_AUTO_TEST_CASE(one_that_does_not_say_what_it_is_is_bad_input) {
   check_sentence(why_refused("/lib/x86_64-linux-gnu/libm.so.6"), "has no function rigor_engine_entry");
 }
 
+// The number of its contacts after a step, or why there is none.
+std::string contacts_of(const std::string& mode) {
+  const Misbehaviour misbehaviour(mode);
+  std::string said;
+  const auto work = [](const Channel& channel) {
+    const LibraryEngine engine(kMisbehaving, kLimit);
+    try {
+      const auto world = engine.load(test::tumbling_body(), settings_of(engine));
+      if (!ask_for_contacts(*world)) return channel.send("reports none");
+      world->step(0.1);
+      const std::vector<ReportedContact> contacts = reported_contacts(*world);
+      channel.send(std::to_string(contacts.size()) + ", the last at " + std::to_string(contacts.back().point.x()));
+    } catch (const EngineFailure& failure) {
+      channel.send(failure.what());
+    }
+  };
+  run_jobs(
+      {{work, 10}}, 1, [&](std::size_t, const std::string& message) { said = message; },
+      [&](std::size_t, const JobEnd& end) {
+        if (end.how != Ending::finished) said = sentence_of(end, 10);
+      });
+  return said;
+}
+
+BOOST_AUTO_TEST_CASE(contacts_are_read_with_as_much_room_as_they_need) {
+  check_sentence(contacts_of("contacts"), "^300, the last at 299");
+  check_sentence(contacts_of(""), "^reports none$");
+  check_sentence(contacts_of("contacts-old-struct"), "^reports none$");
+  check_sentence(contacts_of("contacts-fail"), "'contacts' failed: 'no memory for them'");
+  check_sentence(contacts_of("contacts-crowd"), "it counts 5000000 contacts of one step");
+  check_sentence(contacts_of("contacts-overrun"), "it wrote past its room of 256 contacts");
+}
+
 BOOST_AUTO_TEST_CASE(whatever_it_does_costs_the_cell_in_one_sentence) {
   const std::vector<std::pair<std::string, std::string>> rows = {
       {"", "^none$"},

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -83,6 +84,16 @@ rigor_status read_state(rigor_world* world, double* time, double* const columns[
   return RIGOR_OK;
 }
 
+// As many points as there are in 300 contacts, of 1 N each.
+rigor_status contacts(rigor_world*, rigor_contact* into, size_t room, size_t* count, rigor_text text) {
+  if (is("contacts-fail")) return say(text, RIGOR_FAILED, "no memory for them");
+  *count = is("contacts-crowd") ? 5'000'000 : 300;
+  const std::size_t written = is("contacts-overrun") ? room + 1 : room < 300 ? room : 300;
+  for (std::size_t k = 0; k < written; ++k)
+    into[k] = {0, 1, {double(k), 0, 0}, {0, 0, 1}, -1e-3, {0, 0, is("contacts-nan") ? 0.0 / double(k) : 1}};
+  return RIGOR_OK;
+}
+
 rigor_status unload(rigor_world* world, rigor_text) {
   delete reinterpret_cast<Still*>(world);
   return RIGOR_OK;
@@ -91,8 +102,11 @@ rigor_status unload(rigor_world* world, rigor_text) {
 }  // namespace
 
 extern "C" const rigor_engine_v1* rigor_engine_entry(uint32_t abi_major) {
-  static rigor_engine_v1 engine = {sizeof(rigor_engine_v1), info, load, step, read_state, unload};
+  static rigor_engine_v1 engine = {sizeof(rigor_engine_v1), info, load, step, read_state, unload, nullptr};
   if (abi_major != RIGOR_ENGINE_ABI_MAJOR || is("other-abi")) return nullptr;
+  if (std::getenv("RIGOR_MISBEHAVES") && std::strncmp(std::getenv("RIGOR_MISBEHAVES"), "contacts", 8) == 0)
+    engine.contacts = contacts;
+  if (is("contacts-old-struct")) engine.struct_size = offsetof(rigor_engine_v1, contacts);
   if (is("small-struct")) engine.struct_size = 16;
   if (is("no-step")) engine.step = nullptr;
   return &engine;

@@ -56,7 +56,7 @@ Words keys_of(const std::vector<Json>& variants) {
 Json sample_of(const std::string& key) {
   static const Json samples = Json::parse(R"({"a": "world", "b": "a", "anchor": [0, 0, 0], "axis": [0, 0, 1],
     "axis2": [1, 0, 0], "point_a": [0, 0, 0], "point_b": [0, 0, 1], "size": [1, 1, 1], "radius": 1, "length": 1,
-    "normal": [0, 0, 1], "offset": 0})");
+    "normal": [0, 0, 1], "offset": 0, "radii": [1, 1, 1]})");
   return samples.value(key, Json(1));
 }
 

@@ -75,9 +75,14 @@ Ground::Ground(const Scene& scene, const std::string& truth, const std::string& 
 double Ground::gap_under(const Body& body) const {
   const Extended centre = normal_.dot(extended(body.position)) - offset_;
   if (const auto* sphere = std::get_if<Sphere>(&*body.shape)) return static_cast<double>(centre - sphere->radius);
+  const ExtendedVec3 normal_B = extended(body.orientation).conjugate() * normal_;
+  if (const auto* cylinder = std::get_if<Cylinder>(&*body.shape)) {
+    const Extended across = std::hypot(normal_B.x(), normal_B.y());
+    return static_cast<double>(centre - cylinder->radius * across -
+                               static_cast<Extended>(cylinder->length) / 2 * std::abs(normal_B.z()));
+  }
   const auto* box = std::get_if<Box>(&*body.shape);
   if (!box) refuse(body, fmt::format("is a {}", shape_name(*body.shape)));
-  const ExtendedVec3 normal_B = extended(body.orientation).conjugate() * normal_;
   return static_cast<double>(centre - normal_B.cwiseAbs().dot(extended(box->size)) / 2);
 }
 

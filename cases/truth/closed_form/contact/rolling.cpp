@@ -1,6 +1,7 @@
-// Spheres that roll or slip on a level or sloping plane. Let k = I/(m r²), let gravity be g_n into the plane and g_t
-// along it, and u the slip of the contact point. While the sphere slips, friction is -mu g_n u/|u|, and the slip
-// changes by g_t - mu g_n (1 + 1/k) u/|u|. After the slip the sphere rolls with g_t/(1 + k) if friction suffices, |g_t|
+// Spheres and lying cylinders that roll or slip on a level or sloping plane. Let k = I/(m r²), let gravity be g_n into
+// the plane and g_t along it, and u the slip of the contact point. While the sphere slips, friction is -mu g_n u/|u|,
+// and the slip changes by g_t - mu g_n (1 + 1/k) u/|u|. After the slip the sphere rolls with g_t/(1 + k) if friction
+// suffices, |g_t|
 // <= mu g_n (1 + k)/k. Otherwise it slips on downhill. For a solid sphere k = 2/5: 5/7 g_t, up to tan(slope) = 3.5 mu
 // (Kleppner and Kolenkow, An Introduction to Mechanics, chapter 6).
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace rigor {
 namespace {
 
 constexpr const char* kRolling = "rolling";
-constexpr const char* kRollingIsFor = "spheres that touch one plane and move along one line on it";
+constexpr const char* kRollingIsFor = "spheres and cylinders that touch one plane and move along one line on it";
 
 // One sphere on the plane, phase by phase.
 class Roller {
@@ -25,7 +26,7 @@ class Roller {
         ground_(ground),
         friction_(friction),
         r_(check()),
-        k_(body.inertia(0, 0) / (body.mass * r_ * r_)) {}
+        k_(rolling_inertia(body) / (body.mass * r_ * r_)) {}
 
   std::vector<Phase> phases(double duration) {
     Phase now{0,
@@ -45,17 +46,46 @@ class Roller {
  private:
   static constexpr Extended kNoSlip = 1e-14L;  // of the speeds: roundings of the case file's numbers
 
+  // Of a sphere about any axis, of a cylinder about its own.
+  static double rolling_inertia(const Body& body) {
+    return std::holds_alternative<Cylinder>(*body.shape) ? body.inertia(2, 2) : body.inertia(0, 0);
+  }
+
+  // A cylinder lies along the plane and moves across its axis.
+  void check_cylinder() const {
+    const ExtendedVec3 axis = extended(body_.orientation) * ExtendedVec3::UnitZ().eval(), v = extended(body_.velocity),
+                       w = extended(body_.angular_velocity);
+    constexpr Extended kDigits = 1e-12L;
+    if (std::abs(axis.dot(ground_.normal())) > kDigits) ground_.refuse(body_, "does not lie along the plane");
+    if (std::abs(axis.dot(v)) > kDigits * v.norm() || w.cross(axis).norm() > kDigits * w.norm() ||
+        std::abs(axis.dot(ground_.along())) > kDigits * ground_.along().norm())
+      ground_.refuse(body_, "does not roll across its axis");
+    const Mat3& I = body_.inertia;
+    if (std::abs(I(0, 2)) + std::abs(I(1, 2)) > 4 * kEpsilon * I(2, 2))
+      ground_.refuse(body_, "has an axis that is no principal one");
+  }
+
   double check() const {
-    if (!body_.collides || !std::holds_alternative<Sphere>(*body_.shape)) ground_.refuse(body_, "is no such sphere");
+    const bool is_cylinder = body_.collides && std::holds_alternative<Cylinder>(*body_.shape);
+    if (!body_.collides || (!std::holds_alternative<Sphere>(*body_.shape) && !is_cylinder))
+      ground_.refuse(body_, "is no such sphere or cylinder");
     if (std::abs(ground_.gap_under(body_)) > kTouching)
       ground_.refuse(body_, fmt::format("is {:.3g} m above the plane", ground_.gap_under(body_)));
+    if (is_cylinder) {
+      check_cylinder();
+      return check_motion(std::get<Cylinder>(*body_.shape).radius);
+    }
     const double I = body_.inertia(0, 0);
     if ((body_.inertia - I * Mat3::Identity()).norm() > 4 * kEpsilon * I)
       ground_.refuse(body_, "has an inertia that is not the same about every axis");
+    return check_motion(std::get<Sphere>(*body_.shape).radius);
+  }
+
+  double check_motion(double radius) const {
     const ExtendedVec3 v = extended(body_.velocity), w = extended(body_.angular_velocity);
     if (std::abs(ground_.normal().dot(v)) > 1e-12L * v.norm()) ground_.refuse(body_, "leaves or enters the plane");
     if (std::abs(ground_.normal().dot(w)) > 1e-12L * w.norm()) ground_.refuse(body_, "spins about the plane's normal");
-    return std::get<Sphere>(*body_.shape).radius;
+    return radius;
   }
 
   ExtendedVec3 slip(const ExtendedState& s) const {
@@ -119,15 +149,15 @@ class Roller {
 
 std::unique_ptr<Truth> make_rolling(const Scene& scene, double duration) {
   check_needs(scene, kRolling, kRollingIsFor,
-              {contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(), Feature::friction_none,
-               Feature::friction_coulomb, Feature::friction_infinite, Feature::restitution});
+              {contact_feature<Cylinder, Plane>(), contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(),
+               Feature::friction_none, Feature::friction_coulomb, Feature::friction_infinite, Feature::restitution});
   const Ground ground(scene, kRolling, kRollingIsFor);
   std::vector<SweptDisk> sweeps;
   const auto motion_of = [&](const Body& body) {
     const int index = static_cast<int>(&body - scene.bodies.data());
     Roller roller(body, ground, scene.contact_law(index, ground.body()).friction);
     auto motion = std::make_unique<PhasedMotion>(roller.phases(duration), std::abs(ground.gap_under(body)));
-    sweeps.push_back({&body, motion->way(duration), std::get<Sphere>(*body.shape).radius});
+    sweeps.push_back({&body, motion->way(duration), bounding_radius(*body.shape)});
     return motion;
   };
   auto truth = closed_form(scene, motion_of);

@@ -50,7 +50,9 @@ class Toppling final : public BodyMotion {
   Toppling(const Scene& scene, const Body& box, double duration)
       : ground_(scene, kName, kIsFor), box_(box), q_(extended(box.orientation)) {
     if (ground_.along().norm() > 0) ground_.refuse(box, "is on a slope");
-    if (!box.collides || !std::holds_alternative<Box>(*box.shape)) ground_.refuse(box, "is no box that collides");
+    if (!box.collides || (!std::holds_alternative<Box>(*box.shape) && !is_cylinder()))
+      ground_.refuse(box, "is no box and no cylinder that collides");
+    if (is_cylinder()) find_rim();
     gap_ = static_cast<double>(std::abs(ground_.gap_under(box)));
     if (gap_ > kTouching) ground_.refuse(box, "does not touch the plane");
     find_edge();
@@ -89,11 +91,22 @@ class Toppling final : public BodyMotion {
   }
 
  private:
-  ExtendedVec3 half() const { return extended(std::get<Box>(*box_.shape).size) / 2; }
+  bool is_cylinder() const { return std::holds_alternative<Cylinder>(*box_.shape); }
+
+  // A cylinder turns about one point of its rim, in the plane across its spin. There it is a rectangle.
+  void find_rim() {
+    const ExtendedVec3 axis = q_ * ExtendedVec3::UnitZ().eval(), w = extended(box_.angular_velocity);
+    if (std::abs(axis.dot(w)) > 1e-12L * w.norm()) ground_.refuse(box_, "spins about its own axis");
+    across_ = w.cross(axis).normalized();
+  }
 
   ExtendedVec3 arm_of(int corner) const {
     const ExtendedVec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    return q_ * half().cwiseProduct(sign).eval();
+    if (const auto* cylinder = std::get_if<Cylinder>(&*box_.shape)) {
+      const ExtendedVec3 axis = q_ * ExtendedVec3::UnitZ().eval();
+      return sign.x() * cylinder->radius * across_ + sign.z() * cylinder->length / 2 * axis;
+    }
+    return q_ * (extended(std::get<Box>(*box_.shape).size) / 2).cwiseProduct(sign).eval();
   }
 
   // Through the two corners that touch and do not move.
@@ -110,7 +123,7 @@ class Toppling final : public BodyMotion {
         ground_.refuse(box_, "does not turn about an edge");
     }
     if (still.size() != 2) ground_.refuse(box_, "does not turn about one edge");
-    edge_.axis = (still[1] - still[0]).normalized();
+    edge_.axis = is_cylinder() ? w.normalized() : (still[1] - still[0]).normalized();
     if (!are_along(w, edge_.axis)) ground_.refuse(box_, "does not turn along its edge");
     const ExtendedVec3 p = extended(box_.position);
     edge_.at = p + still[0] - edge_.axis * edge_.axis.dot(still[0]);
@@ -146,6 +159,7 @@ class Toppling final : public BodyMotion {
   Ground ground_;
   const Body& box_;
   ExtendedQuat q_;
+  ExtendedVec3 across_ = ExtendedVec3::Zero();  // of a cylinder: unit, in W, from its axis to the rim
   Edge edge_;
   Extended radius_ = 0, stiffness_ = 0;  // m; 1/s²
   std::vector<Angle> nodes_;             // every kNode
@@ -156,11 +170,11 @@ class Toppling final : public BodyMotion {
 }  // namespace
 
 TruthRow toppling_truth() {
-  return {kName, "a box that turns over its edge without slipping, as an inverted pendulum",
+  return {kName, "a box or cylinder that turns over its edge without slipping, as an inverted pendulum",
           [](const Scene& scene, double duration) {
             check_needs(scene, kName, kIsFor,
-                        {contact_feature<Box, Plane>(), Feature::restitution, Feature::friction_none,
-                         Feature::friction_coulomb, Feature::friction_infinite});
+                        {contact_feature<Box, Plane>(), contact_feature<Cylinder, Plane>(), Feature::restitution,
+                         Feature::friction_none, Feature::friction_coulomb, Feature::friction_infinite});
             return closed_form(scene,
                                [&](const Body& body) { return std::make_unique<Toppling>(scene, body, duration); });
           }};

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/dynamics/contact/event/contact_scales.h"
+#include "core/dynamics/collision/contact_scales.h"
 
 namespace rigor {
 namespace {

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace rigor {
@@ -10,7 +11,7 @@ namespace {
 
 using Kind = ContactFeature::Kind;
 
-constexpr double kOnEdge = 1e-7;    // of a body's size: how near an edge or an end a point counts as on it
+constexpr double kOnEdge = 1e-7;    // of a body's size: how near an edge a point counts as on it
 constexpr double kAligned = 1e-12;  // 1 - the cosine between a normal and a side's: 1.4e-6 rad
 constexpr double kParallel = 0.1;   // the sine between lines whose cross product is no normal
 
@@ -18,23 +19,24 @@ constexpr double kParallel = 0.1;   // the sine between lines whose cross produc
 struct Choices {
   std::optional<ContactFeature> plane, line;
   ContactFeature point;
-  bool is_corner = false;
 };
 
-// The surface's point and its outward normal, both in B.
+// A point beside the surface and the outward normal, both in B.
 struct SurfacePoint {
   Vec3 at, normal;
+  double height;  // m, above the surface
 
-  Choices operator()(const Sphere& sphere) const { return {{}, {}, {.radius = sphere.radius}}; }
+  Choices operator()(const Sphere& sphere) const { return {{}, {}, {.radius = sphere.radius, .is_vertex = true}}; }
 
   Choices operator()(const Plane& plane) const {
     return {ContactFeature{Kind::plane, plane.offset * plane.normal, plane.normal}, {}, {.at = at}};
   }
 
   Choices operator()(const Capsule& capsule) const {
-    const double half = 0.5 * capsule.length, s = at.z() - capsule.radius * normal.z();
-    const bool is_end = std::abs(s) >= half - kOnEdge * (half + capsule.radius);
-    Choices choices{{}, {}, {.at = {0, 0, is_end ? std::copysign(half, s) : s}, .radius = capsule.radius}};
+    const double half = 0.5 * capsule.length, s = at.z() - (capsule.radius + height) * normal.z();
+    const bool is_end = std::abs(s) >= half - kAtEnd * (half + capsule.radius);
+    Choices choices{
+        {}, {}, {.at = {0, 0, is_end ? std::copysign(half, s) : s}, .radius = capsule.radius, .is_vertex = is_end}};
     if (!is_end) choices.line = ContactFeature{Kind::line, Vec3::Zero(), Vec3::UnitZ(), capsule.radius};
     return choices;
   }
@@ -56,8 +58,8 @@ struct SurfacePoint {
         choices.plane = ContactFeature{Kind::plane, face.offset * face.normal, face.normal};
     }
     choices.point.at = at;
-    choices.is_corner = faces.size() > 2;
-    if (choices.is_corner) choices.point.at = *nearest_corner(hull);
+    choices.point.is_vertex = faces.size() > 2;
+    if (choices.point.is_vertex) choices.point.at = *nearest_corner(hull);
     if (faces.size() != 2) return choices;
     for (const Hull::Edge& edge : hull.edges) {
       if (std::minmax(edge.left, edge.right) != std::minmax(faces[0], faces[1])) continue;
@@ -93,7 +95,7 @@ struct SurfacePoint {
       }
     }
     choices.point.at = snapped;
-    choices.is_corner = count == 3;
+    choices.point.is_vertex = count == 3;
     if (count == 2) choices.line = ContactFeature{Kind::line, snapped, Vec3::Unit(along)};
     return choices;
   }
@@ -106,12 +108,30 @@ ContactFeature placed(ContactFeature feature, const BodyPose& pose) {
   return feature;
 }
 
-Choices choices_of_part(const PlacedShape& part, const Vec3& at, const Vec3& normal) {
-  const Quat to_part = part.pose.orientation.conjugate();
-  Choices choices = std::visit(SurfacePoint{to_part * (at - part.pose.position), to_part * normal}, part.shape);
-  if (choices.plane) choices.plane = placed(*choices.plane, part.pose);
-  if (choices.line) choices.line = placed(*choices.line, part.pose);
-  choices.point = placed(choices.point, part.pose);
+Choices placed(Choices choices, const BodyPose& pose) {
+  if (choices.plane) choices.plane = placed(*choices.plane, pose);
+  if (choices.line) choices.line = placed(*choices.line, pose);
+  choices.point = placed(choices.point, pose);
+  return choices;
+}
+
+// The feature of a box that a ball touches follows from its centre. It lies outside of one, two or three sides.
+Choices beside_ball(const Box& box, const Vec3& centre) {
+  const Vec3 half = 0.5 * box.size;
+  Choices choices;
+  Vec3 nearest = centre, outward = Vec3::Zero();
+  int count = 0, along = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(centre[i]) < half[i] - kAtEnd * half.maxCoeff()) {
+      along = i;
+      continue;
+    }
+    ++count;
+    nearest[i] = std::copysign(half[i], centre[i]), outward = std::copysign(1.0, centre[i]) * Vec3::Unit(i);
+  }
+  choices.point = {.at = nearest, .is_vertex = count == 3};
+  if (count == 1) choices.plane = ContactFeature{Kind::plane, nearest, outward};
+  if (count == 2) choices.line = ContactFeature{Kind::line, nearest, Vec3::Unit(along)};
   return choices;
 }
 
@@ -175,6 +195,78 @@ ContactKinematics reversed(ContactKinematics kinematics) {
   return kinematics;
 }
 
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+// m, from the ends of a shape's own feature, with `q` the point in B at which the other feature touches it: the centre
+// of its ball, the foot on its axis, or its surface.
+struct EndsOf {
+  const ContactFeature &own, &other;
+  Vec3 q;
+
+  double operator()(const Sphere&) const { return kEndless; }
+  double operator()(const Plane&) const { return kEndless; }
+
+  double operator()(const Capsule& capsule) const {
+    const double half = 0.5 * capsule.length;
+    if (own.kind == Kind::line) return half - std::abs(q.z());
+    return own.is_vertex && other.kind != Kind::plane ? std::copysign(q.z(), q.z() * own.at.z()) - half : kEndless;
+  }
+
+  double operator()(const Box& box) const {
+    const Vec3 half = 0.5 * box.size;
+    const bool is_side = own.kind == Kind::plane, is_beside_round = other.radius > 0;
+    if (is_side && (!other.is_vertex || own.direction.cwiseAbs().maxCoeff() < 1)) return kEndless;
+    double least = kEndless;
+    for (int i = 0; i < 3; ++i) {
+      const double within = half[i] - std::abs(q[i]);
+      const bool is_along = is_side ? own.direction[i] == 0 : own.kind == Kind::line && own.direction[i] != 0;
+      if (is_along) least = std::min(least, within);
+      // Beside an edge or a corner the ball's centre lies outside of two or three sides.
+      if (!is_along && !is_side && is_beside_round)
+        least = std::min(least, own.at[i] < 0 ? -q[i] - half[i] : q[i] - half[i]);
+    }
+    return own.kind == Kind::point && !own.is_vertex ? kEndless : least;
+  }
+
+  double operator()(const Convex& convex) const {
+    const Hull& hull = *convex.hull;
+    double least = kEndless;
+    for (const Hull::Edge& edge : hull.edges) {
+      const Vec3 &from = hull.points[static_cast<std::size_t>(edge.from)],
+                 &to = hull.points[static_cast<std::size_t>(edge.to)], along = (to - from).normalized();
+      if (own.kind == Kind::plane && other.is_vertex) {
+        // Anticlockwise as seen from outside: the face `left` lies to the left of its edge.
+        for (const auto& [face, sign] : {std::pair(edge.left, 1.0), {edge.right, -1.0}}) {
+          const Vec3& normal = hull.faces[static_cast<std::size_t>(face)].normal;
+          if (normal.dot(own.direction) > 1 - kAligned)
+            least = std::min(least, sign * normal.cross(along).dot(q - from));
+        }
+      } else if (own.kind == Kind::line && is_on(edge, hull)) {
+        least = std::min({least, along.dot(q - from), along.dot(to - q)});
+      }
+    }
+    return least;
+  }
+
+  // No scene with a curved rim or surface gets here, and a contact of a compound lasts to the end of its step.
+  double operator()(const Cylinder&) const { return kEndless; }
+  double operator()(const Ellipsoid&) const { return kEndless; }
+  double operator()(const Compound&) const { return kEndless; }
+
+ private:
+  bool is_on(const Hull::Edge& edge, const Hull& hull) const {
+    const Vec3& from = hull.points[static_cast<std::size_t>(edge.from)];
+    const Vec3 along = (hull.points[static_cast<std::size_t>(edge.to)] - from).normalized();
+    return along.cross(own.direction).norm() < kOnEdge &&
+           along.cross(own.at - from).norm() < kOnEdge * hull.bounding_radius;
+  }
+};
+
+PlacedShape part_of(const Collider& collider, std::size_t part) {
+  const auto* compound = std::get_if<Compound>(&collider.shape);
+  return compound ? compound->parts[part] : PlacedShape{collider.shape, {}};
+}
+
 }  // namespace
 
 RigidMotion motion_of(BodyColumns state, const Collider& collider) {
@@ -186,23 +278,34 @@ RigidMotion motion_of(BodyColumns state, const Collider& collider) {
 
 FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pose& pose_a, const Collider& b,
                         const Pose& pose_b) {
-  const auto choices_of = [&](const Collider& collider, const Pose& pose, const Vec3& outward, std::size_t part) {
-    if (std::holds_alternative<Plane>(collider.shape))
-      return std::visit(SurfacePoint{point.point, outward}, collider.shape);
+  const Vec3 outward_a = -point.normal, outward_b = point.normal;
+  const PlacedShape part_a = part_of(a, point.part_a), part_b = part_of(b, point.part_b);
+  const auto choices_of = [&](const PlacedShape& part, const Pose& pose, const Vec3& outward) {
+    if (std::holds_alternative<Plane>(part.shape)) return std::visit(SurfacePoint{point.point, outward, 0}, part.shape);
     const Mat3 to_B = pose.R.transpose();
-    const Vec3 at = to_B * (point.point - pose.p), normal = to_B * outward;
-    const auto* compound = std::get_if<Compound>(&collider.shape);
-    return compound ? choices_of_part(compound->parts[part], at, normal)
-                    : std::visit(SurfacePoint{at, normal}, collider.shape);
+    const Quat to_part = part.pose.orientation.conjugate();
+    const Vec3 at = to_part * (to_B * (point.point - pose.p) - part.pose.position);
+    return placed(std::visit(SurfacePoint{at, to_part * (to_B * outward), 0.5 * point.gap}, part.shape), part.pose);
   };
-  const Choices of_a = choices_of(a, pose_a, -point.normal, point.part_a),
-                of_b = choices_of(b, pose_b, point.normal, point.part_b);
+  Choices of_a = choices_of(part_a, pose_a, outward_a), of_b = choices_of(part_b, pose_b, outward_b);
+  const auto take_ball = [&](const PlacedShape& part, const Pose& pose, const Vec3& outward,
+                             const ContactFeature& ball) -> std::optional<Choices> {
+    const Box* box = std::get_if<Box>(&part.shape);
+    if (!box || !ball.is_vertex || !(ball.radius > 0)) return {};
+    const Vec3 centre = pose.R.transpose() * (point.point + (0.5 * point.gap + ball.radius) * outward - pose.p);
+    Choices choices = beside_ball(*box, part.pose.orientation.conjugate() * (centre - part.pose.position));
+    // The centre of a ball that is deep in the box tells nothing.
+    return choices.plane || choices.line || choices.point.is_vertex ? std::optional(placed(choices, part.pose))
+                                                                    : std::nullopt;
+  };
+  of_a = take_ball(part_a, pose_a, outward_a, of_b.point).value_or(of_a);
+  of_b = take_ball(part_b, pose_b, outward_b, of_a.point).value_or(of_b);
   if (of_a.line && of_b.line) {
     const Vec3 across = (pose_a.R * of_a.line->direction).cross(pose_b.R * of_b.line->direction);
     if (across.norm() > kParallel) return {*of_a.line, *of_b.line, across.dot(point.normal) < 0 ? -1.0 : 1.0};
   }
   // If two sides lie on each other, the one with a corner there gives the point.
-  if (of_b.plane && !(of_a.plane && of_b.is_corner && !of_a.is_corner)) return {of_a.point, *of_b.plane};
+  if (of_b.plane && !(of_a.plane && of_b.point.is_vertex && !of_a.point.is_vertex)) return {of_a.point, *of_b.plane};
   if (of_a.plane) return {*of_a.plane, of_b.point};
   if (of_a.point.radius + of_b.point.radius > 0) {
     if (of_b.line) return {of_a.point, *of_b.line};
@@ -222,6 +325,15 @@ ContactKinematics contact_kinematics(const FeaturePair& features, const RigidMot
   if (kind_b == Kind::line) return point_on_line(of_a, of_b);
   if (kind_a == Kind::line) return reversed(point_on_line(of_b, of_a));
   return point_on_point(of_a, of_b);
+}
+
+double distance_from_ends(const FeaturePair& features, const ContactKinematics& kinematics, const Collider& a,
+                          const Pose& pose_a, const Collider& b, const Pose& pose_b) {
+  const Vec3 of_a = kinematics.point + (0.5 * kinematics.gap + features.a.radius) * kinematics.normal,
+             of_b = kinematics.point - (0.5 * kinematics.gap + features.b.radius) * kinematics.normal;
+  const Vec3 in_a = pose_a.R.transpose() * (of_b - pose_a.p), in_b = pose_b.R.transpose() * (of_a - pose_b.p);
+  return std::min(std::visit(EndsOf{features.a, features.b, in_a}, a.shape),
+                  std::visit(EndsOf{features.b, features.a, in_b}, b.shape));
 }
 
 }  // namespace rigor

@@ -4,6 +4,8 @@
 //   a corner, the centre of a ball or of a capsule's end   a point
 //   an edge, a capsule's axis                              a line
 //   a side of a box, a plane                               a plane
+// A line and a side end. A ball that rolls over the edge of a box, or past the end of a capsule, passes from one
+// feature to the next. Its normal is continuous there, and its acceleration jumps.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +20,7 @@ struct ContactFeature {
   Vec3 at = Vec3::Zero();         // m, in B: the point, or one of the line or the plane
   Vec3 direction = Vec3::Zero();  // unit, in B: along the line, or the plane's outward normal
   double radius = 0;              // m
+  bool is_vertex = false;         // the centre of a ball or of a capsule's end, or a corner
 };
 
 struct FeaturePair {
@@ -43,5 +46,11 @@ struct ContactKinematics {
 FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pose& pose_a, const Collider& b,
                         const Pose& pose_b);
 ContactKinematics contact_kinematics(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b);
+
+// m: how far the contact can move before it passes to another feature of a body; negative beyond that, infinite if the
+// features do not end. Features chosen at their end are within kAtEnd of the body's size.
+double distance_from_ends(const FeaturePair& features, const ContactKinematics& kinematics, const Collider& a,
+                          const Pose& pose_a, const Collider& b, const Pose& pose_b);
+constexpr double kAtEnd = 1e-11;
 
 }  // namespace rigor

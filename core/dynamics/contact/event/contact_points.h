@@ -7,7 +7,7 @@
 #include "core/dynamics/collision/broad_phase.h"
 #include "core/dynamics/contact/event/acceleration_bounds.h"
 #include "core/dynamics/contact/event/cone_solver.h"
-#include "core/dynamics/contact/event/contact_scales.h"
+#include "core/dynamics/collision/contact_scales.h"
 #include "core/dynamics/joints/joint_limits.h"
 #include "core/scene/contact_laws.h"
 

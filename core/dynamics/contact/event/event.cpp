@@ -232,7 +232,11 @@ class EventStepper : public ContactStepper {
     return distance_from_event();
   }
 
-  double distance_from_event() { return std::min(persistent_contact_.distance_from_change(), least_gap()); }
+  // Finite, for the search of a root.
+  double distance_from_event() {
+    constexpr double kFar = 1;
+    return std::min({kFar, persistent_contact_.distance_from_change(), least_gap()});
+  }
 
   double commit(MutableBodyColumns state, double done) {
     copy_columns(std::as_const(end_).columns(), state);

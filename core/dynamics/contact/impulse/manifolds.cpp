@@ -62,7 +62,9 @@ bool lies_within(const Aabb& inner, const Aabb& outer) {
 }
 
 // Four points hold a face as well as eight: the deepest, the one furthest from it, the one furthest aside of the line
-// between these, and the one furthest to the other side. Of points that are equal but for rounding the first is taken.
+// between these, and the one furthest to the other side. Of points that are equally deep but for rounding the one
+// furthest from their centre is taken. Edges that are nearly parallel cross far from their ends, and a crossing in
+// place of a corner would leave the face without support there. Of points that are equal in all this the first counts.
 // Returns the end of those kept of [begin, end).
 int reduce_to_four(Manifold& points, int begin, int end) {
   if (end - begin <= kMostOfPair) return end;
@@ -74,7 +76,10 @@ int reduce_to_four(Manifold& points, int begin, int end) {
     }
     std::swap(points[begin + at], points[best]);
   };
-  take(0, [](const ManifoldPoint& p) { return -p.gap; });
+  double least = points[begin].gap;
+  Vec3 centre = Vec3::Zero();
+  for (int i = begin; i < end; ++i) least = std::min(least, points[i].gap), centre += points[i].point / (end - begin);
+  take(0, [&](const ManifoldPoint& p) { return p.gap > least + equal ? -1 : (p.point - centre).norm(); });
   const ManifoldPoint first = points[begin];
   take(1, [&](const ManifoldPoint& p) { return (p.point - first.point).norm(); });
   const Vec3 side = first.normal.cross(points[begin + 1].point - first.point).normalized();

@@ -46,6 +46,42 @@ export async function oneCase(browser) {
     );
     await shoot(browser, "case-light", true);
   });
+  await check("a case has its question, a sketch, its formulas and what to change", async () => {
+    const asked = await browser.run("return document.querySelector('.asks').textContent");
+    expect(asked.startsWith("How far") && asked.includes("Watch:"), `the question is "${asked}"`);
+    for (const part of [".spring", ".solid polygon", "text"])
+      expect(await browser.run("return document.querySelectorAll('.scene-sketch ' + arguments[0]).length > 0", part), `the sketch lacks ${part}`);
+    const outside = await browser.run(
+      "const box = document.querySelector('.scene-sketch').getBoundingClientRect(); return [...document.querySelectorAll('.scene-sketch .solid, .scene-sketch .spring')].filter(e => { const b = e.getBoundingClientRect(); return b.left < box.left || b.right > box.right || b.top < box.top || b.bottom > box.bottom; }).length",
+    );
+    equal(outside, 0, "parts beyond the sketch");
+    const repairs = await browser.run("return [...document.querySelectorAll('.repair')].map(r => r.textContent)");
+    const ode = repairs.find((text) => text.startsWith("ode "));
+    expect(ode?.includes("dWorldQuickStep") || ode?.includes("dWorldStep"), `ODE's own calls are missing: ${ode}`);
+    await open(browser, "#/springs/stiff-3?dt=1/30");
+    await loaded(browser, "springs/stiff-3");
+    const formula = await browser.run("return document.querySelector('.why math')?.textContent ?? ''");
+    expect(formula === "ω·Δt=90 rad/s·130 s=3", `the formula is "${formula}"`); // the fraction 1/30 has no bar in its text
+    await open(browser, `#/${spring}?dt=1/30`);
+    await loaded(browser, spring);
+  });
+  await check("every plot saves as SVG and as CSV", async () => {
+    const files = await browser.run(`
+      const kept = [], create = URL.createObjectURL, click = HTMLAnchorElement.prototype.click;
+      URL.createObjectURL = (blob) => (kept.push(blob), "blob:kept");
+      HTMLAnchorElement.prototype.click = function () {};
+      document.querySelectorAll(".save").forEach((button) => button.click());
+      (URL.createObjectURL = create), (HTMLAnchorElement.prototype.click = click);
+      window.kept = kept;
+      return kept.map((blob) => blob.type)`);
+    const figures = await browser.run("return document.querySelectorAll('.plot, figure.wide, .frontier, svg.stability').length");
+    for (const type of ["image/svg+xml", "text/csv"]) equal(files.filter((f) => f === type).length, figures, type);
+    const texts = await browser.callLater("Promise.all(window.kept.map((blob) => blob.text()))");
+    for (const [i, text] of texts.entries()) {
+      if (files[i] === "text/csv") expect(text.split("\n").length > 3 && text.startsWith("run,"), `a table: ${text.slice(0, 80)}`);
+      else expect(/^<svg /.test(text) && /<(path|polyline|rect)/.test(text) && !/NaN|undefined/.test(text), `a picture: ${text.slice(0, 80)}`);
+    }
+  });
   await check("the picture is drawn with WebGL and shows something", async () => {
     equal(await browser.run("return document.querySelector('.stage canvas').dataset.kind"), "webgl", "kind");
     const picture = await browser.screenshot();

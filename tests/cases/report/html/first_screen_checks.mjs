@@ -48,7 +48,7 @@ export async function firstScreen(browser) {
       "return [...document.querySelectorAll('.matrix td.cell a')].find(a => a.title.startsWith(arguments[0] + ', ode,')).querySelector('.value').textContent",
       spring,
     );
-    equal(text, `${Number((1000 * cell.metrics.position_error.value).toPrecision(3))} mm`, "position error");
+    equal(text, `${Number((1000 * cell.metrics.position_error.value).toPrecision(2))} mm`, "position error");
   });
   await check("problems are the sentences of results.json", async () => {
     const texts = await browser.run(
@@ -69,7 +69,10 @@ export async function firstScreen(browser) {
     );
     if (external) {
       expect(title.includes(external.engine) && title.includes(`${external.dt} s`), `found "${title}"`);
-      expect(beside.includes(`${external.failed || "none"} failed`), `failures are not said: "${beside}"`);
+      const { failed, cases } = external,
+        outcome = failed ? `${failed} of them failed` : "none failed there";
+      expect(beside.includes(`${cases} of ${results.cases.length} cases have a known true motion`), `"${beside}"`);
+      expect(beside.includes(outcome), `failures are not said: "${beside}"`);
     } else expect(title.startsWith("No engine stays within"), `found "${title}"`);
     for (const choice of [core, reference])
       if (choice) expect(beside.includes(`${choice.engine} at ${choice.dt} s`), `"${beside}" lacks ${choice.engine}`);
@@ -83,6 +86,37 @@ export async function firstScreen(browser) {
       expect(cards.some((c) => c.startsWith(name)), `${name} has no card`);
     }
     for (const card of cards.filter((c) => c.includes("cheapest"))) expect(!card.includes("no step within"), card);
+  });
+  await check("each card counts the stable runs at its largest usable step, as results.json does", async () => {
+    const cards = await browser.run("return [...document.querySelectorAll('.card')].map(c => [c.querySelector('h2').firstChild.textContent, c.innerText])");
+    for (const [engine, text] of cards) {
+      const [, stable, of, dt] = /stable in (\d+) of (\d+) at (\S+) s/.exec(text) ?? [];
+      expect(dt, `no count: "${text}"`);
+      const ran = results.cells.filter((c) => c.engine === engine && c.dt === dt && c.status !== "unsupported");
+      equal(Number(of), ran.length, `${engine}: runs`);
+      const good = ran.filter((c) => c.status === "pass" && c.verdict.word === "stable" && !c.reduced_order);
+      equal(Number(stable), good.length, `${engine}: stable runs`);
+      const usable = / up to (\S+) s/.exec(text)?.[1];
+      if (usable) equal(dt, usable, `${engine}: the step`);
+    }
+    const meaning = await browser.run("return document.querySelector('.meanings').textContent");
+    expect(/Stable: the motion does not blow up/.test(meaning), meaning);
+  });
+  await check("headline, cards, findings and matrix name the same largest steps", async () => {
+    const steps = results.findings.find((f) => f.topic === "step size").claims.filter((c) => c.quantity === "largest step for a tolerance");
+    expect(steps.length > 0, "the finding states no step");
+    const cards = await browser.run("return [...document.querySelectorAll('.card')].map(c => [c.querySelector('h2').firstChild.textContent, c.innerText])");
+    for (const [engine, text] of cards) {
+      const claim = steps.find((c) => c.engine === engine);
+      if (claim) equal(/ up to (\S+) s/.exec(text)?.[1] ?? "", claim.dt ?? "", `${engine}: card and finding`);
+    }
+    const row = await browser.run(
+      "const r = [...document.querySelectorAll('.summary')].find(t => t.innerText.startsWith('step within')), names = [...document.querySelectorAll('.matrix thead .engine')].map(t => t.title.split(': ')[0]); return [...r.querySelectorAll('td')].map((t, i) => [names[i], t.textContent])",
+    );
+    for (const [engine, text] of row) {
+      const claim = steps.find((c) => c.engine === engine);
+      if (claim) equal(text, claim.dt ? `${claim.dt} s` : "none", `${engine}: matrix and finding`);
+    }
   });
   await check("the tolerance is moved by keys and by hand, and stands in the address", async () => {
     const now = () => browser.run("return document.querySelector('.tolerance').getAttribute('aria-valuenow')");

@@ -23,6 +23,56 @@ Scene on_joint(const Joint& joint, const Vec3& position, double mass, const Vec3
 
 Quat about(const Vec3& axis, double angle) { return Quat(Eigen::AngleAxisd(angle, axis)); }
 
+// A ball slides without friction along x, comes to an edge at x = 0, goes down round it and leaves it.
+class OverEdge {
+ public:
+  OverEdge(double radius, double speed) : radius_(radius), speed_(speed) {
+    angle_.x = Eigen::Vector2d(0, speed / radius);
+  }
+
+  // The centre, above the surface; `t` since the edge.
+  Vec3 at(double t) {
+    const auto f = [this](double, const OwnMotion::State& s) -> OwnMotion::State {
+      return Eigen::Vector2d(s[1], kG * std::sin(s[0]) / radius_);
+    };
+    if (t < 0) return {speed_ * t, 0, radius_};
+    const auto pressure = [this](double, const OwnMotion::State& s) {
+      return kG * std::cos(s[0]) - radius_ * s[1] * s[1];
+    };
+    has_left_ = has_left_ || angle_.go(f, pressure, t, 1e-4);
+    const double sine = std::sin(angle_.x[0]), cosine = std::cos(angle_.x[0]), since = t - angle_.t;
+    const Vec3 v = radius_ * angle_.x[1] * Vec3(cosine, 0, -sine);
+    return Vec3(radius_ * sine, 0, radius_ * cosine) + since * v - 0.5 * since * since * Vec3(0, 0, kG);
+  }
+  bool has_left() const { return has_left_; }
+
+ private:
+  double radius_, speed_;  // of the path of its centre round the edge
+  OwnMotion angle_;        // from the vertical, its rate
+  bool has_left_ = false;
+};
+
+Body fixed_body(const Shape& shape, const Vec3& position) {
+  Body made = on_its_own("support", shape, 1, position);
+  made.fixed = true;
+  return made;
+}
+
+void check_over_edge(const Body& support, double surface, double radius) {
+  constexpr double r = 0.1, v = 0.4, start = -0.13;
+  Scene scene;
+  scene.gravity = {0, 0, -kG};
+  scene.bodies = {on_its_own("ball", Sphere{r}, 1, {start, 0, surface + r}), support};
+  scene.bodies[0].velocity = {v, 0, 0};
+  scene.contact_default = {0, 0};
+  OverEdge path(radius, v);
+  std::vector<Due> due;
+  for (const double t : {0.2, 0.4, 0.5, 0.6, 0.7})
+    due.push_back({t, Vec3(path.at(t + start / v) + Vec3(0, 0, surface + r - radius))});
+  BOOST_TEST(path.has_left());
+  check_within_claim(scene, 0.7, 0, due);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(cases_truth_solved_events_independent)
@@ -58,6 +108,52 @@ BOOST_AUTO_TEST_CASE(a_ball_with_spin_slides_on_a_parabola_and_rolls) {
   BOOST_TEST(rolls > 0.5);
   BOOST_TEST(rolls < 1.4);
   check_within_claim(scene, 1.5, 0, due);
+}
+
+// Rolling needs a friction of 2/7 of the spring's force. Where that leaves the cone, the ball slips.
+BOOST_AUTO_TEST_CASE(a_ball_that_rolls_on_a_spring_slips_and_rolls_again) {
+  const double r = 0.1, mu = 0.2, k = 50, v = 1.5;
+  Scene scene = on_ground({on_its_own("ball", Sphere{r}, 1, {0, 0, r})}, mu);
+  scene.bodies[0].velocity = {v, 0, 0}, scene.bodies[0].angular_velocity = {0, v / r, 0};
+  scene.springs = {spring(kWorld, {-2, 0, r}, 0, Vec3::Zero(), k, 2)};
+  OwnMotion ball;  // x, its rate, r w
+  ball.x = Eigen::Vector3d(0, v, v);
+  const auto rolling = [&](double, const OwnMotion::State& s) -> OwnMotion::State {
+    const double a = -k * s[0] / 1.4;
+    return Eigen::Vector3d(s[1], a, a);
+  };
+  const auto spare = [&](double, const OwnMotion::State& s) { return mu * kG - 2 * k * std::abs(s[0]) / 7; };
+  std::vector<Due> due;
+  int slips = 0;
+  double sign = 0;  // of the slip; 0 of a ball that rolls
+  for (const double t : {0.1, 0.2, 0.35, 0.5, 0.75, 1.0}) {
+    while (ball.t < t) {
+      if (sign == 0) {
+        // The slip begins against the friction of rolling.
+        if (ball.go(rolling, spare, t, 1e-4)) ++slips, sign = ball.x[0] > 0 ? -1 : 1;
+        continue;
+      }
+      const auto sliding = [&](double, const OwnMotion::State& s) -> OwnMotion::State {
+        return Eigen::Vector3d(s[1], -k * s[0] - sign * mu * kG, 2.5 * sign * mu * kG);
+      };
+      // A slip of less than roundings has just begun.
+      const auto slip = [&](double, const OwnMotion::State& s) { return sign * (s[1] - s[2]) + 1e-13; };
+      if (ball.go(sliding, slip, t, 1e-4)) sign = 0, ball.x[2] = ball.x[1];
+    }
+    due.push_back({t, Vec3(ball.x[0], 0, r)});
+  }
+  BOOST_TEST(slips == 2);
+  check_within_claim(scene, 1, 0, due);
+}
+
+BOOST_AUTO_TEST_CASE(a_ball_slides_over_the_edge_of_a_box) {
+  check_over_edge(fixed_body(Box{{2, 1, 0.2}}, {-1, 0, -0.1}), 0, 0.1);
+}
+
+BOOST_AUTO_TEST_CASE(a_ball_slides_past_the_end_of_a_capsule) {
+  Body support = fixed_body(Capsule{0.2, 2}, {-1, 0, -0.2});
+  support.orientation = about(Vec3::UnitY(), std::numbers::pi / 2);
+  check_over_edge(support, 0, 0.3);
 }
 
 BOOST_AUTO_TEST_CASE(a_slider_on_a_spring_rebounds_from_its_limit) {

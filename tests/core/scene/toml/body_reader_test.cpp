@@ -6,6 +6,7 @@
 
 #include "tests/core/scene/scene_of.h"
 #include "tests/core/scene/toml/refusal.h"
+#include "tests/folder.h"
 
 using namespace rigor;
 
@@ -69,17 +70,56 @@ const std::vector<Refusal> kBadBodies = {
      {"does not move"}},
     {"[[scene.body]]\nname = 'a'\nfixed = true\ncollides = true", "4:12: scene.body.collides: ", {"no shape"}},
     // Shapes.
+    {"[[scene.body]]\nname = 'a'\nmass = 1\nshape = { type = 'sphere', radius = 1, position = [0, 0.25, 0] }",
+     "4:9: scene.body.shape: ",
+     {"found the centre of mass at [0, 0.25, 0] m", "at its origin"}},
+    {"[[scene.body]]\nname = 'a'\nmass = 1\nshapes = [{ type = 'sphere', radius = 1 }]\nshape = { type = 'sphere', "
+     "radius = 1 }",
+     "4:10: scene.body.shapes: ",
+     {"one of the two"}},
+    {"[[scene.body]]\nname = 'a'\nshapes = { type = 'sphere', radius = 1 }", "3:10: scene.body.shapes: ", {"an array"}},
+    {"[[scene.body]]\nname = 'a'\nshapes = [{ type = 'plane', normal = [0, 0, 1], offset = 0 }]",
+     "3:11: scene.body.shapes: ",
+     {"cannot be one of several"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'plane', normal = [0, 0, 1], offset = 0, position = [0, 0, 1] }",
+     "3:61: scene.body.shape.position: a plane has no such key",
+     {}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'ellipsoid', radii = [1, 1, -1] }",
+     "3:39: scene.body.shape.radii: ",
+     {"not greater than 0"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'ellipsoid', radius = 1 }",
+     "3:31: scene.body.shape.radius: an ellipsoid has no such key",
+     {}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'convex' }", "3:9: scene.body.shape.points: missing", {}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'convex', points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }",
+     "3:37: scene.body.shape.points: ",
+     {"found 3 points", "at least 4"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'convex', points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]] }",
+     "3:37: scene.body.shape.points: ",
+     {"one plane"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'convex', points = [[0, 0, 0], [1, 0, nan], [0, 1, 0], [1, 1, 0]] }",
+     "3:49: scene.body.shape.points",
+     {"nan"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'convex', file = '../rock.stl' }",
+     "3:35: scene.body.shape.file: ",
+     {"not in the case file's folder"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'convex', file = 'none.stl' }",
+     "3:35: scene.body.shape.file: ",
+     {"no such file"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'convex', scale = 2, points = [[0, 0, 0]] }",
+     "3:36: scene.body.shape.scale: ",
+     {"with the key file"}},
     {"[[scene.body]]\nname = 'a'\nshape = 'box'", "3:9: scene.body.shape: ", {"found a string, 'box'", "a table"}},
     {"[[scene.body]]\nname = 'a'\nshape = {}", "3:9: scene.body.shape.type: missing", {}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'shpere' }",
      "3:18: scene.body.shape.type: ",
-     {"found 'shpere'", "'sphere'", "box, capsule, plane, sphere"}},
+     {"found 'shpere'", "'sphere'", "box, capsule, convex, cylinder, ellipsoid, plane, sphere"}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'sphere', radiu = 1 }",
      "3:28: scene.body.shape.radiu: unknown key",
      {"'radius'"}},
     {"[[scene.body]]\nname = 'a'\nshape = { sphere = 1 }",
      "3:11: scene.body.shape.sphere: unknown key",
-     {"allowed: type, size, radius, length, normal, offset"}},
+     {"allowed: type, size, position, orientation_wxyz, radius, length, points, file, scale, radii, normal, offset"}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'sphere' }", "3:9: scene.body.shape.radius: missing", {}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'sphere', size = [1, 1, 1] }",
      "3:28: scene.body.shape.size: a sphere has no such key",
@@ -177,12 +217,47 @@ BOOST_AUTO_TEST_CASE(every_shape_is_read) {
     { name = "b", mass = 1, shape = { type = "box", size = [1, 2, 3] } },
     { name = "c", mass = 1, shape = { type = "capsule", radius = 0.5, length = 2 } },
     { name = "p", shape = { type = "plane", normal = [0, 0, 3], offset = -1 } },
-    { name = "s", mass = 1, shape = { type = "sphere", radius = 0.5 } } ])");
+    { name = "s", mass = 1, shape = { type = "sphere", radius = 0.5 } },
+    { name = "y", mass = 1, shape = { type = "cylinder", radius = 0.5, length = 2 } },
+    { name = "e", mass = 1, shape = { type = "ellipsoid", radii = [1, 2, 3] } },
+    { name = "h", mass = 1, shape = { type = "convex", points = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]] } },
+    { name = "d", mass = 1, shapes = [
+      { type = "sphere", radius = 0.5, position = [1, 0, 0] },
+      { type = "cylinder", radius = 0.1, length = 2, orientation_wxyz = [1, 0, 1, 0] },
+      { type = "sphere", radius = 0.5, position = [-1, 0, 0] } ] } ])");
   BOOST_TEST(shape_name(scene.bodies[0].shape.value()) == "box");
   BOOST_TEST(std::get<Capsule>(scene.bodies[1].shape.value()).radius == 0.5);
   BOOST_TEST(std::get<Capsule>(scene.bodies[1].shape.value()).length == 2);
   BOOST_TEST(std::get<Plane>(scene.bodies[2].shape.value()).offset == -1);
   BOOST_TEST(std::get<Sphere>(scene.bodies[3].shape.value()).radius == 0.5);
+  BOOST_TEST(std::get<Cylinder>(scene.bodies[4].shape.value()).length == 2);
+  BOOST_TEST((std::get<Ellipsoid>(scene.bodies[5].shape.value()).radii == Vec3(1, 2, 3)));
+  BOOST_TEST(std::get<Convex>(scene.bodies[6].shape.value()).hull->faces.size() == 4u);
+  const Compound& dumbbell = std::get<Compound>(scene.bodies[7].shape.value());
+  BOOST_TEST(dumbbell.parts.size() == 3u);
+  BOOST_TEST((dumbbell.parts[2].pose.position == Vec3(-1, 0, 0)));
+  BOOST_TEST(std::abs(dumbbell.parts[1].pose.orientation.y() - std::sqrt(0.5)) < 1e-15);
+  BOOST_TEST((scene.bodies[7].inertia == inertia_of(dumbbell, 1)));
+}
+
+// With an inertia of its own, a body may have its shape anywhere.
+BOOST_AUTO_TEST_CASE(a_shape_beside_the_centre_of_mass_needs_an_inertia) {
+  const Scene scene = scene_of(R"([[scene.body]]
+name = "tippe top"
+mass = 1
+inertia = [1, 1, 1]
+shape = { type = "sphere", radius = 1, position = [0, 0, 0.2] })");
+  BOOST_TEST((std::get<Compound>(scene.bodies[0].shape.value()).parts[0].pose.position == Vec3(0, 0, 0.2)));
+}
+
+BOOST_AUTO_TEST_CASE(a_hull_is_read_from_a_file_beside_the_case) {
+  const Folder folder;
+  folder.write("cube.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nv 2 2 0\nv 2 0 2\nv 0 2 2\nv 2 2 2\n");
+  const std::string text =
+      "scene.body = [{ name = 'a', fixed = true, shape = { type = 'convex', file = 'cube.obj', scale = 0.5 } }]";
+  const TomlFile file = TomlFile::parse(text, (folder.path / "case.toml").string());
+  const Scene scene = read_scene(file.root({"scene"}).at("scene"));
+  BOOST_TEST(std::get<Convex>(*scene.bodies[0].shape).volume() == 1, boost::test_tools::tolerance(1e-14));
 }
 
 BOOST_AUTO_TEST_CASE(an_inertia_may_touch_the_triangle_inequality) {

@@ -48,11 +48,24 @@ class Fields {
     add(body.velocity), add(body.angular_velocity), add(body.collides), add(body.fixed);
     for (int k = 0; k < 9; ++k) add(body.inertia(k / 3, k % 3));
     if (!body.shape) return;
-    add(shape_name(*body.shape));
-    if (const auto* sphere = std::get_if<Sphere>(&*body.shape)) add(sphere->radius);
-    if (const auto* box = std::get_if<Box>(&*body.shape)) add(box->size);
-    if (const auto* capsule = std::get_if<Capsule>(&*body.shape)) add(capsule->radius), add(capsule->length);
-    if (const auto* plane = std::get_if<Plane>(&*body.shape)) add(plane->normal), add(plane->offset);
+    add(*body.shape);
+  }
+  void add(const Shape& shape) {
+    add(shape_name(shape));
+    std::visit(
+        ForShapes{[&](const Box& s) { add(s.size); }, [&](const Capsule& s) { add(s.radius), add(s.length); },
+                  [&](const Compound& s) {
+                    for (const PlacedShape& part : s.parts) {
+                      add(part.shape), add(part.pose.position);
+                      add(part.pose.orientation.vec()), add(part.pose.orientation.w());
+                    }
+                  },
+                  [&](const Convex& s) {
+                    for (const Vec3& point : s.hull->points) add(point);
+                  },
+                  [&](const Cylinder& s) { add(s.radius), add(s.length); }, [&](const Ellipsoid& s) { add(s.radii); },
+                  [&](const Plane& s) { add(s.normal), add(s.offset); }, [&](const Sphere& s) { add(s.radius); }},
+        shape);
   }
   void add(const Joint& joint) {
     add(joint_type_name(joint)), add(joint.name), add(joint.a), add(joint.b);

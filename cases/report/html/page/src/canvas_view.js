@@ -1,5 +1,5 @@
 // Draws the stage with lines on a plain canvas, where there is no WebGL.
-import { coil, pointOf, turn } from "./scene_model.js";
+import { coil, inBody, pointOf, rimsOf, turn } from "./scene_model.js";
 import { colour, isDark } from "./theme.js";
 
 const edges = [
@@ -129,12 +129,12 @@ export class CanvasView {
     const o = 7 * shape.index,
       centre = [...poses.subarray(o, o + 3)],
       q = [...poses.subarray(o + 3, o + 7)];
-    const world = (p) => turn(q, p).map((v, k) => v + centre[k]);
+    const world = (p) => turn(q, inBody(shape, p)).map((v, k) => v + centre[k]);
     if (shape.type === "sphere") {
-      const at = this.project(centre);
+      const at = this.project(world([0, 0, 0]));
       if (!at) return;
       this.pen.beginPath(), this.pen.arc(at[0], at[1], shape.radius * at[2], 0, 7), this.pen.stroke();
-      this.line([centre, world([shape.radius, 0, 0])]);
+      this.line([world([0, 0, 0]), world([shape.radius, 0, 0])]);
     } else if (shape.type === "box") {
       const half = shape.size.map((s) => s / 2),
         corners = [];
@@ -147,8 +147,27 @@ export class CanvasView {
         if (at) this.pen.beginPath(), this.pen.arc(at[0], at[1], shape.radius * at[2], 0, 7), this.pen.stroke();
       }
       this.line([world([0, 0, -shape.length / 2]), world([0, 0, shape.length / 2])]);
+    } else if (shape.type === "cylinder") {
+      const rim = rimsOf(shape).map(world),
+        half = rim.length / 2;
+      for (const side of [rim.slice(0, half), rim.slice(half)]) this.line([...side, side[0]]);
+      for (let k = 0; k < half; k += half / 4) this.line([rim[k], rim[k + half]]);
+    } else if (shape.type === "ellipsoid") {
+      for (const [a, b] of [
+        [0, 1],
+        [1, 2],
+        [2, 0],
+      ])
+        this.line(ring(24).map(([c, s]) => world([0, 1, 2].map((k) => shape.radii[k] * (k === a ? c : k === b ? s : 0)))));
+    } else if (shape.type === "convex") {
+      const corners = shape.points.map(world);
+      for (const triangle of shape.triangles) this.line([...triangle, triangle[0]].map((k) => corners[k]));
     }
   }
 }
+
+// The cosines and sines of a closed circle.
+const ring = (count) =>
+  Array.from({ length: count + 1 }, (_, k) => [Math.cos((2 * Math.PI * k) / count), Math.sin((2 * Math.PI * k) / count)]);
 
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];

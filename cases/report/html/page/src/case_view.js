@@ -1,6 +1,7 @@
 // One case: the truth, the runs in motion, their series over time, and the summary over all step sizes.
 import { asideOf, cellOf, dtOf, judgement, hasNumbers } from "./data.js";
-import { el, replace, typeset } from "./dom.js";
+import { el, replace } from "./dom.js";
+import { withFormulas } from "./formulas.js";
 import { digits, quantity } from "./format.js";
 import { convergence, stabilityMap, workPrecision } from "./charts.js";
 import { gatesTable, numbersTable, sceneFile, settingsTable } from "./case_tables.js";
@@ -9,6 +10,9 @@ import { loadCase } from "./playback_data.js";
 import { cheapest, curvesOfCase, isCoreMethod, isExternal, isTimed } from "./frontier.js";
 import { FrontierChart, lengthOrAngle } from "./frontier_chart.js";
 import { Player } from "./player.js";
+import { questionOf } from "./question.js";
+import { commands, repairs } from "./repair.js";
+import { sceneSketch } from "./scene_sketch.js";
 import { schemeSplit } from "./scheme_tables.js";
 import { Stage } from "./stage.js";
 import { TimePlots } from "./time_plots.js";
@@ -113,8 +117,7 @@ export class CaseView {
         one.id,
         el("span.steps", {}, step(at - 1, "‹", "The case before"), step(at + 1, "›", "The next case")),
       ),
-      el("p.question", {}, one.title || one.id),
-      this.answer,
+      el("div.beside-sketch", {}, el("div", {}, el("p.question", {}, one.title || one.id), el("p.asks", {}, withFormulas(questionOf(one), one.scene)), this.answer), sceneSketch(one.scene)),
       one.error ? el("p.error", {}, one.error) : null,
       el(
         "details.about-truth",
@@ -130,7 +133,7 @@ export class CaseView {
             el(
               "ul.findings",
               {},
-              one.explanations.map((text) => el("li", {}, typeset(text))),
+              one.explanations.map((text) => el("li", {}, withFormulas(text, one.scene))),
             ),
           )
         : null,
@@ -171,31 +174,6 @@ export class CaseView {
     );
     this.chart.root.hidden = !isComparable;
     if (isComparable) this.chart.draw({ curves, tolerance, chosen: best ?? own, focus: null });
-  }
-
-  // What a reader can paste to see the same, and to look for a better setting.
-  commands() {
-    const engines = this.shown.filter((e) => !e.core).map((e) => e.name),
-      first = engines[0] ?? this.shown[0]?.name;
-    const chosen = this.shown.map((e) => ` --engine ${e.name}`).join("");
-    const rows = [
-      ["Run it again", `rigor run ${this.one.id} --dt ${this.dt.text}${chosen}`],
-      first ? ["Find the cheapest setting", `rigor tune ${this.one.id} --engine ${first.split(/[:@,]/)[0]} --within ${1000 * state.tolerance}mm`] : null,
-      first ? ["Keep its motion", `rigor trace ${this.one.id} --engine ${first} --dt ${this.dt.text} > run.csv`] : null,
-    ].filter(Boolean);
-    return el(
-      "dl.commands",
-      {},
-      rows.map(([label, command]) => [
-        el("dt", {}, label),
-        el(
-          "dd",
-          {},
-          el("code", {}, command),
-          el("button.quiet", { type: "button", onclick: () => navigator.clipboard?.writeText(command) }, "copy"),
-        ),
-      ]),
-    );
   }
 
   // It stays in sight; the picture below it has to know how high it is.
@@ -336,7 +314,8 @@ export class CaseView {
         "Each bar reaches to the largest dt that does not blow up within 30 s; dots are the runs.",
         stabilityMap(context),
       ),
-      part("commands", "Reproduce and repair", "`rigor tune` prints the engine's own calls for the setting that it finds.", this.commands()),
+      part("repair", "How to fix it", null, repairs(context, state.tolerance)),
+      part("commands", "Reproduce it", null, commands(context, state.tolerance)),
       part("gates", "Gates", null, gatesTable(context)),
       part("settings", "Settings in force", "As read back from each engine in this case.", settingsTable(context)),
       part("file", "The case file", null, sceneFile(this.one)),

@@ -2,6 +2,7 @@
 import { cellOf, errorPoints, judgement, order, stableText } from "./data.js";
 import { add, el, svg } from "./dom.js";
 import { digits, isNumber, power, quantity, words } from "./format.js";
+import { saveButtons } from "./saving.js";
 import { set } from "./state.js";
 
 export const ink = (engine) => `var(--e${engine.index})`;
@@ -130,11 +131,14 @@ function errorFigures({ results, one, shown }, { place, axis, versus, below }) {
           .filter((p) => p.x > 0);
       const lines = shown.map((engine) => ({ engine, points: pointsOf(engine) })).filter((l) => l.points.length);
       if (!lines.length) return null;
+      const picture = logLog(lines, { ...axis, yLabel: `${words(metric)} [${unit}]`, label: `${words(metric)} against ${versus}` });
+      const head = ["run", "dt", axis.xLabel, `${words(metric)} [${unit}]`];
+      const rows = lines.flatMap(({ engine, points: all }) => all.map((p) => [engine.name, p.dt, p.x, p.y]));
       return el(
         "figure.wide",
         {},
-        el("figcaption", {}, words(metric)),
-        logLog(lines, { ...axis, yLabel: `${words(metric)} [${unit}]`, label: `${words(metric)} against ${versus}` }),
+        el("figcaption", {}, words(metric), saveButtons(`${words(metric)} against ${versus}`.replaceAll(" ", "-"), () => picture, () => [head, rows])),
+        picture,
         below(metric, lines),
       );
     })
@@ -255,7 +259,9 @@ export function stabilityMap({ one, shown, results }) {
     ]);
   });
   const reasons = new Set(engines.map((e) => one.stable.get(e.name)).filter((s) => !isNumber(s.dt)).map((s) => s.reason));
+  const rows = engines.map((e) => [e.name, one.stable.get(e.name).dt, one.stable.get(e.name).status]);
   return [
+    saveButtons("largest-stable-step", () => root, () => [["run", "largest stable dt [s]", "status"], rows]),
     el("div.scroll", { tabindex: 0 }, root),
     [...reasons].filter(Boolean).map((reason) => el("p.fine", {}, `No largest dt: ${reason}.`)),
   ];

@@ -3,7 +3,9 @@
 import { digits, isNumber, quantity } from "./format.js";
 
 export async function unpacked(base64) {
-  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const text = atob(base64),
+    bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
@@ -15,7 +17,17 @@ export async function loadResults() {
   return indexed(results, playback);
 }
 
+// Results of an older schema lack these.
+function fillGaps(results) {
+  for (const list of ["metrics", "findings", "frontier", "tolerances", "stable_dt", "relative_errors"]) results[list] ??= [];
+  for (const one of results.cases) {
+    for (const list of ["dt", "observed_order", "work_precision", "gates", "step_needed", "explanations"]) one[list] ??= [];
+    one.truth ??= { kind: "none" };
+  }
+}
+
 function indexed(results, playback) {
+  fillGaps(results);
   results.units = Object.fromEntries(results.metrics.map((m) => [m.name, m.unit]));
   results.summaries = Object.fromEntries(results.metrics.map((m) => [m.name, m.summary]));
   results.series = playback.series;
@@ -225,7 +237,7 @@ export function errorPoints(one, engine, metric) {
 export const tabulated = (results, tolerance) =>
   (results.tolerances ?? []).filter((t) => t <= 1.001 * tolerance).at(-1) ?? results.tolerances?.[0] ?? tolerance;
 
-// An entry of step_needed or step_over_cases at a tolerance, in words. Null where there is none.
+// An entry of step_needed at a tolerance, in words. Null where there is none.
 function stepText(results, row, tolerance) {
   const at = (results.tolerances ?? []).indexOf(tabulated(results, tolerance));
   if (!row || at < 0 || row.found[at] === undefined) return null;
@@ -233,11 +245,9 @@ function stepText(results, row, tolerance) {
   return isNumber(row.dt[at]) ? `${mark}${quantity(row.dt[at], "s")}` : "none";
 }
 
-// The largest step that keeps a run's main error within the tolerance: in one case, and in the median case.
+// The largest step that keeps a run's main error within the tolerance in one case.
 export const stepFor = (results, one, engine, tolerance) =>
   stepText(results, one.step_needed?.find((row) => row.engine === engine), tolerance);
-export const medianStep = (results, engine, tolerance) =>
-  stepText(results, results.step_over_cases?.find((row) => row.engine === engine), tolerance);
 
 // The largest stable step in words: at the largest or the smallest that was tried it is a bound.
 export const stableText = (stable) =>

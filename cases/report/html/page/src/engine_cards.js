@@ -117,20 +117,24 @@ export class EngineCards {
     return this.line("strength", "good at", el("b", {}, best.name), `: ${times >= 1000 ? "over 1000" : digits(times, 2)} × less error than the median`);
   }
 
+  // At the largest usable step; where there is none, at the step of the matrix.
   problemLine(curve) {
-    const bad = this.cases
-      .map((one) => ({ one, verdict: judgement(this.cellAt(one, curve.engine)) }))
-      .filter(({ verdict }) => verdict.kind === "bad");
-    if (bad.length) return this.line("problem", "what goes wrong", ...this.worstKind(bad, curve.engine));
-    const families = this.byFamily(curve.engine);
-    const worst = families.at(-1);
+    const step = largestStep(curve, this.tolerance)?.dt ?? this.dt.text;
+    const judged = this.cases
+      .map((one) => ({ one, verdict: judgement(cellOf(one, curve.engine, dtOf(one, step).text)) }))
+      .filter(({ verdict }) => verdict.kind !== "none");
+    const stable = judged.filter(({ verdict }) => verdict.kind === "good").length;
+    const count = `stable in ${stable} of ${judged.length} at ${step} s`;
+    const bad = judged.filter(({ verdict }) => verdict.kind === "bad");
+    if (bad.length) return this.line("problem", "what goes wrong", ...this.worstKind(bad, curve.engine, step), `; ${count}`);
+    const worst = this.byFamily(curve.engine).at(-1);
     if (worst?.ratio > muchWorse)
-      return this.line("problem", "what goes wrong", el("b", {}, worst.name), `: ${digits(worst.ratio, 2)} × the median engine's error`);
-    return this.line("problem", "what goes wrong", `nothing fails at ${this.dt.text} s`);
+      return this.line("problem", "what goes wrong", el("b", {}, worst.name), `: ${digits(worst.ratio, 2)} × the median engine's error; ${count}`);
+    return this.line("strength", "what goes wrong", `nothing fails; ${count}`);
   }
 
   // The most frequent kind of failure, and its first case.
-  worstKind(bad, engine) {
+  worstKind(bad, engine, step) {
     const kinds = new Map();
     for (const { one, verdict } of bad) {
       const kind = verdict.word.replace(/ (at |from |after )?[0-9].*$/, "");
@@ -138,7 +142,7 @@ export class EngineCards {
     }
     const [kind, cases] = [...kinds].sort((a, b) => b[1].length - a[1].length)[0];
     const others = bad.length - cases.length;
-    const changes = { dt: dtOf(cases[0], this.dt.text).text, engines: new Set([engine]) };
+    const changes = { dt: dtOf(cases[0], step).text, engines: new Set([engine]) };
     const link = el(
       "a",
       {
@@ -147,7 +151,7 @@ export class EngineCards {
       },
       cases[0].id,
     );
-    const more = cases.length > 1 ? ` + ${cases.length - 1}` : "";
-    return [el("b", {}, inPlainWords[kind] ?? kind), ": ", link, more, others ? `; ${others} fail otherwise` : ""];
+    const count = cases.length > 1 ? ` in ${cases.length} cases, as ` : " in ";
+    return [el("b", {}, inPlainWords[kind] ?? kind), count, link, others ? `; ${others} ${others === 1 ? "fails" : "fail"} otherwise` : ""];
   }
 }

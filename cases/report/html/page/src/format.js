@@ -25,23 +25,23 @@ export function digits(value, count = 3) {
 
 export const power = (exponent) => [...String(exponent)].map((c) => superscripts[c]).join("");
 
-// With its unit: 30.5 mm, 0.46 rad, 26.9 %.
-export function quantity(value, unit) {
+// Two digits unless more are asked for, with the unit: 30 mm, 0.46 rad, 27 %.
+export function quantity(value, unit, count = 2) {
   if (!isNumber(value)) return "–";
-  if (unit === "1") return percent(value);
-  if (unit !== "m" && unit !== "rad" && unit !== "s") return unit ? `${digits(value)} ${unit}` : digits(value);
+  if (unit === "1") return percent(value, count);
+  if (unit !== "m" && unit !== "rad" && unit !== "s") return unit ? `${digits(value, count)} ${unit}` : digits(value, count);
   const size = Math.abs(value);
   if (size < 1e-12) return value === 0 ? "0" : "≈ 0";
-  if (size >= 1e4) return `${digits(value)} ${unit}`;
+  if (size >= 1e4) return `${digits(value, count)} ${unit}`;
   const [factor, prefix] = prefixes.find(([f]) => size >= f * 0.9995) ?? prefixes.at(-1);
-  return `${digits(value / factor)} ${prefix}${unit}`;
+  return `${digits(value / factor, count)} ${prefix}${unit}`;
 }
 
-export function percent(value) {
+export function percent(value, count = 2) {
   if (!isNumber(value)) return "–";
   const size = Math.abs(100 * value);
   if (size < 1e-9) return value === 0 ? "0 %" : "≈ 0 %";
-  return `${digits(100 * value)} %`;
+  return `${digits(100 * value, count)} %`;
 }
 
 export const seconds = (value, count = 2) => `${value.toFixed(count)} s`;

@@ -4,6 +4,7 @@ import { ink, legend } from "./charts.js";
 import { cellOf, metricOf } from "./data.js";
 import { add, el, svg } from "./dom.js";
 import { digits, percent, quantity } from "./format.js";
+import { saveButtons } from "./saving.js";
 import { up } from "./scene_model.js";
 
 const metric = "friction_anisotropy";
@@ -18,11 +19,14 @@ export function frictionFan({ one, dt, shown }, data) {
   sliding.sort((a, b) => turned(a) - turned(b));
   const waysOf = (motion) => sliding.map((i) => wayOf(motion, i, u, v));
   const lines = engines.map((engine) => ({ engine, ways: waysOf(data.runs.get(engine.name).motion) }));
+  const names = sliding.map((i) => one.scene.bodies[i].name),
+    picture = drawn(waysOf(data.truth.motion), lines, names);
+  const table = () => [["run", "body", "along [m]", "across [m]"], lines.flatMap(({ engine, ways }) => ways.map((way, i) => [engine.name, names[i], ...way]))];
   return el(
     "figure.wide",
     {},
-    el("figcaption", {}, "where they stop, from a common start"),
-    drawn(waysOf(data.truth.motion), lines, sliding.map((i) => one.scene.bodies[i].name)),
+    el("figcaption", {}, "where they stop, from a common start", saveButtons("friction-by-direction", () => picture, table)),
+    picture,
     legend(engines.map((e) => [e, `spread ${percent(measured(e))}`])),
   );
 }

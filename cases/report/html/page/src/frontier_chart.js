@@ -4,7 +4,7 @@ import { add, el, replace, svg } from "./dom.js";
 import { bounds, decades, ink } from "./charts.js";
 import { digits, isNumber, quantity } from "./format.js";
 import { mainCurves, mayBeTaken, meets } from "./frontier.js";
-import { savedAs, svgText } from "./saving.js";
+import { saveButtons } from "./saving.js";
 
 const width = 780,
   height = 470,
@@ -64,7 +64,7 @@ export class FrontierChart {
   }
 
   caption() {
-    return el("figcaption", {}, el("b", {}, "Error against cost"), " – lower left is better. Each dot is a step size; the band holds the middle 80 % of the cases.");
+    return el("figcaption", {}, el("b", {}, "Error against cost"), ": lower left is better. A dot is a step size.", this.isOneCase ? "" : " The band holds the middle 80 % of cases.");
   }
 
   axes() {
@@ -141,10 +141,11 @@ export class FrontierChart {
   // A ring about the recommended point, and its step.
   marks() {
     if (!this.chosen) return null;
-    const [x, y] = this.place(this.chosen.point);
+    const [x, y] = this.place(this.chosen.point),
+      isRight = x > width - this.right - 120;
     return [
       svg("circle", { class: "ring", cx: x, cy: y, r: 10 }),
-      svg("text", { class: "strong ring-text", x: x + 13, y: y + 17 }, `${this.chosen.curve.engine}, ${this.chosen.point.dt} s`),
+      svg("text", { class: "strong ring-text", x: isRight ? x - 13 : x + 13, y: y > height - bottom - 30 ? y - 12 : y + 17, "text-anchor": isRight ? "end" : "start" }, `${this.chosen.curve.engine}, ${this.chosen.point.dt} s`),
     ];
   }
 
@@ -227,20 +228,17 @@ export class FrontierChart {
     return el(
       "p.figure-tools",
       {},
-      el("span.fine", {}, this.isOneCase ? "The dotted reference is adaptive: it shows what is possible." : "✕ more than 1 case in 20 failed; hollow: the median case is beyond the tolerance. The dotted reference is adaptive: it shows what is possible."),
+      el("span.fine", {}, this.isOneCase ? "✕ failed; dotted: adaptive reference." : "✕ over 1 case in 20 failed; hollow: the median case is beyond the tolerance; dotted: adaptive reference."),
       el("span.spacer"),
       all,
-      el("button.quiet", { type: "button", onclick: () => savedAs("error-against-cost.svg", svgText(this.picture)) }, "SVG"),
-      el("button.quiet", { type: "button", onclick: () => savedAs("error-against-cost.csv", this.table()) }, "CSV"),
+      saveButtons("error-against-cost", () => this.picture, () => this.table()),
     );
   }
 
   table() {
-    const head = "run,dt,cases,failed,mean_error,low_error,high_error,cpu_seconds_per_second";
-    const rows = this.curves.flatMap((c) =>
-      c.points.map((p) => [`"${c.engine.replaceAll('"', '""')}"`, p.dt, p.cases, p.failed, p.mean, p.low, p.high, p.cost].join()),
-    );
-    return [head, ...rows].join("\n") + "\n";
+    const cost = this.timed ? "cpu_seconds_per_second" : "steps_per_second";
+    const rows = this.curves.flatMap((c) => c.points.map((p) => [c.engine, p.dt, p.cases, p.failed, p.mean, p.low, p.high, p.cost]));
+    return [["run", "dt", "cases", "failed", "mean_error", "low_error", "high_error", cost], rows];
   }
 
   inWords(main) {

@@ -8,7 +8,6 @@ import {
   isHeldToItself,
   judgement,
   median,
-  medianStep,
   metricOf,
   levelOf,
   signedMetric,
@@ -18,6 +17,7 @@ import {
 } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
 import { digits, engineParts, isNumber, percent, quantity, singleTitle, words } from "./format.js";
+import { curvesOf, largestStep } from "./frontier.js";
 import { address, openCase, state } from "./state.js";
 
 // Shown beside the metrics.
@@ -32,6 +32,7 @@ export const sortings = { name: "by family and name", error: "largest error firs
 
 // Up to so many columns can be read at once. With more, each engine shows its first run until it is opened.
 const readableColumns = 7;
+const readableRows = 55; // of one printed page; more are printed in two columns
 const engineOf = (run) => run.name.split(/[:@,]/)[0];
 
 export class Matrix {
@@ -103,6 +104,7 @@ export class Matrix {
         ),
       );
     }
+    this.root.classList.toggle("is-many", cases.length > readableRows);
     replace(this.root, cases.length ? table : el("p.nothing", {}, "No case matches these filters."));
   }
 
@@ -208,7 +210,14 @@ export class Matrix {
       if (!isAll || !found) return "–";
       return isNumber(found.ratio) ? `× ${digits(found.ratio, 2)}` : "failed";
     };
-    const middleStep = (engine) => (isAll && medianStep(this.results, engine.name, state.tolerance)) || "–";
+    // By the rule of the headline and the cards.
+    const curves = curvesOf(this.results, state.family);
+    const usableStep = (engine) => {
+      const curve = curves.find((c) => c.engine === engine.name);
+      if (!curve || !(isAll || cases.every((one) => one.family === state.family))) return "–";
+      const point = largestStep(curve, state.tolerance);
+      return point ? `${point.dt} s` : "none";
+    };
     const failures = (engine) => {
       const ran = cells(engine),
         bad = ran.filter((c) => judgement(c).kind === "bad").length;
@@ -228,9 +237,9 @@ export class Matrix {
         ratio,
       ),
       line(
-        `dt for ${quantity(tabulated(this.results, state.tolerance), "m")}`,
-        "median over all cases: the largest step that keeps the main error within the tolerance; a failed case counts as no step at all",
-        middleStep,
+        `step within ${quantity(state.tolerance, "m")}`,
+        "the largest step with a typical error (geometric mean and median) within the tolerance and at most one failed case in twenty",
+        usableStep,
       ),
     );
   }

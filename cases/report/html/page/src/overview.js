@@ -1,5 +1,5 @@
 // The first screen: which engine and step to take, the picture that says why, the problems found, and the matrix.
-import { metricOf } from "./data.js";
+import { judgement, metricOf } from "./data.js";
 import { el, replace, tableHead } from "./dom.js";
 import { EngineCards } from "./engine_cards.js";
 import { digits, quantity, words } from "./format.js";
@@ -81,19 +81,21 @@ export class Overview {
     const { cases } = this.results,
       { tolerance } = state;
     const counted = this.family ? cases.filter((c) => c.family === this.family).length : cases.length;
-    const scope = counted === 1 ? "this case" : `these ${counted} cases`;
     const of = (choice) => `${choice.curve.engine} at ${choice.point.dt} s`;
     const best = cheapest(this.curves, tolerance, isExternal);
     const title = !this.hasCurves
-      ? "No error can be compared here"
+      ? this.withoutErrors()
       : best
         ? ["For ", el("b", {}, lengthOrAngle(tolerance)), " take ", el("b", {}, best.curve.engine), " at ", el("b", {}, `${best.point.dt} s`)]
         : `No engine stays within ${lengthOrAngle(tolerance)} at the steps tried`;
     const beside = [];
     if (best) {
       const { cases: compared, failed } = best.point;
+      const outcome = failed ? `${failed} of them failed` : "none failed there";
       beside.push(
-        `Cheapest engine whose typical error stays within ${lengthOrAngle(tolerance)} in ${scope}; ${compared} can be compared, ${failed || "none"} failed.`,
+        counted === 1
+          ? `It is the cheapest engine within ${lengthOrAngle(tolerance)} in this case.`
+          : `It is the cheapest engine with a typical error within ${lengthOrAngle(tolerance)}. ${compared} of ${counted} cases have a known true motion to compare with; ${outcome}.`,
       );
     }
     const others = this.othersWithin(best, tolerance);
@@ -113,6 +115,14 @@ export class Overview {
     ];
   }
 
+  // Where no error can be compared: how many runs failed.
+  withoutErrors() {
+    const ran = this.results.cells.filter((cell) => cell.status !== "unsupported"),
+      failed = ran.filter((cell) => judgement(cell).kind === "bad").length;
+    if (!ran.length) return "Nothing ran here";
+    return failed === ran.length ? `Every run failed: ${failed} of ${failed}` : `No error can be compared here; ${failed} of ${ran.length} runs failed`;
+  }
+
   // The cheapest step within the tolerance of each other engine, cheapest first.
   othersWithin(best, tolerance) {
     const names = new Set(this.curves.filter(isExternal).map(engineOf));
@@ -127,11 +137,10 @@ export class Overview {
     return el(
       "p.meanings",
       {},
-      el("b", {}, "Two marks, two meanings. "),
       el("b", {}, "Error"),
-      " is the distance from the true motion. ",
+      ": the distance from the true motion. ",
       el("b", {}, "Stable"),
-      " only says that the motion does not blow up, fall apart or drift in energy. A stable run can still be far from the truth.",
+      ": the motion does not blow up, fall apart or drift in energy. A stable run can still be far from the truth.",
     );
   }
 

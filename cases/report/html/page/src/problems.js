@@ -1,7 +1,7 @@
 // The problems that were found, ranked by consequence: a headline and bars that compare the engines, and the sentences
 // behind a click. The bars are the facts that the sentences state.
 import { el } from "./dom.js";
-import { digits, percent, quantity } from "./format.js";
+import { digits, percent, quantity, words } from "./format.js";
 import { address, openCase } from "./state.js";
 
 const shownAtFirst = 6;
@@ -9,7 +9,7 @@ const mostBars = 6;
 
 const headlines = {
   "stiff springs": "Stiff springs: who stays bounded",
-  "step size": "The step that 1 mm takes",
+  "step size": "The largest step within 1 mm",
   energy: "Energy that is lost or gained",
   friction: "Friction that depends on direction",
   impacts: "Bounces and overlaps that do not converge",
@@ -19,12 +19,18 @@ const headlines = {
   unexplained: "Errors that no scheme explains",
 };
 
+const factNames = {
+  "stiff cells that blew up": "runs with stiff springs that blew up",
+  "largest step for a tolerance": "largest step with a typical error within 1 mm",
+  "cells that blew up": "runs that blew up",
+};
+
 // How large a fact is in words, where the sentence does not print it.
-const units = { "median step for a tolerance": "s", "largest unexplained_error": "m" };
+const units = { "largest unexplained_error": "m" };
 const isShare = (quantity) => /energy|anisotropy|share/.test(quantity);
-const isMissingStep = (claim) => claim.quantity.startsWith("median step") && claim.value === 0;
+const stepOf = (claim) => (claim.quantity === "largest step for a tolerance" ? (claim.dt ? `${claim.dt} s` : "none") : null);
 const told = (claim) =>
-  (isMissingStep(claim) ? "none" : claim.printed) ??
+  (stepOf(claim) ?? claim.printed?.replace(/^-/, "−")) ??
   (isShare(claim.quantity) ? percent(claim.value) : null) ?? (units[claim.quantity] ? quantity(claim.value, units[claim.quantity]) : digits(claim.value, 2));
 
 export function problems(results) {
@@ -77,7 +83,7 @@ function barsOf(results, claims, link) {
     if (!rows.has(claim.engine)) rows.set(claim.engine, claim);
     byQuantity.set(claim.quantity, rows);
   }
-  const [, shared] = [...byQuantity].sort((a, b) => b[1].size - a[1].size)[0] ?? [];
+  const [fact, shared] = [...byQuantity].sort((a, b) => b[1].size - a[1].size)[0] ?? [];
   if (!shared || shared.size < 2) return null;
   const of = (name) => results.engines.find((e) => e.name === name);
   const rows = [...shared.values()].filter((claim) => of(claim.engine));
@@ -86,6 +92,7 @@ function barsOf(results, claims, link) {
   return el(
     "table.bars",
     {},
+    el("caption", {}, factNames[fact] ?? words(fact)),
     el(
       "tbody",
       {},

@@ -1,4 +1,6 @@
 // Pictures and numbers as files.
+import { el } from "./dom.js";
+
 export function savedAs(name, text) {
   const type = name.endsWith(".svg") ? "image/svg+xml" : "text/csv";
   const link = document.createElement("a");
@@ -20,4 +22,19 @@ export function svgText(picture) {
   });
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
   return new XMLSerializer().serializeToString(copy);
+}
+
+// "a ""b""" where a comma or a quotation mark would end a field.
+const field = (value) => (/[",\n]/.test(String(value ?? "")) ? `"${String(value).replaceAll('"', '""')}"` : String(value ?? ""));
+export const csvText = (head, rows) => [head, ...rows].map((row) => row.map(field).join()).join("\n") + "\n";
+
+// Buttons that save a plot. `picture` returns an SVG element or its text, `table` the head and the rows.
+export function saveButtons(name, picture, table) {
+  const button = (kind, text) =>
+    el("button.quiet.save", { type: "button", "aria-label": `Save ${name} as ${kind}`, onclick: () => savedAs(`${name}.${kind.toLowerCase()}`, text()) }, kind);
+  const drawn = () => {
+    const found = picture();
+    return typeof found === "string" ? found : svgText(found);
+  };
+  return el("span.saves", {}, button("SVG", drawn), button("CSV", () => csvText(...table())));
 }

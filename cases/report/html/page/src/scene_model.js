@@ -1,7 +1,24 @@
 // A scene for drawing: shapes with their sizes, springs with their ends, contact points, and the up direction.
 export function drawables(scene) {
   const reach = Math.max(...scene.bodies.map((b) => Math.hypot(...b.position)), 0.5);
-  return scene.bodies.map((body, index) => ({ index, name: body.name, fixed: body.fixed, ...shapeOf(body, reach) }));
+  return scene.bodies.flatMap((body, index) =>
+    partsOf(shapeOf(body, reach)).map((part) => ({ index, name: body.name, fixed: body.fixed, ...part })),
+  );
+}
+
+// The parts of a compound, each with its pose in the body as `at`; else the shape itself.
+function partsOf(shape) {
+  if (shape.type !== "compound") return [shape];
+  return shape.parts.map(({ position, orientation_wxyz, ...part }) => ({
+    ...part,
+    at: { position, turn: orientation_wxyz },
+  }));
+}
+
+// A point of a shape in the frame of its body.
+export function inBody(shape, point) {
+  if (!shape.at) return point;
+  return turn(shape.at.turn, point).map((v, k) => v + shape.at.position[k]);
 }
 
 // A body without a shape is drawn as the solid box that has its inertia, or a small one.
@@ -17,7 +34,15 @@ function shapeOf(body, reach) {
 }
 
 export function extentOf(shape) {
+  const away = shape.at ? Math.hypot(...shape.at.position) : 0;
+  return away + ownExtentOf(shape);
+}
+
+function ownExtentOf(shape) {
   if (shape.type === "sphere") return shape.radius;
+  if (shape.type === "cylinder") return Math.hypot(shape.radius, shape.length / 2);
+  if (shape.type === "ellipsoid") return Math.max(...shape.radii);
+  if (shape.type === "convex") return Math.max(...shape.points.map((p) => Math.hypot(...p)));
   if (shape.type === "capsule") return shape.radius + shape.length / 2;
   if (shape.type === "box") return Math.hypot(...shape.size) / 2;
   return 0;
@@ -99,7 +124,8 @@ export function contacts(shapes, poses, near, most = 400) {
   const planes = shapes.filter((s) => s.type === "plane");
   for (const shape of shapes) {
     if (shape.type === "plane" || shape.collides === false) continue;
-    for (const [local, radius] of probesOf(shape)) probes.push([pointOf(poses, shape.index, local), radius, shape]);
+    for (const [local, radius] of probesOf(shape))
+      probes.push([pointOf(poses, shape.index, inBody(shape, local)), radius, shape]);
   }
   for (const [p, radius] of probes) {
     for (const plane of planes) {
@@ -114,19 +140,19 @@ export function contacts(shapes, poses, near, most = 400) {
     for (let j = i + 1; j < round.length && round[j][0][0] - round[j][1] < p[0] + r + near; ++j) {
       const [q, s, other] = round[j],
         gap = Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) - r - s;
-      if (one !== other && gap < near)
+      if (one.index !== other.index && gap < near)
         found.push([0, 1, 2].map((k) => p[k] + ((q[k] - p[k]) * (r + gap / 2)) / (r + s + gap || 1)));
       if (found.length >= most) return found;
     }
   }
-  const boxes = shapes.filter((s) => s.type === "box" && s.collides !== false);
+  const boxes = shapes.filter((s) => s.type === "box" && !s.at && s.collides !== false);
   if (boxes.length * probes.length > 40000) return found;
   for (const box of boxes) {
     const o = 7 * box.index,
       [w, x, y, z] = poses.slice(o + 3, o + 7),
       half = box.size.map((s) => s / 2);
     for (const [p, radius, shape] of probes) {
-      if (shape === box || found.length >= most) continue;
+      if (shape.index === box.index || found.length >= most) continue;
       const local = turn([w, -x, -y, -z], [p[0] - poses[o], p[1] - poses[o + 1], p[2] - poses[o + 2]]);
       const closest = local.map((v, k) => Math.min(half[k], Math.max(-half[k], v)));
       if (Math.hypot(...local.map((v, k) => v - closest[k])) < radius + near)
@@ -140,6 +166,8 @@ function probesOf(shape) {
   if (shape.bare) return [];
   if (shape.type === "sphere") return [[[0, 0, 0], shape.radius]];
   if (shape.type === "capsule") return [-1, 0, 1].map((end) => [[0, 0, (end * shape.length) / 2], shape.radius]);
+  if (shape.type === "convex") return shape.points.map((point) => [point, 0]);
+  if (shape.type === "cylinder") return rimsOf(shape).map((point) => [point, 0]);
   if (shape.type !== "box") return [];
   const corners = [];
   for (const x of [-1, 1])
@@ -147,4 +175,14 @@ function probesOf(shape) {
       for (const z of [-1, 1])
         corners.push([[(x * shape.size[0]) / 2, (y * shape.size[1]) / 2, (z * shape.size[2]) / 2], 0]);
   return corners;
+}
+
+// Points of both rims of a cylinder.
+export function rimsOf(shape, count = 16) {
+  return [-0.5, 0.5].flatMap((end) =>
+    Array.from({ length: count }, (_, k) => {
+      const angle = (2 * Math.PI * k) / count;
+      return [shape.radius * Math.cos(angle), shape.radius * Math.sin(angle), end * shape.length];
+    }),
+  );
 }

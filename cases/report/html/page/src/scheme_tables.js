@@ -23,7 +23,7 @@ export function schemeSplit({ results, one, dt }) {
         total: size(cell.metrics, total),
         scheme: size(cell.by_scheme.metrics, total),
         rest: size(cell.metrics, rest),
-        until: cell.metrics[rest]?.compared_until,
+        until: cell.metrics[rest]?.compared_until ?? one.duration,
       }))
       .filter((v) => v.total !== null && v.scheme !== null);
     if (!values.length || !values.some((v) => v.total > 1e-12)) return null;

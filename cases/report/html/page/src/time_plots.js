@@ -3,6 +3,8 @@ import uPlot from "uplot";
 import { failedAt } from "./data.js";
 import { el, replace } from "./dom.js";
 import { percent, quantity, words } from "./format.js";
+import { saveButtons } from "./saving.js";
+import { timePicture, timeTable } from "./time_picture.js";
 import { valueAt } from "./playback_data.js";
 import { linear, logarithmic } from "./plot_scales.js";
 import { colour, isDark, onTheme } from "./theme.js";
@@ -162,7 +164,14 @@ export class TimePlots {
     const figure = el(
       "figure.plot",
       { "data-plot": name },
-      el("figcaption", {}, title, el("span.fine", {}, unit === "1" ? "%" : unit), readouts),
+      el(
+        "figcaption",
+        {},
+        title,
+        el("span.fine", {}, unit === "1" ? "%" : unit),
+        saveButtons(`${this.one.id.replaceAll("/", "-")}-${name}`, () => timePicture(plot), () => timeTable(plot)),
+        readouts,
+      ),
       holder,
     );
     const axis = {
@@ -212,7 +221,8 @@ export class TimePlots {
     const playhead = el("div.playhead");
     chart.over.append(playhead);
     followTouch(chart, (time) => this.player.seek(time));
-    this.plots.push({ name, chart, holder, playhead, readouts, lines, unit });
+    const plot = { name, chart, holder, playhead, readouts, lines, unit, scale };
+    this.plots.push(plot);
     return figure;
   }
 

@@ -81,7 +81,7 @@ export class WebglView {
     const kinds = new Map();
     for (const shape of shapes) {
       if (shape.type === "plane") continue;
-      const key = shape.type === "capsule" ? `capsule ${shape.radius} ${shape.length}` : shape.type;
+      const key = keyOf(shape);
       kinds.set(key, [...(kinds.get(key) ?? []), shape]);
     }
     const meshes = [...kinds.values()].map((members) => {
@@ -116,7 +116,9 @@ export class WebglView {
   // Each body's path so far. Paths of many bodies are not shown, because they would hide each other.
   trails(layer) {
     const { motion } = layer,
-      moving = this.context.shapes.filter((s) => !s.fixed && s.type !== "plane");
+      moving = this.context.shapes.filter(
+        (s, k, all) => !s.fixed && s.type !== "plane" && all.findIndex((other) => other.index === s.index) === k,
+      );
     if (moving.length > 30) return [];
     return moving.map((shape) => {
       const points = new Float32Array(3 * (motion.times.length + 1));
@@ -283,15 +285,39 @@ function matrixOf(poses, shape) {
   rotation.set(poses[o + 4], poses[o + 5], poses[o + 6], poses[o + 3]);
   if (shape.type === "sphere") size.setScalar(shape.radius);
   else if (shape.type === "box") size.set(...shape.size);
+  else if (shape.type === "cylinder") size.set(shape.radius, shape.radius, shape.length);
+  else if (shape.type === "ellipsoid") size.set(...shape.radii);
   else size.setScalar(1);
+  if (shape.at) {
+    const [w, x, y, z] = shape.at.turn;
+    place.add(new THREE.Vector3(...shape.at.position).applyQuaternion(rotation));
+    rotation.multiply(new THREE.Quaternion(x, y, z, w));
+  }
   return matrix.compose(place, rotation, size);
+}
+
+// Shapes with the same key share one mesh, which is scaled to each.
+function keyOf(shape) {
+  if (shape.type === "capsule") return `capsule ${shape.radius} ${shape.length}`;
+  if (shape.type === "convex") return `convex ${shape.points}`;
+  return shape.type === "ellipsoid" ? "sphere" : shape.type;
+}
+
+function hullOf(shape) {
+  const corners = shape.triangles.flat().flatMap((k) => shape.points[k]);
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(corners), 3));
+  geometry.computeVertexNormals();
+  return patched(geometry);
 }
 
 // One face, or every other patch, is darker, so that a turn can be seen.
 function geometryOf(shape, count) {
   const fine = count > 200 ? 12 : count > 40 ? 16 : 24;
   let geometry;
-  if (shape.type === "sphere") geometry = new THREE.SphereGeometry(1, fine, fine / 2);
+  if (shape.type === "convex") return hullOf(shape);
+  if (shape.type === "cylinder") geometry = new THREE.CylinderGeometry(1, 1, 1, fine).rotateX(Math.PI / 2);
+  else if (shape.type === "sphere" || shape.type === "ellipsoid") geometry = new THREE.SphereGeometry(1, fine, fine / 2);
   else if (shape.type === "capsule")
     geometry = new THREE.CapsuleGeometry(shape.radius, shape.length, 6, fine).rotateX(Math.PI / 2);
   else geometry = new THREE.BoxGeometry(1, 1, 1);

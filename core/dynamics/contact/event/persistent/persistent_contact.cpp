@@ -134,8 +134,27 @@ bool PersistentContact::select_points(MutableBodyColumns state, const std::vecto
   if (points.empty()) return true;
   const bool are_found = modes_.choose(state, loads_.over_step(state, t, dt));
   stop_points(state, When::before);
+  note_ends(state);
   if (are_found) set_resting_aside(state);
   return are_found;
+}
+
+// A point that begins at an end of its features may go back by what distance_from_ends() leaves open. Beyond that the
+// manifold has no other features for it, so that its end cannot be found.
+void PersistentContact::note_ends(BodyColumns state) {
+  const double open = kAtEnd * scales().gap_unit();
+  for (PersistentPoint& point : persistent_.points()) {
+    const double distance = persistent_.distance_from_ends(state, point);
+    point.passes_at = distance > open ? 0 : distance >= -open ? -2 * open : -kForever;
+  }
+}
+
+// In units of gaps, at the end of the last advance: negative where a point has passed to another feature.
+double PersistentContact::distance_from_ends() const {
+  double least = kForever;
+  for (const PersistentPoint& point : points())
+    least = std::min(least, persistent_.distance_from_ends(end_, point) - point.passes_at);
+  return least / scales().gap_unit();
 }
 
 // m/s or rad/s: the contact's restitution threshold.
@@ -276,7 +295,7 @@ double PersistentContact::distance_from_change() {
 
 double PersistentContact::distance_from_change_of_points() {
   if (points().empty()) return kForever;
-  const double least = slipping_margin();
+  const double least = std::min(slipping_margin(), distance_from_ends());
   if (least < 0 || margin() >= 0) return least;
   const double violation = modes_.violation(end_, wrench_at_end_);
   return violation > 0 ? -violation : least;

@@ -75,6 +75,8 @@ class PersistentContact {
   const double* wrench_beside_joints(const double* loads);
   double margin() const;
   double slipping_margin() const;
+  void note_ends(BodyColumns state);
+  double distance_from_ends() const;
   double longest_turn(BodyColumns state) const;
   double damping_rate(const PersistentPoint& point) const;
   bool is_adaptive() const { return in_contact_.adaptive || follows_turning_slip_; }

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace rigor {
@@ -176,6 +177,13 @@ double PersistentForces::normal_acceleration(BodyColumns state, const double* to
     return point.kinematics.normal.dot(of_point);
   };
   return along(point.contact.cone.a, point.arm_a) - along(point.contact.cone.b, point.arm_b) + point.bias.x();
+}
+
+double PersistentForces::distance_from_ends(BodyColumns state, const PersistentPoint& point) const {
+  if (point.contact.is_limit()) return std::numeric_limits<double>::infinity();
+  const Collider &a = contact_points_.colliders()[point.contact.a], &b = contact_points_.colliders()[point.contact.b];
+  return rigor::distance_from_ends(point.features, point.kinematics, a, pose_of(state, a.body), b,
+                                   pose_of(state, b.body));
 }
 
 bool PersistentForces::has_friction_of_slip() const {

@@ -30,6 +30,7 @@ struct PersistentPoint {
   bool begins_to_slip = false;
   double tangential_mass = 0;  // kg, the least, at the start
   double turn_rate = 0;        // rad/s, of the slip's direction at the start
+  double passes_at = 0;        // m: the distance from the ends of its features at which it passes to others
 
   // At the last instant asked for.
   ContactKinematics kinematics;
@@ -68,6 +69,8 @@ class PersistentForces : public ConstraintForces {
   std::pair<Vec3, Vec3> free_acceleration(BodyColumns state, const double* wrench, int body) const;
   // Of a point at `state`, under wrench columns of everything that acts on the bodies [m/s²].
   double normal_acceleration(BodyColumns state, const double* total, const PersistentPoint& point) const;
+  // m: of the point from the ends of its features at `state`, for which place() was called.
+  double distance_from_ends(BodyColumns state, const PersistentPoint& point) const;
   bool has_friction_of_slip() const;
   double largest_force() const;  // N, of one point
   // The most that was on each body at any instant since begin_attempt().

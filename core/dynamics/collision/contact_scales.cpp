@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/event/contact_scales.h"
+#include "core/dynamics/collision/contact_scales.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -46,6 +46,9 @@ class FastestRate {
       take(std::sqrt(force.force.norm() * per_mass(force.body) / L_));
       take(std::sqrt(moment * per_mass(force.body)) / L_);
     }
+    for (const Joint& joint : scene_.joints) {
+      for (const int body : {joint.a, joint.b}) take(std::sqrt(joint.stiffness * per_mass(body)) / arm_of(joint));
+    }
     for (const Motor& motor : scene_.motors) take_motor(motor);
     return fastest_;
   }
@@ -57,9 +60,11 @@ class FastestRate {
   double per_mass(int body) const {
     return body == kWorld || scene_.bodies[body].fixed ? 0 : 1 / scene_.bodies[body].mass;
   }
+  // Turns an effort into a force, and a rate into a speed.
+  double arm_of(const Joint& joint) const { return std::holds_alternative<HingeJoint>(joint.type) ? L_ : 1; }
   void take_motor(const Motor& motor) {
     const Joint& joint = scene_.joints[motor.joint];
-    const double arm = std::holds_alternative<HingeJoint>(joint.type) ? L_ : 1;
+    const double arm = arm_of(joint);
     take(std::abs(motor.speed.value_or(0)) * arm / L_);
     for (const int body : {joint.a, joint.b})
       take(std::sqrt(std::max(std::abs(motor.effort), motor.most) * per_mass(body) / (arm * L_)));

@@ -1,9 +1,9 @@
-// The scene's own units of length and time. The method `event` states each threshold in these units, so that a change
-// of units changes nothing but rounding. Scales are homogeneous: a scene that is scaled by powers of two has scales
-// that are scaled by exactly these powers.
+// The scene's own units of length and time. The method `event` and the limits of joints state each threshold in these
+// units, so that a change of units changes nothing but rounding. Scales are homogeneous: a scene that is scaled by
+// powers of two has scales that are scaled by exactly these powers.
 //   length   the largest bounding radius, or radius of gyration, of a body that moves
-//   time     the inverse of the fastest rate: of gravity, sqrt(g/length), of the initial motion, of springs, forces and
-//            motors
+//   time     the inverse of the fastest rate: of gravity, sqrt(g/length), of the initial motion, of springs, joint
+//            springs, forces and motors
 #pragma once
 
 #include "core/scene/scene.h"

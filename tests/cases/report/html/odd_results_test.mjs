@@ -1,0 +1,40 @@
+// Whether a report of few, failed, many or old results opens, and says what there is:
+//   node odd_results_test.mjs REPORT.html RESULTS.json SHOTS-FOLDER
+// The first case of the page is opened too. Screenshots stay in the folder.
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { Browser } from "./browser.mjs";
+
+const [report, resultsFile, shots] = process.argv.slice(2);
+const results = JSON.parse(readFileSync(resultsFile, "utf8"));
+mkdirSync(shots, { recursive: true });
+const browser = await Browser.open({ width: 1400, height: 900 });
+const expect = (condition, message) => {
+  if (!condition) throw new Error(message);
+};
+
+try {
+  const began = Date.now();
+  await browser.goTo(pathToFileURL(report).href);
+  await browser.until("document.documentElement.dataset.ready === 'true'", "the page to be ready", 60);
+  console.log(`ready after ${Date.now() - began} ms`);
+  writeFileSync(join(shots, "first.png"), await browser.screenshot());
+  const title = await browser.run("return document.querySelector('.answer-first h1').textContent");
+  expect(title.length > 10 && !/undefined|NaN|null/.test(title), `the answer is "${title}"`);
+  const rows = await browser.run("return document.querySelectorAll('.matrix th.case').length");
+  expect(rows === results.cases.length, `${rows} of ${results.cases.length} cases are in the matrix`);
+  const text = await browser.run("return document.body.innerText");
+  expect(!/undefined|NaN/.test(text), `the page says: ${/.{0,60}(undefined|NaN).{0,60}/.exec(text)?.[0]}`);
+  const [one] = results.cases;
+  await browser.run("location.hash = '#/' + encodeURIComponent(arguments[0])", one.id);
+  await browser.until(`document.querySelector('.view').dataset.loaded?.startsWith(${JSON.stringify(one.id)})`, "the first case", 60);
+  expect(await browser.run("return document.querySelector('.scene-sketch').childElementCount > 0"), "the sketch is empty");
+  const shown = await browser.run("return document.querySelector('.view').innerText");
+  expect(!/undefined|NaN/.test(shown), `the case says: ${/.{0,60}(undefined|NaN).{0,60}/.exec(shown)?.[0]}`);
+  writeFileSync(join(shots, "case.png"), await browser.screenshot());
+  const complaints = (await browser.complaints()).filter((line) => !line.includes("GPU stall due to ReadPixels"));
+  expect(!complaints.length, complaints.join("\n"));
+} finally {
+  await browser.close();
+}
