@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 
+sys.dont_write_bytecode = True  # the sources stay as they are
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 spec = importlib.util.spec_from_file_location("release", ROOT / ".ci/release.py")
 release = importlib.util.module_from_spec(spec)

@@ -35,13 +35,6 @@ void grow(Body& body, double by) {
   if (body.shape) grow_shape(*body.shape, by);
 }
 
-// The parts of a body's shape lie at its origin, as where a shape's pose is left out.
-void leave_out_poses(Body& body) {
-  if (auto* compound = body.shape ? std::get_if<Compound>(&*body.shape) : nullptr) {
-    for (PlacedShape& part : compound->parts) part.pose = {};
-  }
-}
-
 template <typename F>
 std::function<void(Scene&)> each_plane(F change) {
   return each_body([change](Body& body) {
@@ -145,7 +138,6 @@ std::vector<Fault> contact_faults() {
                 [](double mm) { return on_loading("", each_plane([=](Plane& plane) { plane.offset += 1e-3 * mm; })); }),
       on_loading("contact normal flipped", each_plane([](Plane& p) { p.normal *= -1; })),
       on_loading("capsule without its cylinder", each_body(shorten_capsule)),
-      on_loading("pose of a shape left out", each_body(leave_out_poses)),
       on_loading("every mass the same in contact", equal_masses),
       on_loading("inertia of a rolling body off by half", each_body([](Body& b) { b.inertia *= 1.5; })),
   };

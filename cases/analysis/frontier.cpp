@@ -106,6 +106,11 @@ std::size_t most_cases(const Frontier& frontier) {
   return most;
 }
 
+bool is_within(const FrontierPoint& point, double tolerance) {
+  return std::max(point.mean, point.median) <= tolerance &&
+         static_cast<double>(point.failed) <= kMostFailed * static_cast<double>(point.cases);
+}
+
 // What a point costs; where nothing was timed, how many steps it takes.
 double work_of(const FrontierPoint& point, bool is_timed) { return is_timed ? point.cost : 1 / point.dt.seconds; }
 
@@ -127,6 +132,12 @@ std::vector<Frontier> frontiers(const Results& results, const std::string& famil
   return all;
 }
 
+std::optional<StepSize> largest_step_within(const Frontier& frontier, double tolerance) {
+  for (const FrontierPoint& point : frontier.points)
+    if (is_within(point, tolerance)) return point.dt;
+  return {};
+}
+
 std::optional<Choice> cheapest_within(const Results& results, const std::vector<Frontier>& frontiers, double tolerance,
                                       Candidates candidates) {
   std::size_t most = 0;
@@ -136,10 +147,7 @@ std::optional<Choice> cheapest_within(const Results& results, const std::vector<
   for (const Frontier& frontier : frontiers) {
     if (!is_candidate(results, frontier, candidates)) continue;
     for (const FrontierPoint& point : frontier.points) {
-      const auto cases = static_cast<double>(point.cases);
-      const bool is_within =
-          std::max(point.mean, point.median) <= tolerance && static_cast<double>(point.failed) <= kMostFailed * cases;
-      if (!is_within || 2 * point.cases < most || (is_timed && !(point.cost > 0))) continue;
+      if (!is_within(point, tolerance) || 2 * point.cases < most || (is_timed && !(point.cost > 0))) continue;
       if (!best || work_of(point, is_timed) < work_of(best->point, is_timed)) best = Choice{frontier.run, point};
     }
   }

@@ -38,6 +38,9 @@ inline constexpr double kRecommendedTolerance = 1e-3;  // m or rad: what a first
 // The share of failed cases up to which a point may be recommended: one case in twenty.
 inline constexpr double kMostFailed = 0.05;
 
+// The largest step whose mean and median errors are within the tolerance, and at which few enough cases fail.
+std::optional<StepSize> largest_step_within(const Frontier& frontier, double tolerance);
+
 struct Choice {
   std::size_t run = 0;
   FrontierPoint point;

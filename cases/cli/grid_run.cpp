@@ -11,7 +11,6 @@
 #include "cases/case/selection.h"
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/output.h"
-#include "cases/cli/paste.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/gates/failures.h"
 #include "cases/gates/quick.h"
@@ -19,6 +18,7 @@
 #include "cases/report/github/job_summary.h"
 #include "cases/report/json/machine.h"
 #include "cases/report/reports.h"
+#include "cases/report/wording/printed_command.h"
 #include "cases/runner/build_identity.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
@@ -130,11 +130,9 @@ std::vector<Failure> unmet_of_whole_suite(const CommandLine& line, const Results
 }
 
 // The command that diagnoses the first failure of a run. Empty if there is none.
-std::string diagnose_text(const CommandLine& line, const std::vector<Failure>& rows) {
+std::string diagnose_text(const std::vector<Failure>& rows) {
   const auto of_run = std::find_if(rows.begin(), rows.end(), [](const Failure& row) { return !row.engine.empty(); });
-  if (of_run == rows.end()) return "";
-  return fmt::format("rigor diagnose {} --engine {}{}", shell_word(of_run->case_id), shell_word(of_run->engine),
-                     same_sources(line));
+  return of_run == rows.end() ? "" : diagnose_command_text(of_run->case_id, of_run->engine);
 }
 
 Detail detail_of(const CommandLine& line) { return line.verbose ? Detail::full : Detail::brief; }
@@ -144,7 +142,7 @@ int answer_of_gate(const GridRun& run, int ending) {
   const std::vector<Failure> unmet = unmet_of_whole_suite(run.line, run.grid);
   rows.insert(rows.end(), unmet.begin(), unmet.end());
   print_table(console_table(run.grid, detail_of(run.line)) + left_out_text(run) + gate_summary(run.grid) +
-              failures_text(rows, diagnose_text(run.line, rows)));
+              failures_text(rows, diagnose_text(rows)));
   tell_the_runner(run.grid, rows);
   return ending == kGood && !(all_gates_hold(run.grid) && unmet.empty()) ? int{kGateFailed} : ending;
 }

@@ -8,7 +8,7 @@
 
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
-#include "cases/cli/paste.h"
+#include "cases/report/wording/printed_command.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -82,8 +82,9 @@ static int new_command(const CommandLine& line, const EngineTable&) {
   const int failure = errno;
   if (close(descriptor) != 0 || written != static_cast<ssize_t>(text.size()))
     throw std::runtime_error(fmt::format("{} was not written whole: {}", file, std::strerror(failure)));
-  say(fmt::format("{} is written; next: rigor run {} --engine ode --engine bullet --engine core:rk4", file,
-                  shell_word(file)));
+  const std::string next =
+      pasted({"rigor", "run", file, "--engine", "ode", "--engine", "bullet", "--engine", "core:rk4"});
+  say(fmt::format("{} is written; next: {}", file, next));
   return kGood;
 }
 

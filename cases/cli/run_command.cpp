@@ -7,6 +7,7 @@
 #include "cases/cli/output.h"
 #include "cases/cli/progress/plan_sentence.h"
 #include "cases/cli/progress/progress.h"
+#include "cases/cli/progress/time_left.h"
 #include "cases/runner/ensemble.h"
 #include "cases/runner/shards/part.h"
 
@@ -18,13 +19,21 @@ std::size_t cells_to_run(const CaseResult& result) {
                                                 [](const Cell& cell) { return cell.status != Status::unsupported; }));
 }
 
-void run_with_progress(Results& grid, const EngineTable& engines, const GridOptions& options) {
+void run_with_progress(Results& grid, const EngineTable& engines, GridOptions options, const CommandLine& line) {
   const bool speaks = !options.executor || options.executor->leads();
   for (const CaseResult& result : speaks ? grid.cases : std::vector<CaseResult>()) {
     const std::string cost = cost_of_ensemble(result.definition, cells_to_run(result));
     if (!cost.empty()) say(cost);
   }
   Progress progress;
+  TimeLeft left(grid, line.jobs, measured_times(line.out));
+  options.on_part = [&](std::size_t of_case, const MessageSubject& subject) {
+    if (subject.part == MessageSubject::Part::cell)
+      left.end_cell(of_case, subject.index, grid.cases[of_case].cells[subject.index].wall_seconds);
+    if (subject.part == MessageSubject::Part::stable_step) left.end_search(of_case, subject.index);
+  };
+  // Processes of an executor are counted elsewhere, so their rate is not known.
+  if (!options.executor) progress.estimate_with([&](double seconds) { return left.at(seconds); });
   run_grid(grid, engines, options, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
 }
 
@@ -34,7 +43,7 @@ int run_whole(const CommandLine& line, const EngineTable& engines) {
   if (leads(line)) say(plan_sentence(run.grid, line));
   bool is_whole = false;
   try {
-    run_with_progress(run.grid, engines, options_of(run, folder));
+    run_with_progress(run.grid, engines, options_of(run, folder), line);
     judge(run);
     is_whole = write_reports(run.grid, folder);
   } catch (...) {  // Interrupted, too
@@ -48,10 +57,7 @@ int run_whole(const CommandLine& line, const EngineTable& engines) {
 std::string summary_of(const CommandLine& line, const Results& share) {
   std::map<std::string, int> counts;
   int all = 0;
-  long searches = 0;
   for (const CaseResult& result : share.cases) {
-    searches += std::count_if(result.stable_steps.begin(), result.stable_steps.end(),
-                              [](const StableStepResult& stable) { return stable.status != Status::unsupported; });
     for (const Cell& cell : result.cells) {
       if (cell.status != Status::unsupported) ++counts[word_of(cell.status)], ++all;
     }
@@ -72,7 +78,7 @@ int run_shard(const CommandLine& line, const EngineTable& engines) {
   if (leads(line)) say(plan_sentence(planned, line));
   Results share = planned;
   try {
-    run_with_progress(share, engines, options);
+    run_with_progress(share, engines, options, line);
     folder.write(kPartFile, part_text(title_of_part(line, plans_of(run.grid, engines, options), share.wall_seconds),
                                       planned, share, engines, options));
     std::vector<std::string> trajectories;

@@ -16,7 +16,8 @@ import shutil
 import subprocess
 import sys
 
-from schema_page import schema_page
+sys.dont_write_bytecode = True  # the sources stay as they are
+from schema_page import schema_page  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent

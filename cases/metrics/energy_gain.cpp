@@ -12,8 +12,8 @@ MetricResult measure_energy_gain(const JudgedRun& run) {
   if (is_driven(run.scene)) return {{}, "forces or motors drive the scene and may add energy"};
   if (run.trajectory.samples.empty()) return {{}, "the run has no finite sample"};
   const double scale = energy_scale(run);
-  const std::vector<double>& energies = energies_of(run, run.leapfrog_stagger);
-  const std::vector<double> rises = rises_of({energies_of(run, 0), energies, energies_in_flight(run)});
+  const std::vector<double>& energies = energies_of(run, 0).least;
+  const std::vector<double> rises = rises_of({energies_of(run, 0), energies_of(run, run.leapfrog_stagger)});
   TimeSeries series;
   for (std::size_t n = 0; n < energies.size(); ++n) {
     series.add(rises[n] / scale,

@@ -43,9 +43,13 @@ struct TwinRun {
   std::vector<double> orientation_rounding;  // rad
 };
 
-// J, at each sample: several metrics ask for the same, and it is worked out once.
+// J, at each sample. The two differ where the velocity at that instant is not determined (measures/synchronised.h).
+struct EnergyBounds {
+  std::vector<double> least, most;
+};
+// Several metrics use the same energies, so they are computed once.
 struct EnergiesKnown {
-  std::map<double, std::vector<double>> by_stagger;  // of the run, see energies_of
+  std::map<double, EnergyBounds> by_stagger;         // of the run, see energies_of
   std::optional<std::vector<double>> of_truth = {};  // as far as the truth was sampled
 };
 

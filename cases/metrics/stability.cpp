@@ -28,7 +28,7 @@ int liveliest_body(const Scene& scene, BodyColumns bodies) {
 
 std::optional<Stability> energy_explosion(const JudgedRun& run, double largest) {
   const Scene& scene = run.scene;
-  const std::vector<double>& energies = energies_of(run, 0);
+  const std::vector<double>& energies = energies_of(run, 0).least;
   const bool may_lose = contact_may_lose(scene);
   for (std::size_t n = 0; n < energies.size(); ++n) {
     const double change = energies[n] - energies.front();

@@ -262,8 +262,9 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
     using Part = MessageSubject::Part;
     CaseResult& result = grid.cases[jobs[job].of_case];
     try {
-      const Part part = apply_message(result, message).part;
-      if (part == Part::cell || part == Part::stable_step) on_progress(++done, all);
+      const MessageSubject subject = apply_message(result, message);
+      if (options.on_part) options.on_part(jobs[job].of_case, subject);
+      if (subject.part == Part::cell || subject.part == Part::stable_step) on_progress(++done, all);
     } catch (const std::exception& error) {
       result.error = fmt::format("a message of this case's process could not be read: {}", error.what());
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adapters/engines.h"
+#include "cases/results/result_json.h"
 #include "cases/results/results.h"
 #include "cases/runner/executor.h"
 #include "cases/runner/recorder.h"
@@ -33,6 +34,7 @@ struct GridOptions {
   int share = 0;                       // of the cases, that this process does (shards/shard.h); 0: all
   std::vector<std::string> only_metrics = {};  // measure these, costly or not, and no others; empty: all as above
   bool spreads = true;                         // of every two runs at a step, for which the path of each is kept
+  std::function<void(std::size_t of_case, const MessageSubject& part)> on_part = {};  // after each message
 };
 
 // Which of all cells are in the grid.

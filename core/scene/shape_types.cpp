@@ -12,8 +12,10 @@ ShapeInfo row_of_shape() {
   Type prototype = {};
   ShapeDescriptor<Type>::visit(prototype, [&](const char* key, ShapeQuantity, auto& value) {
     keys.push_back(key);
-    value = std::decay_t<decltype(value)>();
-    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Vec3>) value.setZero();
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Vec3>)
+      value.setZero();
+    else
+      value = 0;
   });
   const bool is_solid = !std::is_same_v<Type, Plane> && !std::is_same_v<Type, Compound>;
   return {descriptor.word, descriptor.meaning, std::move(keys), is_solid, prototype};

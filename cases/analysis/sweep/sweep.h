@@ -59,6 +59,7 @@ class Sweep {
   std::size_t first_row_of(std::size_t job) const;       // among all
   std::vector<SweepRow> rows_of(std::size_t job) const;  // as planned
   Case definition_of(std::size_t job) const;             // throws InputError
+  Case definition_of(const SweepRow& row) const { return definition_at(row.of_case, row.values); }
   // The run with the varied options. Throws InputError for an option that the method does not have.
   RunName run_of(const SweepRow& row) const;
   // All that the results depend on, except the program.

@@ -10,31 +10,12 @@
 namespace rigor {
 namespace {
 
-// Measured over the suite, all metrics of a step included. Engines differ by ten times and more, and so do cases.
-constexpr double kPerBodyStep = 3e-6;                             // s
-constexpr double kPerJointedStep = 6e-6, kPerJointedBody = 4e-6;  // s, of a step, and of each body in it
-constexpr double kPerCell = 0.03;                                 // s
-constexpr double kPerSearch = 0.1, kPerSearchWithLimits = 0.4;    // s, for a stable step
-constexpr double kPerSolvedTruth = 1, kPerClosedForm = 0.05;      // s
-constexpr double kTimingAndTwin = 2;                              // a run of everything runs each cell again
-constexpr double kSpreadOfGuess = 4;                              // of a guess; of the sum of measured times
+constexpr double kPerSolvedTruth = 1, kPerClosedForm = 0.05;  // s
+constexpr double kTimingAndTwin = 2;                          // a run of everything runs each cell again
+constexpr double kSpreadOfGuess = 4;                          // of a guess; of the sum of measured times
 constexpr double kSpread = 1.5;
 
 bool is_run(const Cell& cell) { return cell.status != Status::unsupported; }
-
-double seconds_of(const Case& definition, const Cell& cell) {
-  const double steps = definition.duration / cell.dt.seconds,
-               bodies = static_cast<double>(definition.scene.bodies.size());
-  const double per_step =
-      definition.scene.joints.empty() ? bodies * kPerBodyStep : kPerJointedStep + bodies * kPerJointedBody;
-  return kPerCell + steps * per_step;
-}
-
-double seconds_of_search(const Scene& scene) {
-  const bool has_limits =
-      std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.has_limits(); });
-  return has_limits ? kPerSearchWithLimits : kPerSearch;
-}
 
 double seconds_of_truth(const std::string& truth) {
   if (truth == "none") return 0;
@@ -64,14 +45,15 @@ Estimate estimated_seconds(const Results& planned, const CommandLine& line) {
       if (before != measured.end()) {
         known += before->second;
       } else {
-        guessed += std::min(seconds_of(result.definition, cell) * (is_everything ? kTimingAndTwin : 1), line.limit);
+        guessed +=
+            std::min(predicted_seconds(result.definition, cell) * (is_everything ? kTimingAndTwin : 1), line.limit);
       }
     }
     if (!is_everything) continue;
     const auto searches =
         std::count_if(result.stable_steps.begin(), result.stable_steps.end(),
                       [](const StableStepResult& stable) { return stable.status != Status::unsupported; });
-    guessed += seconds_of_search(result.definition.scene) * static_cast<double>(searches);
+    guessed += predicted_search_seconds(result.definition.scene) * static_cast<double>(searches);
   }
   return {(known / kSpread + guessed / kSpreadOfGuess) / line.jobs,
           (known * kSpread + guessed * kSpreadOfGuess) / line.jobs};

@@ -4,17 +4,13 @@
 #include <string>
 
 #include "cases/cli/command_line.h"
+#include "cases/cli/progress/time_left.h"
 #include "cases/results/results.h"
 
 namespace rigor {
 
 // "3 cases by 20 runs: 140 cells, 12 more unsupported; 20 to 60 s with 2 jobs; the reports will be in out".
 std::string plan_sentence(const Results& planned, const CommandLine& line);
-
-// s of wall time.
-struct Estimate {
-  double least = 0, most = 0;
-};
 
 // Cells that the results.json in `line.out` has from this machine count with the time that they took there. All others
 // count with what a step of a body costs in the mean, which is right to a factor of four either way.

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "cases/cli/progress/durations.h"
 #include "cases/cli/output.h"
+#include "cases/cli/progress/durations.h"
 #include "cases/runner/process_pool.h"
 
 namespace rigor {
@@ -75,7 +75,17 @@ void Progress::print_line_if_due() {
   static const double between = seconds_between_lines();
   if (seconds_since(last_line_) < between) return;
   last_line_ = std::chrono::steady_clock::now();
-  say(progress_text(what_, done_, all_, seconds_since(start_), kept_));
+  const double seconds = seconds_since(start_);
+  say(left_ ? progress_text(what_, done_, all_, seconds, left_(seconds))
+            : progress_text(what_, done_, all_, seconds, kept_));
+}
+
+std::string progress_text(const std::string& what, std::size_t done, std::size_t all, double seconds,
+                          const std::optional<Estimate>& left) {
+  const std::string text = fmt::format("{} of {} {} after {}", done, all, what, duration_text(seconds));
+  if (done >= all) return text;
+  return left ? fmt::format("{}; {} left", text, duration_range(left->least, left->most))
+              : text + "; the time left is not known yet";
 }
 
 std::string progress_text(const std::string& what, std::size_t done, std::size_t all, double seconds,

@@ -47,18 +47,39 @@ bool stays(const std::vector<double>& energies, double scale) {
   });
 }
 
+// The expected energy: any that the bounds admit at the start, plus a known change.
+void expect_changes(EnergySeries& series, const EnergyBounds& bounds, const std::vector<double>& changes) {
+  for (std::size_t n = 0; n < changes.size(); ++n) {
+    const double least = bounds.least.front() + changes[n], most = bounds.most.front() + changes[n];
+    series.expected.push_back(std::clamp(std::max(bounds.least[n], least), least, most));
+    series.found.push_back(std::clamp(series.expected.back(), bounds.least[n], bounds.most[n]));
+    series.unexpected.least.push_back(bounds.least[n] - changes[n]);
+    series.unexpected.most.push_back(bounds.most[n] - changes[n]);
+  }
+}
+
+void expect_no_gain(EnergySeries& series, const EnergyBounds& bounds) {
+  const std::vector<double> lowest = lowest_so_far(bounds.most);
+  for (std::size_t n = 0; n < lowest.size(); ++n) {
+    series.expected.push_back(lowest[n]);
+    series.found.push_back(std::max(lowest[n], bounds.least[n]));
+  }
+  series.only_gains_count = true;
+}
+
 }  // namespace
 
-const std::vector<double>& energies_of(const JudgedRun& run, double stagger) {
+const EnergyBounds& energies_of(const JudgedRun& run, double stagger) {
   const auto [known, is_new] = run.energies.by_stagger.try_emplace(stagger);
-  std::vector<double>& found = known->second;
+  EnergyBounds& found = known->second;
   if (!is_new) return found;
   const Synchroniser synchroniser(run.scene, run.trajectory, stagger);
-  BodyTable bodies;
+  BodyTable least, most;
   for (std::size_t n = 0; n < run.trajectory.samples.size(); ++n) {
-    bodies = run.trajectory.samples[n].bodies.columns();
-    synchroniser.apply(n, bodies.columns());
-    found.push_back(energy(run.scene, bodies.columns()));
+    least = run.trajectory.samples[n].bodies.columns(), most = least;
+    synchroniser.apply_bounds(n, least.columns(), most.columns());
+    found.least.push_back(energy(run.scene, std::as_const(least).columns()));
+    found.most.push_back(energy(run.scene, std::as_const(most).columns()));
   }
   return found;
 }
@@ -69,27 +90,12 @@ std::vector<double> lowest_so_far(const std::vector<double>& found) {
   return lowest;
 }
 
-std::vector<double> energies_in_flight(const JudgedRun& run) {
-  const double after = run.leapfrog_stagger * run.trajectory.dt;
-  if (after == 0 || !anything_can_touch(run.scene)) return energies_of(run, run.leapfrog_stagger);
-  std::vector<double> found;
-  BodyTable bodies;
-  for (const Sample& sample : run.trajectory.samples) {
-    bodies = sample.bodies.columns();
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (run.scene.bodies[i].fixed) continue;
-      bodies.columns().set_velocity(i, std::as_const(bodies).columns().velocity(i) + after * run.scene.gravity);
-    }
-    found.push_back(energy(run.scene, std::as_const(bodies).columns()));
-  }
-  return found;
-}
-
-std::vector<double> rises_of(const std::vector<std::vector<double>>& readings) {
-  std::vector<double> rises(readings.front().size(), std::numeric_limits<double>::infinity());
-  for (const std::vector<double>& energies : readings) {
-    const std::vector<double> lowest = lowest_so_far(energies);
-    for (std::size_t n = 0; n < rises.size(); ++n) rises[n] = std::min(rises[n], energies[n] - lowest[n]);
+std::vector<double> rises_of(const std::vector<EnergyBounds>& readings) {
+  std::vector<double> rises(readings.front().least.size(), std::numeric_limits<double>::infinity());
+  for (const EnergyBounds& energies : readings) {
+    const std::vector<double> lowest = lowest_so_far(energies.most);
+    for (std::size_t n = 0; n < rises.size(); ++n)
+      rises[n] = std::min(rises[n], std::max(0.0, energies.least[n] - lowest[n]));
   }
   return rises;
 }
@@ -122,17 +128,17 @@ EnergySeries energy_series(const JudgedRun& run, double stagger) {
   }
   series.scale = energy_scale(run);
   const Exchange exchange = exchange_of(run.scene);
-  series.found = energies_of(run, stagger);
+  const EnergyBounds& bounds = energies_of(run, stagger);
   const auto truth = truths_energies(run, samples_within(run, kTruthNeededPosition));
   const bool conserved = exchange == Exchange::none || (exchange == Exchange::contact && stays(truth, series.scale));
   if (conserved) {
-    series.expected.assign(series.found.size(), series.found.front());
+    expect_changes(series, bounds, std::vector<double>(bounds.least.size(), 0));
   } else if (exchange == Exchange::contact || (exchange == Exchange::damping && truth.empty())) {
-    series.expected = lowest_so_far(series.found), series.only_gains_count = true;
+    expect_no_gain(series, bounds);
   } else if (!truth.empty()) {
-    series.found.resize(truth.size());
-    for (const double e : with_bounces_in_step(run, truth))
-      series.expected.push_back(series.found.front() + e - truth.front());
+    std::vector<double> changes = with_bounces_in_step(run, truth);
+    for (double& e : changes) e -= truth.front();
+    expect_changes(series, bounds, changes);
   } else {
     series.not_applicable = "forces or motors drive the scene, and there is no truth to say what energy they give it";
   }

@@ -10,6 +10,7 @@ namespace rigor {
 
 struct EnergySeries {
   std::vector<double> found, expected;  // J, one for each sample compared
+  EnergyBounds unexpected;              // J, the energy less its expected change; empty where only gains count
   double scale = 1;                     // J, the scale of a drift
   bool only_gains_count = false;        // expected: the lowest so far
   std::string not_applicable;           // why there is nothing to expect; empty if there is
@@ -25,21 +26,17 @@ struct EnergySeries {
 //                                                        bounces at limits in step (joints/limit_bounces.h)
 //   timed forces without a truth                         nothing
 //   contact that may lose energy, or dampers             at most the lowest so far: only gains count
+// Where the energy has bounds, `found` and `expected` are the nearest values that the bounds admit.
 EnergySeries energy_series(const JudgedRun& run, double stagger);
 
-// J, at each sample, with the velocities brought forward by `stagger` steps.
-const std::vector<double>& energies_of(const JudgedRun& run, double stagger);
+// With the velocities brought forward by `stagger` steps. With 0 steps both bounds are the energy as read.
+const EnergyBounds& energies_of(const JudgedRun& run, double stagger);
 std::vector<double> lowest_so_far(const std::vector<double>& energies);  // J, the sample itself included
 
-// The same with velocities advanced by gravity alone. It is exact in flight, also right beside an impact. Where nothing
-// can touch it is energies_of.
-std::vector<double> energies_in_flight(const JudgedRun& run);
-
 // J, at each sample: the rise of the energy above the lowest before. The smallest over all readings counts. As read, a
-// bounce seems to gain the difference between the velocity's time and the position's. Brought forward by the run's own
-// changes, an impact may seem to gain, because it is no acceleration. In flight, a body that comes to rest may seem to
-// gain, because its support is left out. A real gain shows in every reading.
-std::vector<double> rises_of(const std::vector<std::vector<double>>& readings);
+// bounce seems to gain the difference between the velocity's time and the position's. Brought forward, an impact may
+// seem to gain, because it is no acceleration. A real gain shows in every reading, and above every bound.
+std::vector<double> rises_of(const std::vector<EnergyBounds>& readings);
 
 // Whether contact may remove energy: an impact with restitution below 1, or friction, even an infinite one when a body
 // slips as it lands.

@@ -46,6 +46,7 @@ EnergySeries internal_energy_series(const JudgedRun& run, double stagger) {
   if (!(series.scale > kTrace * energy_scale(run)))
     series.not_applicable = "nothing moves about the centre of mass, and no spring is tense";
   series.expected.assign(series.found.size(), series.found.front());
+  series.unexpected = {series.found, series.found};
   return series;
 }
 

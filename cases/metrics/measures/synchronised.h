@@ -7,13 +7,16 @@
 // them:
 //   a velocity that lags by the share s of h fulfils v_n - d_n = (1/2 - s) (v_n - v_{n-1}), up to O(h²)
 //   v* = v_n + s (v_{n+1} - v_n)
+// Explicit Euler moves by the velocity before the step, so its velocities lead: s = -1/2, v* = v_n + s (v_n - v_{n-1}).
 // The acceleration is that of the run itself, so contacts, joints, friction and dampers take part in it. The free
 // acceleration would leave them out. The method declares s. The positions overrule it where they show less than half of
 // that: in a contact that is held by forces at each stage, or in a step that is divided into many.
 //
-// An impact is no acceleration. Where velocities can jump, the smaller of the changes before and after the sample
-// counts if the two differ by more than a factor of 2. Two opposed changes of about one size are two impacts: none
-// counts.
+// An impact is no acceleration. Where velocities can jump, the change that gravity alone makes marks a flight, and a
+// flight on either side of the sample gives the acceleration. Without one, the two changes may disagree: one is more
+// than twice the other, or they are opposed. Then the velocity at the positions' time is not determined. Every reading
+// between the velocity as stored and the velocity brought forward by gravity or by a neighbouring change is possible.
+// So the energy has bounds there, and a metric may charge only what lies outside of them.
 //
 // A joint turns the velocity of a body. Engines in joint coordinates step the speed and turn it exactly. So the speed
 // of a jointed body is brought forward, and its direction stays. Its s is fitted over the whole run, for the curved
@@ -21,7 +24,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "core/engine/trajectory.h"
@@ -34,12 +36,20 @@ class Synchroniser {
   // `stagger`: the declared lag in steps, see MethodInfo::leapfrog_stagger. The trajectory must outlive this object.
   Synchroniser(const Scene& scene, const Trajectory& run, double stagger);
 
-  // Replaces the velocities of the n-th sample's bodies.
+  // Replaces the velocities of the n-th sample's bodies by their likeliest reading.
   void apply(std::size_t n, MutableBodyColumns bodies) const;
+  // Replaces them by the readings of least and of most kinetic energy. They agree where the velocity is determined.
+  void apply_bounds(std::size_t n, MutableBodyColumns least, MutableBodyColumns most) const;
 
  private:
   enum class Rate { linear, angular };
   static constexpr std::array<Rate, 2> kRates = {Rate::linear, Rate::angular};
+
+  struct Readings {
+    std::array<Vec3, 5> list;  // the likeliest first
+    std::size_t count = 0;
+    void add(const Vec3& reading) { list[count++] = reading; }
+  };
 
   Vec3 rate(Rate kind, std::size_t i, std::size_t n) const;
   Vec3 mean_rate(Rate kind, std::size_t i, std::size_t n) const;  // between the samples n - 1 and n
@@ -48,9 +58,16 @@ class Synchroniser {
   double lag(Rate kind, std::size_t i, std::size_t n) const;
   double fitted_lag(Rate kind, std::size_t i) const;
   double lag_for(double share) const;
-  Vec3 brought_forward(Rate kind, std::size_t i, std::size_t n) const;
+  double kinetic(Rate kind, std::size_t i, const Mat3& rotation, const Vec3& rate) const;  // J
 
-  std::optional<std::size_t> interval_after(Rate kind, std::size_t i, std::size_t n) const;
+  struct Intervals {
+    std::size_t nearest, other;
+  };
+  Intervals intervals_at(std::size_t n) const;
+  bool is_flight(Rate kind, std::size_t i, std::size_t n) const;
+  Vec3 brought_forward(Rate kind, std::size_t i, std::size_t n, double lag, std::size_t interval) const;
+  Readings readings(Rate kind, std::size_t i, std::size_t n) const;
+  Readings readings_beside_impacts(Rate kind, std::size_t i, std::size_t n, double lag) const;
 
   const Scene& scene_;
   const Trajectory& run_;

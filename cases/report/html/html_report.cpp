@@ -6,7 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
 
+#include "adapters/engines.h"
 #include "cases/report/html/packing.h"
 #include "cases/report/html/page_bundle.h"
 #include "cases/report/html/playback.h"
@@ -29,17 +34,68 @@ void round_numbers(Json& json) {
   }
 }
 
-// results.json without the parts that the page does not show.
+// Removes metrics that do not apply, and what the page does not show of the others. The end of the comparison stays
+// where it is not the end of the run.
+void shorten_metrics(Json& metrics, double duration) {
+  Json kept = Json::object();
+  for (auto& [name, metric] : metrics.items()) {
+    if (metric.contains("not_applicable")) continue;
+    metric.erase("first_second"), metric.erase("unit");
+    if (metric.value("compared_until", Json()) == duration) metric.erase("compared_until");
+    kept[name] = std::move(metric);
+  }
+  metrics = std::move(kept);
+}
+
+void shorten_case(Json& one) {
+  one.erase("spread"), one.erase("explanation_claims");
+  for (Json& table : one["work_precision"]) table.erase("at_equal_cost");
+  Json orders = Json::array();
+  for (Json& order : one["observed_order"])
+    if (order["value"].is_number()) orders.push_back(std::move(order));
+  one["observed_order"] = std::move(orders);
+}
+
+// Of a cell's gates the page counts those that failed; the case's gates say the rest.
+void shorten_cell(Json& cell, double duration) {
+  cell.erase("trajectory"), cell.erase("wall_seconds");
+  shorten_metrics(cell["metrics"], duration);
+  Json failed = Json::array();
+  for (const Json& gate : cell["gates"])
+    if (gate["answer"] == "failed") failed.push_back({{"answer", "failed"}});
+  cell["gates"] = std::move(failed);
+}
+
+// A step as a number of C: "1/30", pasted as it is, would be an integer division.
+std::string step_in_c(std::string dt) {
+  const std::size_t slash = dt.find('/');
+  return slash == std::string::npos ? dt : dt.replace(slash, 1, ".0 / ");
+}
+
+// Of each run and step, the engine's own calls.
+Json calls_json(const Results& results) {
+  std::set<std::string> steps;
+  for (const CaseResult& result : results.cases)
+    for (const StepSize& dt : result.definition.dt) steps.insert(dt.text);
+  Json calls = Json::object();
+  for (const RunName& run : results.runs) {
+    for (const std::string& dt : steps)
+      if (const std::vector<std::string> lines = engine_calls(run, step_in_c(dt)); !lines.empty())
+        calls[run.text][dt] = lines;
+  }
+  return calls;
+}
+
+// results.json without the parts that the page does not show, and with each engine's own calls.
 std::string results_data(const Results& results) {
   Json json = results_json(results);
+  std::map<std::string, double> durations;
   for (Json& one : json["cases"]) {
-    one.erase("spread");
-    for (Json& table : one["work_precision"]) table.erase("at_equal_cost");
+    shorten_case(one);
+    durations[one["id"].get<std::string>()] = one["duration"].get<double>();
   }
-  for (Json& cell : json["cells"]) {
-    cell.erase("trajectory"), cell.erase("wall_seconds");
-    for (Json& metric : cell["metrics"]) metric.erase("first_second"), metric.erase("unit");
-  }
+  for (Json& cell : json["cells"]) shorten_cell(cell, durations[cell["case"].get<std::string>()]);
+  json["calls"] = calls_json(results);
   round_numbers(json);
   return base64(deflated(text_of(json, -1)));
 }
@@ -78,17 +134,17 @@ std::string policy() {
 }  // namespace
 
 std::string html_report(const Results& results) {
-  std::string page =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" + policy() +
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Rigor: which engine, which step, and why</title>\n<style>\n";
+  std::string page = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" + policy() +
+                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                     "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Rigor: which engine, which step, and "
+                     "why</title>\n<style>\n";
   page += kPageStyle;
   page +=
       "</style>\n</head>\n<body>\n<main id=\"page\"><p class=\"loading\">Unpacking the results …</p>"
       "<noscript>This report draws itself with JavaScript, which is off here; report.md says the same in words."
       "</noscript></main>\n";
   add_data(page, "rigor-results", {{"encoding", "base64 of zlib of results.json"}, {"data", results_data(results)}});
-  constexpr std::size_t kWholePage = 3'900'000, kLeastPlayback = 1'000'000;  // characters
+  constexpr std::size_t kWholePage = 3'900'000, kLeastPlayback = 500'000;  // characters
   const std::size_t rest = page.size() + kPageScript.size() + kPageLicences.size();
   add_data(page, "rigor-playback", playbacks(results, std::max(kWholePage, rest + kLeastPlayback) - rest));
   page += "<script>";  // and nothing else in it: it has a hash

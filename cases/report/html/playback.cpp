@@ -271,7 +271,7 @@ const std::vector<std::string>& series_names() {
 
 Packings packed_run(const JudgedRun& run, const std::vector<NamedSeries>& series, double largest_kinetic_energy,
                     std::size_t limit) {
-  std::vector<NamedSeries> all = {energy_change(energies_of(run, 0), largest_kinetic_energy)};
+  std::vector<NamedSeries> all = {energy_change(energies_of(run, 0).least, largest_kinetic_energy)};
   for (const NamedSeries& one : series) {
     if (!one.values.empty()) all.push_back(one);
   }

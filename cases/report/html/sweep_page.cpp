@@ -12,18 +12,20 @@
 namespace rigor {
 namespace {
 
-constexpr double kLeft = 88, kTop = 14, kWidth = 300, kHeight = 210, kBottom = 48, kRight = 30;  // of a drawing
-constexpr std::size_t kMostDrawn = 4000;                                                         // points of one
+using namespace sweep_drawing;
+constexpr double kBottom = 48, kRight = 30;  // px, below and beside a drawing
+constexpr std::size_t kMostDrawn = 4000;     // points of one
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 struct Kind {
   const char *word, *colour;
 };
-// What a cell came to, from the best to the worst.
-constexpr Kind kKinds[] = {{"stable", "#3b76c4"},   {"drifting", "#9cc3ea"},    {"overlapping", "#d9c84a"},
-                           {"gaining", "#f0a13a"},  {"collapsed", "#b5651d"},   {"tunnelled", "#7b3fa0"},
-                           {"blown up", "#b3261e"}, {"unsupported", "#d9d9d9"}, {"invalid", "#8a8a8a"},
-                           {"broke off", "#111111"}};
+// The verdicts of cells, from the best to the worst. The colours of light and dark are in svg.cpp.
+constexpr Kind kKinds[] = {{"stable", "var(--stable)"},           {"drifting", "var(--drifting)"},
+                           {"overlapping", "var(--overlapping)"}, {"gaining", "var(--gaining)"},
+                           {"collapsed", "var(--collapsed)"},     {"tunnelled", "var(--tunnelled)"},
+                           {"blown up", "var(--blown-up)"},       {"unsupported", "var(--unsupported)"},
+                           {"invalid", "var(--invalid)"},         {"broke off", "var(--broke-off)"}};
 constexpr unsigned char kBlownUp = 6, kUnsupported = 7, kInvalid = 8, kBrokeOff = 9;
 
 unsigned char kind_of(const SweepRow& row) {
@@ -40,8 +42,8 @@ std::string key_of(const std::string& style, const std::string& text) {
 }
 
 const char* colour_of_run(std::size_t run) {
-  static constexpr const char* kColours[] = {"#3b76c4", "#d1602b", "#2c8c57", "#8d4fb0",
-                                             "#b3261e", "#7a6a1f", "#1c9aa8", "#c24a86"};
+  static constexpr const char* kColours[] = {"var(--run-0)", "var(--run-1)", "var(--run-2)", "var(--run-3)",
+                                             "var(--run-4)", "var(--run-5)", "var(--run-6)", "var(--run-7)"};
   return kColours[run % std::size(kColours)];
 }
 
@@ -85,7 +87,13 @@ SweepPage::SweepPage(const Sweep& sweep) : sweep_(sweep) {
 bool SweepPage::has_key_of_steps() const { return keys_.size() > sweep_.axes().size(); }
 
 void SweepPage::add(const SweepRow& row) {
-  Point point{row.of_case, row.run, {}, kind_of(row), {kNothing, kNothing, kNothing}, {}};
+  Point point{row.of_case,
+              row.run,
+              {},
+              kind_of(row),
+              {kNothing, kNothing, kNothing},
+              {},
+              static_cast<float>(stiffest_frequency_of(row) * row.dt.seconds)};
   const auto number_of_value = [](const Key& key, const std::string& value) {
     return static_cast<float>(std::find(key.values.begin(), key.values.end(), value) - key.values.begin());
   };
@@ -155,6 +163,7 @@ std::string SweepPage::hint(const Point& point, std::size_t error) const {
     text += fmt::format(", {} {}", error_names_[error],
                         point.is_held_to_itself[error] ? fmt::format("({})", number) : number);
   }
+  if (point.omega_dt > 0) text += fmt::format("\nω dt = {}", tick(point.omega_dt));
   return "<title>" + escaped(text) + "</title>";
 }
 
@@ -213,7 +222,7 @@ std::string SweepPage::map(const Points& points, std::size_t error, const Range*
                         kLeft + point->at[x] * width, kTop + kHeight - (point->at[y] + 1) * height, width + 0.3,
                         height + 0.3, colour, points.size() <= kMostDrawn ? hint(*point, error) : "");
   }
-  return text;
+  return text + limit_in_map(points, x, y);
 }
 
 std::string SweepPage::lines(std::size_t of_case, std::size_t error, const Range& range) const {
@@ -234,7 +243,7 @@ std::string SweepPage::lines(std::size_t of_case, std::size_t error, const Range
     text += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>", path, colour_of_run(run)) +
             marks;
   }
-  return text;
+  return text + limit_in_lines(of_case);
 }
 
 std::string SweepPage::scatter(const Points& points, std::size_t key, std::size_t error, const Range& range) const {
@@ -271,7 +280,7 @@ std::string SweepPage::legend(std::size_t of_case) const {
   for (std::size_t kind = 0; kind < counts.size(); ++kind) {
     if (counts[kind] > 0) text += key_of(kKinds[kind].colour, fmt::format("{} {}", kKinds[kind].word, counts[kind]));
   }
-  return text + "</p>\n";
+  return text + "</p>\n" + limit_key(of_case);
 }
 
 std::string SweepPage::section(std::size_t of_case) const {
@@ -302,10 +311,10 @@ std::string SweepPage::section(std::size_t of_case) const {
     const Points points = points_of(of_case, run);
     text += fmt::format("<h3>{}</h3>\n<div class=\"row\">\n", escaped(sweep_.runs()[run].text));
     if (is_map) {
-      text += drawing(map(points, error, nullptr), "what became of it");
-      text += drawing(map(points, error, &range), error_name + "; red: blown up");
+      text += drawing(map(points, error, nullptr), "verdict");
+      text += drawing(map(points, error, &range), error_name + "; red: blown up, grey: no value");
     } else {
-      if (keys_.size() == 2) text += drawing(scatter_of_two(points), "what became of it");
+      if (keys_.size() == 2) text += drawing(scatter_of_two(points), "verdict");
       for (std::size_t key = 0; key < keys_.size(); ++key)
         text += drawing(scatter(points, key, error, range), error_name + "; red at the top: blown up");
     }

@@ -10,6 +10,10 @@
 
 namespace rigor {
 
+namespace sweep_drawing {  // px, of the area between the axes
+inline constexpr double kLeft = 88, kTop = 14, kWidth = 300, kHeight = 210;
+}  // namespace sweep_drawing
+
 class SweepPage {
  public:
   explicit SweepPage(const Sweep& sweep);
@@ -32,6 +36,7 @@ class SweepPage {
     unsigned char kind;     // a row of the table of kinds
     std::array<float, kErrors> errors;
     std::array<bool, kErrors> is_held_to_itself;  // of errors: stands in brackets
+    float omega_dt;                               // of the scene's stiffest spring; 0: it has none
   };
   using Points = std::vector<const Point*>;
   struct Range {
@@ -55,11 +60,18 @@ class SweepPage {
   std::string ticks(std::size_t key, bool is_x) const;
   std::string error_ticks(const Range& range) const;
   std::string hint(const Point& point, std::size_t error) const;
+  // The line ω dt = 2, see sweep_limit.cpp.
+  double stiffest_frequency_of(const SweepRow& row);
+  std::string limit_in_map(const Points& points, std::size_t x, std::size_t y) const;
+  std::string limit_in_lines(std::size_t of_case) const;
+  std::string limit_key(std::size_t of_case) const;
 
   const Sweep& sweep_;
   std::vector<Key> keys_;
   std::vector<std::string> error_names_;
   std::vector<Point> points_;
+  std::vector<std::string> last_scene_;  // case and values that the frequency below belongs to
+  double last_frequency_ = 0;            // rad/s
 };
 
 }  // namespace rigor

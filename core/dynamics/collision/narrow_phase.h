@@ -20,11 +20,11 @@ struct Pose {
 };
 
 struct ManifoldPoint {
-  Vec3 normal;            // unit, in W, from b to a
-  Vec3 point;             // m, in W, midway between the two surfaces
-  double gap;             // m, negative where they overlap
-  std::uint32_t feature;  // the same from one instant to the next for the same corner, end or crossing of edges
-  std::uint16_t part_a = 0, part_b = 0;  // of compounds: which part touches
+  Vec3 normal;                   // unit, in W, from b to a
+  Vec3 point;                    // m, in W, midway between the two surfaces
+  double gap;                    // m, negative where they overlap
+  std::uint32_t feature;         // the same from one instant to the next for the same corner, end or crossing of edges
+  std::uint16_t part_a, part_b;  // of compounds: which part touches; else 0
 };
 
 class Manifold {

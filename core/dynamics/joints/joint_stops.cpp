@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/dynamics/collision/contact_scales.h"
 #include "core/dynamics/joints/joint_limits.h"
+#include "core/dynamics/model/contact_scales.h"
 
 namespace rigor {
 namespace {

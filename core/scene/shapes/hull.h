@@ -16,10 +16,10 @@ struct Hull {
   static constexpr std::size_t kMostCorners = 2000;    // of the hull
 
   struct Face {
-    Vec3 normal;               // unit, outwards
-    double offset;             // m: normal · x <= offset for each point of the hull
-    std::vector<int> corners;  // anticlockwise as seen from outside
-    std::vector<int> edges;    // edges[i] leads from corners[i] to the next one
+    Vec3 normal = Vec3::Zero();  // unit, outwards
+    double offset = 0;           // m: normal · x <= offset for each point of the hull
+    std::vector<int> corners;    // anticlockwise as seen from outside
+    std::vector<int> edges;      // edges[i] leads from corners[i] to the next one
   };
   struct Edge {
     int from, to;     // corners

@@ -58,6 +58,16 @@ BOOST_AUTO_TEST_CASE(the_report_names_the_plugin_that_diagnose_needs) {
   BOOST_TEST(content("pasted.out").starts_with("toy-py: "), content("pasted.out"));
 }
 
+BOOST_AUTO_TEST_CASE(a_failed_gate_names_the_plugin_that_diagnose_needs) {
+  folder.write("my stone.toml", failing_case());
+  const Answer answer = run({"gate", "my stone.toml", "--plugin", kPlugin, "--engine", "toy-py", "--out", "out"});
+  BOOST_TEST(answer.code == 1, answer.err);
+  const std::vector<std::string> commands = commands_in(answer.out + answer.err);
+  BOOST_TEST_REQUIRE(commands.size() == 1u, answer.out);
+  BOOST_TEST(paste(commands[0]) == 0, commands[0] << ": " << content("pasted.err"));
+  BOOST_TEST(content("pasted.out").starts_with("toy-py: "), content("pasted.out"));
+}
+
 BOOST_AUTO_TEST_CASE(the_report_names_the_suite_that_diagnose_needs) {
   folder.write("suite/stones/stone.toml", failing_case());
   run({"run", "stones/stone", "--suite", "suite", "--engine", "ode", "--out", "out"});

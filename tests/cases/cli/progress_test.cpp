@@ -8,6 +8,7 @@
 
 #include "cases/cli/progress/durations.h"
 #include "cases/cli/progress/measured_times.h"
+#include "cases/cli/progress/time_left.h"
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
@@ -53,6 +54,76 @@ BOOST_AUTO_TEST_CASE(the_rest_is_at_least_what_the_rate_so_far_leaves) {
   // An interrupted run had finished 30 of the 35: these took no time now.
   BOOST_TEST(progress_text("cells", 35, 140, 40, 30) == "35 of 140 cells after 40 s; 14 to 28 minutes left");
   BOOST_TEST(progress_text("cells", 30, 140, 40, 30) == "30 of 140 cells after 40 s");
+}
+
+// Two engines at one step of a second: "slow" takes ten times the predicted time, "fast" a tenth.
+Results planned_for_two(int cells_each) {
+  Results grid;
+  grid.runs.resize(2);
+  grid.runs[0].engine = grid.runs[0].text = "slow", grid.runs[1].engine = grid.runs[1].text = "fast";
+  CaseResult result;
+  result.definition.id = "stone", result.definition.duration = 1;
+  result.definition.scene.bodies.resize(1);
+  for (int n = 0; n < 2 * cells_each; ++n) {
+    Cell cell;
+    cell.run = static_cast<std::size_t>(n % 2), cell.dt = {1e-6, "1e-6"}, cell.status = Status::pass;
+    result.cells.push_back(cell);
+  }
+  grid.cases = {result};
+  return grid;
+}
+
+// All cells are alike to the count: after the slow ones it would say a hundred times too much.
+BOOST_AUTO_TEST_CASE(the_time_left_follows_from_each_engines_own_cells) {
+  const Results grid = planned_for_two(40);
+  const double each = predicted_seconds(grid.cases[0].definition, grid.cases[0].cells[0]);
+  TimeLeft left(grid, 2, {});
+  double elapsed = 0;
+  std::optional<Estimate> said;
+  for (std::size_t n = 0; n < 40; ++n) {
+    const bool is_slow = n < 30;  // first thirty slow cells, then ten fast ones
+    const std::size_t cell = is_slow ? 2 * n : 2 * (n - 30) + 1;
+    const double took = is_slow ? 10 * each : each / 10;
+    elapsed += took / 2, left.end_cell(0, cell, took), said = left.at(elapsed);
+  }
+  const double truth = (10 * 10 * each + 30 * each / 10) / 2;
+  BOOST_TEST_REQUIRE(said.has_value());
+  const double middle = std::sqrt(said->least * said->most);
+  BOOST_TEST(middle > truth / 1.5, middle << " s said, " << truth << " s needed");
+  BOOST_TEST(middle < truth * 1.5, middle << " s said, " << truth << " s needed");
+}
+
+BOOST_AUTO_TEST_CASE(the_time_left_is_not_known_before_a_tenth_is_done_or_while_the_prediction_moves) {
+  const Results grid = planned_for_two(40);
+  const double each = predicted_seconds(grid.cases[0].definition, grid.cases[0].cells[0]);
+  TimeLeft early(grid, 2, {});
+  early.end_cell(0, 0, each);
+  BOOST_TEST(!early.at(0.5 * each).has_value());
+  BOOST_TEST(!early.at(5 * each).has_value());
+  TimeLeft moving(grid, 2, {});
+  double elapsed = 0;
+  for (std::size_t n = 0; n < 20; ++n) {  // each cell takes twice as long as the one before
+    const double took = each * std::pow(2.0, static_cast<double>(n));
+    elapsed += took, moving.end_cell(0, n, took);
+    BOOST_TEST(!moving.at(elapsed).has_value());
+  }
+  // Cells of an earlier run count with their own time.
+  MeasuredTimes measured;
+  for (const char* run : {"slow", "fast"}) measured[{"stone", run, "1e-6"}] = 3;
+  TimeLeft known(grid, 2, measured);
+  for (std::size_t n = 0; n < 40; ++n) known.end_cell(0, n, 3), known.at(1.5 * static_cast<double>(n + 1));
+  const auto said = known.at(60);
+  BOOST_TEST_REQUIRE(said.has_value());
+  BOOST_TEST(said->least <= 60);
+  BOOST_TEST(said->most >= 60);
+}
+
+BOOST_AUTO_TEST_CASE(a_line_says_when_the_time_left_is_not_known) {
+  BOOST_TEST(progress_text("cells", 35, 140, 40, Estimate{130, 250}) ==
+             "35 of 140 cells after 40 s; 2 to 5 minutes left");
+  BOOST_TEST(progress_text("cells", 35, 140, 40, std::optional<Estimate>()) ==
+             "35 of 140 cells after 40 s; the time left is not known yet");
+  BOOST_TEST(progress_text("cells", 140, 140, 40, std::optional<Estimate>()) == "140 of 140 cells after 40 s");
 }
 
 // A process that no terminal shows is not silent for long, whatever it does.

@@ -1,7 +1,9 @@
 // rigor sweep, by the program itself: its table against what is known, what it refuses, and that it goes on.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "tests/cases/cli/program.h"
@@ -26,6 +28,12 @@ struct Fixture : Program {
   }
 };
 
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
 }  // namespace
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_sweep, Fixture)
@@ -49,7 +57,37 @@ BOOST_AUTO_TEST_CASE(the_boundary_of_stability_is_where_theory_puts_it) {
   }
   BOOST_TEST(stable > 200);
   BOOST_TEST(blown_up > 50);
-  BOOST_TEST(content("out/sweep.html").find("blown up") != std::string::npos);
+  const std::string page = content("out/sweep.html");
+  BOOST_TEST(page.find("blown up") != std::string::npos);
+  BOOST_TEST(page.find("prefers-color-scheme: dark") != std::string::npos);
+  // The line ω dt = 2 runs between neighbours on either side of it, in two drawings of each of three runs.
+  std::map<std::pair<double, double>, bool> is_beyond;  // stiffness, dt
+  std::set<double> stiffnesses, steps;
+  for (const Json& row : found) {
+    const double k = row.at("scene.spring[0].stiffness"), dt = row.at("dt");
+    stiffnesses.insert(k), steps.insert(dt), is_beyond[{k, dt}] = std::sqrt(k / 100) * dt >= 2;
+  }
+  std::size_t edges = 0;
+  for (const auto& [at, beyond] : is_beyond) {
+    const auto k = stiffnesses.upper_bound(at.first), dt = steps.upper_bound(at.second);
+    edges += k != stiffnesses.end() && is_beyond.at({*k, at.second}) != beyond;
+    edges += dt != steps.end() && is_beyond.at({at.first, *dt}) != beyond;
+  }
+  BOOST_TEST(edges > 10u);
+  BOOST_TEST(occurrences(page, "class=\"limit\"") == 3 * 2 * edges);
+  BOOST_TEST(occurrences(page, "ω dt = 2 of the stiffest spring") == 1u);
+}
+
+// w = 10 rad/s, so w dt = 2 at 0.2 s, between the steps 0.1 and 0.4 s.
+BOOST_AUTO_TEST_CASE(the_limit_of_a_spring_is_drawn_only_where_steps_lie_on_both_sides) {
+  BOOST_TEST(sweep({"--vary", "dt=1/40,1/10,2/5", "--vary", "scene.spring[0].stiffness=1e4", "--engine",
+                    "core:semi-implicit-euler"})
+                 .code == 0);
+  BOOST_TEST(occurrences(content("out/sweep.html"), "class=\"limit\"") == 2u);  // a map of one row, drawn twice
+  BOOST_TEST(sweep({"--vary", "dt=1/40,1/10,2/5", "--engine", "core:semi-implicit-euler"}, "line").code == 0);
+  BOOST_TEST(occurrences(content("line/sweep.html"), "class=\"limit\"") == 1u);
+  BOOST_TEST(sweep({"--vary", "dt=1/40,1/30", "--engine", "core:semi-implicit-euler"}, "below").code == 0);
+  BOOST_TEST(occurrences(content("below/sweep.html"), "class=\"limit\"") == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(a_row_is_what_run_says_of_the_cell) {

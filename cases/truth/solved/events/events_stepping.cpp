@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/dynamics/collision/contact_scales.h"
+#include "core/dynamics/model/contact_scales.h"
 
 namespace rigor {
 namespace {

@@ -75,7 +75,14 @@ void ContactPoints::find(BodyColumns state, const std::vector<std::pair<int, int
   for (const auto& [a, b] : pairs) {
     for (const ManifoldPoint& point : manifold(state, a, b)) {
       if (!(point.gap <= gap * scales_.gap())) continue;
-      ContactPoint contact{.a = a, .b = b, .feature = point.feature, .gap = point.gap, .restitution = 0, .cone = {}};
+      ContactPoint contact{.a = a,
+                           .b = b,
+                           .feature = point.feature,
+                           .part_a = point.part_a,
+                           .part_b = point.part_b,
+                           .gap = point.gap,
+                           .restitution = 0,
+                           .cone = {}};
       contact.cone.a = colliders_[a].body, contact.cone.b = colliders_[b].body;
       const ContactLaw& law = laws_.of(contact.cone.a, contact.cone.b);
       contact.restitution = law.restitution;
@@ -124,6 +131,7 @@ bool ContactPoints::follow(BodyColumns state, ContactPoint& contact) {
   }
   if (!nearest) return false;
   place(state, *nearest, contact);
+  contact.part_a = nearest->part_a, contact.part_b = nearest->part_b;
   Mat3& frame = contact.cone.frame;
   const Vec3 n = nearest->normal, t = frame.col(1) - n * n.dot(frame.col(1));
   if (t.norm() > 0.1)

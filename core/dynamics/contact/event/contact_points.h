@@ -7,16 +7,17 @@
 #include "core/dynamics/collision/broad_phase.h"
 #include "core/dynamics/contact/event/acceleration_bounds.h"
 #include "core/dynamics/contact/event/cone_solver.h"
-#include "core/dynamics/collision/contact_scales.h"
 #include "core/dynamics/joints/joint_limits.h"
+#include "core/dynamics/model/contact_scales.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
 
 struct ContactPoint {
-  int a, b;               // colliders; kLimit of a limit
-  std::uint32_t feature;  // of a limit: which
-  double gap;             // m; rad of a hinge's limit
+  int a, b;                              // colliders; kLimit of a limit
+  std::uint32_t feature;                 // of a limit: which
+  std::uint16_t part_a = 0, part_b = 0;  // of compounds: which part touches
+  double gap;                            // m; rad of a hinge's limit
   double restitution;
   ConeConstraint cone;
   static constexpr int kLimit = -1;

@@ -13,10 +13,10 @@
 
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
-#include "core/dynamics/contact/impulse/impact_search.h"
+#include "core/dynamics/contact/impulse/rebounds/impact_search.h"
 #include "core/dynamics/contact/impulse/jointed_impulse.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
-#include "core/dynamics/contact/impulse/rebounds.h"
+#include "core/dynamics/contact/impulse/rebounds/rebounds.h"
 #include "core/dynamics/contact/impulse/step_impulses.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
 #include "core/dynamics/kernels/contact_kernels.h"

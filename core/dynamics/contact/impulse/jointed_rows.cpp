@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dynamics/contact/impulse/impact_energy.h"
+#include "core/dynamics/contact/impulse/rebounds/impact_energy.h"
 
 namespace rigor {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
-#include "core/dynamics/contact/impulse/rebounds.h"
+#include "core/dynamics/contact/impulse/rebounds/rebounds.h"
 #include "core/engine/capabilities.h"
 
 namespace rigor {

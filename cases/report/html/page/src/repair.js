@@ -7,7 +7,7 @@ import { lengthOrAngle } from "./frontier_chart.js";
 const copied = (text) =>
   el("button.quiet", { type: "button", onclick: () => navigator.clipboard?.writeText(text) }, "copy");
 
-// What stands in the way of this run, and the change that this report has seen to work.
+// The change of step or engine that this report has seen to work.
 function advice({ results, one, dt }, run, tolerance) {
   const within = lengthOrAngle(tolerance),
     curves = curvesOfCase(results, one),

@@ -24,7 +24,7 @@ function viewOf(scene, points) {
   return { flat, depth: (p) => dot(p, away) };
 }
 
-// From metres to the picture, so that all points and their extents fit.
+// Maps metres to the picture, so that all points and their extents fit.
 function scaleOf(points, flat) {
   const low = [Infinity, Infinity],
     high = [-Infinity, -Infinity];
@@ -151,7 +151,7 @@ class Sketch {
     if (moving.length > fewNames) return null;
     return moving.map((s) => {
       const [x, y] = this.at(this.centre(s));
-      return svg("text", { x: Math.min(x, width - 40), y: Math.min(height - 4, y + this.scale * extentOf(s) + 13), "text-anchor": "middle" }, s.name.slice(0, 24));
+      return svg("text", { x: Math.min(x, width - 40), y: Math.min(height - 4, y + (s.type === "sphere" ? this.scale * extentOf(s) : Math.min(26, this.scale * extentOf(s))) + 13), "text-anchor": "middle" }, s.name.slice(0, 24));
     });
   }
 

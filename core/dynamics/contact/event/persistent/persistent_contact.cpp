@@ -116,8 +116,12 @@ bool PersistentContact::select_points(MutableBodyColumns state, const std::vecto
     point.contact = contact;
     if (!contact.is_limit()) {
       const Collider &a = colliders[contact.a], &b = colliders[contact.b];
-      const ManifoldPoint place{contact.cone.frame.col(0), state.position(contact.cone.a) + contact.cone.arm_a,
-                                contact.gap, contact.feature};
+      const ManifoldPoint place{contact.cone.frame.col(0),
+                                state.position(contact.cone.a) + contact.cone.arm_a,
+                                contact.gap,
+                                contact.feature,
+                                contact.part_a,
+                                contact.part_b};
       point.features = features_at(place, a, pose_of(state, a.body), b, pose_of(state, b.body));
     }
     const bool slides = contact.cone.friction == 0 || (std::isfinite(contact.cone.friction) &&

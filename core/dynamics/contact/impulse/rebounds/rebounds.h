@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "core/dynamics/contact/impulse/impact_round.h"
+#include "core/dynamics/contact/impulse/rebounds/impact_round.h"
 #include "core/dynamics/kernels/contact_rows.h"
 #include "core/dynamics/model/system.h"
 

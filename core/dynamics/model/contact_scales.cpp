@@ -1,10 +1,8 @@
-#include "core/dynamics/collision/contact_scales.h"
+#include "core/dynamics/model/contact_scales.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-
-#include "core/dynamics/collision/colliders.h"
 
 namespace rigor {
 namespace {
@@ -17,8 +15,8 @@ double gyration_radius(const Body& body) {
 
 double length_of(const Scene& scene) {
   double length = 0;
-  for (const Collider& collider : colliders_of(scene)) {
-    if (!collider.fixed) length = std::max(length, collider.bounding_radius);
+  for (const Body& body : scene.bodies) {
+    if (body.collides && !body.fixed) length = std::max(length, bounding_radius(*body.shape));
   }
   if (length > 0) return length;
   for (const Body& body : scene.bodies) {

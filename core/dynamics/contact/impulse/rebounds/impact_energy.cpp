@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/impulse/impact_energy.h"
+#include "core/dynamics/contact/impulse/rebounds/impact_energy.h"
 
 #include <algorithm>
 #include <cmath>

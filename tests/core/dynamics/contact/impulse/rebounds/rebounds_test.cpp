@@ -1,6 +1,6 @@
 // Impacts of contact by impulses: at their own instants, several at once by the law that the run names, and never with
 // a gain of energy.
-#include "core/dynamics/contact/impulse/rebounds.h"
+#include "core/dynamics/contact/impulse/rebounds/rebounds.h"
 
 #include <cmath>
 #include <numbers>
@@ -44,7 +44,7 @@ double farthest_apart(BodyColumns a, BodyColumns b) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_rebounds)
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_rebounds_rebounds)
 
 BOOST_AUTO_TEST_CASE(a_row_of_balls_hit_from_both_sides_passes_the_blows_through) {
   for (const int count : {3, 5}) {

@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/impulse/impact_round.h"
+#include "core/dynamics/contact/impulse/rebounds/impact_round.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/impulse/rebounds.h"
+#include "core/dynamics/contact/impulse/rebounds/rebounds.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // No impact of jointed bodies adds energy: exactly the excess of Newton's restitution is taken back.
-#include "core/dynamics/contact/impulse/impact_energy.h"
+#include "core/dynamics/contact/impulse/rebounds/impact_energy.h"
 
 #include <boost/test/unit_test.hpp>
 #include <random>
@@ -55,7 +55,7 @@ Scene falling_pair(unsigned seed) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_impact_energy)
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_rebounds_impact_energy)
 
 BOOST_AUTO_TEST_CASE(what_has_too_much_goes_back_towards_what_has_less_until_it_has_as_much) {
   const Scene scene = two_bodies();

@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/impulse/impact_search.h"
+#include "core/dynamics/contact/impulse/rebounds/impact_search.h"
 
 namespace rigor {
 
