@@ -143,9 +143,8 @@ class BulletTwin : public Stepper {
   Wrenches wrenches_;
 };
 
-const Features kJointKinds = {joint_feature<BallJoint>(),   joint_feature<CylindricalJoint>(),
-                              joint_feature<FixedJoint>(),  joint_feature<HingeJoint>(),
-                              joint_feature<SliderJoint>(), joint_feature<UniversalJoint>()};
+const Features kJointKinds =
+    joints_of_types<BallJoint, CylindricalJoint, FixedJoint, HingeJoint, SliderJoint, UniversalJoint>();
 
 }  // namespace
 

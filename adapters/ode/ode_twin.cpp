@@ -66,10 +66,8 @@ class OdeTwin : public Stepper {
   Wrenches wrenches_;
 };
 
-const Features kJointKinds = {joint_feature<BallJoint>(),     joint_feature<CylindricalJoint>(),
-                              joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(),
-                              joint_feature<HingeJoint>(),    joint_feature<SliderJoint>(),
-                              joint_feature<UniversalJoint>()};
+const Features kJointKinds =
+    joints_of_types<BallJoint, CylindricalJoint, DistanceJoint, FixedJoint, HingeJoint, SliderJoint, UniversalJoint>();
 
 }  // namespace
 

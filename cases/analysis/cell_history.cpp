@@ -18,7 +18,7 @@ constexpr double kNoiseOfCost = 0.01;  // the smallest relative noise of a measu
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // The most telling metric of the last entry that has this cell.
-std::string metric_of(const std::vector<HistoryEntry>& history, const std::string& key) {
+std::string metric_of(const std::vector<HistoryEntry>& history, const CellKey& key) {
   for (auto entry = history.rbegin(); entry != history.rend(); ++entry) {
     const auto cell = entry->cells.find(key);
     if (cell == entry->cells.end() || cell->second.metrics.empty()) continue;
@@ -57,10 +57,9 @@ std::vector<std::size_t> changes_of_costs(const std::vector<double>& values) {
   return changes;
 }
 
-CellHistory history_of(const std::vector<HistoryEntry>& history, const std::string& key) {
-  CellHistory found{key, metric_of(history, key), {}, {}, ""};
-  std::replace(found.name.begin(), found.name.end(), '\t', ' ');
-  std::string status;
+CellHistory history_of(const std::vector<HistoryEntry>& history, const CellKey& key) {
+  CellHistory found{key.text(" "), metric_of(history, key), {}, {}, ""};
+  std::optional<Status> status;
   for (const HistoryEntry& entry : history) {
     const auto cell = entry.cells.find(key);
     const bool is_there = cell != entry.cells.end();
@@ -69,8 +68,8 @@ CellHistory history_of(const std::vector<HistoryEntry>& history, const std::stri
     found.error.values.push_back(has_error ? metric->second : kNone);
     const bool is_comparable = is_there && entry.machine == history.back().machine && cell->second.cost;
     found.cost.values.push_back(is_comparable ? *cell->second.cost : kNone);
-    if (is_there && !status.empty() && cell->second.status != status)
-      found.status_change = fmt::format("{} -> {} at {}", status, cell->second.status, entry.commit);
+    if (is_there && status && cell->second.status != *status)
+      found.status_change = fmt::format("{} -> {} at {}", word_of(*status), word_of(cell->second.status), entry.commit);
     if (is_there) status = cell->second.status;
   }
   found.error.changes = changes_of_errors(found.error.values);
@@ -96,14 +95,15 @@ LevelChange level_change(const CellSeries& series, std::size_t which) {
 
 std::vector<CellHistory> cell_histories(const std::vector<HistoryEntry>& history,
                                         const std::vector<std::string>& words) {
-  std::set<std::string> keys;
+  std::set<CellKey> keys;
   for (const HistoryEntry& entry : history) {
     for (const auto& [key, cell] : entry.cells) keys.insert(key);
   }
   std::vector<CellHistory> found;
-  for (const std::string& key : keys) {
+  for (const CellKey& key : keys) {
+    const std::string name = key.text(" ");
     const bool is_named = std::any_of(words.begin(), words.end(),
-                                      [&](const std::string& word) { return key.find(word) != std::string::npos; });
+                                      [&](const std::string& word) { return name.find(word) != std::string::npos; });
     if (words.empty() || is_named) found.push_back(history_of(history, key));
   }
   return found;

@@ -44,7 +44,7 @@ bool operator==(const StepSize& a, const StepSize& b) {
   return std::abs(a.seconds - b.seconds) <= kRounding * std::max(a.seconds, b.seconds);
 }
 
-std::string kind_of(const Gate& gate) { return gate.regression ? "regression" : "bound"; }
+std::string kind_of(const Gate& gate) { return gate.regression() ? "regression" : "bound"; }
 
 StepSize parse_step_size(const std::string& text, const std::string& what) {
   constexpr std::size_t kLongest = 40;  // it goes into tables and file names; 17 digits over 17 digits fit

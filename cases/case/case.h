@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/scene/scene.h"
@@ -18,20 +19,40 @@ struct StepSize {
 // rounding that counts steps. Runs then have the same length up to that part of a step.
 bool operator==(const StepSize& a, const StepSize& b);
 
-// The limit of a metric. Exactly one limit is set (an empty better_than is none), or min and max together. All but
-// `regression` are bounds, which hold for any engine. A regression guards a measured value against change, and stands
-// beside the engine (cases/gates/regression.h).
+// The limits of a metric. Bounds, orders and rankings hold for any engine. A regression guards a measured value against
+// change, and its recorded values stand beside the engine (cases/gates/regression.h).
+struct BoundLimit {
+  std::optional<double> max = {}, min = {}, equals = {};  // max, min or both, or equals alone
+};
+struct OrderLimit {
+  double at_least = 0;
+  bool is_declared = false;  // at_least is how far a run may fall short of the order that its method declares
+};
+struct RankingLimit {
+  std::string better_than;  // a run's name, at the same dt: the value must be better than its value
+};
+struct RegressionLimit {
+  double factor = 0;  // above 1: by how much the value may differ from the recorded one, either way
+};
+using GateLimit = std::variant<BoundLimit, OrderLimit, RankingLimit, RegressionLimit>;
+
 struct Gate {
   std::string metric;                // a row of metrics.cpp
   std::vector<std::string> engines;  // run names; empty: every engine that supports the scene
   std::vector<StepSize> dt;          // empty: every dt of the run
-  std::optional<double> max, min, equals, at_least_order;
-  bool declares_order = false;       // at_least_order is how far a run may fall short of what its method declares
-  std::optional<double> regression;  // > 1: by how much the value may differ from the one recorded, either way
-  std::string better_than = "";      // a run's name, at the same dt: the value must be better than its value
+  GateLimit limit;
   std::string because;
   std::string where;          // "file:line:column" of the gate
   bool is_of_family = false;  // of the folder's family.toml: of a case where it meets no cell it says nothing
+
+  const OrderLimit* order() const { return std::get_if<OrderLimit>(&limit); }
+  const RankingLimit* ranking() const { return std::get_if<RankingLimit>(&limit); }
+  const RegressionLimit* regression() const { return std::get_if<RegressionLimit>(&limit); }
+  // All empty for another kind of limit.
+  BoundLimit bound() const {
+    const auto* own = std::get_if<BoundLimit>(&limit);
+    return own ? *own : BoundLimit();
+  }
 };
 
 // "bound" or "regression", as reports call them.

@@ -56,9 +56,9 @@ bool is_about(const GateTable& table, const Case& definition, const Keys& scene_
 
 bool is_instead_of(const Gate& own, const Gate& of_family) {
   if (own.metric != of_family.metric) return false;
-  if (own.at_least_order && of_family.at_least_order) return true;
-  if (own.regression && of_family.regression) return true;
-  return !own.better_than.empty() && own.better_than == of_family.better_than;
+  if (own.limit.index() != of_family.limit.index()) return false;
+  if (const RankingLimit* ranking = own.ranking()) return ranking->better_than == of_family.ranking()->better_than;
+  return !std::holds_alternative<BoundLimit>(own.limit);
 }
 
 // False if no run is left.
@@ -92,7 +92,7 @@ void add_family_gates(const Family& family, const Vocabulary& words, Case& defin
   const Keys scene_words = words_of(definition.scene);
   for (const GateTable& table : family.gates) {
     const auto steps = selected_steps(table.steps, definition.dt);
-    const std::size_t least = table.gate.at_least_order ? 2 : 1;
+    const std::size_t least = table.gate.order() ? 2 : 1;
     if (!is_about(table, definition, scene_words) || steps.size() < least) continue;
     for (const std::string& metric : table.metrics) {
       Gate gate = table.gate;

@@ -84,27 +84,29 @@ void read_better_than(const TableReader& table, const TomlValue& value, const Vo
   if (const std::string* ranks_nothing = cross_metric_of(out, words))
     value.refuse(fmt::format("{} does not rank runs; give max, min or equals", *ranks_nothing));
   Gate& gate = out.gate;
-  gate.better_than = read_run(value, words);
+  const std::string other = read_run(value, words);
+  gate.limit = RankingLimit{other};
   if (gate.engines.empty()) value.refuse("a ranking names the runs that are better; give engines");
   for (const TomlValue& item : table.at("engines").items()) {
-    if (item.text() == gate.better_than)
-      value.refuse(fmt::format("found {}, which is among engines; no run is better than itself", gate.better_than));
+    if (item.text() == other)
+      value.refuse(fmt::format("found {}, which is among engines; no run is better than itself", other));
   }
-  std::erase(gate.engines, gate.better_than);  // a selector took it
+  std::erase(gate.engines, other);  // a selector took it
   if (gate.engines.empty()) value.refuse("no other run is among engines");
 }
 
 void read_order(const TomlValue& value, const Vocabulary& words, GateTable& out) {
-  out.gate.declares_order = value.is_text() && value.choice({"declared"}) == "declared";
-  out.gate.at_least_order = out.gate.declares_order ? kShortOfDeclaredOrder : value.positive();
+  const bool is_declared = value.is_text() && value.choice({"declared"}) == "declared";
+  out.gate.limit = OrderLimit{is_declared ? kShortOfDeclaredOrder : value.positive(), is_declared};
   out.order_label = value.label();
   if (const std::string* cross = cross_metric_of(out, words))
     value.refuse(fmt::format("{} has no order; give max, min or equals", *cross));
 }
 
 void read_regression(const TomlValue& value, const Vocabulary& words, GateTable& out) {
-  out.gate.regression = value.number();
-  if (!(*out.gate.regression > 1)) value.refuse_found("a number above 1: by how much a value may differ");
+  const double factor = value.number();
+  out.gate.limit = RegressionLimit{factor};
+  if (!(factor > 1)) value.refuse_found("a number above 1: by how much a value may differ");
   if (cross_metric_of(out, words))
     value.refuse("what is measured across runs is not recorded; give max, min or equals");
 }
@@ -115,23 +117,25 @@ std::optional<double> number_if_given(const TableReader& table, const char* key)
 }
 
 void read_limits(const TableReader& table, const Vocabulary& words, GateTable& out) {
-  Gate& gate = out.gate;
-  gate.max = number_if_given(table, "max");
-  gate.min = number_if_given(table, "min");
-  gate.equals = number_if_given(table, "equals");
-  if (const auto order = table.find("at_least_order")) read_order(*order, words, out);
-  if (const auto factor = table.find("regression")) read_regression(*factor, words, out);
-  if (const auto other = table.find("better_than")) read_better_than(table, *other, words, out);
-  const int limits = (gate.max || gate.min) + gate.equals.has_value() + gate.at_least_order.has_value() +
-                     gate.regression.has_value() + !gate.better_than.empty();
+  const BoundLimit bound{number_if_given(table, "max"), number_if_given(table, "min"),
+                         number_if_given(table, "equals")};
+  out.gate.limit = bound;
+  const auto order = table.find("at_least_order");
+  const auto factor = table.find("regression");
+  const auto other = table.find("better_than");
+  if (order) read_order(*order, words, out);
+  if (factor) read_regression(*factor, words, out);
+  if (other) read_better_than(table, *other, words, out);
+  const int limits =
+      (bound.max || bound.min) + bound.equals.has_value() + order.has_value() + factor.has_value() + other.has_value();
   if (limits != 1) {
     table.refuse(
         fmt::format("found {}; allowed: one of max, min, equals, at_least_order, better_than, regression, or min and "
                     "max together",
                     limits == 0 ? "no bound" : "bounds that do not go together"));
   }
-  if (gate.min && gate.max && *gate.min > *gate.max) {
-    table.at("min").refuse(fmt::format("found {}, more than max, {}", *gate.min, *gate.max));
+  if (bound.min && bound.max && *bound.min > *bound.max) {
+    table.at("min").refuse(fmt::format("found {}, more than max, {}", *bound.min, *bound.max));
   }
 }
 
@@ -228,7 +232,7 @@ std::vector<Gate> gates_of(const GateTable& table, const Case& of) {
   Gate gate = table.gate;
   const auto steps = selected_steps(table.steps, of.dt);
   if (!table.steps.empty()) gate.dt = steps;
-  if (gate.at_least_order && steps.size() < 2)
+  if (gate.order() && steps.size() < 2)
     throw InputError(table.order_label + ": an order is observed over two step sizes or more");
   std::vector<Gate> gates;
   for (const std::string& metric : table.metrics) {

@@ -11,7 +11,7 @@ bool is_same_run(const RunName& a, const RunName& b) {
 
 GateSelection::GateSelection(const Gate& gate, const std::vector<EngineInfo>& engines) : dt_(gate.dt) {
   for (const std::string& name : gate.engines) runs_.push_back(parse_run_name(name, engines));
-  if (!gate.better_than.empty()) better_than_ = parse_run_name(gate.better_than, engines);
+  if (const RankingLimit* ranking = gate.ranking()) better_than_ = parse_run_name(ranking->better_than, engines);
 }
 
 bool GateSelection::takes(const RunName& run) const {
@@ -29,7 +29,7 @@ bool GateSelection::takes(const StepSize& dt) const {
 
 std::vector<std::string> runs_named_by(const Gate& gate) {
   std::vector<std::string> names = gate.engines;
-  if (!gate.better_than.empty()) names.push_back(gate.better_than);
+  if (const RankingLimit* ranking = gate.ranking()) names.push_back(ranking->better_than);
   return names;
 }
 

@@ -25,7 +25,7 @@ bool can_meet(const KnownDeviation& row, const Gate& gate, const Case& definitio
       std::any_of(row.runs.begin(), row.runs.end(), [&](const RunName& run) { return selection.takes(run); });
   const bool has_step = std::any_of(definition.dt.begin(), definition.dt.end(),
                                     [&](const StepSize& dt) { return selection.takes(dt) && names_step(row, dt); });
-  return !gate.regression && gate.metric == row.metric && has_run && has_step;
+  return !gate.regression() && gate.metric == row.metric && has_run && has_step;
 }
 
 const RunName* run_called(const Results& grid, const std::string& name) {
@@ -35,7 +35,7 @@ const RunName* run_called(const Results& grid, const std::string& name) {
 
 bool speaks_of(const KnownDeviation& row, const GateResult& answer, const CaseResult& result, const Results& grid) {
   const RunName* run = run_called(grid, answer.engine);
-  if (result.definition.gates[answer.gate].regression) return false;  // also guards the known value
+  if (result.definition.gates[answer.gate].regression()) return false;  // also guards the known value
   if (row.case_id != result.definition.id || row.metric != result.definition.gates[answer.gate].metric) return false;
   if (!run || !names_run(row, *run)) return false;
   if (answer.dt.empty()) return row.dt.empty();

@@ -12,14 +12,17 @@ namespace {
 
 std::string limit_of(const Gate& gate) {
   const std::string unit = unit_after(gate.metric);
-  if (gate.declares_order) return "the order that its method declares, less a tenth";
-  if (gate.at_least_order) return fmt::format("order at least {:g}", *gate.at_least_order);
-  if (gate.equals) return fmt::format("equal to {:.17g}{}", *gate.equals, unit);
-  if (gate.regression) return fmt::format("within {:g} times the recorded value", *gate.regression);
-  if (!gate.better_than.empty()) return "better than " + gate.better_than;
+  if (const OrderLimit* order = gate.order())
+    return order->is_declared ? "the order that its method declares, less a tenth"
+                              : fmt::format("order at least {:g}", order->at_least);
+  if (const auto* regression = gate.regression())
+    return fmt::format("within {:g} times the recorded value", regression->factor);
+  if (const RankingLimit* ranking = gate.ranking()) return "better than " + ranking->better_than;
+  const auto [max, min, equals] = gate.bound();
+  if (equals) return fmt::format("equal to {:.17g}{}", *equals, unit);
   std::string text;
-  if (gate.min) text = fmt::format("at least {:g}{}", *gate.min, unit);
-  if (gate.max) text += fmt::format("{}at most {:g}{}", text.empty() ? "" : ", ", *gate.max, unit);
+  if (min) text = fmt::format("at least {:g}{}", *min, unit);
+  if (max) text += fmt::format("{}at most {:g}{}", text.empty() ? "" : ", ", *max, unit);
   return text;
 }
 
@@ -33,11 +36,11 @@ std::string worst_text(const GateResult& answer, const Scene& scene) {
 Failure of_gate(const CaseResult& result, const GateResult& answer) {
   const Gate& gate = result.definition.gates[answer.gate];
   Failure row{result.definition.id, answer.engine, answer.dt, gate.metric, "", limit_of(gate), "", "", gate.where};
-  const std::string unit = gate.at_least_order ? "" : unit_after(gate.metric);
+  const std::string unit = gate.order() ? "" : unit_after(gate.metric);
   row.found = answer.value ? fmt::format("{:.6g}{}", *answer.value, unit) : word_of(answer.answer);
   row.worst = worst_text(answer, result.definition.scene);
   row.because = answer.answer == GateAnswer::failed && answer.value ? gate.because : answer.text;
-  if (gate.regression) row.what += " (regression)";
+  if (gate.regression()) row.what += " (regression)";
   if (answer.answer == GateAnswer::unexpected_pass) row.what += ", unexpected pass";
   return row;
 }

@@ -37,12 +37,12 @@ class GateCheck {
     } else if (is_spread()) {
       fail_what_has_no_result();
       for (const Spread& spread : result_.spreads) check_spread(spread);
-    } else if (gate_.at_least_order) {
+    } else if (gate_.order()) {
       for (std::size_t run = 0; run < grid_.runs.size(); ++run) check_order(run);
     } else {
       for (Cell& cell : result_.cells) {
         if (!selects(cell)) continue;
-        gate_.regression ? check_regression(cell) : gate_.better_than.empty() ? check_cell(cell) : check_ranking(cell);
+        gate_.regression() ? check_regression(cell) : gate_.ranking() ? check_ranking(cell) : check_cell(cell);
       }
     }
     if (result_.gates.size() == before && !gate_.is_of_family && (asked_ == Asked::all || is_asked())) {
@@ -72,14 +72,14 @@ class GateCheck {
       if (selects(cell)) ++steps[cell.run];
     }
     if (is_spread()) return steps.size() > 1;
-    if (!gate_.better_than.empty()) {
-      const RunName other = parse_run_name(gate_.better_than, grid_.engines);
+    if (const RankingLimit* ranking = gate_.ranking()) {
+      const RunName other = parse_run_name(ranking->better_than, grid_.engines);
       const auto is_there = [&](const Cell& cell) {
         return cell.status != Status::unsupported && is_same_run(grid_.runs[cell.run], other);
       };
       if (std::none_of(result_.cells.begin(), result_.cells.end(), is_there)) return false;
     }
-    const std::size_t fewest = gate_.at_least_order || gate_.metric == "observed_order" ? 2 : 1;
+    const std::size_t fewest = gate_.order() || gate_.metric == "observed_order" ? 2 : 1;
     return std::any_of(steps.begin(), steps.end(), [&](const auto& of_run) { return of_run.second >= fewest; });
   }
   bool is_spread() const { return gate_.metric == "spread" || gate_.metric == "spread_orientation"; }
@@ -175,8 +175,8 @@ class GateCheck {
                  fmt::format("{} is {:.6g}{}, and none is recorded", head, metric->value, unit_),
                  blew_up ? std::nullopt : std::optional(metric->value), metric->worst);
     }
-    const std::string change =
-        blew_up ? "of no meaning, for the run is " + cell.reason : change_from(*was, metric->value, *gate_.regression);
+    const std::string change = blew_up ? "of no meaning, for the run is " + cell.reason
+                                       : change_from(*was, metric->value, gate_.regression()->factor);
     const std::string both = fmt::format("{} is {:.6g}{}, was {:.6g}{}", head, metric->value, unit_, *was, unit_);
     if (!change.empty())
       return fail(cell, fmt::format("{}: {}; {}{}", both, change, worst_of(*metric), because()), *metric);
@@ -185,7 +185,7 @@ class GateCheck {
 
   // A run that blew up is worse than any that did not; of two that did neither is better.
   void check_ranking(Cell& cell) {
-    const RunName other_run = parse_run_name(gate_.better_than, grid_.engines);
+    const RunName other_run = parse_run_name(gate_.ranking()->better_than, grid_.engines);
     const auto other = std::find_if(result_.cells.begin(), result_.cells.end(), [&](const Cell& c) {
       return is_same_run(grid_.runs[c.run], other_run) && c.dt == cell.dt;
     });
@@ -211,24 +211,23 @@ class GateCheck {
   // for.
   std::string fault_of(const Cell& cell, const MetricValue& metric) const {
     const std::string fault = fault_of(metric.value, allowance(cell.run, cell.dt));
-    const bool asks_for_good = is_higher_better(gate_.metric) ? gate_.min.has_value() : gate_.max.has_value();
+    const BoundLimit bound = gate_.bound();
+    const bool asks_for_good = is_higher_better(gate_.metric) ? bound.min.has_value() : bound.max.has_value();
     if (!fault.empty() || !asks_for_good || cell.status != Status::diverged) return fault;
     return "is of no meaning, for the run is " + cell.reason;
   }
 
   // Comparisons are written so that a value that is no number never holds.
   std::string fault_of(double value, double allowance) const {
-    if (gate_.max && !(value <= *gate_.max + allowance)) {
-      return fmt::format("is {:.6g}{}, above the limit of {:g}{}{}", value, unit_, *gate_.max, unit_,
-                         allowed(allowance));
+    const auto [max, min, equals] = gate_.bound();
+    if (max && !(value <= *max + allowance)) {
+      return fmt::format("is {:.6g}{}, above the limit of {:g}{}{}", value, unit_, *max, unit_, allowed(allowance));
     }
-    if (gate_.min && !(value >= *gate_.min - allowance)) {
-      return fmt::format("is {:.6g}{}, below the limit of {:g}{}{}", value, unit_, *gate_.min, unit_,
-                         allowed(allowance));
+    if (min && !(value >= *min - allowance)) {
+      return fmt::format("is {:.6g}{}, below the limit of {:g}{}{}", value, unit_, *min, unit_, allowed(allowance));
     }
-    if (gate_.equals &&
-        !(std::abs(value - *gate_.equals) <= allowance + kRounding * std::max(1.0, std::abs(*gate_.equals)))) {
-      return fmt::format("is {:.17g}{}, not {:.17g}{} to within {:g}{}", value, unit_, *gate_.equals, unit_, kRounding,
+    if (equals && !(std::abs(value - *equals) <= allowance + kRounding * std::max(1.0, std::abs(*equals)))) {
+      return fmt::format("is {:.17g}{}, not {:.17g}{} to within {:g}{}", value, unit_, *equals, unit_, kRounding,
                          allowed(allowance));
     }
     return "";
@@ -290,12 +289,13 @@ class GateCheck {
 
   // The required order: the gate's own, or the one that the method declares. An adaptive method declares none.
   std::optional<double> wanted_order(std::size_t run) const {
-    if (!gate_.declares_order) return gate_.at_least_order;
+    const OrderLimit& order = *gate_.order();
+    if (!order.is_declared) return order.at_least;
     const RunName& name = grid_.runs[run];
     for (const EngineInfo& engine : grid_.engines) {
       if (engine.name != name.engine) continue;
       const MethodInfo& method = method_of(engine, name.settings);
-      if (!method.adaptive) return method.order - *gate_.at_least_order;
+      if (!method.adaptive) return method.order - order.at_least;
     }
     return std::nullopt;
   }
@@ -304,7 +304,7 @@ class GateCheck {
   // only rounding remains.
   bool shows_order(double error, double of_precision) const {
     constexpr double kLarge = 0.03, kRoundings = 1e-10;  // m, rad: the second after thousands of steps
-    return !gate_.declares_order ||
+    return !gate_.order()->is_declared ||
            (error < kLarge && error > std::max({kRoundings, 100 * error_floor(result_), of_precision}));
   }
 
@@ -319,7 +319,7 @@ class GateCheck {
       const auto found = cell.metrics.find(gate_.metric);
       if (found != cell.metrics.end() && !found->second.not_applicable.empty()) continue;
       // A step that is too long for a method says nothing of the order that it declares.
-      if (gate_.declares_order && cell.status == Status::diverged) continue;
+      if (gate_.order()->is_declared && cell.status == Status::diverged) continue;
       if (found == cell.metrics.end() || (cell.status != Status::pass && cell.status != Status::fail)) {
         add(grid_.runs[run].text, "", GateAnswer::failed,
             fmt::format("the order of {} of {} cannot be judged, for the cell at dt = {} is {}: {}", gate_.metric,

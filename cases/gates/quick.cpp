@@ -25,7 +25,7 @@ bool narrow(Gate& gate, const Case& definition, const std::vector<EngineInfo>& e
     if (is_quick(definition, dt)) quick.push_back(dt);
     all_are_quick &= is_quick(definition, dt);
   }
-  const bool is_over_several = gate.at_least_order || gate.metric == "observed_order";
+  const bool is_over_several = gate.order() || gate.metric == "observed_order";
   gate.dt = quick;
   return is_over_several ? all_are_quick : !quick.empty();
 }

@@ -18,11 +18,6 @@ namespace rigor {
 namespace {
 
 namespace fs = std::filesystem;
-std::string key_of(const std::string& case_id, const RunName& run, double dt, const std::string& metric) {
-  std::string key = fmt::format("{}\t{}:{}", case_id, run.engine, run.settings.method);
-  for (const auto& [name, value] : run.settings.options) key += fmt::format(",{}={}", name, value);
-  return key + fmt::format("\t{}\t{:.9e}\t{}", run.settings.track == Track::stock, dt, metric);
-}
 
 // One line of an engine's file, the errors of which have its place before them.
 class LineReader {
@@ -122,6 +117,14 @@ Lines found_values(const Json& results, const std::string& engine, int& left_out
 double rounded_to_four(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
 }  // namespace
+
+RecordedValues::Key RecordedValues::key_of(const std::string& case_id, const RunName& run, double dt,
+                                           const std::string& metric) {
+  const Settings& settings = run.settings;
+  return {
+      case_id, run.engine, settings.method, settings.options, settings.track == Track::stock, fmt::format("{:.9e}", dt),
+      metric};
+}
 
 std::optional<double> RecordedValues::find(const std::string& case_id, const RunName& run, double dt,
                                            const std::string& metric) const {

@@ -4,6 +4,7 @@
 // `rigor baseline --regression <name> out/results.json` writes the file again; reviewers check its difference.
 #pragma once
 
+#include <compare>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,7 +17,7 @@ namespace rigor {
 
 inline constexpr const char* kRegressionFile = "regression.jsonl";
 
-// The values recorded, by case, run, step and metric.
+// The values recorded, by case, run, step and metric. A run is known by its engine, method, options and track.
 class RecordedValues {
  public:
   std::optional<double> find(const std::string& case_id, const RunName& run, double dt,
@@ -25,7 +26,15 @@ class RecordedValues {
   bool add(const std::string& case_id, const RunName& run, double dt, const std::string& metric, double value);
 
  private:
-  std::map<std::string, double> values_;
+  struct Key {
+    std::string case_id, engine, method;
+    std::map<std::string, std::string> options;
+    bool is_stock;
+    std::string dt, metric;  // dt to ten digits
+    auto operator<=>(const Key&) const = default;
+  };
+  static Key key_of(const std::string& case_id, const RunName& run, double dt, const std::string& metric);
+  std::map<Key, double> values_;
 };
 
 // Reads every regression.jsonl in a folder of `adapters_dir`. Throws InputError, "file:line:column: ...", for a line of

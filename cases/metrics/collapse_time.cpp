@@ -19,8 +19,12 @@ MetricResult measure_collapse_time(const JudgedRun& run) {
 }  // namespace
 
 MetricRow collapse_time() {
-  return {"collapse_time", "s", "how long a structure built to stand stands; higher is better", measure_collapse_time,
-          true};
+  return {.name = "collapse_time",
+          .unit = "s",
+          .summary = "how long a structure built to stand stands; higher is better",
+          .measure = measure_collapse_time,
+          .needs = {},
+          .higher_is_better = true};
 }
 
 }  // namespace rigor

@@ -37,13 +37,11 @@ MetricResult measure_balance(const JudgedRun& run) {
 }  // namespace
 
 MetricRow contact_balance() {
-  return {"contact_balance",
-          "N",
-          "largest force on a body that its reported contacts and loads leave unexplained",
-          measure_balance,
-          false,
-          false,
-          true};
+  return {.name = "contact_balance",
+          .unit = "N",
+          .summary = "largest force on a body that its reported contacts and loads leave unexplained",
+          .measure = measure_balance,
+          .needs = {.contacts = true}};
 }
 
 }  // namespace rigor

@@ -40,13 +40,11 @@ MetricResult measure_force_error(const JudgedRun& run) {
 }  // namespace
 
 MetricRow contact_force_error() {
-  return {"contact_force_error",
-          "N",
-          "largest difference of a pair's reported contact force from that which the truth's motion implies",
-          measure_force_error,
-          false,
-          false,
-          true};
+  return {.name = "contact_force_error",
+          .unit = "N",
+          .summary = "largest difference of a pair's reported contact force from that which the truth's motion implies",
+          .measure = measure_force_error,
+          .needs = {.truth = true, .contacts = true}};
 }
 
 }  // namespace rigor

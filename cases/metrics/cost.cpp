@@ -20,6 +20,13 @@ MetricResult measure_cost(const JudgedRun& run) {
 
 }  // namespace
 
-MetricRow cost() { return {"cost", "s/s", "CPU seconds that the steps of one simulated second take", measure_cost}; }
+MetricRow cost() {
+  return {.name = "cost",
+          .unit = "s/s",
+          .summary = "CPU seconds that the steps of one simulated second take",
+          .measure = measure_cost,
+          .needs = {},
+          .is_compared = false};
+}
 
 }  // namespace rigor

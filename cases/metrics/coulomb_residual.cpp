@@ -32,13 +32,11 @@ MetricResult measure_coulomb(const JudgedRun& run) {
 }  // namespace
 
 MetricRow coulomb_residual() {
-  return {"coulomb_residual",
-          "N",
-          "farthest that a reported contact force is outside the cone of friction",
-          measure_coulomb,
-          false,
-          false,
-          true};
+  return {.name = "coulomb_residual",
+          .unit = "N",
+          .summary = "farthest that a reported contact force is outside the cone of friction",
+          .measure = measure_coulomb,
+          .needs = {.contacts = true}};
 }
 
 }  // namespace rigor

@@ -28,7 +28,11 @@ MetricResult measure_creep(const JudgedRun& run) {
 }  // namespace
 
 MetricRow creep() {
-  return {"creep", "m", "how far a body built to stand still has moved from its start", measure_creep};
+  return {.name = "creep",
+          .unit = "m",
+          .summary = "how far a body built to stand still has moved from its start",
+          .measure = measure_creep,
+          .needs = {}};
 }
 
 }  // namespace rigor

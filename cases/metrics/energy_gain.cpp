@@ -25,9 +25,11 @@ MetricResult measure_energy_gain(const JudgedRun& run) {
 }  // namespace
 
 MetricRow energy_gain() {
-  return {"energy_gain", "1",
-          "largest rise of the energy above the lowest before, relative to the largest kinetic energy",
-          measure_energy_gain};
+  return {.name = "energy_gain",
+          .unit = "1",
+          .summary = "largest rise of the energy above the lowest before, relative to the largest kinetic energy",
+          .measure = measure_energy_gain,
+          .needs = {}};
 }
 
 }  // namespace rigor

@@ -26,17 +26,25 @@ MetricResult measure_p_value(const JudgedRun& run) { return measured(run, &Energ
 }  // namespace
 
 MetricRow ensemble_distance() {
-  return {
-      "ensemble_distance", "1",
-      "energy distance between the final places of bodies and the reference's, for many starts 1e-6 apart: 0 equal, 1 "
-      "disjoint",
-      measure_distance};
+  return {.name = "ensemble_distance",
+          .unit = "1",
+          .summary =
+              "energy distance between the final places of bodies and the reference's, for many starts 1e-6 apart: 0 "
+              "equal, 1 "
+              "disjoint",
+          .measure = measure_distance,
+          .needs = {.ensemble = true}};
 }
 
 MetricRow ensemble_p_value() {
-  return {"ensemble_p_value", "1",
-          "probability that two ensembles of one distribution differ as much as the run's and the reference's",
-          measure_p_value, true};
+  return {
+      .name = "ensemble_p_value",
+      .unit = "1",
+      .summary = "probability that two ensembles of one distribution differ as much as the run's and the reference's",
+      .measure = measure_p_value,
+      .needs = {.ensemble = true},
+      .higher_is_better = true,
+      .is_compared = false};
 }
 
 }  // namespace rigor

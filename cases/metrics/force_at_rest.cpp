@@ -80,19 +80,19 @@ MetricResult measure_ripple(const JudgedRun& run) {
 }  // namespace
 
 MetricRow force_peak() {
-  return {"force_peak", "1",   "largest contact force of a pair in a scene at rest, over its static force",
-          measure_peak, false, false,
-          true};
+  return {.name = "force_peak",
+          .unit = "1",
+          .summary = "largest contact force of a pair in a scene at rest, over its static force",
+          .measure = measure_peak,
+          .needs = {.truth = true, .contacts = true}};
 }
 
 MetricRow force_ripple() {
-  return {"force_ripple",
-          "1",
-          "standard deviation of a pair's contact force over its mean, in a scene at rest",
-          measure_ripple,
-          false,
-          false,
-          true};
+  return {.name = "force_ripple",
+          .unit = "1",
+          .summary = "standard deviation of a pair's contact force over its mean, in a scene at rest",
+          .measure = measure_ripple,
+          .needs = {.truth = true, .contacts = true}};
 }
 
 }  // namespace rigor

@@ -22,9 +22,11 @@ MetricResult measure_internal_energy_drift(const JudgedRun& run) {
 }  // namespace
 
 MetricRow internal_energy_drift() {
-  return {"internal_energy_drift", "1",
-          "largest deviation of the energy about the centre of mass, relative to that of the start",
-          measure_internal_energy_drift};
+  return {.name = "internal_energy_drift",
+          .unit = "1",
+          .summary = "largest deviation of the energy about the centre of mass, relative to that of the start",
+          .measure = measure_internal_energy_drift,
+          .needs = {}};
 }
 
 }  // namespace rigor

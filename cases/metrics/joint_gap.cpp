@@ -14,13 +14,19 @@ MetricResult measure_gap(const JudgedRun& run, const std::string& what, OfJoint 
 }  // namespace
 
 MetricRow joint_gap() {
-  return {"joint_gap", "m", "largest distance between what a joint holds together",
-          [](const JudgedRun& run) { return measure_gap(run, "gap", &JointGeometry::gap); }};
+  return {.name = "joint_gap",
+          .unit = "m",
+          .summary = "largest distance between what a joint holds together",
+          .measure = [](const JudgedRun& run) { return measure_gap(run, "gap", &JointGeometry::gap); },
+          .needs = {}};
 }
 
 MetricRow joint_gap_rate() {
-  return {"joint_gap_rate", "m/s", "largest speed, as read, at which a joint's ends move where it holds them",
-          [](const JudgedRun& run) { return measure_gap(run, "gap's rate", &JointGeometry::gap_rate); }};
+  return {.name = "joint_gap_rate",
+          .unit = "m/s",
+          .summary = "largest speed, as read, at which a joint's ends move where it holds them",
+          .measure = [](const JudgedRun& run) { return measure_gap(run, "gap's rate", &JointGeometry::gap_rate); },
+          .needs = {}};
 }
 
 }  // namespace rigor

@@ -14,13 +14,20 @@ MetricResult measure_twist(const JudgedRun& run, const std::string& what, OfJoin
 }  // namespace
 
 MetricRow joint_twist() {
-  return {"joint_twist", "rad", "largest angle by which a joint's ends have turned where it does not let them",
-          [](const JudgedRun& run) { return measure_twist(run, "twist", &JointGeometry::twist); }};
+  return {.name = "joint_twist",
+          .unit = "rad",
+          .summary = "largest angle by which a joint's ends have turned where it does not let them",
+          .measure = [](const JudgedRun& run) { return measure_twist(run, "twist", &JointGeometry::twist); },
+          .needs = {}};
 }
 
 MetricRow joint_twist_rate() {
-  return {"joint_twist_rate", "rad/s", "largest rate, as read, at which a joint's ends turn where it does not let them",
-          [](const JudgedRun& run) { return measure_twist(run, "twist's rate", &JointGeometry::twist_rate); }};
+  return {
+      .name = "joint_twist_rate",
+      .unit = "rad/s",
+      .summary = "largest rate, as read, at which a joint's ends turn where it does not let them",
+      .measure = [](const JudgedRun& run) { return measure_twist(run, "twist's rate", &JointGeometry::twist_rate); },
+      .needs = {}};
 }
 
 }  // namespace rigor

@@ -91,21 +91,32 @@ struct MetricResult {
   std::string not_applicable;
 };
 
-// A row of the table in metrics.cpp.
+// What a metric compares the run with, or asks of the engine, beside the run's own motion.
+struct MetricNeeds {
+  bool truth = false;  // its expected values come from the truth, always or in some scenes
+  bool twin = false;   // the scheme replica (twin), see JudgedRun::twin
+  bool ensemble = false;
+  bool contacts = false;   // the engine's contact forces
+  bool reactions = false;  // the joint reactions that the engine reports
+};
+
+// A row of the table in metrics.cpp. It states all that the program knows of a metric.
 struct MetricRow {
   std::string name;
   std::string unit;     // "m", "rad", "1"
   std::string summary;  // one line
   MetricResult (*measure)(const JudgedRun& run);
+  MetricNeeds needs = {.truth = true};
   bool higher_is_better = false;
-  bool is_costly = false;       // many times a simulation's own work: a gate that does not name it does without
-  bool needs_contacts = false;  // the engine's contact forces
+  bool is_costly = false;   // many times a simulation's own work: measured only if a gate names it
+  bool is_compared = true;  // by `rigor compare`; a measured time differs from run to run
+  int headline = 0;         // its rank among the errors that summarise a case, from 1; 0: it is none
 };
 
-const std::vector<MetricRow>& metrics();  // alphabetical
-
-// The names of those that judge contact forces. An engine is asked for its contacts only where one of them is needed.
-const std::set<std::string>& contact_metrics();
+const std::vector<MetricRow>& metrics();                // alphabetical
+const MetricRow* find_metric(const std::string& name);  // null if there is none
+std::vector<std::string> metrics_that_need(bool MetricNeeds::*need);
+const std::vector<std::string>& headline_metrics();  // by rank
 
 // What is measured across the cells of a case; a gate may name it as it names a metric of one run.
 struct CrossMetricRow {

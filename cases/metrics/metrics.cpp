@@ -1,5 +1,7 @@
 #include "cases/metrics/metric.h"
 
+#include <algorithm>
+
 namespace rigor {
 
 // One declaration and one row a metric, alphabetical; each is defined in the file of its name.
@@ -92,11 +94,25 @@ const std::vector<MetricRow>& metrics() {
   return table;
 }
 
-const std::set<std::string>& contact_metrics() {
-  static const std::set<std::string> names = [] {
-    std::set<std::string> found;
+const MetricRow* find_metric(const std::string& name) {
+  const auto row = std::find_if(metrics().begin(), metrics().end(), [&](const auto& one) { return one.name == name; });
+  return row == metrics().end() ? nullptr : &*row;
+}
+
+std::vector<std::string> metrics_that_need(bool MetricNeeds::*need) {
+  std::vector<std::string> names;
+  for (const MetricRow& row : metrics())
+    if (row.needs.*need) names.push_back(row.name);
+  return names;
+}
+
+const std::vector<std::string>& headline_metrics() {
+  static const std::vector<std::string> names = [] {
+    std::map<int, std::string> ranked;
     for (const MetricRow& row : metrics())
-      if (row.needs_contacts) found.insert(row.name);
+      if (row.headline > 0) ranked[row.headline] = row.name;
+    std::vector<std::string> found;
+    for (const auto& [rank, name] : ranked) found.push_back(name);
     return found;
   }();
   return names;
@@ -113,9 +129,7 @@ const std::vector<CrossMetricRow>& cross_metrics() {
 }
 
 std::string unit_of_metric(const std::string& name) {
-  for (const MetricRow& row : metrics()) {
-    if (row.name == name) return row.unit;
-  }
+  if (const MetricRow* row = find_metric(name)) return row->unit;
   for (const CrossMetricRow& row : cross_metrics()) {
     if (row.name == name) return row.unit;
   }

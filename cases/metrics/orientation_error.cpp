@@ -26,8 +26,11 @@ MetricResult measure_orientation_error(const JudgedRun& run) {
 }  // namespace
 
 MetricRow orientation_error() {
-  return {"orientation_error", "rad", "largest angle of a body's orientation from the truth's",
-          measure_orientation_error};
+  return {.name = "orientation_error",
+          .unit = "rad",
+          .summary = "largest angle of a body's orientation from the truth's",
+          .measure = measure_orientation_error,
+          .headline = 2};
 }
 
 }  // namespace rigor

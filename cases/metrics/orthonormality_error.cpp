@@ -23,9 +23,11 @@ MetricResult measure_orthonormality_error(const JudgedRun& run) {
 }  // namespace
 
 MetricRow orthonormality_error() {
-  return {"orthonormality_error", "1",
-          "largest Frobenius norm of RᵀR - I of a body's orientation as the engine holds it",
-          measure_orthonormality_error};
+  return {.name = "orthonormality_error",
+          .unit = "1",
+          .summary = "largest Frobenius norm of RᵀR - I of a body's orientation as the engine holds it",
+          .measure = measure_orthonormality_error,
+          .needs = {}};
 }
 
 }  // namespace rigor

@@ -32,8 +32,11 @@ MetricResult measure_penetration(const JudgedRun& run) {
 }  // namespace
 
 MetricRow penetration() {
-  return {"penetration", "m", "deepest overlap of two bodies' shapes, beyond what the scene starts with",
-          measure_penetration};
+  return {.name = "penetration",
+          .unit = "m",
+          .summary = "deepest overlap of two bodies' shapes, beyond what the scene starts with",
+          .measure = measure_penetration,
+          .needs = {}};
 }
 
 }  // namespace rigor

@@ -214,12 +214,11 @@ MetricResult measure_phase_error(const JudgedRun& run) {
 }  // namespace
 
 MetricRow phase_error() {
-  return {"phase_error",
-          "s",
-          "the shift in time that fits the run best, but for the ends: it lags (+) or leads (-) the truth",
-          measure_phase_error,
-          false,
-          true};
+  return {.name = "phase_error",
+          .unit = "s",
+          .summary = "the shift in time that fits the run best, but for the ends: it lags (+) or leads (-) the truth",
+          .measure = measure_phase_error,
+          .is_costly = true};
 }
 
 }  // namespace rigor

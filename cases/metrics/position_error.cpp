@@ -40,7 +40,11 @@ MetricResult measure_position_error(const JudgedRun& run) {
 }  // namespace
 
 MetricRow position_error() {
-  return {"position_error", "m", "largest distance of a body from where the truth has it", measure_position_error};
+  return {.name = "position_error",
+          .unit = "m",
+          .summary = "largest distance of a body from where the truth has it",
+          .measure = measure_position_error,
+          .headline = 1};
 }
 
 }  // namespace rigor

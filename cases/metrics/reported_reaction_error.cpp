@@ -74,20 +74,28 @@ MetricResult measure_reports(const JudgedRun& run, const ReactionPart& part) {
 }  // namespace
 
 MetricRow reported_reaction_error() {
-  return {"reported_reaction_error", "N",
-          "largest difference of the force that the engine says a joint carries from the truth's",
-          [](const JudgedRun& run) {
-            return measure_reports(run, {"reported force", &JointReaction::force, &UniqueReaction::force});
-          }};
+  return {.name = "reported_reaction_error",
+          .unit = "N",
+          .summary = "largest difference of the force that the engine says a joint carries from the truth's",
+          .measure =
+              [](const JudgedRun& run) {
+                return measure_reports(run, {"reported force", &JointReaction::force, &UniqueReaction::force});
+              },
+          .needs = {.truth = true, .reactions = true}};
 }
 
 MetricRow reported_reaction_torque_error() {
-  return {"reported_reaction_torque_error", "N m",
+  return {
+      .name = "reported_reaction_torque_error",
+      .unit = "N m",
+      .summary =
           "largest difference of the couple that the engine says a joint carries, about its point, from the truth's",
+      .measure =
           [](const JudgedRun& run) {
             if (!run.scene.joints.empty() && !any_holds_angle(run.scene)) return MetricResult{{}, kNoAngle};
             return measure_reports(run, {"reported couple", &JointReaction::couple, &UniqueReaction::couple});
-          }};
+          },
+      .needs = {.truth = true, .reactions = true}};
 }
 
 }  // namespace rigor

@@ -29,8 +29,11 @@ MetricResult measure_restitution_error(const JudgedRun& run) {
 }  // namespace
 
 MetricRow restitution_error() {
-  return {"restitution_error", "1", "largest error of an impact's separation speed over its approach speed",
-          measure_restitution_error};
+  return {.name = "restitution_error",
+          .unit = "1",
+          .summary = "largest error of an impact's separation speed over its approach speed",
+          .measure = measure_restitution_error,
+          .needs = {}};
 }
 
 }  // namespace rigor

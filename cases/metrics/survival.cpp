@@ -18,8 +18,12 @@ MetricResult measure_survival(const JudgedRun& run) {
 }  // namespace
 
 MetricRow survival() {
-  return {"survival", "s", "how long the run lasts before it blows up; its whole duration if it does not",
-          measure_survival, true};
+  return {.name = "survival",
+          .unit = "s",
+          .summary = "how long the run lasts before it blows up; its whole duration if it does not",
+          .measure = measure_survival,
+          .needs = {},
+          .higher_is_better = true};
 }
 
 }  // namespace rigor

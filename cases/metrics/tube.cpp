@@ -120,8 +120,12 @@ MetricResult measure_tube(const JudgedRun& run) {
 }  // namespace
 
 MetricRow tube() {
-  return {"tube",       "1",  "share of the time within 1 % of the truth's extent, within one dt; higher is better",
-          measure_tube, true, true};
+  return {.name = "tube",
+          .unit = "1",
+          .summary = "share of the time within 1 % of the truth's extent, within one dt; higher is better",
+          .measure = measure_tube,
+          .higher_is_better = true,
+          .is_costly = true};
 }
 
 }  // namespace rigor

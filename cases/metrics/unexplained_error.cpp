@@ -33,8 +33,11 @@ MetricResult measure_unexplained_error(const JudgedRun& run) {
 }  // namespace
 
 MetricRow unexplained_error() {
-  return {"unexplained_error", "m", "largest distance of a body from where the engine's own scheme, repeated, has it",
-          measure_unexplained_error};
+  return {.name = "unexplained_error",
+          .unit = "m",
+          .summary = "largest distance of a body from where the engine's own scheme, repeated, has it",
+          .measure = measure_unexplained_error,
+          .needs = {.twin = true}};
 }
 
 }  // namespace rigor

@@ -27,8 +27,11 @@ MetricResult measure_unexplained_rotation(const JudgedRun& run) {
 }  // namespace
 
 MetricRow unexplained_rotation() {
-  return {"unexplained_rotation", "rad", "largest angle of a body's orientation from its scheme's own, repeated",
-          measure_unexplained_rotation};
+  return {.name = "unexplained_rotation",
+          .unit = "rad",
+          .summary = "largest angle of a body's orientation from its scheme's own, repeated",
+          .measure = measure_unexplained_rotation,
+          .needs = {.twin = true}};
 }
 
 }  // namespace rigor

@@ -20,14 +20,22 @@ MetricResult measure_unexplained_velocity(const JudgedRun& run, RateOf rate, con
 }  // namespace
 
 MetricRow unexplained_spin() {
-  return {"unexplained_spin", "rad/s",
-          "largest difference of a body's angular velocity from its scheme's own, repeated",
-          [](const JudgedRun& run) { return measure_unexplained_velocity(run, &BodyColumns::angular_velocity, "w"); }};
+  return {
+      .name = "unexplained_spin",
+      .unit = "rad/s",
+      .summary = "largest difference of a body's angular velocity from its scheme's own, repeated",
+      .measure =
+          [](const JudgedRun& run) { return measure_unexplained_velocity(run, &BodyColumns::angular_velocity, "w"); },
+      .needs = {.twin = true}};
 }
 
 MetricRow unexplained_velocity() {
-  return {"unexplained_velocity", "m/s", "largest difference of a body's velocity from its scheme's own, repeated",
-          [](const JudgedRun& run) { return measure_unexplained_velocity(run, &BodyColumns::velocity, "v"); }};
+  return {
+      .name = "unexplained_velocity",
+      .unit = "m/s",
+      .summary = "largest difference of a body's velocity from its scheme's own, repeated",
+      .measure = [](const JudgedRun& run) { return measure_unexplained_velocity(run, &BodyColumns::velocity, "v"); },
+      .needs = {.twin = true}};
 }
 
 }  // namespace rigor

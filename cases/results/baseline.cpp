@@ -24,44 +24,28 @@ constexpr const char* kTitleKey = "rigor_baseline";
 constexpr int kForm = 2;
 constexpr int kOldestSchema = 1, kSchema = 2;  // of results.json; in version 1 non-finite numbers are null
 
-// A time is measured anew each run, and a p-value is as good as another until it is very small.
-bool is_compared(const std::string& metric) {
-  if (metric == "cost" || metric == "ensemble_p_value") return false;
-  return std::any_of(metrics().begin(), metrics().end(), [&](const MetricRow& row) { return row.name == metric; });
-}
-
-std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, "\t")); }
-
-std::vector<std::string> split(const std::string& key, const std::string& between) {
-  std::vector<std::string> parts;
-  std::size_t at = 0;
-  for (std::size_t end; (end = key.find(between, at)) != std::string::npos; at = end + between.size())
-    parts.push_back(key.substr(at, end - at));
-  parts.push_back(key.substr(at));
-  return parts;
-}
-
 std::string text_at(const Json& json, const char* key) { return json.at(key).get<std::string>(); }
 
-// A word of one of the enumerations; `place` is where it stands.
+CellKey key_at(const Json& json) { return {text_at(json, "case"), text_at(json, "engine"), text_at(json, "dt")}; }
+RunKey run_at(const Json& json) { return {text_at(json, "case"), text_at(json, "engine")}; }
+
+// Reads a word of one of the enumerations; `place` is where it stands.
 template <typename Word>
-std::string word_at(const Json& json, const char* key, Word last, const std::string& place) {
+Word word_at(const Json& json, const char* key, Word last, const std::string& place) {
   const std::string word = text_at(json, key);
   for (int i = 0; i <= static_cast<int>(last); ++i) {
-    if (word_of(static_cast<Word>(i)) == word) return word;
+    if (word_of(static_cast<Word>(i)) == word) return static_cast<Word>(i);
   }
   throw InputError(fmt::format("{}: there is no {} '{}'", place, key, word));
 }
-std::string status_at(const Json& json, const std::string& place) {
-  return word_at(json, "status", Status::invalid, place);
-}
-std::string answer_at(const Json& json, const std::string& place) {
+Status status_at(const Json& json, const std::string& place) { return word_at(json, "status", Status::invalid, place); }
+GateAnswer answer_at(const Json& json, const std::string& place) {
   return word_at(json, "answer", GateAnswer::not_recorded, place);
 }
 
-std::string verdict_at(const Json& json, const char* key, const std::string& place) {
+Verdict verdict_at(const Json& json, const char* key, const std::string& place) {
   try {
-    return word_of(verdict_of(text_at(json, key)));
+    return verdict_of(text_at(json, key));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", place, error.what()));
   }
@@ -83,10 +67,11 @@ const Json& object_at(const Json& json, const char* key, const std::string& plac
 }
 
 Baseline::Cell cell_from(const Json& json, const std::string& place) {
-  Baseline::Cell cell{status_at(json, place), "", {}, {}};
+  Baseline::Cell cell{status_at(json, place)};
   if (const Json& verdict = json.at("verdict"); !verdict.is_null()) cell.verdict = verdict_at(verdict, "word", place);
   for (const auto& [name, metric] : object_at(json, "metrics", place).items()) {
-    if (!is_compared(name)) continue;
+    const MetricRow* row = find_metric(name);
+    if (!row || !row->is_compared) continue;
     if (!metric.contains("value")) {
       if (text_at(metric, "not_applicable").starts_with("not measured")) cell.not_asked.insert(name);
       continue;
@@ -101,11 +86,11 @@ Baseline::Cell cell_from(const Json& json, const std::string& place) {
 void add_gates(const Json& json, const std::string& place, Baseline& out) {
   for (const Json& gate : json.at("gates")) {
     for (const Json& answer : gate.at("answers")) {
-      const std::string word = answer_at(answer, fmt::format("{}: gate of {}", place, text_at(gate, "metric")));
-      if (word == word_of(GateAnswer::not_recorded)) continue;
-      std::string& worst = out.gates[joined(
-          {text_at(json, "id"), text_at(gate, "metric"), text_at(answer, "engine"), text_at(answer, "dt")})];
-      if (worst.empty() || worst == word_of(GateAnswer::held)) worst = word;
+      const GateAnswer found = answer_at(answer, fmt::format("{}: gate of {}", place, text_at(gate, "metric")));
+      if (found == GateAnswer::not_recorded) continue;
+      const GateKey key{text_at(json, "id"), text_at(gate, "metric"), text_at(answer, "engine"), text_at(answer, "dt")};
+      GateAnswer& worst = out.gates.try_emplace(key, found).first->second;
+      if (worst == GateAnswer::held) worst = found;
     }
   }
 }
@@ -129,20 +114,18 @@ Baseline from_json(const Json& json) {
   check_schema(json);
   Baseline out;
   const auto not_measured = metrics_not_measured(json.at("cases"));
-  std::map<std::string, std::set<std::string>> settings;
   std::size_t index = 0;
   for (const Json& cell : json.at("cells")) {
-    const std::string engine = text_at(cell, "engine"), place = fmt::format("cells[{}]", index++);
-    const std::string key = joined({text_at(cell, "case"), engine, text_at(cell, "dt")});
+    const std::string place = fmt::format("cells[{}]", index++);
+    const CellKey key = key_at(cell);
     const auto [made, is_new] = out.cells.emplace(key, cell_from(cell, place));
-    if (!is_new) throw InputError(fmt::format("{}: is there twice: {}", place, key));
-    const auto unmeasured = not_measured.find(text_at(cell, "case"));
+    if (!is_new) throw InputError(fmt::format("{}: is there twice: {}", place, key.text()));
+    const auto unmeasured = not_measured.find(key.case_id);
     if (unmeasured != not_measured.end() && !cell.at("metrics").empty())
       made->second.not_asked.insert(unmeasured->second.begin(), unmeasured->second.end());
     for (const auto& [name, value] : cell.at("settings").items())
-      settings[joined({engine, name})].insert(value.get<std::string>());
+      out.settings[{key.engine, name}].insert(value.get<std::string>());
   }
-  for (const auto& [key, values] : settings) out.settings[key] = fmt::format("{}", fmt::join(values, kBetweenValues));
   index = 0;
   for (const Json& one : json.at("cases")) {
     add_gates(one, fmt::format("cases[{}]", index++), out);
@@ -151,8 +134,7 @@ Baseline from_json(const Json& json) {
   }
   if (!json.contains("stable_dt")) return out;
   for (const Json& one : json.at("stable_dt")) {
-    if (one.at("dt").is_number())
-      out.stable_steps[joined({text_at(one, "case"), text_at(one, "engine")})] = one.at("dt");
+    if (one.at("dt").is_number()) out.stable_steps[run_at(one)] = one.at("dt");
   }
   return out;
 }
@@ -163,25 +145,23 @@ void add_line(const Json& json, Baseline& out) {
     if (json.at(kTitleKey) != kForm) throw InputError(fmt::format("{} is not {}", kTitleKey, kForm));
     for (const Json& name : json.at("metrics")) out.left_out.insert(name.get<std::string>());
   } else if (json.contains("setting")) {
-    const auto values = json.at("values").get<std::vector<std::string>>();
-    out.settings[joined({text_at(json, "engine"), text_at(json, "setting")})] =
-        fmt::format("{}", fmt::join(values, kBetweenValues));
+    out.settings[{text_at(json, "engine"), text_at(json, "setting")}] = json.at("values").get<std::set<std::string>>();
   } else if (json.contains("error")) {
     out.case_errors[text_at(json, "case")] = text_at(json, "error");
   } else if (json.contains("duration")) {
     out.durations[text_at(json, "case")] = json.at("duration").get<double>();
   } else if (json.contains("stable_dt")) {
-    out.stable_steps[joined({text_at(json, "case"), text_at(json, "engine")})] = json.at("stable_dt").get<double>();
+    out.stable_steps[run_at(json)] = json.at("stable_dt").get<double>();
   } else if (json.contains("gate")) {
-    out.gates[joined({text_at(json, "case"), text_at(json, "gate"), text_at(json, "engine"), text_at(json, "dt")})] =
+    out.gates[{text_at(json, "case"), text_at(json, "gate"), text_at(json, "engine"), text_at(json, "dt")}] =
         answer_at(json, "gate");
   } else {
-    Baseline::Cell cell{status_at(json, "cell"), "", {}, {}};
+    Baseline::Cell cell{status_at(json, "cell")};
     if (json.contains("verdict")) cell.verdict = verdict_at(json, "verdict", "cell");
     for (const auto& [name, value] : object_at(json, "metrics", "cell").items())
       cell.metrics[name] = value_from(value, name, name);
-    const std::string key = joined({text_at(json, "case"), text_at(json, "engine"), text_at(json, "dt")});
-    if (!out.cells.emplace(key, cell).second) throw InputError("is there twice: " + key);
+    const CellKey key = key_at(json);
+    if (!out.cells.emplace(key, cell).second) throw InputError("is there twice: " + key.text());
   }
 }
 
@@ -211,10 +191,9 @@ std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::e
 
 double rounded_to_four(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
-Json json_of(const std::string& key, const Baseline::Cell& cell) {
-  const auto parts = split(key, "\t");
-  Json json = {{"case", parts[0]}, {"engine", parts[1]}, {"dt", parts[2]}, {"status", cell.status}};
-  if (!cell.verdict.empty()) json["verdict"] = cell.verdict;
+Json json_of(const CellKey& key, const Baseline::Cell& cell) {
+  Json json = {{"case", key.case_id}, {"engine", key.engine}, {"dt", key.dt}, {"status", word_of(cell.status)}};
+  if (cell.verdict) json["verdict"] = word_of(*cell.verdict);
   json["metrics"] = Json::object();
   for (const auto& [name, value] : cell.metrics) {
     if (!std::isfinite(value))
@@ -227,9 +206,17 @@ Json json_of(const std::string& key, const Baseline::Cell& cell) {
 
 }  // namespace
 
+std::string joined_parts(std::initializer_list<std::string> parts, const std::string& between) {
+  std::string text;
+  for (const std::string& part : parts) {
+    if (!part.empty()) text += (text.empty() ? "" : between) + part;
+  }
+  return text;
+}
+
 bool is_higher_better(const std::string& metric) {
-  return std::any_of(metrics().begin(), metrics().end(),
-                     [&](const MetricRow& row) { return row.name == metric && row.higher_is_better; });
+  const MetricRow* row = find_metric(metric);
+  return row && row->higher_is_better;
 }
 
 Baseline read_baseline(const std::string& path) {
@@ -251,23 +238,21 @@ std::string baseline_text(const Baseline& baseline) {
     for (const auto& [name, value] : cell.metrics) names.insert(name);
   }
   std::string text = line_of({{kTitleKey, kForm}, {"metrics", names}});
-  for (const auto& [key, values] : baseline.settings) {
-    const auto parts = split(key, "\t");
-    text += line_of({{"engine", parts[0]}, {"setting", parts[1]}, {"values", split(values, kBetweenValues)}});
-  }
+  for (const auto& [key, values] : baseline.settings)
+    text += line_of({{"engine", key.engine}, {"setting", key.setting}, {"values", values}});
   for (const auto& [id, error] : baseline.case_errors) text += line_of({{"case", id}, {"error", error}});
   for (const auto& [id, duration] : baseline.durations) text += line_of({{"case", id}, {"duration", duration}});
-  for (const auto& [key, dt] : baseline.stable_steps) {
-    const auto parts = split(key, "\t");
-    text += line_of({{"case", parts[0]}, {"engine", parts[1]}, {"stable_dt", rounded_to_four(dt)}});
-  }
+  for (const auto& [key, dt] : baseline.stable_steps)
+    text += line_of({{"case", key.case_id}, {"engine", key.engine}, {"stable_dt", rounded_to_four(dt)}});
   for (const auto& [key, cell] : baseline.cells) text += line_of(json_of(key, cell));
   // A gate on one cell that holds follows from the cell's status.
   for (const auto& [key, answer] : baseline.gates) {
-    if (answer == word_of(GateAnswer::held) && !key.ends_with('\t')) continue;
-    const auto parts = split(key, "\t");
-    text +=
-        line_of({{"case", parts[0]}, {"gate", parts[1]}, {"engine", parts[2]}, {"dt", parts[3]}, {"answer", answer}});
+    if (answer == GateAnswer::held && !key.dt.empty()) continue;
+    text += line_of({{"case", key.case_id},
+                     {"gate", key.metric},
+                     {"engine", key.engine},
+                     {"dt", key.dt},
+                     {"answer", word_of(answer)}});
   }
   return text;
 }

@@ -3,28 +3,30 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
-namespace rigor {
+#include "cases/metrics/verdict.h"
+#include "cases/results/cell_key.h"
+#include "cases/results/results.h"
 
-inline constexpr const char* kBetweenValues = " | ";
+namespace rigor {
 
 struct Baseline {
   struct Cell {
-    std::string status;                     // "pass", "fail", ...
-    std::string verdict;                    // "stable", "gaining", ...; empty if there is none, or it is unknown
-    std::map<std::string, double> metrics;  // sizes, or infinite; none that is a measured time
-    std::set<std::string> not_asked;        // metrics that were not measured because nobody asked for them
+    Status status = Status::crashed;
+    std::optional<Verdict> verdict = {};         // none if it is unknown
+    std::map<std::string, double> metrics = {};  // sizes, or infinite; none that is a measured time
+    std::set<std::string> not_asked = {};        // metrics that were not measured because nobody asked for them
   };
-  // Keys are made of parts parted by tabs, in this order; no name holds a tab.
-  std::map<std::string, Cell> cells;               // case, engine, dt
-  std::map<std::string, std::string> gates;        // case, metric, engine, dt (empty for one over several) -> answer
-  std::map<std::string, std::string> settings;     // engine, setting -> its values over the cases
+  std::map<CellKey, Cell> cells;
+  std::map<GateKey, GateAnswer> gates;
+  std::map<SettingKey, std::set<std::string>> settings;  // the values over the cases
   std::set<std::string> left_out;                  // metrics that a cell of a baseline has not where they are rounding
   std::map<std::string, std::string> case_errors;  // case -> why it could not be judged at all
   std::map<std::string, double> durations;         // case -> s; empty for an older file
-  std::map<std::string, double> stable_steps;      // case, engine -> s, the largest stable step where it was looked for
+  std::map<RunKey, double> stable_steps;           // s, the largest stable step where it was searched for
 };
 
 bool is_higher_better(const std::string& metric);  // as its row says

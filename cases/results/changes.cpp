@@ -1,6 +1,7 @@
 #include "cases/results/changes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -11,25 +12,13 @@
 namespace rigor {
 namespace {
 
-// "a\tb\tc" as "a, b, c", without empty parts.
-std::string named(const std::string& key) {
-  std::string out;
-  std::size_t at = 0;
-  while (at <= key.size()) {
-    const std::size_t tab = std::min(key.find('\t', at), key.size());
-    if (tab > at) out += (out.empty() ? "" : ", ") + key.substr(at, tab - at);
-    at = tab + 1;
-  }
-  return out;
-}
-
 // 0: as it should be; 1: not run, for it cannot be; 2: something is wrong.
-int badness(const std::string& status) {
-  if (status == "pass" || status == "known-deviation") return 0;
-  return status == "unsupported" ? 1 : 2;
+int badness(Status status) {
+  if (status == Status::pass || status == Status::known_deviation) return 0;
+  return status == Status::unsupported ? 1 : 2;
 }
 
-bool holds(const std::string& answer) { return answer == "held" || answer == "known deviation"; }
+bool holds(GateAnswer answer) { return answer == GateAnswer::held || answer == GateAnswer::known_deviation; }
 
 // None where nobody measured it.
 std::optional<double> value_of(const Baseline& baseline, const Baseline::Cell& cell, const std::string& metric) {
@@ -38,8 +27,7 @@ std::optional<double> value_of(const Baseline& baseline, const Baseline::Cell& c
   return baseline.left_out.contains(metric) ? std::optional(0.0) : std::nullopt;
 }
 
-void compare_errors(const std::string& key, const Baseline& before, const Baseline& after, double factor,
-                    Changes& out) {
+void compare_errors(const CellKey& key, const Baseline& before, const Baseline& after, double factor, Changes& out) {
   const Baseline::Cell &old_cell = before.cells.at(key), &new_cell = after.cells.at(key);
   std::set<std::string> names;
   for (const auto* cell : {&old_cell, &new_cell}) {
@@ -48,24 +36,22 @@ void compare_errors(const std::string& key, const Baseline& before, const Baseli
   for (const std::string& name : names) {
     const auto was = value_of(before, old_cell, name), is = value_of(after, new_cell, name);
     if (was && !is && !new_cell.not_asked.contains(name) && *was > kNoise)
-      out.lost.push_back(fmt::format("{}: {} is missing, was {:.4g}", named(key), name, *was));
+      out.lost.push_back(fmt::format("{}: {} is missing, was {:.4g}", key.text(), name, *was));
     if (!was || !is) continue;
     const double low = std::max(kNoise, std::min(*was, *is)), high = std::max(*was, *is);
     if (!(high > factor * low)) continue;
     ((*is > *was) == is_higher_better(name) ? out.better : out.worse)
-        .push_back(fmt::format("{}: {} is {:.4g}, was {:.4g}", named(key), name, *is, *was));
+        .push_back(fmt::format("{}: {} is {:.4g}, was {:.4g}", key.text(), name, *is, *was));
   }
 }
 
 // An older result may know fewer verdicts, or none.
-void compare_verdicts(const std::string& key, const Baseline& before, const Baseline& after, Changes& out) {
-  const std::string &was = before.cells.at(key).verdict, &is = after.cells.at(key).verdict;
-  if (was.empty() || is.empty() || was == is) return;
-  (verdict_of(is) > verdict_of(was) ? out.newly_failing : out.newly_passing)
-      .push_back(fmt::format("{}: its verdict is {}, was {}", named(key), is, was));
+void compare_verdicts(const CellKey& key, const Baseline& before, const Baseline& after, Changes& out) {
+  const auto was = before.cells.at(key).verdict, is = after.cells.at(key).verdict;
+  if (!was || !is || was == is) return;
+  (*is > *was ? out.newly_failing : out.newly_passing)
+      .push_back(fmt::format("{}: its verdict is {}, was {}", key.text(), word_of(*is), word_of(*was)));
 }
-
-std::string case_of(const std::string& key) { return key.substr(0, key.find('\t')); }
 
 // Of an older file, which does not say, they count as alike.
 bool have_one_duration(const std::string& id, const Baseline& before, const Baseline& after) {
@@ -85,29 +71,29 @@ void compare_durations(const Baseline& before, const Baseline& after, Changes& o
 void compare_stable_steps(const Baseline& before, const Baseline& after, double factor, Changes& out) {
   for (const auto& [key, is] : after.stable_steps) {
     const auto found = before.stable_steps.find(key);
-    if (found == before.stable_steps.end() || !have_one_duration(case_of(key), before, after)) continue;
+    if (found == before.stable_steps.end() || !have_one_duration(key.case_id, before, after)) continue;
     const double was = found->second;
     if (!(std::max(is, was) > factor * std::min(is, was))) continue;
     (is < was ? out.worse : out.better)
-        .push_back(fmt::format("{}: the largest stable step is {:.4g} s, was {:.4g} s", named(key), is, was));
+        .push_back(fmt::format("{}: the largest stable step is {:.4g} s, was {:.4g} s", key.text(), is, was));
   }
 }
 
-void compare_cells(const std::string& key, const Baseline& before, const Baseline& after, double factor, Changes& out) {
-  const std::string &was = before.cells.at(key).status, &is = after.cells.at(key).status;
+void compare_cells(const CellKey& key, const Baseline& before, const Baseline& after, double factor, Changes& out) {
+  const Status was = before.cells.at(key).status, is = after.cells.at(key).status;
   if (badness(was) != badness(is)) {
     (badness(is) > badness(was) ? out.newly_failing : out.newly_passing)
-        .push_back(fmt::format("{}: {}, was {}", named(key), is, was));
+        .push_back(fmt::format("{}: {}, was {}", key.text(), word_of(is), word_of(was)));
   }
   // Numbers and verdicts of a run that failed mean little.
-  if (badness(was) != 0 || badness(is) != 0 || !have_one_duration(case_of(key), before, after)) return;
+  if (badness(was) != 0 || badness(is) != 0 || !have_one_duration(key.case_id, before, after)) return;
   compare_verdicts(key, before, after, out);
   compare_errors(key, before, after, factor, out);
 }
 
 std::set<std::string> cases_of(const Baseline& baseline) {
   std::set<std::string> ids;
-  for (const auto& [key, cell] : baseline.cells) ids.insert(case_of(key));
+  for (const auto& [key, cell] : baseline.cells) ids.insert(key.case_id);
   return ids;
 }
 
@@ -119,48 +105,40 @@ std::vector<std::string> only_in(const Baseline& one, const Baseline& other) {
     if (!of_other.contains(id)) names.push_back(id);
   }
   for (const auto& [key, cell] : one.cells) {
-    if (of_other.contains(case_of(key)) && !other.cells.contains(key)) names.push_back(named(key));
+    if (of_other.contains(key.case_id) && !other.cells.contains(key)) names.push_back(key.text());
   }
   return names;
 }
 
 // A gate that is not listed held, or is not there; its cell tells.
 void compare_gates(const Baseline& before, const Baseline& after, Changes& out) {
-  std::set<std::string> keys;
+  std::set<GateKey> keys;
   for (const auto* baseline : {&before, &after}) {
     for (const auto& [key, answer] : baseline->gates) keys.insert(key);
   }
-  const auto answer_of = [](const Baseline& baseline, const std::string& key) {
+  const auto answer_of = [](const Baseline& baseline, const GateKey& key) {
     const auto found = baseline.gates.find(key);
-    return found == baseline.gates.end() ? std::string("held") : found->second;
+    return found == baseline.gates.end() ? GateAnswer::held : found->second;
   };
-  for (const std::string& key : keys) {
-    const std::string was = answer_of(before, key), is = answer_of(after, key);
+  for (const GateKey& key : keys) {
+    const GateAnswer was = answer_of(before, key), is = answer_of(after, key);
     if (holds(was) == holds(is)) continue;
     (holds(is) ? out.newly_passing : out.newly_failing)
-        .push_back(fmt::format("gate of {}: {}, was {}", named(key), is, was));
+        .push_back(fmt::format("gate of {}: {}, was {}", key.text(), word_of(is), word_of(was)));
   }
-}
-
-std::set<std::string> values_in(const std::string& listed) {
-  std::set<std::string> values;
-  std::size_t at = 0;
-  for (std::size_t bar; (bar = listed.find(kBetweenValues, at)) != std::string::npos;
-       at = bar + std::string(kBetweenValues).size())
-    values.insert(listed.substr(at, bar - at));
-  values.insert(listed.substr(at));
-  return values;
 }
 
 // A setting may have one value for each of several scenes, and the two results may contain different scenes. It differs
 // if there is a value that the old result lacks.
 void compare_settings(const Baseline& before, const Baseline& after, Changes& out) {
+  const auto listed_values = [](const std::set<std::string>& values) {
+    return fmt::format("{}", fmt::join(values, " | "));
+  };
   for (const auto& [key, now] : after.settings) {
     const auto was = before.settings.find(key);
     if (was == before.settings.end()) continue;
-    const auto old_values = values_in(was->second), values = values_in(now);
-    if (!std::includes(old_values.begin(), old_values.end(), values.begin(), values.end()))
-      out.settings.push_back(fmt::format("{}: {}, was {}", named(key), now, was->second));
+    if (!std::includes(was->second.begin(), was->second.end(), now.begin(), now.end()))
+      out.settings.push_back(fmt::format("{}: {}, was {}", key.text(), listed_values(now), listed_values(was->second)));
   }
 }
 

@@ -26,19 +26,15 @@ constexpr int kHistoryForm = 1;
 
 double finite_to_four(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.4g}", value)) : value; }
 
-std::string key_of(const Json& cell) {
-  return cell.at("case").get<std::string>() + "\t" + cell.at("engine").get<std::string>() + "\t" +
-         cell.at("dt").get<std::string>();
-}
+CellKey key_of(const Json& cell) { return {cell.at("case"), cell.at("engine"), cell.at("dt")}; }
 
 Json json_of(const HistoryEntry& entry) {
   Json cells = Json::array();
   for (const auto& [key, cell] : entry.cells) {
-    const std::size_t first = key.find('\t'), second = key.find('\t', first + 1);
-    Json row = {{"case", key.substr(0, first)},
-                {"engine", key.substr(first + 1, second - first - 1)},
-                {"dt", key.substr(second + 1)},
-                {"status", cell.status},
+    Json row = {{"case", key.case_id},
+                {"engine", key.engine},
+                {"dt", key.dt},
+                {"status", word_of(cell.status)},
                 {"metrics", cell.metrics}};
     if (cell.cost) row["cost"] = *cell.cost;
     cells.push_back(std::move(row));
@@ -57,7 +53,7 @@ HistoryEntry entry_from(const Json& json) {
   entry.machine = json.at("machine").get<std::string>();
   for (const Json& row : json.at("cells")) {
     HistoryEntry::Cell cell;
-    cell.status = word_of(status_of(row.at("status").get<std::string>()));
+    cell.status = status_of(row.at("status").get<std::string>());
     for (const auto& [name, value] : row.at("metrics").items()) cell.metrics[name] = number_of(value);
     if (row.contains("cost")) cell.cost = number_of(row.at("cost"));
     entry.cells[key_of(row)] = std::move(cell);

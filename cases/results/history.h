@@ -6,16 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "cases/results/cell_key.h"
+#include "cases/results/results.h"
+
 namespace rigor {
 
 struct HistoryEntry {
   std::string commit, date, machine;  // the date as 2026-01-31T12:00:00Z
   struct Cell {
-    std::string status;
+    Status status = Status::crashed;
     std::map<std::string, double> metrics;  // as in a baseline: four digits, not finite where the run had no number
     std::optional<double> cost;             // s/s
   };
-  std::map<std::string, Cell> cells;  // case, engine and dt parted by tabs
+  std::map<CellKey, Cell> cells;
 };
 
 // Reads a results.json. Throws InputError for any other file.

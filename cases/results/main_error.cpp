@@ -22,7 +22,7 @@ double worst_of(const CaseResult& result, const std::string& name) {
 
 std::string main_error(const CaseResult& result) {
   constexpr double kMoves = 1e-9;  // m and rad: less is rounding
-  for (const char* name : {"position_error", "orientation_error"}) {
+  for (const std::string& name : headline_metrics()) {
     if (worst_of(result, name) > kMoves) return name;
   }
   const bool has_truth = std::any_of(result.cells.begin(), result.cells.end(), [](const Cell& cell) {

@@ -67,12 +67,12 @@ std::vector<ErrorPoint> error_points(const CaseResult& result, std::size_t run, 
 std::vector<std::string> errors_worth_comparing(const CaseResult& result) {
   constexpr double kSameForAll = 1e-9;  // m, rad
   std::vector<std::string> worth;
-  for (const char* metric : {"position_error", "orientation_error"}) {
+  for (const std::string& metric : headline_metrics()) {
     const bool one_is_off = std::any_of(result.cells.begin(), result.cells.end(), [&](const Cell& cell) {
       const MetricValue* error = value_of(cell, metric);
       return came_to_a_result(cell) && error && error->value > kSameForAll;
     });
-    if (one_is_off) worth.emplace_back(metric);
+    if (one_is_off) worth.push_back(metric);
   }
   return worth;
 }

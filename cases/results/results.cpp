@@ -40,6 +40,10 @@ bool is_failure(GateAnswer answer) {
   return answer == GateAnswer::failed || answer == GateAnswer::not_checked || answer == GateAnswer::unexpected_pass;
 }
 
+std::string word_of(SkipReason reason) {
+  return reason == SkipReason::not_asked_for ? "not asked for" : "of another shard";
+}
+
 std::string word_of(GateAnswer answer) { return kAnswerWords[static_cast<int>(answer)]; }
 
 StepSize coarsest_dt(const CaseResult& result) {

@@ -21,6 +21,10 @@ enum class Status { pass, fail, known_deviation, unexpected_pass, unsupported, d
 std::string word_of(Status status);
 Status status_of(const std::string& word);  // throws std::runtime_error for an unknown word
 
+// Why a part of the grid is not run although its engine can run it. Its status is `unsupported`.
+enum class SkipReason { not_asked_for, another_shard };
+std::string word_of(SkipReason reason);
+
 // A metric of one cell, without its series over time.
 struct MetricValue {
   double value = 0;
@@ -79,6 +83,7 @@ struct Cell {
   double wall_seconds = 0;  // of the whole cell: simulated, judged and written
   std::string trajectory;   // file name in trajectories/; empty if there is none
   Recordings recordings;
+  std::optional<SkipReason> skipped = {};
 };
 
 struct StableStep {
@@ -93,7 +98,14 @@ struct StableStepResult {
   Status status = Status::crashed;        // pass: `step` holds
   std::string reason = "it did not run";  // with `pass`: StableStep::cut
   StableStep step;
+  std::optional<SkipReason> skipped = {};
 };
+
+// Leaves out a cell or a search for a stable step.
+template <typename Part>
+void skip(Part& part, SkipReason reason) {
+  part.status = Status::unsupported, part.reason = word_of(reason), part.skipped = reason;
+}
 
 // The truth of a case, in numbers.
 struct TruthFacts {

@@ -61,7 +61,7 @@ bool searches_steps(const CaseResult& planned, const GridOptions& options) {
   const auto& steps = planned.stable_steps;
   // The time of another shard's search also counts, because the truth must be the same in all shards.
   return options.stable_steps && std::any_of(steps.begin(), steps.end(), [](const auto& stable) {
-           return stable.status != Status::unsupported || is_of_another_shard(stable.status, stable.reason);
+           return stable.status != Status::unsupported || stable.skipped == SkipReason::another_shard;
          });
 }
 

@@ -82,7 +82,7 @@ CaseResult plan_case(const Case& definition, const Results& grid, std::size_t as
   const bool only_judged = scope.only_judged && !definition.gates.empty();
   for (std::size_t run = 0; run < grid.runs.size(); ++run) {
     if (run >= asked_for && !is_named_by_gates(grid.runs[run], definition, grid.engines)) {
-      result.stable_steps.push_back({Status::unsupported, "not asked for", {}});
+      skip(result.stable_steps.emplace_back(), SkipReason::not_asked_for);
       continue;
     }
     const EngineInfo& info = engines.info_of(grid.runs[run].engine);
@@ -98,9 +98,11 @@ CaseResult plan_case(const Case& definition, const Results& grid, std::size_t as
     }
     StableStepResult stable;
     std::string why = why_unsupported(info, grid.runs[run].settings, definition.scene, shortest);
-    if (why.empty() && !scope.stable_steps) why = "not asked for";
-    if (why.empty()) why = why_no_stable_step(definition.scene);
-    if (!why.empty()) stable.status = Status::unsupported, stable.reason = why;
+    if (why.empty() && scope.stable_steps) why = why_no_stable_step(definition.scene);
+    if (!why.empty())
+      stable.status = Status::unsupported, stable.reason = why;
+    else if (!scope.stable_steps)
+      skip(stable, SkipReason::not_asked_for);
     result.stable_steps.push_back(stable);
   }
   return result;

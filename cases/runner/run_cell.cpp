@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <set>
 
 #include "cases/metrics/measures/joints/reaction_difference.h"
 #include "cases/metrics/measures/measuring.h"
@@ -33,34 +32,35 @@ void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
   }
 }
 
-const std::set<std::string> kOfTwins = {"unexplained_error", "unexplained_rotation", "unexplained_spin",
-                                        "unexplained_velocity"};
+using Names = std::vector<std::string>;
 
-const std::set<std::string> kOfEnsembles = {"ensemble_distance", "ensemble_p_value"};
+bool is_among(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
-bool has_gate_on(const Case& definition, const std::set<std::string>& metrics) {
+bool has_gate_on(const Case& definition, const Names& metrics) {
   return std::any_of(definition.gates.begin(), definition.gates.end(),
-                     [&](const Gate& gate) { return metrics.contains(gate.metric); });
+                     [&](const Gate& gate) { return is_among(metrics, gate.metric); });
 }
 
-bool is_asked_for(const std::set<std::string>& metrics, const Case& definition, const GridOptions& options) {
-  const auto& only = options.only_metrics;
-  if (only.empty()) return options.is_thorough || has_gate_on(definition, metrics);
-  return std::any_of(only.begin(), only.end(), [&](const std::string& name) { return metrics.contains(name); });
+bool has_option_for(const Names& metrics, const GridOptions& options) {
+  return std::any_of(options.only_metrics.begin(), options.only_metrics.end(),
+                     [&](const std::string& name) { return is_among(metrics, name); });
 }
 
-// Whether a gate or the options name one of them.
-bool is_named(const std::set<std::string>& metrics, const Case& definition, const GridOptions& options) {
-  return has_gate_on(definition, metrics) ||
-         std::any_of(options.only_metrics.begin(), options.only_metrics.end(),
-                     [&](const std::string& name) { return metrics.contains(name); });
+bool is_asked_for(const Names& metrics, const Case& definition, const GridOptions& options) {
+  if (!options.only_metrics.empty()) return has_option_for(metrics, options);
+  return options.is_thorough || has_gate_on(definition, metrics);
 }
 
-const std::set<std::string> kOfReports = {"reported_reaction_error", "reported_reaction_torque_error"};
+// Whether a metric with this need is measured.
+bool is_needed(bool MetricNeeds::*need, const Case& definition, const GridOptions& options) {
+  return is_asked_for(metrics_that_need(need), definition, options);
+}
 
 // Steps from one whose reactions are asked for to the next, as far as the truth is good for; 0: none is.
 long steps_between_reports(const Case& definition, double dt, const TruthFacts& facts, const GridOptions& options) {
-  const bool is_wanted = options.only_metrics.empty() || is_asked_for(kOfReports, definition, options);
+  const bool is_wanted = options.only_metrics.empty() || is_needed(&MetricNeeds::reactions, definition, options);
   if (!is_wanted || !why_reactions_are_unknown(definition.scene).empty()) return 0;
   const long steps = steps_in(std::min(facts.horizon, definition.duration), dt);
   return static_cast<long>(samples_between_reactions(static_cast<std::size_t>(steps) + 1));
@@ -104,12 +104,14 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   const Engine& engine = find_engine(engines, run_name.engine);
   const double leapfrog_stagger = method_of(engines.info_of(run_name.engine), run_name.settings).leapfrog_stagger;
   const bool is_timed = is_asked_for({"cost"}, definition, options);
+  const Names of_contacts = metrics_that_need(&MetricNeeds::contacts);
   const long reactions_every = truth ? steps_between_reports(definition, cell.dt.seconds, facts, options) : 0;
   const Simulation run =
       simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration,
                {.is_timed = is_timed,
                 .reactions_every = reactions_every,
-                .has_contacts = anything_can_touch(scene) && is_named(contact_metrics(), definition, options)});
+                .has_contacts = anything_can_touch(scene) &&
+                                (has_gate_on(definition, of_contacts) || has_option_for(of_contacts, options))});
   if (!truth) check_start(run, scene);
   cell.settings = run.settings;
   cell.reduced_order = run.reduced_order;
@@ -120,7 +122,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
     samples = truth_on_steps.at_samples_of(run.trajectory, *truth, scene.bodies.size(), facts.largest_kinetic_energy);
   }
   std::optional<RunName> twin_name;
-  if (is_asked_for(kOfTwins, definition, options)) twin_name = twin_of(engines, run_name, scene);
+  if (is_needed(&MetricNeeds::twin, definition, options)) twin_name = twin_of(engines, run_name, scene);
   JudgedRun judged{scene, run.trajectory, samples ? &*samples : nullptr, leapfrog_stagger, nullptr, cell.cpu_seconds};
   std::optional<TwinRun> twin;
   if (twin_name) {
@@ -133,7 +135,7 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   cell.stability = judge_stability(judged, run.not_finite, facts.largest_kinetic_energy, facts.largest_energy_change);
   judged.survived = cell.stability.verdict == Verdict::blown_up ? cell.stability.time : definition.duration;
   std::optional<Ensembles> ensembles;
-  const bool wants_ensembles = options.only_metrics.empty() || is_asked_for(kOfEnsembles, definition, options);
+  const bool wants_ensembles = options.only_metrics.empty() || is_needed(&MetricNeeds::ensemble, definition, options);
   if (reference && wants_ensembles) ensembles = reference->compare(engines, run_name, definition, cell.dt.seconds);
   if (ensembles) judged.ensembles = &*ensembles;
   std::vector<NamedSeries> series;

@@ -1,10 +1,11 @@
 #include "cases/truth/provenance.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
+#include "cases/metrics/metric.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/world.h"
 
 namespace rigor {
 
@@ -20,33 +21,10 @@ const Provenance* row_of(const std::string& truth) {
   return row == table.end() ? nullptr : &*row;
 }
 
-// What is measured by the scene, its shapes and laws, by other runs, or by the run itself.
-constexpr std::array kWithoutTruth = {"collapse_time",
-                                      "cost",
-                                      "creep",
-                                      "energy_gain",
-                                      "ensemble_distance",
-                                      "ensemble_p_value",
-                                      "internal_energy_drift",
-                                      "joint_gap",
-                                      "joint_gap_rate",
-                                      "joint_twist",
-                                      "joint_twist_rate",
-                                      "orthonormality_error",
-                                      "penetration",
-                                      "restitution_error",
-                                      "spread",
-                                      "spread_orientation",
-                                      "survival",
-                                      "unexplained_error",
-                                      "unexplained_rotation",
-                                      "unexplained_spin",
-                                      "unexplained_velocity"};
-
 // The reference of ensembles is the core, with the contact that it gives a scene by itself (runner/ensemble.h).
 bool is_made_like_ensembles(const RunName& run, const Scene& scene) {
   const auto& options = run.settings.options;
-  return run.engine == "core" &&
+  return run.engine == core_info().name &&
          (!options.contains("contact") || options.at("contact") == contact_method_for(scene).name);
 }
 
@@ -59,11 +37,14 @@ std::string provenance_of(const std::string& truth) {
 }
 
 bool is_against_truth(const std::string& metric) {
-  return std::find(kWithoutTruth.begin(), kWithoutTruth.end(), metric) == kWithoutTruth.end();
+  if (metric == "spread" || metric == "spread_orientation") return false;  // runs are compared with each other
+  const MetricRow* row = find_metric(metric);
+  return !row || row->needs.truth;
 }
 
 bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene) {
-  if (metric.starts_with("ensemble_")) return is_made_like_ensembles(run, scene);
+  const MetricRow* measured = find_metric(metric);
+  if (measured && measured->needs.ensemble) return is_made_like_ensembles(run, scene);
   const Provenance* row = row_of(truth);
   return row && row->is_made_like && is_against_truth(metric) && row->is_made_like(run, scene);
 }

@@ -55,7 +55,7 @@ Case of_engine(Case definition, const std::string& engine) {
   const auto infos = infos_of(engines());
   std::erase_if(definition.gates, [&](Gate& gate) {
     const auto is_other = [&](const std::string& name) { return parse_run_name(name, infos).engine != engine; };
-    if (!gate.better_than.empty() && is_other(gate.better_than)) return true;
+    if (gate.ranking() && is_other(gate.ranking()->better_than)) return true;
     const bool names_some = !gate.engines.empty();
     std::erase_if(gate.engines, is_other);
     return names_some && gate.engines.empty();

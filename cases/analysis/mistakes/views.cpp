@@ -5,6 +5,7 @@
 
 #include "cases/runner/twin_run.h"
 #include "core/scene/contact_laws.h"
+#include "core/world.h"
 
 namespace rigor {
 namespace {
@@ -41,7 +42,7 @@ Sight extrapolated(const std::vector<double>& one, const std::vector<double>& ha
 
 std::vector<View> views_of(const EngineTable& engines, const RunName& run, const std::vector<ProbeScene>& probes,
                            const RunName* of_points) {
-  const RunName accurate = parse_run_name("core", engines.infos());
+  const RunName accurate = parse_run_name(core_info().name, engines.infos());
   const MethodInfo& method = method_of(engines.info_of(run.engine), run.settings);
   constexpr int kHighOrder = 4;
   std::vector<View> views;

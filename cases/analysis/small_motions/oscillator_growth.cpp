@@ -129,9 +129,9 @@ double measured_growth(const std::vector<State>& states) {
 std::optional<double> energy_growth(const std::string& core_run, ForceElement::Kind kind, const Oscillator& oscillator,
                                     double dt) {
   constexpr int kStepsTaken = 800;
-  if (!(core_run == "core" || core_run.starts_with("core:"))) return {};
   try {
     const RunName run = parse_run_name(core_run, engines().infos());
+    if (!engines().info_of(run.engine).is_in_house) return {};
     const OneOscillator one(engines().find(run.engine), run.settings, kind, oscillator);
     const Scene scene = one.scene(State(0, kSmallStart));
     if (!why_unsupported(engines().info_of(run.engine), run.settings, scene, dt).empty()) return {};

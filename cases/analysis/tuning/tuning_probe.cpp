@@ -45,7 +45,8 @@ Results Prober::planned(const std::vector<Probe>& probes, double share) const {
     result.definition.gates.clear();
     result.definition.duration *= share;
     for (const Probe& probe : probes) result.cells.push_back(cell_of(probe, runs.at(probe.run), grid, result));
-    result.stable_steps.assign(grid.runs.size(), {Status::unsupported, "not asked for", {}});
+    result.stable_steps.resize(grid.runs.size());
+    for (StableStepResult& stable : result.stable_steps) skip(stable, SkipReason::not_asked_for);
     grid.cases.push_back(std::move(result));
   }
   return grid;

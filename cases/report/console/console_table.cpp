@@ -321,7 +321,7 @@ std::string unjudged_text(const Results& results) {
     }
     const std::vector<Gate>& gates = result.definition.gates;
     for (std::size_t i = 0; i < gates.size(); ++i)
-      bounds += !gates[i].is_of_family && !gates[i].regression && !answered.contains(i);
+      bounds += !gates[i].is_of_family && !gates[i].regression() && !answered.contains(i);
     const bool has_run = std::any_of(result.cells.begin(), result.cells.end(),
                                      [](const Cell& cell) { return cell.status != Status::unsupported; });
     if (answered.empty() && !gates.empty() && has_run) cases.push_back(result.definition.id);

@@ -40,6 +40,7 @@ Json run_json(const RunName& run, const std::vector<EngineInfo>& engines) {
             {"engine", engine.name},
             {"version", engine.version},
             {"precision", engine.precision},
+            {"in_house", engine.is_in_house},
             {"method", method.name},
             {"order", method.order},
             {"symplectic", method.symplectic},
@@ -64,14 +65,18 @@ Json gates_json(const CaseResult& result) {
                          {"caveat", answer.caveat},
                          {"value", bound(answer.value)}});
     }
+    const auto [max, min, equals] = gate.bound();
+    const OrderLimit* order = gate.order();
     gates.push_back({{"kind", kind_of(gate)},
                      {"metric", gate.metric},
-                     {"max", bound(gate.max)},
-                     {"min", bound(gate.min)},
-                     {"equals", bound(gate.equals)},
-                     {"at_least_order", gate.declares_order ? Json("declared") : bound(gate.at_least_order)},
-                     {"regression", bound(gate.regression)},
-                     {"better_than", gate.better_than.empty() ? Json(nullptr) : Json(gate.better_than)},
+                     {"max", bound(max)},
+                     {"min", bound(min)},
+                     {"equals", bound(equals)},
+                     {"at_least_order", !order               ? Json(nullptr)
+                                        : order->is_declared ? Json("declared")
+                                                             : Json(order->at_least)},
+                     {"regression", gate.regression() ? Json(gate.regression()->factor) : Json(nullptr)},
+                     {"better_than", gate.ranking() ? Json(gate.ranking()->better_than) : Json(nullptr)},
                      {"because", gate.because},
                      {"where", gate.where},
                      {"answers", answers}});

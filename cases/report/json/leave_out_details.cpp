@@ -106,7 +106,8 @@ void shorten_cells(Json& cells) {
 void leave_out_details(Json& results) {
   shorten_cells(results.at("cells"));
   gather_unmeasured(results);
-  drop_rows_that([](const Json& row) { return row.at("reason") == "not asked for"; }, results.at("stable_dt"));
+  drop_rows_that([](const Json& row) { return row.at("reason") == word_of(SkipReason::not_asked_for); },
+                 results.at("stable_dt"));
   for (Json& one : results.at("cases")) {
     one.at("spread").clear();
     one.at("explanation_claims").clear();

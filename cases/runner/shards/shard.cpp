@@ -11,8 +11,6 @@
 namespace rigor {
 namespace {
 
-constexpr const char* kOfAnotherShard = "of another shard";
-
 // Body steps that take about as long as a child process and the judging of its run, and as a truth. How well they are
 // guessed decides how even the shards are, and nothing else.
 constexpr double kCellWork = 2e4, kTruthWork = 2e4;
@@ -99,7 +97,7 @@ std::vector<int> shares_in(const Partition::OfCase& of_case) {
 
 void leave_to_others(CaseResult& result, const Partition::OfCase& of_case, int shard) {
   const auto leave = [&](auto& part, int of) {
-    if (of != 0 && of != shard) part.status = Status::unsupported, part.reason = kOfAnotherShard;
+    if (of != 0 && of != shard) skip(part, SkipReason::another_shard);
   };
   for (std::size_t i = 0; i < result.stable_steps.size(); ++i) leave(result.stable_steps[i], of_case.stable_steps[i]);
   for (std::size_t i = 0; i < result.cells.size(); ++i) leave(result.cells[i], of_case.cells[i]);
@@ -116,10 +114,6 @@ Results share_of(const Results& grid, const Shard& shard) {
     leave_to_others(share.cases.back(), of_case, shard.index);
   }
   return share;
-}
-
-bool is_of_another_shard(Status status, const std::string& reason) {
-  return status == Status::unsupported && reason == kOfAnotherShard;
 }
 
 }  // namespace rigor

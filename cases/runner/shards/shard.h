@@ -49,7 +49,4 @@ void leave_to_others(CaseResult& result, const Partition::OfCase& of_case, int s
 // The grid with the cases of one shard alone, in their order, and in them as `unsupported` what other shards do.
 Results share_of(const Results& grid, const Shard& shard);
 
-// Whether share_of made it unsupported.
-bool is_of_another_shard(Status status, const std::string& reason);
-
 }  // namespace rigor

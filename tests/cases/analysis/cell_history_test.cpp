@@ -8,11 +8,11 @@ using namespace rigor;
 
 namespace {
 
-const std::string kKey = "a\tode\t1/30";
+const CellKey kKey = {"a", "ode", "1/30"};
 
 HistoryEntry entry(double error, std::optional<double> cost, const std::string& machine = "here") {
   HistoryEntry made{"commit", "2026-01-31T12:00:00Z", machine, {}};
-  made.cells[kKey] = {"pass", {{"position_error", error}}, cost};
+  made.cells[kKey] = {Status::pass, {{"position_error", error}}, cost};
   return made;
 }
 

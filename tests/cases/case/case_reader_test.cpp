@@ -196,15 +196,15 @@ because = "why not")";
   BOOST_TEST(first.engines.size() == 2u);
   BOOST_TEST(first.engines.at(0) == "core:rk4");
   BOOST_TEST(first.dt.at(0).text == "0.01");  // as the run has it
-  BOOST_TEST(first.min.value() == 0);
-  BOOST_TEST(first.max.value() == 0.5);
+  BOOST_TEST(first.bound().min.value() == 0);
+  BOOST_TEST(first.bound().max.value() == 0.5);
   BOOST_TEST(first.because == "of this");
   BOOST_TEST(first.where == file + ":10:1");
   BOOST_TEST(second.engines.empty());
   BOOST_TEST(second.dt.empty());
-  BOOST_TEST(second.at_least_order.value() == 2);
-  BOOST_TEST(third.equals.value() == -1);
-  BOOST_TEST(!third.max.has_value());
+  BOOST_TEST(second.order()->at_least == 2);
+  BOOST_TEST(third.bound().equals.value() == -1);
+  BOOST_TEST(!third.bound().max.has_value());
 }
 
 BOOST_AUTO_TEST_CASE(a_case_without_a_truth_has_none) {

@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(a_familys_gates_hold_for_each_of_its_cases) {
   for (const Case& c : cases) {
     BOOST_TEST_REQUIRE(c.gates.size() == 2u);
     BOOST_TEST(c.gates[0].is_of_family);
-    BOOST_TEST(c.gates[0].max.value() == 1);
+    BOOST_TEST(c.gates[0].bound().max.value() == 1);
     BOOST_TEST(c.gates[0].where.ends_with("swings/family.toml:1:1"));
     BOOST_TEST(c.gates[1].dt.size() == 2u);
     BOOST_TEST(c.gates[1].dt.front().text == "1/20");
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_case_that_states_an_order_or_a_regression_of_a_run_itself
   const auto& gates = cases[0].gates;
   BOOST_TEST_REQUIRE(gates.size() == 3u);
   BOOST_TEST(gates[2].engines == std::vector<std::string>{"core:rkmk4"});
-  BOOST_TEST(gates[2].declares_order);
+  BOOST_TEST(gates[2].order()->is_declared);
   BOOST_TEST(cases[1].gates.size() == 2u);
 }
 

@@ -6,6 +6,7 @@
 #include "cases/gates/gates.h"
 #include "core/base/error.h"
 #include "tests/cases/judged.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/runner/faulty_engine.h"
 #include "tests/cases/vocabulary.h"
 #include "tests/folder.h"
@@ -42,7 +43,8 @@ Results judged(double coarse, double fine, const std::vector<KnownDeviation>& ro
   CaseResult result;
   result.definition = drifting_body("drift");
   Gate gate;
-  gate.metric = "position_error", gate.max = 1, gate.because = "a reason", gate.where = "drift.toml:7:1";
+  gate.metric = "position_error", test::limit_as<BoundLimit>(gate).max = 1, gate.because = "a reason",
+  gate.where = "drift.toml:7:1";
   result.definition.gates = {gate};
   for (std::size_t i = 0; i < 2; ++i) {
     Cell cell;
@@ -121,14 +123,17 @@ BOOST_AUTO_TEST_CASE(a_gate_of_another_metric_or_step_or_a_regression_is_none_th
   const auto check = [](const auto& change) {
     Case definition = drifting_body("drift");
     Gate gate;
-    gate.metric = "position_error", gate.max = 1, gate.engines = {"ode"};
+    gate.metric = "position_error", test::limit_as<BoundLimit>(gate).max = 1, gate.engines = {"ode"};
     change(gate);
     definition.gates = {gate};
     check_known_deviations(read(kRow), {definition}, infos());
   };
   check([](Gate&) {});
   BOOST_CHECK_THROW(check([](Gate& gate) { gate.metric = "energy_drift"; }), InputError);
-  BOOST_CHECK_THROW(check([](Gate& gate) { gate.max = {}, gate.regression = 1.25; }), InputError);
+  BOOST_CHECK_THROW(check([](Gate& gate) {
+                      test::limit_as<BoundLimit>(gate).max = {}, test::limit_as<RegressionLimit>(gate).factor = 1.25;
+                    }),
+                    InputError);
   BOOST_CHECK_THROW(check([](Gate& gate) { gate.dt = {{0.05, "1/20"}}; }), InputError);
 }
 
@@ -205,7 +210,7 @@ BOOST_AUTO_TEST_CASE(a_row_of_several_runs_is_met_by_a_gate_of_one_of_them) {
 BOOST_AUTO_TEST_CASE(a_regression_is_no_deviation_that_is_known) {
   Results grid = judged(2, 0.5, {});
   CaseResult& result = grid.cases.front();
-  result.definition.gates.front().regression = 1.25;
+  test::limit_as<RegressionLimit>(result.definition.gates.front()).factor = 1.25;
   for (const GateResult& answer : result.gates) BOOST_TEST_REQUIRE(answer.gate == 0u);
   const auto before = result.gates;
   apply_known_deviations(result, grid, read(kRow));

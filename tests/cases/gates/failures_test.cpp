@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "tests/cases/gates/gated_grid.h"
+#include "tests/cases/limit_as.h"
 
 using namespace rigor;
 using namespace rigor::test;
@@ -30,15 +31,22 @@ BOOST_AUTO_TEST_CASE(each_kind_of_gate_says_its_limit) {
     const char* limit;
     void (*set)(Gate&);
   };
-  for (const Row& row : {Row{"at most 0.5 m", [](Gate& gate) { gate.max = 0.5; }},
-                         Row{"at least 0.25 m", [](Gate& gate) { gate.min = 0.25; }},
-                         Row{"at least 0.25 m, at most 0.5 m", [](Gate& gate) { gate.min = 0.25, gate.max = 0.5; }},
-                         Row{"equal to 0.5 m", [](Gate& gate) { gate.equals = 0.5; }},
-                         Row{"order at least 1.9", [](Gate& gate) { gate.at_least_order = 1.9; }},
-                         Row{"the order that its method declares, less a tenth",
-                             [](Gate& gate) { gate.at_least_order = 0.1, gate.declares_order = true; }},
-                         Row{"within 1.25 times the recorded value", [](Gate& gate) { gate.regression = 1.25; }},
-                         Row{"better than b", [](Gate& gate) { gate.better_than = "b"; }}}) {
+  for (const Row& row :
+       {Row{"at most 0.5 m", [](Gate& gate) { test::limit_as<BoundLimit>(gate).max = 0.5; }},
+        Row{"at least 0.25 m", [](Gate& gate) { test::limit_as<BoundLimit>(gate).min = 0.25; }},
+        Row{"at least 0.25 m, at most 0.5 m",
+            [](Gate& gate) {
+              test::limit_as<BoundLimit>(gate).min = 0.25, test::limit_as<BoundLimit>(gate).max = 0.5;
+            }},
+        Row{"equal to 0.5 m", [](Gate& gate) { test::limit_as<BoundLimit>(gate).equals = 0.5; }},
+        Row{"order at least 1.9", [](Gate& gate) { test::limit_as<OrderLimit>(gate).at_least = 1.9; }},
+        Row{"the order that its method declares, less a tenth",
+            [](Gate& gate) {
+              test::limit_as<OrderLimit>(gate).at_least = 0.1, test::limit_as<OrderLimit>(gate).is_declared = true;
+            }},
+        Row{"within 1.25 times the recorded value",
+            [](Gate& gate) { test::limit_as<RegressionLimit>(gate).factor = 1.25; }},
+        Row{"better than b", [](Gate& gate) { test::limit_as<RankingLimit>(gate).better_than = "b"; }}}) {
     Gate asked = gate("position_error");
     row.set(asked);
     BOOST_TEST(failure_of(asked).limit == row.limit);
@@ -47,7 +55,8 @@ BOOST_AUTO_TEST_CASE(each_kind_of_gate_says_its_limit) {
 
 BOOST_AUTO_TEST_CASE(a_row_says_what_was_found_where_and_why) {
   Gate limit = gate("position_error"), regression = limit, order = limit;
-  limit.max = 0.005, regression.regression = 1.25, order.at_least_order = 1;
+  test::limit_as<BoundLimit>(limit).max = 0.005, test::limit_as<RegressionLimit>(regression).factor = 1.25,
+  test::limit_as<OrderLimit>(order).at_least = 1;
   const Failure row = failure_of(limit);
   BOOST_TEST(row.case_id == "case");
   BOOST_TEST((row.engine == "a" && row.dt == "1/10" && row.where == "case.toml:7:1"));
@@ -62,7 +71,7 @@ BOOST_AUTO_TEST_CASE(a_row_says_what_was_found_where_and_why) {
 // If there is no value, or an unexpected pass, the answer itself gives the reason.
 BOOST_AUTO_TEST_CASE(a_row_without_a_value_or_of_an_unexpected_pass_says_the_answer) {
   Gate limit = gate("position_error");
-  limit.max = 0.005;
+  test::limit_as<BoundLimit>(limit).max = 0.005;
   const Failure none = failure_of(limit, GateAnswer::not_checked, false);
   BOOST_TEST((none.found == "not checked" && none.worst.empty() && none.because == "the answer's text"));
   BOOST_TEST(failure_of(limit, GateAnswer::failed, false).because == "the answer's text");
@@ -95,7 +104,7 @@ BOOST_AUTO_TEST_CASE(an_invalid_cell_is_a_row_where_its_own_gate_fails) {
                          Row{"a", "1/10", GateAnswer::failed, 1}, Row{"a", "1/20", GateAnswer::held, 0}}) {
     GatedGrid fixture;
     Gate limit = gate("position_error");
-    limit.max = 1;
+    test::limit_as<BoundLimit>(limit).max = 1;
     fixture.result().definition.gates = {limit};
     fixture.cell(1).status = Status::invalid;
     fixture.result().gates = {{0, row.engine, row.dt, row.answer, "text"}};

@@ -5,6 +5,7 @@
 
 #include "cases/gates/failures.h"
 #include "tests/cases/gates/gated_grid.h"
+#include "tests/cases/limit_as.h"
 
 using namespace rigor;
 using namespace rigor::test;
@@ -20,7 +21,7 @@ BOOST_AUTO_TEST_SUITE(cases_gates_gates)
 BOOST_AUTO_TEST_CASE(a_limit_is_held_against_every_cell_it_selects) {
   GatedGrid run;  // a: .01 .0025; b: .1 .025
   Gate limit = gate("position_error");
-  limit.max = 0.05;
+  test::limit_as<BoundLimit>(limit).max = 0.05;
   const auto answers = run.check(limit);
   BOOST_TEST(answers.size() == 4u);
   BOOST_TEST(count(answers, GateAnswer::failed) == 1);
@@ -37,7 +38,7 @@ BOOST_AUTO_TEST_CASE(a_gate_passes_over_the_runs_that_the_truth_is_made_like) {
   run.grid.runs[1].engine = "core", run.grid.runs[1].settings.options["contact"] = "event";
   run.result().definition.truth = "events";
   Gate limit = gate("position_error");
-  limit.max = 0.001;  // none of them holds it
+  test::limit_as<BoundLimit>(limit).max = 0.001;  // none of them holds it
   BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 2);
   for (const GateResult& answer : run.result().gates) BOOST_TEST(answer.engine == "a");
   run.result().definition.truth = "reference";
@@ -48,7 +49,8 @@ BOOST_AUTO_TEST_CASE(a_gate_passes_over_the_runs_that_the_truth_is_made_like) {
 BOOST_AUTO_TEST_CASE(engines_and_steps_narrow_a_gate) {
   GatedGrid run;
   Gate limit = gate("position_error");
-  limit.max = 0.05, limit.engines = {"b"}, limit.dt = {{0.05, "0.05"}};  // the cell's is written "1/20"
+  test::limit_as<BoundLimit>(limit).max = 0.05, limit.engines = {"b"},
+  limit.dt = {{0.05, "0.05"}};  // the cell's is written "1/20"
   const auto answers = run.check(limit);
   BOOST_TEST_REQUIRE(answers.size() == 1u);
   BOOST_TEST((answers.front().answer == GateAnswer::held));
@@ -66,7 +68,8 @@ BOOST_AUTO_TEST_CASE(min_and_equals_hold_on_their_side_only) {
        {Row{0.009, {}, true}, Row{0.011, {}, false}, Row{{}, 0.01 + 1e-12, true}, Row{{}, 0.01 + 1e-8, false}}) {
     GatedGrid run;
     Gate limit = gate("position_error");
-    limit.min = row.min, limit.equals = row.equals, limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}};
+    test::limit_as<BoundLimit>(limit).min = row.min, test::limit_as<BoundLimit>(limit).equals = row.equals,
+    limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}};
     BOOST_TEST((run.check(limit).front().answer == GateAnswer::held) == row.holds);
   }
 }
@@ -80,13 +83,13 @@ BOOST_AUTO_TEST_CASE(a_bound_that_is_met_exactly_holds) {
     bound(limit);
     return run.check(limit).front().answer == GateAnswer::held;
   };
-  BOOST_TEST(holds(0.3, [](Gate& gate) { gate.max = 0.3; }));
-  BOOST_TEST(holds(0.3, [](Gate& gate) { gate.min = 0.3; }));
+  BOOST_TEST(holds(0.3, [](Gate& gate) { test::limit_as<BoundLimit>(gate).max = 0.3; }));
+  BOOST_TEST(holds(0.3, [](Gate& gate) { test::limit_as<BoundLimit>(gate).min = 0.3; }));
   // A rounding is one of what is asked for, and of 1 where that is less.
-  BOOST_TEST(holds(0.1 + 0.9 * kRounding, [](Gate& gate) { gate.equals = 0.1; }));
-  BOOST_TEST(!holds(0.1 + 1.2 * kRounding, [](Gate& gate) { gate.equals = 0.1; }));
-  BOOST_TEST(holds(100 + 90 * kRounding, [](Gate& gate) { gate.equals = 100; }));
-  BOOST_TEST(!holds(100 + 120 * kRounding, [](Gate& gate) { gate.equals = 100; }));
+  BOOST_TEST(holds(0.1 + 0.9 * kRounding, [](Gate& gate) { test::limit_as<BoundLimit>(gate).equals = 0.1; }));
+  BOOST_TEST(!holds(0.1 + 1.2 * kRounding, [](Gate& gate) { test::limit_as<BoundLimit>(gate).equals = 0.1; }));
+  BOOST_TEST(holds(100 + 90 * kRounding, [](Gate& gate) { test::limit_as<BoundLimit>(gate).equals = 100; }));
+  BOOST_TEST(!holds(100 + 120 * kRounding, [](Gate& gate) { test::limit_as<BoundLimit>(gate).equals = 100; }));
 }
 
 BOOST_AUTO_TEST_CASE(a_value_that_is_no_number_holds_nowhere) {
@@ -94,7 +97,9 @@ BOOST_AUTO_TEST_CASE(a_value_that_is_no_number_holds_nowhere) {
     GatedGrid run;
     for (Cell& cell : run.result().cells) cell.metrics["position_error"].value = kNan;
     Gate limit = gate("position_error");
-    (bound == 0 ? limit.max : bound == 1 ? limit.min : bound == 2 ? limit.equals : limit.at_least_order) = 0.01;
+    const GateLimit limits[] = {BoundLimit{.max = 0.01}, BoundLimit{.min = 0.01}, BoundLimit{.equals = 0.01},
+                                OrderLimit{0.01}};
+    limit.limit = limits[bound];
     for (const GateResult& answer : run.check(limit)) BOOST_TEST((answer.answer == GateAnswer::failed));
   }
 }
@@ -109,7 +114,7 @@ BOOST_AUTO_TEST_CASE(a_gate_that_meets_no_cell_is_not_checked_and_does_not_hold)
   };
   GatedGrid other_step, no_metric, unsupported;
   Gate limit = gate("position_error");
-  limit.max = 1;
+  test::limit_as<BoundLimit>(limit).max = 1;
   for (Cell& cell : no_metric.result().cells) cell.metrics["position_error"].not_applicable = "there is no truth";
   check(no_metric, limit);
   for (Cell& cell : unsupported.result().cells) cell.status = Status::unsupported, cell.metrics.clear();
@@ -145,10 +150,11 @@ BOOST_AUTO_TEST_CASE(a_gate_of_other_runs_or_steps_than_were_chosen_is_not_asked
     for (Cell& cell : chosen.result().cells) cell.metrics.clear();
   };
   Gate limit = gate("position_error"), of_b = limit, ranking = limit, order = limit, spread = gate("spread");
-  limit.max = of_b.max = spread.max = 1;
+  test::limit_as<BoundLimit>(limit).max = test::limit_as<BoundLimit>(of_b).max =
+      test::limit_as<BoundLimit>(spread).max = 1;
   of_b.engines = {"b"};
-  ranking.better_than = "b";
-  order.at_least_order = 1;
+  test::limit_as<RankingLimit>(ranking).better_than = "b";
+  test::limit_as<OrderLimit>(order).at_least = 1;
   BOOST_TEST(count(answers(limit, as_is), GateAnswer::held) > 0);
   BOOST_TEST(answers(of_b, as_is).empty());
   BOOST_TEST(answers(ranking, as_is).empty());
@@ -177,10 +183,10 @@ BOOST_AUTO_TEST_CASE(a_gate_of_other_runs_or_steps_than_were_chosen_is_not_asked
 BOOST_AUTO_TEST_CASE(what_no_gate_judged_is_told_from_what_held) {
   GatedGrid run;
   Gate limit = gate("position_error");
-  limit.max = 1e9;
+  test::limit_as<BoundLimit>(limit).max = 1e9;
   run.check(limit);
   BOOST_TEST(is_any_judged(run.grid));
-  limit.max = 1e-9;
+  test::limit_as<BoundLimit>(limit).max = 1e-9;
   run.check(limit);
   BOOST_TEST(is_any_judged(run.grid));
   run.grid.cases.push_back(run.grid.cases.front());
@@ -198,7 +204,7 @@ BOOST_AUTO_TEST_CASE(a_cell_without_a_result_fails_every_gate_that_selects_it) {
     run.cell(0).status = status, run.cell(0).reason = "it broke", run.cell(0).metrics.clear();
     for (const bool order : {false, true}) {
       Gate limit = gate("position_error");
-      (order ? limit.at_least_order : limit.max) = 1;
+      limit.limit = order ? GateLimit(OrderLimit{1}) : GateLimit(BoundLimit{.max = 1});
       const auto answers = run.check(limit);
       BOOST_TEST(count(answers, GateAnswer::failed) == 1);
       BOOST_TEST((run.cell(0).status == status));
@@ -210,10 +216,10 @@ BOOST_AUTO_TEST_CASE(a_blown_up_run_never_passes_a_limit_but_may_be_asked_for) {
   GatedGrid run;
   run.cell(0).status = Status::diverged, run.cell(0).reason = "blown up at 0.1 s: stone";
   Gate limit = gate("position_error");
-  limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}}, limit.max = 1e9;
+  limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}}, test::limit_as<BoundLimit>(limit).max = 1e9;
   BOOST_TEST((run.check(limit).front().answer == GateAnswer::failed));
   BOOST_TEST((run.cell(0).status == Status::diverged));
-  limit.max = {}, limit.min = 0.001;
+  test::limit_as<BoundLimit>(limit).max = {}, test::limit_as<BoundLimit>(limit).min = 0.001;
   BOOST_TEST((run.check(limit).front().answer == GateAnswer::held));
 }
 
@@ -222,7 +228,7 @@ BOOST_AUTO_TEST_CASE(a_blown_up_run_is_never_good_where_more_is_better) {
   run.cell(0).status = Status::diverged, run.cell(0).reason = "blown up at 0.1 s: stone";
   run.cell(0).metrics["tube"].value = 1;  // until it blew up
   Gate limit = gate("tube");
-  limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}}, limit.min = 0.5;
+  limit.engines = {"a"}, limit.dt = {{0.1, "1/10"}}, test::limit_as<BoundLimit>(limit).min = 0.5;
   BOOST_TEST((run.check(limit).front().answer == GateAnswer::failed));
 }
 
@@ -231,7 +237,7 @@ BOOST_AUTO_TEST_CASE(a_spread_is_held_against_every_pair_a_gate_selects) {
   run.result().spreads = {{0, 1, {0.1, "1/10"}, {0.5, 0.3, 0}, {0.01, 0.2, 0}, 0.1, 0.5},
                           {0, 1, {0.05, "1/20"}, {0.125, 0.3, 0}, {0.02, 0.2, 0}, 0.1, 0.5}};
   Gate limit = gate("spread");
-  limit.max = 0.25;
+  test::limit_as<BoundLimit>(limit).max = 0.25;
   BOOST_TEST(count(run.check(limit), GateAnswer::held) == 1);
   BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 1);
   const std::string text = run.check(limit).front().text;
@@ -239,11 +245,11 @@ BOOST_AUTO_TEST_CASE(a_spread_is_held_against_every_pair_a_gate_selects) {
     BOOST_TEST(text.find(part) != std::string::npos, part << " in " << text);
   }
   Gate turn = gate("spread_orientation");
-  turn.max = 0.015, turn.dt = {{0.1, "1/10"}};
+  test::limit_as<BoundLimit>(turn).max = 0.015, turn.dt = {{0.1, "1/10"}};
   BOOST_TEST((run.check(turn).front().answer == GateAnswer::held));
   limit.engines = {"a"};  // no pair
   BOOST_TEST((run.check(limit).front().answer == GateAnswer::not_checked));
-  limit.engines = {}, limit.max = 10;
+  limit.engines = {}, test::limit_as<BoundLimit>(limit).max = 10;
   run.cell(2).status = Status::diverged;
   BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 1);
   BOOST_TEST(count(run.check(limit), GateAnswer::held) == 1);
@@ -252,13 +258,13 @@ BOOST_AUTO_TEST_CASE(a_spread_is_held_against_every_pair_a_gate_selects) {
 BOOST_AUTO_TEST_CASE(a_familys_gate_says_nothing_of_a_case_that_it_does_not_meet_but_of_a_whole_suite) {
   GatedGrid run;
   Gate limit = gate("creep");  // which no cell has
-  limit.max = 1, limit.is_of_family = true;
+  test::limit_as<BoundLimit>(limit).max = 1, limit.is_of_family = true;
   BOOST_TEST(run.check(limit).empty());
   BOOST_TEST(all_gates_hold(run.grid));
   const auto unmet = unmet_family_gates(run.grid);
   BOOST_TEST_REQUIRE(unmet.size() == 1u);
   BOOST_TEST(unmet.front().where == "case.toml:7:1");
-  limit.metric = "position_error", limit.max = 100;
+  limit.metric = "position_error", test::limit_as<BoundLimit>(limit).max = 100;
   run.check(limit);
   BOOST_TEST(unmet_family_gates(run.grid).empty());
 }
@@ -266,7 +272,7 @@ BOOST_AUTO_TEST_CASE(a_familys_gate_says_nothing_of_a_case_that_it_does_not_meet
 // The stone comes 0.5 m far at 1 m/s in 5 or 10 steps: 8 roundings of 2^-24 of 1 m a step make 1.1e-6 m.
 BOOST_AUTO_TEST_CASE(limits_are_wider_for_single_precision_by_its_roundings_and_no_more) {
   Gate limit = gate("position_error");
-  limit.max = 1e-9;
+  test::limit_as<BoundLimit>(limit).max = 1e-9;
   const auto answers_of = [&](double error) {
     GatedGrid run;
     run.grid.engines[1].precision = "single";
@@ -287,7 +293,7 @@ BOOST_AUTO_TEST_CASE(limits_are_wider_for_single_precision_by_its_roundings_and_
 BOOST_AUTO_TEST_CASE(a_gate_that_held_over_a_time_of_reduced_order_says_so) {
   GatedGrid fixture;
   Gate limit = gate("position_error"), order = gate("position_error");
-  limit.max = 1, order.at_least_order = 1.9;
+  test::limit_as<BoundLimit>(limit).max = 1, test::limit_as<OrderLimit>(order).at_least = 1.9;
   for (std::size_t i = 0; i < 4; ++i) fixture.cell(i).metrics["position_error"].compared_until = 0.5;
   fixture.cell(0).reduced_order = ReducedOrder{0.2, "by short steps"};
   fixture.cell(2).reduced_order = ReducedOrder{0.5, "by short steps"};  // what was compared ends there
@@ -304,7 +310,7 @@ BOOST_AUTO_TEST_CASE(a_gate_that_held_over_a_time_of_reduced_order_says_so) {
   BOOST_TEST(caveats(order) == one, boost::test_tools::per_element());
   fixture.cell(0).metrics["cost"] = fixture.cell(0).metrics["position_error"];
   Gate cost = gate("cost");
-  cost.max = 1, cost.engines = {"a"}, cost.dt = {{0.1, "1/10"}};
+  test::limit_as<BoundLimit>(cost).max = 1, cost.engines = {"a"}, cost.dt = {{0.1, "1/10"}};
   BOOST_TEST(caveats(cost).empty());
   BOOST_TEST(all_gates_hold(fixture.grid));
 }

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "tests/cases/gates/gated_grid.h"
+#include "tests/cases/limit_as.h"
 
 using namespace rigor;
 using namespace rigor::test;
@@ -14,7 +15,7 @@ BOOST_AUTO_TEST_CASE(each_run_answers_for_its_own_order) {
     if (cell.run == 1) cell.metrics["position_error"].value = cell.dt.seconds;
   }
   Gate least = gate("position_error");
-  least.at_least_order = 1.9;
+  test::limit_as<OrderLimit>(least).at_least = 1.9;
   const auto answers = run.check(least);
   BOOST_TEST_REQUIRE(answers.size() == 2u);
   for (const GateResult& answer : answers)
@@ -30,9 +31,9 @@ BOOST_AUTO_TEST_CASE(the_order_is_fitted_over_the_steps) {
   for (const double order : {1.0, 2.0, 4.0}) {
     GatedGrid run(order);
     Gate least = gate("position_error");
-    least.at_least_order = order - 0.01;
+    test::limit_as<OrderLimit>(least).at_least = order - 0.01;
     BOOST_TEST(count(run.check(least), GateAnswer::held) == 2);
-    least.at_least_order = order + 0.01;
+    test::limit_as<OrderLimit>(least).at_least = order + 0.01;
     BOOST_TEST(count(run.check(least), GateAnswer::failed) == 2);
   }
 }
@@ -40,7 +41,7 @@ BOOST_AUTO_TEST_CASE(the_order_is_fitted_over_the_steps) {
 BOOST_AUTO_TEST_CASE(an_order_of_one_step_cannot_be_checked) {
   GatedGrid run;
   Gate least = gate("position_error");
-  least.at_least_order = 1, least.dt = {{0.1, "1/10"}};
+  test::limit_as<OrderLimit>(least).at_least = 1, least.dt = {{0.1, "1/10"}};
   const auto answers = run.check(least);
   BOOST_TEST_REQUIRE(answers.size() == 1u);
   BOOST_TEST((answers.front().answer == GateAnswer::not_checked));
@@ -55,7 +56,7 @@ BOOST_AUTO_TEST_CASE(an_observed_order_is_held_against_its_bounds) {
        {Row{1.99, 2.01, GateAnswer::held}, Row{2.01, {}, GateAnswer::failed}, Row{{}, 1.99, GateAnswer::failed}}) {
     GatedGrid run(2);
     Gate limit = gate("observed_order");
-    limit.min = row.min, limit.max = row.max;
+    test::limit_as<BoundLimit>(limit).min = row.min, test::limit_as<BoundLimit>(limit).max = row.max;
     const auto answers = run.check(limit);
     BOOST_TEST_REQUIRE(answers.size() == 2u);
     for (const GateResult& answer : answers) BOOST_TEST((answer.answer == row.answer), answer.text);
@@ -74,9 +75,9 @@ BOOST_AUTO_TEST_CASE(an_order_is_fitted_over_all_of_the_steps) {
     result.cells.push_back(third);
   }
   Gate least = gate("position_error");
-  least.at_least_order = 1.5;
+  test::limit_as<OrderLimit>(least).at_least = 1.5;
   BOOST_TEST(count(run.check(least), GateAnswer::failed) == 2);
-  least.at_least_order = 0.99;  // by least squares over dt, dt/2, dt/4: (2 + 0)/2
+  test::limit_as<OrderLimit>(least).at_least = 0.99;  // by least squares over dt, dt/2, dt/4: (2 + 0)/2
   BOOST_TEST(count(run.check(least), GateAnswer::held) == 2);
 }
 
@@ -87,7 +88,8 @@ BOOST_AUTO_TEST_CASE(a_method_is_held_to_the_order_that_it_declares_where_its_er
       engine.methods.front().order = declared, engine.methods.front().adaptive = adaptive;
     for (Cell& cell : run.result().cells) cell.metrics["position_error"].value *= scale;
     Gate declares = gate("position_error");
-    declares.at_least_order = 0.1, declares.declares_order = true, declares.is_of_family = true;
+    test::limit_as<OrderLimit>(declares).at_least = 0.1, test::limit_as<OrderLimit>(declares).is_declared = true,
+    declares.is_of_family = true;
     declares.engines = {"a"};
     return run.check(declares);
   };
@@ -111,7 +113,8 @@ BOOST_AUTO_TEST_CASE(a_declared_order_is_judged_where_the_run_is_near_its_limit)
     result.cells.push_back(third);
     change(result.cells[0], result);
     Gate declares = gate("position_error");
-    declares.at_least_order = 0.1, declares.declares_order = true, declares.is_of_family = true;
+    test::limit_as<OrderLimit>(declares).at_least = 0.1, test::limit_as<OrderLimit>(declares).is_declared = true,
+    declares.is_of_family = true;
     declares.engines = {"a"};
     return run.check(declares);
   };
@@ -140,9 +143,9 @@ BOOST_AUTO_TEST_CASE(a_declared_order_is_judged_where_the_run_is_near_its_limit)
 BOOST_AUTO_TEST_CASE(a_ranking_holds_each_run_against_another_at_the_same_step) {
   GatedGrid run;  // a: .01 .0025; b: .1 .025
   Gate ranking = gate("position_error");
-  ranking.engines = {"a"}, ranking.better_than = "b";
+  ranking.engines = {"a"}, test::limit_as<RankingLimit>(ranking).better_than = "b";
   BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 2);
-  ranking.engines = {"b"}, ranking.better_than = "a";
+  ranking.engines = {"b"}, test::limit_as<RankingLimit>(ranking).better_than = "a";
   const auto answers = run.check(ranking);
   BOOST_TEST(count(answers, GateAnswer::failed) == 2);
   BOOST_TEST(answers.front().text.find("0.1 m, not better than the 0.01 m of a") != std::string::npos,
@@ -153,7 +156,7 @@ BOOST_AUTO_TEST_CASE(a_ranking_holds_each_run_against_another_at_the_same_step) 
 BOOST_AUTO_TEST_CASE(who_blew_up_is_better_than_nobody) {
   GatedGrid run;
   Gate ranking = gate("position_error");
-  ranking.engines = {"b"}, ranking.better_than = "a";
+  ranking.engines = {"b"}, test::limit_as<RankingLimit>(ranking).better_than = "a";
   run.cell(0).status = Status::diverged;  // a at the first step: its small error means nothing
   BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 1);
   run.cell(2).status = Status::diverged;  // and so does b
@@ -165,7 +168,7 @@ BOOST_AUTO_TEST_CASE(who_blew_up_is_better_than_nobody) {
 BOOST_AUTO_TEST_CASE(a_ranking_against_a_run_that_came_to_nothing_fails) {
   GatedGrid run;
   Gate ranking = gate("position_error");
-  ranking.engines = {"a"}, ranking.better_than = "b";
+  ranking.engines = {"a"}, test::limit_as<RankingLimit>(ranking).better_than = "b";
   run.cell(2).status = Status::crashed;
   BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 1);
   run.cell(2).status = Status::unsupported;  // that is nobody's fault
@@ -176,7 +179,7 @@ BOOST_AUTO_TEST_CASE(a_ranking_does_not_hold_where_both_are_the_same) {
   GatedGrid run;
   for (Cell& cell : run.result().cells) cell.metrics["position_error"].value = 0.01;
   Gate ranking = gate("position_error");
-  ranking.engines = {"a"}, ranking.better_than = "b";
+  ranking.engines = {"a"}, test::limit_as<RankingLimit>(ranking).better_than = "b";
   BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 2);
 }
 

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "core/base/error.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/runner/faulty_engine.h"
 
 using namespace rigor;
@@ -30,7 +31,7 @@ BOOST_AUTO_TEST_SUITE(cases_gates_quick)
 BOOST_AUTO_TEST_CASE(a_gate_keeps_its_quick_steps_and_an_order_needs_all_of_them) {
   Case definition = long_case();
   Gate limit = gate("position_error"), order = gate("position_error"), fine = gate("energy_drift");
-  order.at_least_order = 1, fine.dt = {definition.dt[1]};
+  test::limit_as<OrderLimit>(order).at_least = 1, fine.dt = {definition.dt[1]};
   definition.gates = {limit, order, fine};
   const auto selected = quick_selection({definition}, {});
   BOOST_TEST_REQUIRE(selected.size() == 1u);

@@ -12,6 +12,7 @@
 #include "cases/report/json/leave_out_details.h"
 #include "cases/report/reports.h"
 #include "core/base/error.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/report/sample_results.h"
 #include "tests/core/scene/toml/refusal.h"
 #include "tests/folder.h"
@@ -33,7 +34,8 @@ struct Fixture : Folder {
     RecordedValues values;
     values.add("family/case", grid.runs[0], 0.1, "position_error", value);
     Gate gate;
-    gate.metric = "position_error", gate.regression = factor, gate.engines = {"good"}, gate.dt = {{0.1, "0.1"}};
+    gate.metric = "position_error", test::limit_as<RegressionLimit>(gate).factor = factor, gate.engines = {"good"},
+    gate.dt = {{0.1, "0.1"}};
     result().definition.gates = {gate};
     check_gates(result(), grid, values);
     return word_of(result().gates.front().answer);
@@ -67,7 +69,7 @@ BOOST_AUTO_TEST_CASE(roundings_are_no_change_and_what_is_no_number_is_one) {
 
 BOOST_AUTO_TEST_CASE(a_cell_without_a_recorded_value_is_said_to_have_none_and_the_gate_that_met_none_is_held_by_it) {
   Gate gate;
-  gate.metric = "position_error", gate.regression = 1.25;
+  gate.metric = "position_error", test::limit_as<RegressionLimit>(gate).factor = 1.25;
   result().definition.gates = {gate};
   check_gates(result(), grid, recorded(kLine));
   std::map<std::string, int> counts;
@@ -83,7 +85,8 @@ BOOST_AUTO_TEST_CASE(a_cell_without_a_recorded_value_is_said_to_have_none_and_th
 // ODE's direct solver gives up on some scenes: no value then, but one that is recorded has to come again.
 BOOST_AUTO_TEST_CASE(an_invalid_cell_fails_only_where_a_value_is_recorded) {
   Gate gate;
-  gate.metric = "position_error", gate.regression = 1.25, gate.engines = {"good"}, gate.dt = {{0.1, "1/10"}};
+  gate.metric = "position_error", test::limit_as<RegressionLimit>(gate).factor = 1.25, gate.engines = {"good"},
+  gate.dt = {{0.1, "1/10"}};
   result().definition.gates = {gate};
   result().cells[0].status = Status::invalid;
   check_gates(result(), grid);
@@ -101,7 +104,8 @@ BOOST_AUTO_TEST_CASE(a_run_that_blew_up_does_not_hold_what_is_recorded) {
   RecordedValues values;
   values.add("family/case", grid.runs[1], 0.1, "energy_drift", 0.5);
   Gate gate;
-  gate.metric = "energy_drift", gate.regression = 1.25, gate.engines = {"wild"}, gate.dt = {{0.1, "1/10"}};
+  gate.metric = "energy_drift", test::limit_as<RegressionLimit>(gate).factor = 1.25, gate.engines = {"wild"},
+  gate.dt = {{0.1, "1/10"}};
   result().definition.gates = {gate};
   check_gates(result(), grid, values);
   BOOST_TEST((result().gates.front().answer == GateAnswer::failed));
@@ -109,7 +113,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_blew_up_does_not_hold_what_is_recorded) {
 
 BOOST_AUTO_TEST_CASE(a_rounding_is_recorded_as_none) {
   Gate gate;
-  gate.metric = "position_error", gate.regression = 1.25, gate.dt = {{0.1, "0.1"}};
+  gate.metric = "position_error", test::limit_as<RegressionLimit>(gate).factor = 1.25, gate.dt = {{0.1, "0.1"}};
   result().definition.gates = {gate};
   for (Cell& cell : result().cells) cell.metrics["position_error"].value = 1e-12;
   check_gates(result(), grid);
@@ -119,8 +123,8 @@ BOOST_AUTO_TEST_CASE(a_rounding_is_recorded_as_none) {
 
 BOOST_AUTO_TEST_CASE(the_file_made_of_results_holds_them) {
   Gate gate, bound;
-  gate.metric = "position_error", gate.regression = 1.25;
-  bound.metric = "energy_drift", bound.max = 1;
+  gate.metric = "position_error", test::limit_as<RegressionLimit>(gate).factor = 1.25;
+  bound.metric = "energy_drift", test::limit_as<BoundLimit>(bound).max = 1;
   result().definition.gates = {gate, bound};
   check_gates(result(), grid);
   const RegressionText made = regression_text(write("results.json", json_report(grid)), "good");
@@ -139,7 +143,7 @@ BOOST_AUTO_TEST_CASE(the_file_made_of_results_holds_them) {
 // A long result leaves out what stands twice; not what is recorded.
 BOOST_AUTO_TEST_CASE(the_file_made_of_a_long_result_holds_values_that_held) {
   Gate gate;
-  gate.metric = "position_error", gate.regression = 1.25;
+  gate.metric = "position_error", test::limit_as<RegressionLimit>(gate).factor = 1.25;
   result().definition.gates = {gate};
   check_gates(result(), grid, recorded(kLine));
   for (std::size_t n = 0; n < kMostCasesInDetail; ++n) {

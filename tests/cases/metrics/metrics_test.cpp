@@ -25,6 +25,22 @@ BOOST_AUTO_TEST_CASE(which_metrics_are_better_when_higher_and_which_are_costly) 
   BOOST_TEST((costly == std::vector<std::string>{"phase_error", "tube"}));
 }
 
+BOOST_AUTO_TEST_CASE(each_row_states_what_its_metric_needs) {
+  const auto need = [](bool MetricNeeds::*which) { return metrics_that_need(which); };
+  BOOST_TEST(need(&MetricNeeds::twin) == (std::vector<std::string>{"unexplained_error", "unexplained_rotation",
+                                                                   "unexplained_spin", "unexplained_velocity"}));
+  BOOST_TEST(need(&MetricNeeds::ensemble) == (std::vector<std::string>{"ensemble_distance", "ensemble_p_value"}));
+  for (const MetricRow& row : metrics()) {
+    BOOST_TEST(row.needs.contacts == (row.name.starts_with("contact_") || row.name.starts_with("force_") ||
+                                      row.name == "coulomb_residual"),
+               row.name);
+    BOOST_TEST(row.is_compared == (row.name != "cost" && row.name != "ensemble_p_value"), row.name);
+  }
+  BOOST_TEST(headline_metrics() == (std::vector<std::string>{"position_error", "orientation_error"}));
+  BOOST_TEST(find_metric("position_error")->unit == "m");
+  BOOST_TEST(find_metric("observed_order") == nullptr);
+}
+
 BOOST_AUTO_TEST_CASE(the_metrics_across_cells_are_alphabetical_and_have_names_of_their_own) {
   for (std::size_t i = 0; i < cross_metrics().size(); ++i) {
     BOOST_TEST(!cross_metrics()[i].unit.empty());

@@ -8,6 +8,7 @@
 #include "cases/report/json/leave_out_details.h"
 #include "core/base/error.h"
 #include "tests/cases/judged.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/results/gated_results.h"
 
 using namespace rigor;
@@ -193,7 +194,7 @@ BOOST_AUTO_TEST_CASE(a_smaller_stable_step_is_worse) {
 BOOST_AUTO_TEST_CASE(a_regression_that_has_nothing_recorded_is_no_answer) {
   Results grid = sample_results();
   Gate gate;
-  gate.metric = "position_error", gate.regression = 1.25, gate.engines = {"good"};
+  gate.metric = "position_error", test::limit_as<RegressionLimit>(gate).factor = 1.25, gate.engines = {"good"};
   grid.cases.front().definition.gates = {gate};
   check_gates(grid.cases.front(), grid);
   BOOST_TEST_REQUIRE(!grid.cases.front().gates.empty());

@@ -6,6 +6,7 @@
 #include "cases/gates/gates.h"
 #include "cases/report/reports.h"
 #include "cases/results/baseline.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/report/sample_results.h"
 #include "tests/folder.h"
 
@@ -14,7 +15,8 @@ namespace rigor {
 inline Results gated_results(double limit = 1) {
   Results grid = sample_results();
   Gate gate;
-  gate.metric = "position_error", gate.max = limit, gate.engines = {"good"}, gate.because = "a reason";
+  gate.metric = "position_error", test::limit_as<BoundLimit>(gate).max = limit, gate.engines = {"good"},
+  gate.because = "a reason";
   grid.cases.front().definition.gates = {gate};
   check_gates(grid.cases.front(), grid);
   return grid;

@@ -15,7 +15,7 @@ using rigor::test::says;
 
 namespace {
 
-constexpr const char* kGood = "family/case\tgood\t1/10";
+const CellKey kGood = {"family/case", "good", "1/10"};
 
 // The sample's results.json, changed.
 struct Fixture : Folder {
@@ -43,11 +43,11 @@ BOOST_AUTO_TEST_CASE(an_entry_keeps_statuses_errors_and_costs_to_four_digits) {
   BOOST_TEST(one.machine == "chip, 2 cores, cc 1, Release");
   BOOST_TEST_REQUIRE(one.cells.size() == 4u);
   const HistoryEntry::Cell& good = one.cells.at(kGood);
-  BOOST_TEST((good.status == "pass" && good.metrics.at("position_error") == 0.1235));
+  BOOST_TEST((good.status == Status::pass && good.metrics.at("position_error") == 0.1235));
   BOOST_TEST(good.cost.value_or(0) == 0.01235);
-  BOOST_TEST(!one.cells.at("family/case\tgood\t1/20").cost.has_value());  // none that is no number
-  const HistoryEntry::Cell& blown_up = one.cells.at("family/case\twild\t1/10");
-  BOOST_TEST((blown_up.status == "diverged" && std::isinf(blown_up.metrics.at("position_error"))));
+  BOOST_TEST(!one.cells.at({"family/case", "good", "1/20"}).cost.has_value());  // none that is no number
+  const HistoryEntry::Cell& blown_up = one.cells.at({"family/case", "wild", "1/10"});
+  BOOST_TEST((blown_up.status == Status::diverged && std::isinf(blown_up.metrics.at("position_error"))));
   BOOST_TEST(!blown_up.cost.has_value());
 }
 
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(what_is_added_comes_back_in_its_order) {
     BOOST_TEST_REQUIRE(is->cells.size() == was->cells.size());
     for (const auto& [key, cell] : was->cells) {
       const HistoryEntry::Cell& back = is->cells.at(key);
-      BOOST_TEST((back.status == cell.status && back.metrics == cell.metrics && back.cost == cell.cost), key);
+      BOOST_TEST((back.status == cell.status && back.metrics == cell.metrics && back.cost == cell.cost), key.text());
     }
   }
 }

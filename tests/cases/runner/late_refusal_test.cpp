@@ -4,6 +4,7 @@
 #include "cases/gates/gates.h"
 #include "cases/runner/grid.h"
 #include "core/engine/engine_failure.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/runner/faulty_engine.h"
 
 using namespace rigor;
@@ -17,7 +18,7 @@ Results run_with(const FaultyEngine::Fault& fault) {
   table.add(std::make_unique<FaultyEngine>("shy", fault));
   Case definition = drifting_body("a");
   Gate gate;
-  gate.metric = "survival", gate.min = 0.5;
+  gate.metric = "survival", test::limit_as<BoundLimit>(gate).min = 0.5;
   definition.gates = {gate};
   const auto infos = infos_of(table);
   Results grid = plan_grid({definition}, {parse_run_name("good", infos), parse_run_name("shy", infos)}, table, {false});

@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(every_job_is_in_exactly_one_share) {
       for (const CaseResult& result : share_of(grid, {k, count}).cases) {
         for (std::size_t i = 0; i < result.cells.size(); ++i) {
           const Cell& cell = result.cells[i];
-          BOOST_TEST((cell.status == Status::crashed || is_of_another_shard(cell.status, cell.reason)));
+          BOOST_TEST((cell.status == Status::crashed || cell.skipped == SkipReason::another_shard));
           cells[fmt::format("{} {}", result.definition.id, i)] += cell.status == Status::crashed;
         }
         for (const StableStepResult& stable : result.stable_steps)

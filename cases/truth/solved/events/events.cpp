@@ -16,6 +16,7 @@
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/event/impacts.h"
 #include "core/scene/contact_laws.h"
+#include "core/world.h"
 
 namespace rigor {
 namespace {
@@ -70,7 +71,7 @@ class Events final : public Truth {
 // Whether the run is one of the core's with this contact, asked for or by default.
 bool is_by_events(const RunName& run, const Scene& scene) {
   const auto& options = run.settings.options;
-  if (run.engine != "core") return false;
+  if (run.engine != core_info().name) return false;
   return options.contains("contact") ? options.at("contact") == "event" : contact_method_for(scene).name == "event";
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "cases/report/console/layout.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/report/sample_results.h"
 
 using namespace rigor;
@@ -160,7 +161,7 @@ BOOST_AUTO_TEST_CASE(bounds_and_regressions_are_counted_apart) {
   result.gates = {{0, "good", "1/10", GateAnswer::held, ""}, {0, "good", "1/20", GateAnswer::known_deviation, ""}};
   const std::string bounds = "bounds: 1 held, 0 failed, 0 not checked, 1 known deviations\n";
   BOOST_TEST(gate_summary(results) == bounds + "bounds of other runs or steps than were asked for: 1\n");
-  result.definition.gates[1].regression = 1.25;
+  test::limit_as<RegressionLimit>(result.definition.gates[1]).factor = 1.25;
   BOOST_TEST(gate_summary(results) == bounds);
   for (const GateAnswer answer : {GateAnswer::held, GateAnswer::failed, GateAnswer::not_recorded})
     result.gates.push_back({1, "good", "1/10", answer, "so much"});

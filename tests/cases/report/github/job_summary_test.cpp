@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "cases/gates/gates.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/report/sample_results.h"
 
 using namespace rigor;
@@ -14,7 +15,8 @@ Results failing_results() {
   Results grid = sample_results();
   CaseResult& result = grid.cases.front();
   Gate limit;
-  limit.metric = "position_error", limit.max = 0.125, limit.because = "an eighth, by the formula: x % y";
+  limit.metric = "position_error", test::limit_as<BoundLimit>(limit).max = 0.125,
+  limit.because = "an eighth, by the formula: x % y";
   limit.where = "suite/a, b.toml:7:3";
   result.definition.gates = {limit};
   check_gates(result, grid);
@@ -68,7 +70,7 @@ BOOST_AUTO_TEST_CASE(an_annotation_points_at_the_gate_in_its_file) {
 BOOST_AUTO_TEST_CASE(nothing_is_said_of_gates_that_hold) {
   Results grid = failing_results();
   grid.cases.front().cells.erase(grid.cases.front().cells.begin() + 2, grid.cases.front().cells.end());
-  grid.cases.front().definition.gates.front().max = 1;
+  test::limit_as<BoundLimit>(grid.cases.front().definition.gates.front()).max = 1;
   check_gates(grid.cases.front(), grid);
   BOOST_TEST(failures(grid).empty());
   BOOST_TEST(failures(grid).empty());

@@ -6,6 +6,7 @@
 #include "cases/report/json/leave_out_details.h"
 #include "cases/report/reports.h"
 #include "cases/results/result_json.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/report/sample_results.h"
 
 using namespace rigor;
@@ -127,7 +128,7 @@ BOOST_AUTO_TEST_CASE(what_no_cell_of_a_case_was_asked_for_stands_with_the_case) 
 
 BOOST_AUTO_TEST_CASE(stable_steps_that_nobody_asked_for_are_no_rows_among_many_cases) {
   Results grid = many_cases();
-  grid.cases[0].stable_steps[1] = {Status::unsupported, "not asked for", {}};
+  skip(grid.cases[0].stable_steps[1], SkipReason::not_asked_for);
   const auto all = results_json(grid).at("stable_dt"),
              told = nlohmann::ordered_json::parse(json_report(grid)).at("stable_dt");
   BOOST_TEST(all.size() == 2 * grid.cases.size());
@@ -203,9 +204,11 @@ BOOST_AUTO_TEST_CASE(a_gate_says_what_it_asks_and_of_what_kind_it_is) {
   Results results = sample_results();
   CaseResult& result = results.cases.front();
   Gate limit, regression, order;
-  limit.metric = "position_error", limit.max = 0.5, limit.because = "half a metre", limit.where = "c:7:1";
-  regression.metric = "creep", regression.regression = 1.25;
-  order.metric = "energy_drift", order.at_least_order = 0.1, order.declares_order = true;
+  limit.metric = "position_error", test::limit_as<BoundLimit>(limit).max = 0.5, limit.because = "half a metre",
+  limit.where = "c:7:1";
+  regression.metric = "creep", test::limit_as<RegressionLimit>(regression).factor = 1.25;
+  order.metric = "energy_drift", test::limit_as<OrderLimit>(order).at_least = 0.1,
+  test::limit_as<OrderLimit>(order).is_declared = true;
   result.definition.gates = {limit, regression, order};
   result.gates = {{0, "good", "1/10", GateAnswer::held, "it is", 0.25},
                   {1, "good", "1/20", GateAnswer::not_recorded, "n"}};

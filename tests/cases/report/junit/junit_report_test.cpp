@@ -4,6 +4,7 @@
 
 #include "cases/gates/gates.h"
 #include "cases/report/reports.h"
+#include "tests/cases/limit_as.h"
 #include "tests/cases/report/sample_results.h"
 #include "tests/folder.h"
 
@@ -17,10 +18,10 @@ Results gated_results() {
   Results grid = sample_results();
   CaseResult& result = grid.cases.front();
   Gate limit, known, unmet;
-  limit.metric = "position_error", limit.max = 0.5, limit.because = "half a metre, \x01 & no more",
-  limit.where = "c:7:1";
-  known.metric = "energy_drift", known.max = 0.1, known.engines = {"good"};
-  unmet.metric = "orientation_error", unmet.max = 1, unmet.engines = {"good"};
+  limit.metric = "position_error", test::limit_as<BoundLimit>(limit).max = 0.5,
+  limit.because = "half a metre, \x01 & no more", limit.where = "c:7:1";
+  known.metric = "energy_drift", test::limit_as<BoundLimit>(known).max = 0.1, known.engines = {"good"};
+  unmet.metric = "orientation_error", test::limit_as<BoundLimit>(unmet).max = 1, unmet.engines = {"good"};
   result.definition.gates = {limit, known, unmet};
   check_gates(result, grid);
   for (GateResult& answer : result.gates) {
@@ -106,7 +107,7 @@ BOOST_AUTO_TEST_CASE(an_unexpected_pass_is_a_failure_as_the_exit_code_says) {
 BOOST_AUTO_TEST_CASE(a_bound_and_a_regression_are_told_apart) {
   Results grid = gated_results();
   BOOST_TEST(count(junit_report(grid), "message=\"bound: ") > 0);
-  grid.cases.front().definition.gates[0].regression = 1.25;
+  test::limit_as<RegressionLimit>(grid.cases.front().definition.gates[0]).factor = 1.25;
   BOOST_TEST(count(junit_report(grid), "message=\"regression: position_error of wild") == 1);
 }
 

@@ -33,7 +33,7 @@ function indexed(results, playback) {
   results.series = playback.series;
   for (const engine of results.engines)
     Object.assign(engine, {
-      core: engine.name.startsWith("core"),
+      core: engine.in_house === true,
       stock: engine.name.includes("@stock"),
       isSingle: engine.precision === "single",
     });

@@ -282,7 +282,7 @@ export class Matrix {
       ...one.cells
         .filter((c) => c.playback && c.dt === dt.text)
         .map((c) => c.engine)
-        .filter((n) => !n.startsWith("core"))
+        .filter((n) => !this.results.engines.find((e) => e.name === n)?.core)
         .slice(0, 3),
     ]);
     const changes = { case: one.id, dt: dt.text, engines: shown, time: 0, zoom: null };
