@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-
 #include "core/scene/shapes/shape_descriptor.h"
 
 namespace rigor {
@@ -17,13 +15,13 @@ struct Capsule {
         {{{"radius", ShapeQuantity::length, &Capsule::radius}, {"length", ShapeQuantity::length, &Capsule::length}}}};
   }
 
-  double volume() const { return (4.0 / 3 * radius + length) * std::numbers::pi * radius * radius; }
+  double volume() const { return (4.0 / 3 * radius + length) * kPi * radius * radius; }
   Vec3 centre() const { return Vec3::Zero(); }
   // A cylinder and two half-spheres. A half-sphere's centre of mass lies 3/8 r from its flat face, and its inertia
   // about a diameter of that face is 2/5 m r².
   Mat3 inertia(double mass) const {
     const double r = radius, h = length;
-    const double cylinder_volume = std::numbers::pi * r * r * h, ball_volume = 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    const double cylinder_volume = kPi * r * r * h, ball_volume = 4.0 / 3.0 * kPi * r * r * r;
     const double mc = mass * cylinder_volume / (cylinder_volume + ball_volume), mb = mass - mc;
     const double axial = 0.5 * mc * r * r + 0.4 * mb * r * r;
     const double across = mc * (h * h / 12.0 + r * r / 4.0) + mb * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/scene/shapes/shape_descriptor.h"
 
@@ -19,7 +18,7 @@ struct Cylinder {
         {{{"radius", ShapeQuantity::length, &Cylinder::radius}, {"length", ShapeQuantity::length, &Cylinder::length}}}};
   }
 
-  double volume() const { return std::numbers::pi * radius * radius * length; }
+  double volume() const { return kPi * radius * radius * length; }
   Vec3 centre() const { return Vec3::Zero(); }
   Mat3 inertia(double mass) const {
     const double across = mass * (radius * radius / 4 + length * length / 12);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-
 #include "core/scene/shapes/shape_descriptor.h"
 
 namespace rigor {
@@ -13,7 +11,7 @@ struct Ellipsoid {
     return {"ellipsoid", "An ellipsoid by its half-axes.", {{{"radii", ShapeQuantity::lengths, &Ellipsoid::radii}}}};
   }
 
-  double volume() const { return 4 * std::numbers::pi / 3 * radii.prod(); }
+  double volume() const { return 4 * kPi / 3 * radii.prod(); }
   Vec3 centre() const { return Vec3::Zero(); }
   Mat3 inertia(double mass) const {
     const Vec3 s = radii.cwiseAbs2();

@@ -20,6 +20,8 @@
 
 namespace rigor {
 
+inline constexpr double kPi = 3.14159265358979323846;  // std::numbers is C++20, and one engine's process is C++17
+
 enum class ShapeQuantity { length, lengths, direction, number };  // m, > 0; m, each > 0; unit, in W; m
 
 template <typename Type>

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-
 #include "core/scene/shapes/shape_descriptor.h"
 
 namespace rigor {
@@ -13,7 +11,7 @@ struct Sphere {
     return {"sphere", "A ball.", {{{"radius", ShapeQuantity::length, &Sphere::radius}}}};
   }
 
-  double volume() const { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
+  double volume() const { return 4 * kPi / 3 * radius * radius * radius; }
   Vec3 centre() const { return Vec3::Zero(); }
   Mat3 inertia(double mass) const {
     const double i = 0.4 * mass * radius * radius;
