@@ -12,7 +12,7 @@
 #include "adapters/plugin/shared_library.h"
 #include "bench/benchmarks.h"
 #include "core/engine/engine.h"
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 
 namespace rigor::bench {
 namespace {

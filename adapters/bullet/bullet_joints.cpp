@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "adapters/bullet/bullet_convert.h"
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 
 namespace rigor::bullet {
 namespace {

@@ -2,7 +2,7 @@
 // the engine's current state, and passed as constant forces for that step.
 #pragma once
 
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 #include "core/engine/engine.h"
 
 namespace rigor {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "adapters/mujoco/mujoco_mjcf.h"
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 
 namespace rigor {
 namespace {

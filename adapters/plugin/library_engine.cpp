@@ -18,7 +18,7 @@
 #include "adapters/plugin/shared_library.h"
 #include "core/base/json.h"
 #include "core/engine/clock.h"
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 
 namespace rigor {
 namespace {

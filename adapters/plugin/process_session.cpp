@@ -8,7 +8,7 @@
 #include "adapters/plugin/answer.h"
 #include "adapters/plugin/in_quotes.h"
 #include "core/base/json.h"
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 
 namespace rigor {
 namespace {

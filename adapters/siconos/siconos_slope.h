@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/dynamics/model/load_jacobian.h"
+#include "core/dynamics/model/loads/load_jacobian.h"
 
 namespace rigor {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "adapters/simbody/simbody_mobilizers.h"
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 

@@ -5,7 +5,7 @@
 
 #include "cases/case/run_selector.h"
 #include "cases/case/selection.h"
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 
 namespace rigor {
 namespace {

@@ -10,7 +10,7 @@
 #include "cases/case/selection.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
-#include "core/scene/feature.h"
+#include "core/scene/features/feature.h"
 
 namespace rigor {
 namespace {

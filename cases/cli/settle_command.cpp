@@ -13,7 +13,7 @@
 #include "core/scene/joint_rates.h"
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/table_reader.h"
-#include "core/scene/toml/velocity_writer.h"
+#include "core/scene/toml/writing/velocity_writer.h"
 
 namespace rigor {
 namespace {

@@ -16,7 +16,7 @@
 #include "core/base/json.h"
 #include "core/base/near_match.h"
 #include "core/scene/contact_laws.h"
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 
 namespace rigor {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 
 namespace rigor {
 

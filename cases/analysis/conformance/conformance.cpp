@@ -8,7 +8,7 @@
 #include "cases/analysis/conformance/trial.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 
 namespace rigor {
 namespace conformance {

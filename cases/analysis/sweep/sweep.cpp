@@ -11,7 +11,7 @@
 #include "cases/runner/grid.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
-#include "core/scene/toml/value_writer.h"
+#include "core/scene/toml/writing/value_writer.h"
 
 namespace rigor {
 namespace {

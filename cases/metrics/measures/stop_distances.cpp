@@ -1,7 +1,7 @@
 #include "cases/metrics/measures/stop_distances.h"
 
 #include "cases/metrics/measures/measuring.h"
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 
 namespace rigor {
 

@@ -1,6 +1,6 @@
 #include "cases/report/json/scene_json.h"
 #include "core/base/json.h"
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 
 #include <cmath>
 

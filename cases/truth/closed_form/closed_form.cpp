@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 
 namespace rigor {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cases/truth/truth.h"
-#include "core/scene/feature.h"
+#include "core/scene/features/feature.h"
 
 namespace rigor {
 

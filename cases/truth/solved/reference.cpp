@@ -11,7 +11,7 @@
 #include "cases/truth/solved/solving.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 
 namespace rigor {
 namespace {

@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "core/base/content_hash.h"
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 #include "solver_fingerprints.h"
 
 namespace rigor {

@@ -10,7 +10,7 @@
 
 #include "core/dynamics/integrators/integrator.h"
 #include "core/engine/capabilities.h"
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 #include "core/scene/scene.h"
 
 namespace rigor {

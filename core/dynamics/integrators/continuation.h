@@ -1,7 +1,7 @@
 // Whether a step continues the last one. A multistep method checks this before it uses its history.
 #pragma once
 
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 #include "core/engine/body_table.h"
 
 namespace rigor {

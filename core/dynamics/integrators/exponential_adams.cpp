@@ -17,7 +17,7 @@
 #include "core/dynamics/integrators/continuation.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/integrators/phi_functions.h"
-#include "core/dynamics/model/load_jacobian.h"
+#include "core/dynamics/model/loads/load_jacobian.h"
 
 namespace rigor {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/dynamics/joints/joints.h"
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 #include "core/dynamics/model/wrench_columns.h"
 
 namespace rigor {

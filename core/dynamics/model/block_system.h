@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/base/factors.h"
-#include "core/dynamics/model/load_jacobian.h"
+#include "core/dynamics/model/loads/load_jacobian.h"
 
 namespace rigor {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/dynamics/model/body_constants.h"
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 

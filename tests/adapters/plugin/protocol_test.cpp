@@ -14,7 +14,7 @@
 #include "adapters/plugin/process_engine.h"
 #include "cases/case/suite.h"
 #include "core/engine/engine.h"
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 #include "tests/cases/vocabulary.h"
 #include "tests/folder.h"
 #include "tests/scenes.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 #include "tests/cases/suite/suite_checks.h"
 
 using namespace rigor;

@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 #include "tests/cases/truth/closed_form/contact/contact_scenes.h"
 #include "tests/scenes.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "cases/metrics/measures/shape_gap.h"
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {

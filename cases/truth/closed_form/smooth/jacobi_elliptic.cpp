@@ -10,7 +10,7 @@ namespace rigor {
 namespace {
 
 constexpr long double kRounding = std::numeric_limits<long double>::epsilon();
-constexpr long double kPi = std::numbers::pi_v<long double>;
+constexpr long double kLongPi = std::numbers::pi_v<long double>;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ long double quarter_period(long double complement) {
     b = std::sqrt(a * b);
     a = mean;
   }
-  return kPi / (a + b);
+  return kLongPi / (a + b);
 }
 
 // Carlson's form of the first integral, F = s R_F(c², c² + k'² s², 1) (Carlson, Numerische Mathematik 33, 1979).
@@ -57,7 +57,7 @@ DnQuadrature::DnQuadrature(long double a, long double complement) : a_(a) {
 // Fourier's coefficients by the trapezoidal rule, which is as exact for a periodic function as there are coefficients.
 void DnQuadrature::find_waves(int modes, long double complement) {
   std::vector<long double> cosines(2 * modes), samples(modes + 1);
-  for (int j = 0; j < 2 * modes; ++j) cosines[j] = std::cos(j * kPi / modes);
+  for (int j = 0; j < 2 * modes; ++j) cosines[j] = std::cos(j * kLongPi / modes);
   for (int j = 0; j <= modes; ++j) {
     const bool is_end = j == 0 || j == modes;
     samples[j] = (is_end ? 0.5L : 1) / (1 + a_ * jacobi_elliptic(j * quarter_period_ / modes, complement).dn) / modes;
@@ -66,7 +66,7 @@ void DnQuadrature::find_waves(int modes, long double complement) {
     long double sum = 0;
     for (int j = 0; j <= modes; ++j) sum += samples[j] * cosines[static_cast<long>(n) * j % (2 * modes)];
     if (n == 0) mean_ = sum;
-    if (n > 0) waves_.push_back(2 * sum * quarter_period_ / (n * kPi));
+    if (n > 0) waves_.push_back(2 * sum * quarter_period_ / (n * kLongPi));
   }
 }
 
@@ -77,7 +77,7 @@ long double DnQuadrature::waves(long double u) const {
     return -2 * a_ / std::sqrt(less * more) * std::atan(std::sqrt(less / more) * std::tanh(u / 2));
   }
   // Clenshaw's recurrence.
-  const long double x = std::remainder(u, 2 * quarter_period_) * kPi / quarter_period_, twice_cos = 2 * std::cos(x);
+  const long double x = std::remainder(u, 2 * quarter_period_) * kLongPi / quarter_period_, twice_cos = 2 * std::cos(x);
   long double later = 0, now = 0;
   for (auto wave = waves_.rbegin(); wave != waves_.rend(); ++wave) {
     const long double sooner = *wave + twice_cos * now - later;

@@ -6,7 +6,7 @@
 
 #include "adapters/core/core_engine.h"
 #include "core/dynamics/model/energy.h"
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 #include "tests/scenes.h"
 
 using namespace rigor;

@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "core/scene/features.h"
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/features/features.h"
+#include "core/scene/toml/writing/scene_writer.h"
 #include "tests/core/scene/scene_of.h"
 #include "tests/core/scene/toml/refusal.h"
 

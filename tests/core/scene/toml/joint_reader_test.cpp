@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 #include "core/scene/joint_rates.h"
 #include "tests/core/scene/scene_of.h"
 #include "tests/core/scene/toml/refusal.h"

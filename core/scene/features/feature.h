@@ -34,7 +34,7 @@ enum class Feature : int {
   motor_effort,
   motor_servo,
   motor_speed,
-  motor_table,  // an effort that changes in time
+  motor_table,    // an effort that changes in time
   placed_shapes,  // shapes with poses, several of them for one body
   restitution,
   speed_motor_with_limits,  // a joint with limits and a motor that keeps a speed

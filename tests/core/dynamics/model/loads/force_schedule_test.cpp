@@ -1,4 +1,4 @@
-#include "core/dynamics/model/force_schedule.h"
+#include "core/dynamics/model/loads/force_schedule.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "core/dynamics/integrators/integrator.h"
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 #include "tests/scenes.h"
 
 using namespace rigor;
@@ -41,7 +41,7 @@ double nearest_switch(const std::vector<TimedForce>& forces, double t, double en
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_dynamics_model_force_schedule)
+BOOST_AUTO_TEST_SUITE(core_dynamics_model_loads_force_schedule)
 
 BOOST_AUTO_TEST_CASE(it_finds_what_acts_and_what_is_next_as_a_look_at_each_force_does) {
   for (const int count : {0, 1, 2, 33, 200}) {

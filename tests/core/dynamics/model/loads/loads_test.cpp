@@ -1,9 +1,9 @@
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 
 #include <boost/test/unit_test.hpp>
 
 #include "core/dynamics/model/energy.h"
-#include "core/dynamics/model/load_jacobian.h"
+#include "core/dynamics/model/loads/load_jacobian.h"
 #include "core/dynamics/model/system.h"
 #include "tests/scenes.h"
 
@@ -41,7 +41,7 @@ Vec6 wrench_of(const Wrench& w) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_dynamics_model_loads)
+BOOST_AUTO_TEST_SUITE(core_dynamics_model_loads_loads)
 
 // Without damping and timed forces the wrench is the downhill slope of the energy. Central differences with h = 1e-5
 // are right to h² times the third derivative, about 1e-7 here.

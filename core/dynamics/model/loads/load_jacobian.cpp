@@ -1,4 +1,4 @@
-#include "core/dynamics/model/load_jacobian.h"
+#include "core/dynamics/model/loads/load_jacobian.h"
 
 namespace rigor {
 namespace {

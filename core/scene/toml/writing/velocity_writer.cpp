@@ -1,4 +1,4 @@
-#include "core/scene/toml/velocity_writer.h"
+#include "core/scene/toml/writing/velocity_writer.h"
 
 #include <fmt/format.h>
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/dynamics/model/force_schedule.h"
 #include "core/dynamics/model/joint_coordinate.h"
-#include "core/dynamics/model/servo_drive.h"
+#include "core/dynamics/model/loads/force_schedule.h"
+#include "core/dynamics/model/loads/servo_drive.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 

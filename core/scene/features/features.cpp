@@ -1,4 +1,4 @@
-#include "core/scene/features.h"
+#include "core/scene/features/features.h"
 
 #include <fmt/format.h>
 

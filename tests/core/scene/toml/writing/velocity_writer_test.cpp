@@ -1,4 +1,4 @@
-#include "core/scene/toml/velocity_writer.h"
+#include "core/scene/toml/writing/velocity_writer.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -6,7 +6,7 @@
 
 using namespace rigor;
 
-BOOST_AUTO_TEST_SUITE(core_scene_toml_velocity_writer)
+BOOST_AUTO_TEST_SUITE(core_scene_toml_writing_velocity_writer)
 
 BOOST_AUTO_TEST_CASE(velocities_are_written_in_their_places_and_all_else_stays) {
   const std::string before = R"(title = "größer"  # a comment

@@ -1,5 +1,5 @@
 // Another number in a scene's text, by its path; what the reader then makes of it.
-#include "core/scene/toml/value_writer.h"
+#include "core/scene/toml/writing/value_writer.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -39,7 +39,7 @@ Scene with(const std::string& path, const std::string& value) { return scene_of(
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_scene_toml_value_writer)
+BOOST_AUTO_TEST_SUITE(core_scene_toml_writing_value_writer)
 
 BOOST_AUTO_TEST_CASE(a_value_is_found_by_its_path_and_nothing_else_changes) {
   BOOST_TEST(with("scene.body.cube.mass", "7").bodies[0].mass == 7);

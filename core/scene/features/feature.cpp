@@ -1,4 +1,4 @@
-#include "core/scene/feature.h"
+#include "core/scene/features/feature.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/dynamics/model/servo_drive.h"
+#include "core/dynamics/model/loads/servo_drive.h"
 
 #include <algorithm>
 #include <cmath>

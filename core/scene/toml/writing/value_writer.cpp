@@ -1,4 +1,4 @@
-#include "core/scene/toml/value_writer.h"
+#include "core/scene/toml/writing/value_writer.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

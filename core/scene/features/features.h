@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/feature.h"
+#include "core/scene/features/feature.h"
 
 namespace rigor {
 

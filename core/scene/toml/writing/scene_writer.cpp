@@ -1,4 +1,4 @@
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/scene/toml/scene_writer.h"
+#include "core/scene/toml/writing/scene_writer.h"
 
 #include <bit>
 #include <boost/test/unit_test.hpp>
@@ -191,7 +191,7 @@ from = 0.25
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_scene_toml_scene_writer)
+BOOST_AUTO_TEST_SUITE(core_scene_toml_writing_scene_writer)
 
 BOOST_AUTO_TEST_CASE(every_case_of_the_suite_is_read_back_to_the_bit) {
   for (const Case& c : select_cases({}, default_suite_dir(), test::words())) {

@@ -1,4 +1,4 @@
-#include "core/dynamics/model/force_schedule.h"
+#include "core/dynamics/model/loads/force_schedule.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 
 namespace rigor {
 

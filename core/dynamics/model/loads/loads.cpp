@@ -1,4 +1,4 @@
-#include "core/dynamics/model/loads.h"
+#include "core/dynamics/model/loads/loads.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,10 +1,10 @@
-#include "core/scene/feature.h"
+#include "core/scene/features/feature.h"
 
 #include <boost/test/unit_test.hpp>
 
 using namespace rigor;
 
-BOOST_AUTO_TEST_SUITE(core_scene_feature)
+BOOST_AUTO_TEST_SUITE(core_scene_features_feature)
 
 // The words are a contract with plug-ins and with files: each names one feature and is found again.
 BOOST_AUTO_TEST_CASE(each_feature_has_one_word) {
