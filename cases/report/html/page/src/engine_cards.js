@@ -20,6 +20,7 @@ const inPlainWords = {
 const shapes = {
   step: "M8 1.5a6.5 6.5 0 1 0 0 13a6.5 6.5 0 0 0 0-13M8 4.5V8l2.6 1.6",
   strength: "M2.5 8.5l3.5 3.5l7.5-8",
+  none: "M3 8h10",
   problem: "M8 2L1.5 13.5h13zM8 6.5v3.2M8 11.4v.8",
 };
 const icon = (kind, label) =>
@@ -75,7 +76,7 @@ export class EngineCards {
         onmouseenter: () => this.focus(engine),
         onmouseleave: () => this.focus(null),
       },
-      el("h2", {}, engine, isBest ? el("span.best", {}, "cheapest") : null),
+      el("h2", {}, engine, isBest ? el("span.best", {}, "recommended") : null),
       this.stepLine(curve),
       this.strengthLine(curve),
       this.problemLine(curve),
@@ -112,7 +113,7 @@ export class EngineCards {
 
   strengthLine(curve) {
     const best = this.byFamily(curve.engine)[0];
-    if (!best || !(best.ratio < 0.9)) return this.line("strength", "good at", "no family better than the median engine");
+    if (!best || !(best.ratio < 0.9)) return this.line("none", "good at", "no family with less error than the median engine");
     const times = 1 / best.ratio;
     return this.line("strength", "good at", el("b", {}, best.name), `: ${times >= 1000 ? "over 1000" : digits(times, 2)} × less error than the median`);
   }

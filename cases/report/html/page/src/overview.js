@@ -94,15 +94,15 @@ export class Overview {
       const outcome = failed ? `${failed} of them failed` : "none failed there";
       beside.push(
         counted === 1
-          ? `It is the cheapest engine within ${lengthOrAngle(tolerance)} in this case.`
-          : `It is the cheapest engine with a typical error within ${lengthOrAngle(tolerance)}. ${compared} of ${counted} cases have a known true motion to compare with; ${outcome}.`,
+          ? `It is the cheapest external engine within ${lengthOrAngle(tolerance)} in this case.`
+          : `It is the cheapest external engine with a typical error within ${lengthOrAngle(tolerance)}. ${compared} of ${counted} cases have a known true motion to compare with; ${outcome}.`,
       );
     }
     const others = this.othersWithin(best, tolerance);
     if (others.length) beside.push(`Also within: ${others.slice(0, 3).map(of).join(", ")}.`);
     const own = cheapest(this.curves, tolerance, isCoreMethod),
       reference = cheapest(this.curves, tolerance, isReference);
-    if (own) beside.push(`Rigor's core: ${of(own)}.`);
+    if (own) beside.push(`Rigor's own core stands apart: ${of(own)}.`);
     if (reference) beside.push(`Reference: ${of(reference)}.`);
     return [
       el("h1", {}, title),
