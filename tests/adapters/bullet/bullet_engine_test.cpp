@@ -14,7 +14,7 @@ using namespace rigor;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 // Bullet itself, without the adapter: one ball of 1 kg in empty space.
 struct RawBall {
@@ -109,12 +109,12 @@ BOOST_AUTO_TEST_CASE(a_turn_beyond_a_quarter_of_pi_in_one_step_falls_short) {
     BOOST_TEST(after.angular_velocity.z() == angle / dt);  // the velocity is not clamped
     return angle_between(after.orientation, Quat::Identity());
   };
-  BOOST_TEST(limit == kPi / 4);
+  BOOST_TEST(limit == kHalfTurn / 4);
   for (const double angle : {0.1, 0.5, 0.999 * limit}) BOOST_TEST(std::abs(turned_by(angle) - angle) < 1e-12);
   // The half-angle's cosine is clamped at pi/8, but its sine grows with w. The result is their arc tangent, which may
   // exceed pi/4 and even pi/2 but never reaches pi.
   for (const double angle : {0.8, 1.0, 1.6, 2.0, 3.0}) {
-    const double law = 2 * std::atan(angle / limit * std::tan(kPi / 8));
+    const double law = 2 * std::atan(angle / limit * std::tan(kHalfTurn / 8));
     BOOST_TEST(std::abs(turned_by(angle) - law) < 1e-12);
     BOOST_TEST(law < angle);
     BOOST_TEST(why_unsupported(BulletEngine().info(), scene, dt) != "");
@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(a_shot_through_a_thin_wall_is_stopped_only_in_matched) {
 }
 
 BOOST_AUTO_TEST_CASE(a_sliding_box_keeps_straight_only_with_all_its_corners) {
-  for (const double direction : {0.0, kPi / 8, kPi / 4, kPi / 3}) {
+  for (const double direction : {0.0, kHalfTurn / 8, kHalfTurn / 4, kHalfTurn / 3}) {
     BOOST_TEST_CONTEXT("direction " << direction) {
       // A semi-implicit step brakes one step early: mu g dt / v0 = 3.3 % at 1/30. The solver's ten sweeps leave the
       // rest.

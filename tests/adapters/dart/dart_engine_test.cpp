@@ -21,7 +21,7 @@ using namespace rigor;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 double distance_after(const std::string& run, const Scene& scene, double dt, double duration,
                       const std::string& other = "core:dormand-prince") {
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(small_turns_go_too_far_by_a_sixth_of_their_cube) {
 
 BOOST_AUTO_TEST_CASE(friction_is_a_pyramid) {
   BOOST_TEST(std::abs(stop_distance_ratio("dart", 0, 1e-3) - 1) < 1e-3);  // v dt/2 of the way
-  BOOST_TEST(std::abs(stop_distance_ratio("dart", kPi / 4, 1e-3) - std::sqrt(0.5)) < 1e-3);
+  BOOST_TEST(std::abs(stop_distance_ratio("dart", kHalfTurn / 4, 1e-3) - std::sqrt(0.5)) < 1e-3);
 }
 
 BOOST_AUTO_TEST_CASE(its_constants_are_as_they_were_after_each_step) {

@@ -18,7 +18,7 @@ using namespace rigor;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 double distance_after(const std::string& run, const Scene& scene, double dt, double duration) {
   const auto steps = static_cast<int>(std::lround(duration / dt));
@@ -66,11 +66,11 @@ BOOST_AUTO_TEST_CASE(a_full_inertia_is_set_to_rounding) {
 
 BOOST_AUTO_TEST_CASE(matched_friction_is_a_cone_and_stock_friction_a_pyramid) {
   const double dt = 1e-3;
-  for (const double direction : {0.0, kPi / 8, kPi / 4}) {
+  for (const double direction : {0.0, kHalfTurn / 8, kHalfTurn / 4}) {
     // Contacts give way: a few parts in a thousand were measured.
     BOOST_TEST(std::abs(stop_distance_ratio("mujoco", direction, dt) - 1) < 5e-3);
   }
-  BOOST_TEST(std::abs(stop_distance_ratio("mujoco@stock", kPi / 4, dt) - std::sqrt(2)) < 5e-3);
+  BOOST_TEST(std::abs(stop_distance_ratio("mujoco@stock", kHalfTurn / 4, dt) - std::sqrt(2)) < 5e-3);
 }
 
 BOOST_AUTO_TEST_CASE(warnings_and_errors_neither_print_nor_prompt_nor_write_a_file) {

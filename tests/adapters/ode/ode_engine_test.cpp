@@ -14,7 +14,7 @@ using namespace rigor;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 // ODE itself, without the adapter: one box of 10 kg on a plane, its surface as the test says.
 class RawBox {
@@ -91,12 +91,12 @@ BOOST_AUTO_TEST_CASE(the_infinitesimal_rotation_lags_and_the_finite_one_does_not
 BOOST_AUTO_TEST_CASE(stock_friction_is_a_pyramid_and_matched_friction_follows_the_slide) {
   const double dt = 1e-3;
   // A step of friction too many at most: mu g dt is 1e-3 of the speed, and so of the distance.
-  for (const double direction : {0.0, kPi / 8, kPi / 4, kPi / 3, kPi / 2}) {
+  for (const double direction : {0.0, kHalfTurn / 8, kHalfTurn / 4, kHalfTurn / 3, kHalfTurn / 2}) {
     BOOST_TEST(std::abs(stop_distance_ratio("ode", direction, dt) - 1) < 2e-3);
   }
   BOOST_TEST(std::abs(stop_distance_ratio("ode@stock", 0, dt) - 1) < 2e-3);
   // Along the pyramid's diagonal both axes brake in full: sqrt(2) the force.
-  BOOST_TEST(std::abs(stop_distance_ratio("ode@stock", kPi / 4, dt) - std::sqrt(0.5)) < 2e-3);
+  BOOST_TEST(std::abs(stop_distance_ratio("ode@stock", kHalfTurn / 4, dt) - std::sqrt(0.5)) < 2e-3);
 }
 
 BOOST_AUTO_TEST_CASE(friction_without_the_approximation_flag_is_a_force_limit) {
@@ -208,13 +208,13 @@ BOOST_AUTO_TEST_CASE(an_impact_of_five_millimetres_a_second_bounces_and_the_thre
 // left out, it would tip over the others.
 BOOST_AUTO_TEST_CASE(no_contact_of_two_boxes_is_left_out) {
   for (int k = 0; k < 16; ++k) {
-    const double angle = 2 * kPi * k / 16;
+    const double angle = 2 * kHalfTurn * k / 16;
     Scene scene;
     scene.gravity = {0, 0, -9.81};
     scene.bodies.resize(2);
     for (Body& body : scene.bodies)
       body.shape = Box{{1, 1, 0.2}}, body.inertia = inertia_of(*body.shape, 1), body.collides = true;
-    scene.bodies[0].position = {0, 0, 0.2 - 1e-6}, scene.bodies[0].orientation = rotation_by({0, 0, kPi / 4});
+    scene.bodies[0].position = {0, 0, 0.2 - 1e-6}, scene.bodies[0].orientation = rotation_by({0, 0, kHalfTurn / 4});
     scene.bodies[1].fixed = true;
     // 0.46 m from the middle; the eight corners' octagon begins at half a metre, a square of four of them at 0.38 m.
     const Vec3 point = scene.bodies[0].orientation.conjugate() * (0.46 * Vec3(std::cos(angle), std::sin(angle), 0));

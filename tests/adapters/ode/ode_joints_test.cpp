@@ -17,7 +17,7 @@ using namespace rigor;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 BodyTable end_of(const std::string& run, const Scene& scene, double dt, double end) {
   const auto world = load_run(run, scene);
@@ -267,7 +267,7 @@ BOOST_AUTO_TEST_CASE(a_spring_and_damper_of_a_joint_act_as_in_the_core) {
 BOOST_AUTO_TEST_CASE(a_pendulum_bounces_off_a_wall) {
   Scene scene;
   scene.gravity = {0, -9.81, 0};
-  Body bob = solid("bob", Sphere{0.05}, {std::sin(kPi / 3), -0.5, 0});
+  Body bob = solid("bob", Sphere{0.05}, {std::sin(kHalfTurn / 3), -0.5, 0});
   scene.bodies = {bob, ground({1, 0, 0})};
   scene.bodies[1].shape = Plane{{1, 0, 0}, -0.05};
   scene.joints = {{kWorld, 0, HingeJoint{{0, 0, 0}, {0, 0, 1}}}};

@@ -14,7 +14,7 @@ using namespace rigor;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 bool is_mapped(const std::string& library) {
   std::ifstream maps("/proc/self/maps");
@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(neither_its_libraries_nor_their_bullet_come_into_this_proce
 BOOST_AUTO_TEST_CASE(friction_is_a_cone) {
   const double along = stop_distance_ratio("siconos", 0, 1.0 / 240);
   BOOST_TEST(std::abs(along - 1) < 0.006, along);
-  for (const double direction : {kPi / 8, kPi / 4, kPi / 3}) {
+  for (const double direction : {kHalfTurn / 8, kHalfTurn / 4, kHalfTurn / 3}) {
     const double found = stop_distance_ratio("siconos", direction, 1.0 / 240);
     // In the last step, which it stops in, it has 0.02 m/s at most: 2 v dt of the 2.5 m are 7e-5.
     BOOST_TEST(std::abs(found - along) < 1e-4, direction << ": " << found);

@@ -8,7 +8,7 @@ using namespace rigor;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn = 3.14159265358979323846;
 constexpr double kTurns[] = {0, 1e-12, 1e-9, 1e-5, 9.9e-5, 1.01e-4, 9e-4, 1.1e-3, 9.9e-3, 1.01e-2, 0.1, 1, 2, 3, 3.14};
 
 struct Directions {
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(a_rotation_of_a_vector_has_that_vector) {
   }
   // More than half a turn is less than half the other way.
   const Vec3 along = directions.next();
-  BOOST_TEST((rotation_vector_of(rotation_by(4 * along)) + (2 * kPi - 4) * along).norm() < kRounding);
+  BOOST_TEST((rotation_vector_of(rotation_by(4 * along)) + (2 * kHalfTurn - 4) * along).norm() < kRounding);
 }
 
 BOOST_AUTO_TEST_CASE(the_left_jacobian_is_its_series) {

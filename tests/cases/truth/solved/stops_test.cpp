@@ -13,7 +13,7 @@ using namespace rigor;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 // A body of 1 kg m² about z on a hinge there, turning at `speed`, or on a slider along x.
 Scene on_axis(double speed, bool slides) {
@@ -36,7 +36,7 @@ State at(const Truth& truth, double t) {
           body.angular_velocity.z()};
 }
 // Between two angles, whole turns apart or not.
-double apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * kPi)); }
+double apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * kHalfTurn)); }
 
 }  // namespace
 
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(a_pendulum_at_a_stop_rises_to_what_each_impact_leaves) {
   const auto truth = make_truth("reference", scene, 5);
   BOOST_TEST(truth->error(5) < 1e-12);
   const double w0 = std::sqrt(14.705808869457);  // published, 1/s
-  double k = std::sin(kPi / 4), time = boost::math::ellint_1(k) / w0;
+  double k = std::sin(kHalfTurn / 4), time = boost::math::ellint_1(k) / w0;
   for (int bounce = 1; bounce <= 4; ++bounce) {
     k *= scene.joints[0].restitution;
     const double quarter = boost::math::ellint_1(k) / w0;

@@ -13,7 +13,7 @@ using namespace rigor;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 // A block of 2 kg on a rail along x.
 Scene rail(double lower, double upper, double restitution) {
@@ -97,9 +97,9 @@ BOOST_AUTO_TEST_CASE(each_impact_takes_its_share_of_the_speed) {
 // quarter periods between the impacts and the tops.
 BOOST_AUTO_TEST_CASE(a_pendulum_at_a_stop_keeps_the_closed_forms_times_and_energies) {
   Scene scene = test::suite_scene("joints/pendulum-90");
-  scene.joints[0].lower = -kPi / 2, scene.joints[0].restitution = 0.6;
+  scene.joints[0].lower = -kHalfTurn / 2, scene.joints[0].restitution = 0.6;
   const double I = 0.08354166666666667 + 0.25, w0 = std::sqrt(9.81 * 0.5 / I);
-  double theta = kPi / 2, t = quarter_period(theta, w0);
+  double theta = kHalfTurn / 2, t = quarter_period(theta, w0);
   for (int n = 1; n <= 3; ++n) {
     const double e = 0.6;
     theta = 2 * std::asin(e * std::sin(theta / 2));
@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(a_pendulum_at_a_stop_keeps_the_closed_forms_times_and_energ
     const BodyTable state = test::state_after(scene, "dormand-prince", top / 50, top);
     const Coordinate at = coordinate(scene, state);
     // Inner steps of 1e-12 each, some hundred of them; the rate is that of a place where it turns.
-    BOOST_TEST(std::abs(at.x - (theta - kPi / 2)) < 1e-10);
+    BOOST_TEST(std::abs(at.x - (theta - kHalfTurn / 2)) < 1e-10);
     BOOST_TEST(std::abs(at.rate) < 1e-9);
     const double lowest = -0.5 * 9.81, top_energy = 0.5 * 9.81 * -std::cos(theta);
     BOOST_TEST(std::abs(energy(scene, state.columns()) - top_energy) < 1e-10);
@@ -120,15 +120,15 @@ BOOST_AUTO_TEST_CASE(a_pendulum_at_a_stop_keeps_the_closed_forms_times_and_energ
 // change the error's factor. Over two halvings the error must fall by at least half of what the order predicts.
 BOOST_AUTO_TEST_CASE(methods_keep_their_order_across_an_impact) {
   Scene scene = test::suite_scene("joints/pendulum-90");
-  scene.joints[0].lower = -kPi / 2, scene.joints[0].restitution = 0.6;
+  scene.joints[0].lower = -kHalfTurn / 2, scene.joints[0].restitution = 0.6;
   const double w0 = std::sqrt(9.81 * 0.5 / (0.08354166666666667 + 0.25));
-  const double theta = 2 * std::asin(0.6 * std::sin(kPi / 4));
-  const double top = quarter_period(kPi / 2, w0) + quarter_period(theta, w0);
+  const double theta = 2 * std::asin(0.6 * std::sin(kHalfTurn / 4));
+  const double top = quarter_period(kHalfTurn / 2, w0) + quarter_period(theta, w0);
   for_each_method_with_joints([&](const Integrator& row) {
     if (row.adaptive) return;
     const auto error = [&](int steps) {
       const Coordinate at = after(scene, row.name, top / steps, top);
-      return std::hypot(at.x - (theta - kPi / 2), at.rate);
+      return std::hypot(at.x - (theta - kHalfTurn / 2), at.rate);
     };
     const int steps = row.order == 1 ? 400 : row.order == 8 ? 10 : 80;
     const double coarse = error(steps), fine = error(4 * steps);
@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(a_motor_comes_to_its_speed_and_keeps_it) {
   Motor motor = motor_of_speed(3, 2);
   motor.until = 2;
   const Scene scene = wheel(motor);
-  const double x = 1.125 + 3 * (2.5 - 0.75) - 2 * kPi;
+  const double x = 1.125 + 3 * (2.5 - 0.75) - 2 * kHalfTurn;
   for_each_method_with_joints([&](const Integrator& row) {
     const Coordinate at = after(scene, row.name, 0.05, 2.5);
     // Deviations from the motor's speed are errors of the method, 1.1 rad on the way up and 1.5 rad after it. For first
@@ -239,7 +239,7 @@ BOOST_AUTO_TEST_CASE(limits_count_whole_turns) {
   scene.joints[0].upper = 22;
   for_each_method_with_joints([&](const Integrator& row) {
     const Coordinate at = after(scene, row.name, 0.1, 6);
-    BOOST_TEST(std::abs(at.x - (22 - 8 * kPi + 2 * kPi * (22 - 8 * kPi < -kPi))) < 1e-11);
+    BOOST_TEST(std::abs(at.x - (22 - 8 * kHalfTurn + 2 * kHalfTurn * (22 - 8 * kHalfTurn < -kHalfTurn))) < 1e-11);
     BOOST_TEST(std::abs(at.rate) < 1e-11);
   });
 }
