@@ -57,9 +57,11 @@ const std::pair<const char*, decltype(Joint::type)> kAxes[] = {
 
 constexpr double kForEver = std::numeric_limits<double>::infinity();
 
-Motor effort(double most, double from = 0, double until = kForEver) { return {0, most, {}, 0, from, until}; }
+Motor effort(double most, double from = 0, double until = kForEver) {
+  return {.joint = 0, .effort = most, .from = from, .until = until};
+}
 Motor speed(double value, double most, double from = 0, double until = kForEver) {
-  return {0, 0, value, most, from, until};
+  return {.joint = 0, .speed = value, .most = most, .from = from, .until = until};
 }
 
 template <typename Check>
