@@ -136,7 +136,8 @@ BOOST_AUTO_TEST_CASE(a_long_runs_first_steps_are_timed_again_in_both_ways) {
 BOOST_AUTO_TEST_CASE(what_is_spent_elsewhere_is_of_the_steps) {
   const Simulation run = simulate(NotedEngine(resting()), {}, test::tumbling_body(), 0.5, 2);
   BOOST_TEST(std::abs(run.cpu_seconds - 8) < 0.1);  // 2 s a step; its own steps are microseconds
-  BOOST_TEST(std::isnan(simulate(NotedEngine(resting()), {}, test::tumbling_body(), 0.5, 2, {}, false).cpu_seconds));
+  BOOST_TEST(
+      std::isnan(simulate(NotedEngine(resting()), {}, test::tumbling_body(), 0.5, 2, {.is_timed = false}).cpu_seconds));
 }
 
 BOOST_AUTO_TEST_CASE(settings_and_order_are_those_of_the_end) {
@@ -172,7 +173,7 @@ BOOST_AUTO_TEST_CASE(the_numbers_of_a_matrix_have_to_be_finite_as_well) {
 
 // As far as it is told to, whatever that leaves.
 BOOST_AUTO_TEST_CASE(every_so_many_steps_are_kept_and_the_last) {
-  const Simulation run = simulate(NotedEngine(resting()), {}, test::tumbling_body(), 0.5, 3.5, 3);
+  const Simulation run = simulate(NotedEngine(resting()), {}, test::tumbling_body(), 0.5, 3.5, {.steps_per_sample = 3});
   BOOST_TEST(run.steps_per_sample == 3);
   std::vector<double> times;
   for (const Sample& sample : run.trajectory.samples) times.push_back(sample.time);

@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(the_time_of_every_thread_is_counted) {
 
 BOOST_AUTO_TEST_CASE(reactions_are_asked_for_where_they_are_read_and_nowhere_else) {
   const SparedEngine engine;
-  const Simulation run = simulate(engine, {}, test::tumbling_body(), 0.1, 1, {}, true, 3);
+  const Simulation run = simulate(engine, {}, test::tumbling_body(), 0.1, 1, {.reactions_every = 3});
   BOOST_TEST((engine.reported == std::vector<int>{2, 5, 8}));
   for (std::size_t n = 0; n < run.trajectory.samples.size(); ++n) {
     const auto& reactions = run.trajectory.samples[n].reactions;
@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(reactions_are_asked_for_where_they_are_read_and_nowhere_els
     if (!reactions.empty()) BOOST_TEST(reactions[0].force.x() == static_cast<double>(n));
   }
   engine.reported.clear();
-  simulate(engine, {}, test::tumbling_body(), 0.1, 0.5, {}, true, 1);
+  simulate(engine, {}, test::tumbling_body(), 0.1, 0.5, {.reactions_every = 1});
   BOOST_TEST((engine.reported == std::vector<int>{2, 3, 4, 5}));
   engine.reported.clear();
   for (const Sample& sample : simulate(engine, {}, test::tumbling_body(), 0.1, 1).trajectory.samples)

@@ -22,7 +22,8 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 
 Simulation run_of(const Scene& scene, double time_unit) {
   const Settings settings{"dormand-prince", {{"contact", "event"}}, {}};
-  return simulate(engines().find("core"), settings, scene, kStep * time_unit, kDuration * time_unit, 1, false);
+  return simulate(engines().find("core"), settings, scene, kStep * time_unit, kDuration * time_unit,
+                  {.steps_per_sample = 1, .is_timed = false});
 }
 
 // s, in the original's time: the run does not claim to be exact from here on.
@@ -112,7 +113,8 @@ BOOST_AUTO_TEST_CASE(runs_of_stacks_and_dominoes_agree_with_their_truth) {
     const Scene scene = select_cases({name}, default_suite_dir(), test::words()).at(0).scene;
     const auto truth = make_truth("events", scene, duration);
     const Settings settings{"dormand-prince", {{"contact", "event"}}, {}};
-    const Simulation run = simulate(engines().find("core"), settings, scene, 1.0 / 30, duration, 1, false);
+    const Simulation run = simulate(engines().find("core"), settings, scene, 1.0 / 30, duration,
+                                    {.steps_per_sample = 1, .is_timed = false});
     BOOST_TEST(!run.reduced_order.has_value());
     for (const Sample& sample : run.trajectory.samples) {
       const BodyTable due = test::truth_at(*truth, sample.time, scene.bodies.size());

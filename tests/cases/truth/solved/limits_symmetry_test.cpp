@@ -43,7 +43,8 @@ Scene driven_arm() {
 }
 
 Simulation limited_run(const Scene& scene, const std::string& method, double time) {
-  return simulate(engines().find("core"), {method, {}, {}}, scene, time / 60, 2 * time, 1, false);
+  return simulate(engines().find("core"), {method, {}, {}}, scene, time / 60, 2 * time,
+                  {.steps_per_sample = 1, .is_timed = false});
 }
 
 // m and rad, in the original's units.
