@@ -17,10 +17,9 @@ namespace {
 
 // Of hulls ODE finds contacts with planes and balls alone reliably: against boxes and each other it reports one corner
 // at a time. Of cylinders it knows three pairs without the library libccd.
-const Features kOdeContacts =
-    joined(contacts_among<Box, Capsule, Plane, Sphere>(),
-           {contact_feature<Box, Cylinder>(), contact_feature<Convex, Plane>(), contact_feature<Convex, Sphere>(),
-            contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>()});
+const Features kOdeContacts = joined(contacts_among<Box, Capsule, Plane, Sphere>(),
+                                     {contact_feature<Convex, Plane>(), contact_feature<Convex, Sphere>(),
+                                      contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>()});
 
 constexpr double kShippedErp = 0.2, kShippedCfm = 1e-10;  // of a new world, in double precision
 

@@ -1,5 +1,6 @@
 #include "cases/cli/vocabulary.h"
 
+#include "cases/metrics/held_to_itself.h"
 #include "cases/metrics/metric.h"
 #include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"

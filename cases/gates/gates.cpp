@@ -9,6 +9,7 @@
 #include "adapters/engines.h"
 #include "cases/case/selection.h"
 #include "cases/gates/single_precision.h"
+#include "cases/metrics/held_to_itself.h"
 #include "cases/results/baseline.h"
 #include "cases/results/observed_order.h"
 #include "cases/truth/provenance.h"

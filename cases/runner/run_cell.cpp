@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cases/metrics/held_to_itself.h"
 #include "cases/metrics/measures/joints/reaction_difference.h"
 #include "cases/metrics/measures/measuring.h"
 #include "cases/runner/case_process.h"

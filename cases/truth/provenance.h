@@ -19,10 +19,10 @@ struct Provenance {
 // "a closed form, independent of every engine and method", or the row's own words; empty for "none".
 std::string provenance_of(const std::string& truth);
 
-// Whether a metric takes its expected value from the truth, always or in some scenes. An unknown metric does.
-bool is_against_truth(const std::string& metric);
-
-// Whether a run is compared with itself, when this metric judges it against this truth or a reference's ensemble.
-bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene);
+// Whether the code that makes this truth makes this run of the scene too.
+bool is_made_by(const std::string& truth, const RunName& run, const Scene& scene);
+// The same for the reference of ensembles. It is the core, with the contact that it gives a scene by itself
+// (runner/ensemble.h).
+bool is_made_like_ensembles(const RunName& run, const Scene& scene);
 
 }  // namespace rigor

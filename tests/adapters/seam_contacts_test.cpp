@@ -69,7 +69,12 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
         // The largest overlap from the one step before the contact is seen, if the engine does not push the body out
         // again.
         const double deepest = std::sqrt(2 * g * drop) * dt;
-        BOOST_TEST(std::abs(found.position.z() - pair.height) < deepest);
+        // As shipped, Bullet puts a margin of 4 cm around each hull.
+        constexpr double kHullMargin = 0.04;
+        const bool has_margins = run.info.name == "bullet" && run.settings.track == Track::stock;
+        const double hulls = std::holds_alternative<Convex>(pair.above) + std::holds_alternative<Convex>(pair.below);
+        const double height = pair.height + (has_margins ? kHullMargin * hulls : 0);
+        BOOST_TEST(std::abs(found.position.z() - height) < deepest);
         BOOST_TEST(found.velocity.norm() < g * dt * (1 + 1e-12));  // at rest but for one step's fall, and its rounding
       }
       rested.insert(run.info.name + " " + word_of(feature));

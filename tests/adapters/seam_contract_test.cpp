@@ -262,7 +262,7 @@ BOOST_AUTO_TEST_CASE(a_scene_that_blows_up_ends_in_numbers_that_are_not_finite_a
     scene.springs[0].rest_length = 1;
     for_each_undamped_run(scene, 1.0 / 30, [&](const Run& run) {
       // Far beyond its limit, omega dt = 2, a semi-implicit step multiplies the motion; an implicit one need not.
-      if (run.method().leapfrog_stagger != 0.5) return;
+      if (run.method().leapfrog_stagger != 0.5 || run.method().name == "linearly-implicit-euler") return;
       const auto world = run.load(scene);
       const BodyTable end = state_after(*world, 1.0 / 30, 2000);
       const Vec3 position = end.columns().position(0);

@@ -54,6 +54,11 @@ BOOST_AUTO_TEST_CASE(the_metrics_across_cells_are_alphabetical_and_have_names_of
 bool is_of_contact_or_joints(const std::string& metric) {
   const std::vector<std::string> names = {"collapse_time",
                                           "creep",
+                                          "contact_balance",
+                                          "contact_force_error",
+                                          "coulomb_residual",
+                                          "force_peak",
+                                          "force_ripple",
                                           "energy_gain",
                                           "friction_anisotropy",
                                           "ensemble_distance",

@@ -1,4 +1,5 @@
 #include "cases/truth/provenance.h"
+#include "cases/metrics/held_to_itself.h"
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,0 +1,20 @@
+#include "cases/metrics/held_to_itself.h"
+
+#include "cases/metrics/metric.h"
+#include "cases/truth/provenance.h"
+
+namespace rigor {
+
+bool is_against_truth(const std::string& metric) {
+  if (metric == "spread" || metric == "spread_orientation") return false;  // runs are compared with each other
+  const MetricRow* row = find_metric(metric);
+  return !row || row->needs.truth;
+}
+
+bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene) {
+  const MetricRow* measured = find_metric(metric);
+  if (measured && measured->needs.ensemble) return is_made_like_ensembles(run, scene);
+  return is_against_truth(metric) && is_made_by(truth, run, scene);
+}
+
+}  // namespace rigor

@@ -1,0 +1,17 @@
+// Which metrics compare a run with a truth that its own code has made: such a comparison is no witness.
+#pragma once
+
+#include <string>
+
+#include "core/engine/run_name.h"
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// Whether a metric takes its expected value from the truth, always or in some scenes. An unknown metric does.
+bool is_against_truth(const std::string& metric);
+
+// Whether a run is compared with itself, when this metric judges it against this truth or a reference's ensemble.
+bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene);
+
+}  // namespace rigor
