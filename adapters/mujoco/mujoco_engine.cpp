@@ -14,7 +14,8 @@
 namespace rigor {
 namespace {
 
-// A hull on a box or on a hull rests deeper than one step's fall: such pairs are left out until the cause is known.
+// A hull on a box or on another hull rests deeper than the fall of one step. The cause is not known, so these pairs are
+// left out.
 const Features kMujocoContacts = [] {
   Features contacts = contacts_of_all_shapes();
   contacts.erase(contact_feature<Box, Convex>());

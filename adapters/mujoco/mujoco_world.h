@@ -18,7 +18,7 @@ class MujocoWorld : public World, public ReportsReactions, public ReportsContact
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
-  // Of RK4, MuJoCo keeps the forces of the last stage alone, which are no mean over the step.
+  // MuJoCo keeps only the forces of the last stage of RK4. They are no mean over the step.
   Capabilities capabilities() override {
     return {.reactions = this, .contacts = made_.model->opt.integrator == mjINT_RK4 ? nullptr : this};
   }

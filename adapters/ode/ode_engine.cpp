@@ -15,8 +15,8 @@
 namespace rigor {
 namespace {
 
-// Of hulls ODE finds contacts with planes and balls alone reliably: against boxes and each other it reports one corner
-// at a time. Of cylinders it knows three pairs without the library libccd.
+// ODE reports all contacts of a hull with a plane or a ball. A hull on a box or on another hull gets one corner at a
+// time, so these pairs are left out. A cylinder on a box keeps moving by quickstep, so that pair is left out too.
 const Features kOdeContacts = joined(contacts_among<Box, Capsule, Plane, Sphere>(),
                                      {contact_feature<Convex, Plane>(), contact_feature<Convex, Sphere>(),
                                       contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>()});

@@ -36,8 +36,8 @@ struct MethodInfo {
   int order = 1;            // the global error falls as dt^order on smooth scenes
   bool symplectic = false;  // on undamped smooth scenes
   bool symmetric = false;   // a step back undoes a step forward, to rounding, on undamped smooth scenes
-  // Number of steps by which read velocities lag behind positions (1/2 for a semi-implicit step). Energy is judged only
-  // after velocities are brought to the instant of the positions.
+  // Number of steps by which read velocities lag behind positions: 1/2 for a semi-implicit step, -1/2 for an explicit
+  // one. Energy is judged only after velocities are brought to the instant of the positions.
   double leapfrog_stagger = 0;
   // Divides each step until it meets a tolerance. The error does not follow from dt, and `order` is that of the inner
   // steps.

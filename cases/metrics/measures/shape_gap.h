@@ -1,5 +1,6 @@
-// How far apart two bodies' surfaces are, from the scene's shapes and a pose alone: the judge's own geometry, shared
-// with no engine. Negative: how deep they overlap, the shortest way that would part them.
+// The distance between two bodies' surfaces, from the scene's shapes and a pose alone. It is negative for an overlap,
+// by the shortest way that would part them. Pairs of sphere, box, capsule and plane use the judge's own geometry, which
+// no engine shares. Pairs with a cylinder, an ellipsoid or a hull use convex_distance(), which the core shares.
 #pragma once
 
 #include <functional>
