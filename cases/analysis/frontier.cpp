@@ -81,10 +81,19 @@ std::vector<FrontierPoint> points_of(const Results& results, const std::string& 
   }
   std::vector<FrontierPoint> points;
   for (const auto& [seconds, at_step] : by_step) points.push_back(point_of(at_step.first, at_step.second));
-  std::size_t most = 0;
-  for (const FrontierPoint& point : points) most = std::max(most, point.cases);
-  std::erase_if(points, [&](const FrontierPoint& point) { return 2 * point.cases < most; });
   return points;
+}
+
+// Cases that the run cannot do. A cell that was only left out of the grid does not count.
+std::size_t unsupported_cases(const Results& results, const std::string& family, std::size_t run) {
+  const auto is_unsupported = [&](const Cell& cell) {
+    return cell.run == run && cell.status == Status::unsupported && !cell.skipped;
+  };
+  return static_cast<std::size_t>(
+      std::count_if(results.cases.begin(), results.cases.end(), [&](const CaseResult& result) {
+        return (family.empty() || result.definition.id.starts_with(family + "/")) &&
+               std::any_of(result.cells.begin(), result.cells.end(), is_unsupported);
+      }));
 }
 
 bool is_candidate(const Results& results, const Frontier& frontier, Candidates candidates) {
@@ -104,6 +113,21 @@ std::size_t most_cases(const Frontier& frontier) {
   std::size_t most = 0;
   for (const FrontierPoint& point : frontier.points) most = std::max(most, point.cases);
   return most;
+}
+
+std::size_t most_cases(const std::vector<Frontier>& frontiers) {
+  std::size_t most = 0;
+  for (const Frontier& frontier : frontiers) most = std::max(most, most_cases(frontier));
+  return most;
+}
+
+// Steps of few cases say nothing beside steps of many.
+void leave_out_sparse_steps(std::vector<Frontier>& frontiers) {
+  const std::size_t most = most_cases(frontiers);
+  for (Frontier& frontier : frontiers) {
+    const std::size_t own = most_cases(frontier), needed = 2 * own < most ? own : most;
+    std::erase_if(frontier.points, [&](const FrontierPoint& point) { return 2 * point.cases < needed; });
+  }
 }
 
 bool is_within(const FrontierPoint& point, double tolerance) {
@@ -126,9 +150,11 @@ bool is_any_timed(const std::vector<Frontier>& frontiers) {
 std::vector<Frontier> frontiers(const Results& results, const std::string& family) {
   std::vector<Frontier> all;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
-    Frontier frontier{run, is_reference_method(results, run), points_of(results, family, run)};
+    Frontier frontier{run, is_reference_method(results, run), unsupported_cases(results, family, run),
+                      points_of(results, family, run)};
     if (!frontier.points.empty()) all.push_back(std::move(frontier));
   }
+  leave_out_sparse_steps(all);
   return all;
 }
 
@@ -140,15 +166,15 @@ std::optional<StepSize> largest_step_within(const Frontier& frontier, double tol
 
 std::optional<Choice> cheapest_within(const Results& results, const std::vector<Frontier>& frontiers, double tolerance,
                                       Candidates candidates) {
-  std::size_t most = 0;
-  for (const Frontier& frontier : frontiers) most = std::max(most, most_cases(frontier));
+  const std::size_t most = most_cases(frontiers);
   const bool is_timed = is_any_timed(frontiers);
   std::optional<Choice> best;
   for (const Frontier& frontier : frontiers) {
     if (!is_candidate(results, frontier, candidates)) continue;
     for (const FrontierPoint& point : frontier.points) {
       if (!is_within(point, tolerance) || 2 * point.cases < most || (is_timed && !(point.cost > 0))) continue;
-      if (!best || work_of(point, is_timed) < work_of(best->point, is_timed)) best = Choice{frontier.run, point};
+      if (!best || work_of(point, is_timed) < work_of(best->point, is_timed))
+        best = Choice{frontier.run, point, frontier.unsupported};
     }
   }
   return best;

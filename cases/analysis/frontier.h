@@ -26,11 +26,13 @@ struct FrontierPoint {
 struct Frontier {
   std::size_t run = 0;                // index in Results::runs
   bool is_reference = false;          // an adaptive method of the core: no engine that a user could take instead
-  std::vector<FrontierPoint> points;  // coarse to fine; steps that fewer than half of the run's cases have are left out
+  std::size_t unsupported = 0;        // cases of the scope that the run cannot do
+  std::vector<FrontierPoint> points;  // coarse to fine; steps that too few cases have are left out
 };
 
 // Of the cases whose id begins with `family` and a slash, or of all cases if it is empty. A case counts where it has a
-// truth that is independent of the run. Runs without a point are left out.
+// truth that is independent of the run. Runs without a point are left out. A step is kept if it has at least half as
+// many cases as the fullest step of all runs; in a run that has no such step, half as many as its own fullest.
 std::vector<Frontier> frontiers(const Results& results, const std::string& family = "");
 
 inline constexpr double kRecommendedTolerance = 1e-3;  // m or rad: what a first answer is for
@@ -44,6 +46,7 @@ std::optional<StepSize> largest_step_within(const Frontier& frontier, double tol
 struct Choice {
   std::size_t run = 0;
   FrontierPoint point;
+  std::size_t unsupported = 0;  // as in Frontier
 };
 
 // Who may be recommended.

@@ -158,7 +158,7 @@ std::string console_matrix(const Results& results) {
       "\n" + "✓ stable  ≈ drifting  ∩ overlapping  ↑ gaining energy  ↓ collapsed  » tunnelled\n" +
       "✕ blown up at that time, or gate failed  ◆ known deviation  ◇ unexpected pass  – unsupported\n"
       "◐ stable, in part at a lower order  ! invalid, crashed or out of time\n" +
-      "position error in sizes of the case: ░ from 1e-3  ▒ 1e-2  ▓ 1e-1  █ 1\n";
+      "error in sizes of the case, or in rad: ░ from 1e-3  ▒ 1e-2  ▓ 1e-1  █ 1\n";
   for (std::size_t first = 0; first < runs.size(); first += columns) {
     const auto begin = runs.begin() + static_cast<long>(first),
                end = runs.begin() + static_cast<long>(std::min(first + columns, runs.size()));

@@ -30,8 +30,10 @@ Json scope_json(const Results& results, const std::string& family) {
   for (const Frontier& frontier : frontiers(results, family)) {
     Json points = Json::array();
     for (const FrontierPoint& point : frontier.points) points.push_back(json_of(point));
-    curves.push_back(
-        {{"engine", results.runs[frontier.run].text}, {"reference", frontier.is_reference}, {"points", points}});
+    curves.push_back({{"engine", results.runs[frontier.run].text},
+                      {"reference", frontier.is_reference},
+                      {"unsupported", frontier.unsupported},
+                      {"points", points}});
   }
   return {{"family", family}, {"curves", curves}};
 }
@@ -66,6 +68,7 @@ Json recommendation_json(const Results& results) {
     if (!choice) continue;
     json[key] = json_of(choice->point);
     json[key]["engine"] = results.runs[choice->run].text;
+    json[key]["unsupported"] = choice->unsupported;
   }
   return json;
 }

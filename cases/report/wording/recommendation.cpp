@@ -50,16 +50,18 @@ class Recommending {
     return fmt::format("{} at {} s", run, choice.point.dt.text);
   }
 
-  // " (65 of 117 cases can be compared, 1 failed)"; nothing for a single case.
+  // " (65 of 117 cases compared, 1 failed, 42 unsupported)"; nothing for a single case.
   std::string counted(const Choice& choice) {
     if (results_.cases.size() < 2) return "";
     const std::string& run = results_.runs[choice.run].text;
     const auto count = [&](const char* quantity, std::size_t value) {
       return claims_.count({quantity, "", run, choice.point.dt.text, "", static_cast<double>(value)});
     };
-    return fmt::format(" ({} of {} cases can be compared, {} failed)", count("cases compared", choice.point.cases),
+    const std::string unsupported =
+        choice.unsupported == 0 ? "" : fmt::format(", {} unsupported", count("cases unsupported", choice.unsupported));
+    return fmt::format(" ({} of {} cases compared, {} failed{})", count("cases compared", choice.point.cases),
                        results_.cases.size(),
-                       choice.point.failed == 0 ? "none" : count("cases failed", choice.point.failed));
+                       choice.point.failed == 0 ? "none" : count("cases failed", choice.point.failed), unsupported);
   }
 
   const Results& results_;

@@ -94,7 +94,9 @@ double size_of(const Scene& scene) {
 }
 
 std::string shade_of(const CaseResult& result, const Cell& cell) {
-  const double share = value_of(cell, "position_error") / size_of(result.definition.scene);
+  const double share = main_error(result) == "orientation_error"
+                           ? value_of(cell, "orientation_error")
+                           : value_of(cell, "position_error") / size_of(result.definition.scene);
   if (cell.status == Status::diverged || !(share >= 1e-3)) return " ";
   return share < 1e-2 ? "░" : share < 1e-1 ? "▒" : share < 1 ? "▓" : "█";
 }
@@ -123,7 +125,7 @@ TextTable verdict_matrix(const Results& results, Words words, const std::vector<
       fmt::format("dt = {} s: the verdict, and the largest error of the position [m]; of the orientation "
                   "[rad] where nothing moves away; of the energy [%] where there is no truth; in "
                   "brackets, of a truth that the run's own code makes. The darker "
-                  "the square, the larger the position's error beside the case's size: ░ from 1e-3, ▒ 1e-2, "
+                  "the square, the larger the error in sizes of the case or in rad: ░ from 1e-3, ▒ 1e-2, "
                   "▓ 1e-1, █ 1{}",
                   headline.text,
                   words == Words::few ? ". ✓: stable; ◐: stable, in part at a lower order; –: unsupported" : ""),

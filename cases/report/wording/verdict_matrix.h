@@ -28,8 +28,8 @@ std::string sign_of(const Cell& cell);
 // at the start, the longest spring, and the diameter of the largest such body (without a shape: of gyration).
 double size_of(const Scene& scene);
 
-// How dark a cell is: its position error in decades of the case's size. " " below 1e-3 of it or where there is none to
-// show, "░" from there, "▒" from 1e-2, "▓" from 1e-1, "█" from the size on.
+// How dark a cell is: its main error in decades of the case's size, or of 1 rad, which moves points by the body's own
+// radius. " " below 1e-3 or where there is none to show, "░" from there, "▒" from 1e-2, "▓" from 1e-1, "█" from 1 on.
 std::string shade_of(const CaseResult& result, const Cell& cell);
 
 }  // namespace rigor

@@ -68,6 +68,36 @@ BOOST_AUTO_TEST_CASE(the_method_that_blows_up_is_never_recommended) {
   BOOST_TEST(choice->point.dt.text == results.cases[0].definition.dt[1].text);
 }
 
+BOOST_AUTO_TEST_CASE(cases_that_an_engine_cannot_run_are_counted_with_its_recommendation) {
+  Results results = results_with({{1e-4, 1e-4, 1, 1}, {1e-4, 1e-4, 1, 1}, {1e-4, 1e-4, 1, 1}});
+  for (Cell& cell : results.cases[1].cells)
+    if (cell.run == 0) cell.status = Status::unsupported, cell.metrics.clear();
+  Cell& left_out = results.cases[2].cells[0];
+  left_out.status = Status::unsupported, left_out.skipped = SkipReason::another_shard, left_out.metrics.clear();
+  const auto all = frontiers(results);
+  BOOST_TEST(all[0].unsupported == 1u);  // the cell of another shard says nothing about the engine
+  BOOST_TEST(all[1].unsupported == 0u);
+  BOOST_TEST(frontiers(results, "even")[0].unsupported == 0u);
+  const auto choice = cheapest_within(results, all, 1e-3, Candidates::engines);
+  BOOST_TEST_REQUIRE(choice.has_value());
+  BOOST_TEST(choice->unsupported == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_step_of_few_cases_is_no_step_to_recommend) {
+  // The coarse step of run 0 has 1 of 4 cases, its fine step 2: half of its own, but less than half of what run 1 has.
+  Results results = results_with({{1e-4, 1e-4, 1, 1}, {1e-4, 1e-4, 1, 1}, {1e-4, 1e-4, 1, 1}, {1e-4, 1e-4, 1, 1}});
+  const auto leave_out = [&](std::size_t of_case, std::size_t cell) {
+    results.cases[of_case].cells[cell].status = Status::unsupported;
+    results.cases[of_case].cells[cell].metrics.clear();
+  };
+  for (const std::size_t of_case : {1, 2, 3}) leave_out(of_case, 0);
+  for (const std::size_t of_case : {2, 3}) leave_out(of_case, 1);
+  const auto all = frontiers(results);
+  BOOST_TEST_REQUIRE(all[0].points.size() == 1u);
+  BOOST_TEST(all[0].points[0].cases == 2u);
+  BOOST_TEST(all[1].points.size() == 2u);
+}
+
 BOOST_AUTO_TEST_CASE(a_few_exact_cases_do_not_hide_the_error_of_most) {
   // Two errors of 0.05 m and one of a rounding: the geometric mean is 0.1 mm, the median 0.05 m.
   const Results results = results_with({{5e-2, 1e-4, 1, 1}, {1e-14, 1e-4, 1, 1}, {5e-2, 1e-4, 1, 1}});

@@ -70,8 +70,11 @@ export async function firstScreen(browser) {
     if (external) {
       expect(title.includes(external.engine) && title.includes(`${external.dt} s`), `found "${title}"`);
       const { failed, cases } = external,
-        outcome = failed ? `${failed} of them failed` : "none failed there";
-      expect(beside.includes(`${cases} of ${results.cases.length} cases have a known true motion`), `"${beside}"`);
+        outcome = failed ? `${failed} failed` : "none failed";
+      expect(beside.includes(`${cases} of ${results.cases.length} cases were compared with their true motion`), `"${beside}"`);
+      const lacking = new Set(results.cells.filter((c) => c.engine === external.engine && c.status === "unsupported").map((c) => c.case)).size;
+      equal(external.unsupported, lacking, "cases that it cannot run");
+      equal(/It cannot run (\d+)\./.exec(beside)?.[1] ?? "0", String(lacking), "cases that it cannot run, as said");
       expect(beside.includes(outcome), `failures are not said: "${beside}"`);
     } else expect(title.startsWith("No engine stays within"), `found "${title}"`);
     for (const choice of [core, reference])
@@ -90,7 +93,7 @@ export async function firstScreen(browser) {
   await check("each card counts the stable runs at its largest usable step, as results.json does", async () => {
     const cards = await browser.run("return [...document.querySelectorAll('.card')].map(c => [c.querySelector('h2').firstChild.textContent, c.innerText])");
     for (const [engine, text] of cards) {
-      const [, stable, of, dt] = /stable in (\d+) of (\d+) at (\S+) s/.exec(text) ?? [];
+      const [, stable, of, dt] = /stable in (\d+) of the (\d+) cases? that it runs at (\S+) s/.exec(text) ?? [];
       expect(dt, `no count: "${text}"`);
       const ran = results.cells.filter((c) => c.engine === engine && c.dt === dt && c.status !== "unsupported");
       equal(Number(of), ran.length, `${engine}: runs`);

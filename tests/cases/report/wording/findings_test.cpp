@@ -284,6 +284,10 @@ BOOST_AUTO_TEST_CASE(a_cells_sign_and_word_are_its_verdict_and_its_shade_is_the_
   BOOST_TEST(shown({Verdict::collapsed, 0.1667, 0, ""}, 2.5) == "↓ collapsed 0.17 s 2.5 m █");
   grid.cases[0].cells[0].metrics.erase("position_error");
   BOOST_TEST(shade_of(grid.cases[0], grid.cases[0].cells[0]) == " ");
+  // Where nothing moves away, the angle is shown and shaded.
+  for (Cell& cell : grid.cases[0].cells)
+    cell.metrics["position_error"] = sample_metric(0, {}), cell.metrics["orientation_error"] = sample_metric(0.02, {});
+  BOOST_TEST(shade_of(grid.cases[0], grid.cases[0].cells[0]) == "▒");
 }
 
 BOOST_AUTO_TEST_CASE(the_error_that_matters_is_the_first_that_is_there) {

@@ -3,7 +3,7 @@
 import { cellOf, dtOf, hasNumbers, judgement, median, witnessed } from "./data.js";
 import { el, replace, svg } from "./dom.js";
 import { digits, quantity } from "./format.js";
-import { cheapest, curvesOf, isExternal, isTimed, largestStep, mainCurves } from "./frontier.js";
+import { cheapest, curvesOf, isExternal, isTimed, largestStep, mainCurves, mayBeTaken } from "./frontier.js";
 import { lengthOrAngle } from "./frontier_chart.js";
 import { address, openCase } from "./state.js";
 
@@ -92,7 +92,8 @@ export class EngineCards {
     if (point)
       return this.line("step", "largest usable step", `${within} up to `, el("b", {}, `${point.dt} s`), isTimed(this.results) ? `, CPU ${quantity(point.cost, "s")} per s` : "");
     const finest = curve.points.at(-1);
-    const why = finest.failed ? `, ${finest.failed} of ${finest.cases} failed` : "";
+    const isHidden = finest.mean <= this.tolerance && mayBeTaken(finest); // most cases are beyond it
+    const why = isHidden ? ", half of the cases above it" : finest.failed ? `, ${finest.failed} of ${finest.cases} failed` : "";
     return this.line("step", "largest usable step", el("b.lacks", {}, `no step within ${within}`), `: ${lengthOrAngle(finest.mean)} at ${finest.dt} s${why}`);
   }
 
@@ -125,7 +126,7 @@ export class EngineCards {
       .map((one) => ({ one, verdict: judgement(cellOf(one, curve.engine, dtOf(one, step).text)) }))
       .filter(({ verdict }) => verdict.kind !== "none");
     const stable = judged.filter(({ verdict }) => verdict.kind === "good").length;
-    const count = `stable in ${stable} of ${judged.length} at ${step} s`;
+    const count = `stable in ${stable} of the ${judged.length} ${judged.length === 1 ? "case" : "cases"} that it runs at ${step} s`;
     const bad = judged.filter(({ verdict }) => verdict.kind === "bad");
     if (bad.length) return this.line("problem", "what goes wrong", ...this.worstKind(bad, curve.engine, step), `; ${count}`);
     const worst = this.byFamily(curve.engine).at(-1);

@@ -50,7 +50,7 @@ export class FrontierChart {
       this.names(main),
     ]);
     this.picture = picture;
-    replace(this.root, this.caption(), picture, this.tools());
+    replace(this.root, this.caption(main), picture, this.tools());
   }
 
   scale(curves, tolerance) {
@@ -63,8 +63,9 @@ export class FrontierChart {
     this.range = ys;
   }
 
-  caption() {
-    return el("figcaption", {}, el("b", {}, "Error against cost"), ": lower left is better. A dot is a step size.", this.isOneCase ? "" : " The band holds the middle 80 % of cases.");
+  caption(main) {
+    const curve = this.isOneCase ? null : this.curveOfBand(main);
+    return el("figcaption", {}, el("b", {}, "Error against cost"), ": lower left is better. A dot is a step size.", curve ? ` The band: 80 % of the cases of ${curve.engine}.` : "");
   }
 
   axes() {
@@ -92,9 +93,11 @@ export class FrontierChart {
 
   drawable = (curve) => curve.points.filter((p) => p.cost > 0 && isNumber(p.mean));
 
+  curveOfBand = (main) => main.find((c) => c.engine === this.focus) ?? this.chosen?.curve;
+
   // From the 10th to the 90th percentile, of the curve in focus or of the recommended one.
   band(main) {
-    const curve = main.find((c) => c.engine === this.focus) ?? this.chosen?.curve;
+    const curve = this.curveOfBand(main);
     if (!curve) return null;
     const points = this.drawable(curve),
       high = (p) => (isNumber(p.high) ? this.y.at(Math.min(p.high, this.range[1])) : top),
@@ -228,7 +231,7 @@ export class FrontierChart {
     return el(
       "p.figure-tools",
       {},
-      el("span.fine", {}, this.isOneCase ? "✕ failed; dotted: adaptive reference." : "✕ over 1 case in 20 failed; hollow: the median case is beyond the tolerance; dotted: adaptive reference."),
+      el("span.fine", {}, this.isOneCase ? "✕ failed; dotted: adaptive reference." : "✕ over 1 case in 20 failed; hollow below the line: half of the cases are above it; dotted: adaptive reference."),
       el("span.spacer"),
       all,
       saveButtons("error-against-cost", () => this.picture, () => this.table()),

@@ -90,12 +90,14 @@ export class Overview {
         : `No engine stays within ${lengthOrAngle(tolerance)} at the steps tried`;
     const beside = [];
     if (best) {
-      const { cases: compared, failed } = best.point;
-      const outcome = failed ? `${failed} of them failed` : "none failed there";
+      const { cases: compared, failed } = best.point,
+        { unsupported } = best.curve;
+      const outcome = failed ? `${failed} failed` : "none failed";
+      const lacks = unsupported ? ` It cannot run ${unsupported}.` : "";
       beside.push(
         counted === 1
           ? `It is the cheapest external engine within ${lengthOrAngle(tolerance)} in this case.`
-          : `It is the cheapest external engine with a typical error within ${lengthOrAngle(tolerance)}. ${compared} of ${counted} cases have a known true motion to compare with; ${outcome}.`,
+          : `It is the cheapest external engine with a typical error within ${lengthOrAngle(tolerance)}. ${compared} of ${counted} cases were compared with their true motion; ${outcome}.${lacks}`,
       );
     }
     const others = this.othersWithin(best, tolerance);
@@ -141,6 +143,7 @@ export class Overview {
       ": the distance from the true motion. ",
       el("b", {}, "Stable"),
       ": the motion does not blow up, fall apart or drift in energy. A stable run can still be far from the truth.",
+      this.results.engines.some((e) => e.name.endsWith("@stock")) ? [el("b", {}, " @stock"), ": with the settings that the engine ships."] : null,
     );
   }
 

@@ -74,6 +74,13 @@ function problemOf(results) {
   };
 }
 
+// " at 1/30 s" where all facts are of one step.
+const atStep = (claims) => {
+  const steps = new Set(claims.map((claim) => (stepOf(claim) ? "" : claim.dt ?? "")));
+  const [step] = steps;
+  return steps.size === 1 && step ? ` at ${step} s` : "";
+};
+
 // A bar for each engine, of the fact that most engines share: external engines first, the largest first.
 function barsOf(results, claims, link) {
   const byQuantity = new Map();
@@ -92,7 +99,7 @@ function barsOf(results, claims, link) {
   return el(
     "table.bars",
     {},
-    el("caption", {}, factNames[fact] ?? words(fact)),
+    el("caption", {}, factNames[fact] ?? words(fact), atStep(rows)),
     el(
       "tbody",
       {},
