@@ -139,7 +139,9 @@ static int truth_command(const CommandLine& line, const EngineTable& engines) {
   const double end = std::max(definition.duration, *std::max_element(times.begin(), times.end()));
   say(fmt::format("the truth '{}' is {}", definition.truth, provenance_of(definition.truth)));
   return print_from_child("the truth of " + definition.id, line.limit, [&](const Channel& channel) {
-    send_truth(*make_truth(definition.truth, definition.scene, end), definition.scene, times, channel);
+    const auto truth = make_truth(definition.truth, definition.scene, end);
+    if (!truth->caveat().empty()) channel.send(kNote + truth->caveat());
+    send_truth(*truth, definition.scene, times, channel);
   });
 }
 

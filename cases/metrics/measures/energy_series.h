@@ -21,7 +21,7 @@ struct EnergySeries {
 //
 // What is expected, the first that applies:
 //   nothing takes or gives energy                        what it was at the start
-//   a truth whose energy stays what it was               likewise (an elastic bounce, say)
+//   a truth of the whole run whose energy is constant    likewise (an elastic bounce, say)
 //   timed forces, or dampers, and a truth                its own start plus the truth's change, up to its horizon;
 //                                                        bounces at limits in step (joints/limit_bounces.h)
 //   timed forces without a truth                         nothing

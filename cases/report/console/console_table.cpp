@@ -214,6 +214,8 @@ std::string brief_block(const Results& results, const CaseResult& result) {
   const std::vector<Message> reasons = explanations(results, result);
   std::string text = title_of(result);
   if (!result.error.empty() || !result.truth) text += "  " + wrapped(truth_sentence(result), 2) + "\n";
+  if (result.truth && !result.truth->caveat.empty())
+    text += "  " + wrapped("warning: " + result.truth->caveat, 4) + "\n";
   if (!reasons.empty()) text += "  " + wrapped(reasons.front().text, 2) + "\n";
   if (has_run_held_to_itself(result)) text += "  In brackets: the truth comes from the run's own code.\n";
   text += table_of(results, result, coarsest_dt(result)) + gate_lines(result, true);

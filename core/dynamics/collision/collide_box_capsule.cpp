@@ -1,11 +1,13 @@
 // A box and a capsule. The squared distance from the box to a point on the capsule's axis is convex and piecewise
 // quadratic. The pieces end where the point passes a face's plane, so the minimum is exact. If the axis itself enters
 // the box, it is pushed out along the axis of least overlap, among the box's normals and their cross products with it.
-// If the capsule lies along a face, both ends of the part over the face are contact points.
+// If the capsule lies along a face or an edge, both ends of the part over it are contact points.
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
-#include "core/dynamics/collision/narrow_phase.h"
+#include "core/dynamics/collision/side_by_side.h"
 
 namespace rigor {
 namespace {
@@ -96,6 +98,25 @@ std::pair<double, double> part_over(const Segment& segment, const Vec3& half, in
   return {low, high};
 }
 
+// The edge along which the capsule lies, in the box's frame: the nearest point `p` of the axis is outside of both its
+// sides. None if no edge is nearly parallel to the axis.
+std::optional<RoundLine> edge_along(const Segment& segment, const Vec3& half, const Vec3& p) {
+  int along = 0;
+  segment.u.cwiseAbs().maxCoeff(&along);
+  Vec3 centre = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (k == along) continue;
+    if (!(std::abs(p[k]) > half[k])) return {};
+    centre[k] = std::copysign(half[k], p[k]);
+  }
+  return RoundLine{centre, Vec3::Unit(along), half[along], 0};
+}
+
+// From the box's frame to W.
+RoundLine placed(const RoundLine& line, const Pose& pose) {
+  return {pose.p + pose.R * line.centre, pose.R * line.direction, line.half, line.radius};
+}
+
 }  // namespace
 
 void collide_box_capsule(const Box& box, const Pose& pose_a, const Capsule& capsule, const Pose& pose_b,
@@ -127,6 +148,9 @@ void collide_box_capsule(const Box& box, const Pose& pose_a, const Capsule& caps
       return;
     }
   }
+  const RoundLine capsule_line{pose_b.p, pose_b.R.col(2), 0.5 * capsule.length, capsule.radius};
+  const auto edge = edge_along(segment, half, p);
+  if (edge && add_side_by_side(placed(*edge, pose_a), capsule_line, out)) return;
   // Inside, the end that is deepest along the normal stands for the axis.
   const Vec3 deepest =
       distance > 1e-12 * half.maxCoeff() ? p : segment.at(segment.u.dot(best.n) > 0 ? -segment.half : segment.half);

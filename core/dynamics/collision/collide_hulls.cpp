@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "core/dynamics/collision/narrow_phase.h"
+#include "core/dynamics/collision/side_by_side.h"
 
 namespace rigor {
 namespace {
@@ -302,6 +303,22 @@ AxisGap outside_gap(const Placed& hull, const CapsuleAxis& axis) {
   return best;
 }
 
+// The edge that the axis lies along at the distance that was found; none if another feature is the nearest.
+std::optional<RoundLine> edge_beside(const Placed& hull, const RoundLine& capsule, double found) {
+  constexpr double kSame = 1e-12;  // of the distance: rounding of two ways to compute it
+  std::optional<RoundLine> best;
+  double least = found * (1 + kSame);
+  for (const Hull::Edge& edge : hull.hull->edges) {
+    const Vec3 v = hull.edge(edge);
+    const double length = v.norm();
+    const RoundLine line{hull.points[Placed::index(edge.from)] + 0.5 * v, v / length, 0.5 * length, 0};
+    if (line.direction.cross(capsule.direction).norm() > kNearlyParallelLines) continue;
+    const auto [s, t] = nearest_on_lines(capsule, line);
+    if (const double distance = (capsule.at(s) - line.at(t)).norm(); distance <= least) least = distance, best = line;
+  }
+  return best;
+}
+
 // Whether the segment has a point inside the hull: what all faces leave of it.
 bool enters(const Placed& hull, const CapsuleAxis& axis) {
   double low = 0, high = 1;
@@ -397,7 +414,8 @@ void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b,
   hull.place(b, pose_b);
   const Vec3 half = 0.5 * a.length * pose_a.R.col(2);
   const CapsuleAxis axis{pose_a.p - half, pose_a.p + half};
-  const AxisGap best = enters(hull, axis) ? inside_gap(hull, axis) : outside_gap(hull, axis);
+  const bool is_inside = enters(hull, axis);
+  const AxisGap best = is_inside ? inside_gap(hull, axis) : outside_gap(hull, axis);
   const auto add = [&](const Vec3& at, double height, std::uint32_t feature) {
     const double gap = height - a.radius;
     out.add(best.n, at - (a.radius + 0.5 * gap) * best.n, gap, feature);
@@ -414,6 +432,9 @@ void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b,
       return;
     }
   }
+  const RoundLine line{pose_a.p, pose_a.R.col(2), 0.5 * a.length, a.radius};
+  const auto edge = is_inside ? std::nullopt : edge_beside(hull, line, best.separation);
+  if (edge && add_side_by_side(line, *edge, out)) return;
   add(best.at, best.separation, 2);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/dynamics/collision/convex_distance.h"
+#include "core/dynamics/collision/side_by_side.h"
 
 namespace rigor {
 namespace {
@@ -29,18 +30,8 @@ double nearest_on_axis(const Vec3& point, const Capsule& capsule, const Pose& po
   return std::clamp(axis_of(pose).dot(point - pose.p), -0.5 * capsule.length, 0.5 * capsule.length);
 }
 
-// The nearest points of two capsules' axes, as distances from their centres. Not for parallel axes.
-std::pair<double, double> nearest_on_axes(const Capsule& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b) {
-  const Vec3 u = axis_of(pose_a), v = axis_of(pose_b), line = pose_b.p - pose_a.p;
-  const double cosine = u.dot(v), sine2 = u.cross(v).squaredNorm();
-  const double half_a = 0.5 * a.length, half_b = 0.5 * b.length;
-  double s = std::clamp((u.dot(line) - cosine * v.dot(line)) / sine2, -half_a, half_a);
-  double t = s * cosine - v.dot(line);
-  if (std::abs(t) > half_b) {
-    t = std::clamp(t, -half_b, half_b);
-    s = std::clamp(t * cosine + u.dot(line), -half_a, half_a);
-  }
-  return {s, t};
+RoundLine line_of(const Capsule& capsule, const Pose& pose) {
+  return {pose.p, axis_of(pose), 0.5 * capsule.length, capsule.radius};
 }
 
 // The pairs with an algorithm of their own, in alphabetical order; the normal points from the second to the first.
@@ -70,28 +61,11 @@ struct Exact {
     }
   }
 
-  // Side by side they touch along a line, which its two ends stand for.
   void operator()(const Capsule& capsule, const Capsule& other) const {
-    constexpr double kParallel = 1e-4;  // the sine squared: within 0.6 degrees
-    const Vec3 u = axis_of(a), v = axis_of(b);
-    if (u.cross(v).squaredNorm() > kParallel) {
-      const auto [s, t] = nearest_on_axes(capsule, a, other, b);
-      add_balls(a.p + s * u, capsule.radius, b.p + t * v, other.radius, 2, out);
-      return;
-    }
-    const double centre = u.dot(b.p - a.p), half = 0.5 * other.length * std::abs(u.dot(v));
-    const double low = std::max(-0.5 * capsule.length, centre - half),
-                 high = std::min(0.5 * capsule.length, centre + half);
-    const auto add = [&](double s, std::uint32_t feature) {
-      const Vec3 point = a.p + s * u;
-      add_balls(point, capsule.radius, b.p + nearest_on_axis(point, other, b) * v, other.radius, feature, out);
-    };
-    if (low < high) {
-      add(low, 0);
-      add(high, 1);
-    } else {
-      add(std::clamp(0.5 * (low + high), -0.5 * capsule.length, 0.5 * capsule.length), 2);
-    }
+    const RoundLine one = line_of(capsule, a), beside = line_of(other, b);
+    if (add_side_by_side(one, beside, out)) return;
+    const auto [s, t] = nearest_on_lines(one, beside);
+    add_on_lines(one, s, beside, t, 2, out);
   }
 
   void operator()(const Box& box, const Plane& plane) const {

@@ -18,8 +18,9 @@ void set_row(JointRow& joint, int k, const Vec6& on_a, const Vec6& on_b) {
 }
 
 bool has_speed_motor_or_servo(const Scene& scene, std::size_t joint) {
-  return std::any_of(scene.motors.begin(), scene.motors.end(),
-                     [&](const Motor& motor) { return motor.joint == static_cast<int>(joint) && !motor.gives_effort(); });
+  return std::any_of(scene.motors.begin(), scene.motors.end(), [&](const Motor& motor) {
+    return motor.joint == static_cast<int>(joint) && !motor.gives_effort();
+  });
 }
 
 }  // namespace
@@ -144,7 +145,32 @@ double JointRows::longest_arm(bool of_moving_ends) const {
       }
     }
   }
+  if (longest == 0) longest = longest_distance();
   return longest == 0 ? 1 : longest;
+}
+
+double JointRows::longest_distance() const {
+  double longest = 0;
+  for (const JointRow& joint : joints_) {
+    const auto at = [&](int end) {
+      return joint.end[end] == kWorld ? Vec3(Vec3::Zero()) : frames_[joint.end[end]].motion.position;
+    };
+    longest = std::max(longest, (at(1) - at(0)).norm());
+  }
+  return longest;
+}
+
+// A row without a force keeps an angle.
+void JointRows::set_lever(double lever) {
+  for (JointRow& joint : joints_) {
+    if (joint.coordinate) joint.lever[joint.rows] = joint.coordinate->turns() ? lever : 1;
+    for (int k = 0; k < joint.rows; ++k) {
+      double force = 0;
+      for (int end = 0; end < 2; ++end)
+        for (int c = 0; c < 3; ++c) force = std::max(force, std::abs(joint.J[end][k + c * joint.most_rows]));
+      joint.lever[k] = force > 0 ? 1 : lever;
+    }
+  }
 }
 
 void JointRows::assemble(BlockCholesky& factor) {
@@ -194,7 +220,8 @@ double JointRows::largest_gap() const {
   double largest = 0;
   for (const JointRow& joint : joints_) {
     for (int k = 0, rows = joint.rows_in_use(); k < rows; ++k) {
-      if (!(std::abs(joint.gap[k]) <= largest)) largest = std::abs(joint.gap[k]);  // true also for NaN
+      const double gap = joint.lever[k] * std::abs(joint.gap[k]);
+      if (!(gap <= largest)) largest = gap;  // true also for NaN
     }
   }
   return largest;

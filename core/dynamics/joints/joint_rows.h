@@ -28,6 +28,7 @@ struct JointRow {  // all rows of a joint
   int rows = 0, most_rows = 0;     // of the joint alone; room, with its coordinate's if it can have one
   int end[2] = {kWorld, kWorld};   // the bodies at its ends
   int body[2] = {kWorld, kWorld};  // those of them that can move, or kWorld
+  Vec6 lever = Vec6::Ones();       // of each row: converts its gap to m
   double J[2][6 * kMostRows] = {}, Y[2][6 * kMostRows] = {};  // most_rows x 6, column by column; Y = J M⁻¹
   Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();               // zero beyond the rows in use
 
@@ -54,14 +55,18 @@ class JointRows {
   // Takes J, gaps and biases from a state; a coordinate that is driven has no gap.
   void evaluate(BodyColumns state);
   // The longest arm of a joint [m], the scale of gaps: it converts a rotation to a gap, as the ratio of a row's torque
-  // to its force. It is that of the last evaluated rows, or 1 if no row has an arm. The arm of a fixed end is its
-  // distance from the origin and gives the scale of rounding. The arms of moving ends give the size of the mechanism.
+  // to its force. It is that of the last evaluated rows. The arm of a fixed end is its distance from the origin and
+  // gives the scale of rounding. The arms of moving ends give the size of the mechanism. If no row has an arm, it is
+  // the longest distance between the two ends of a joint, or 1 if they coincide.
   double longest_arm() const { return longest_arm(false); }
   double longest_moving_arm() const { return longest_arm(true); }
+  // m: multiplies gaps that are sines or angles, so that no unit of length decides what is closed. For the rows
+  // evaluated last; 1 before the first call.
+  void set_lever(double lever);
   // Fills in S of the rows evaluated last.
   void assemble(BlockCholesky& factor);
-  // The gaps alone, at other poses; a coordinate that is driven is to be at its target. The largest |gap|, not a number
-  // if one is not.
+  // The gaps alone, at other poses; a coordinate that is driven is to be at its target. The largest |gap| [m], with
+  // sines and angles times the lever; not a number if one is not.
   double measure_gaps(BodyColumns state);
   double largest_gap() const;
 
@@ -92,6 +97,7 @@ class JointRows {
     Mat3 inverse_inertia_W;  // 1/(kg m²)
   };
   double longest_arm(bool of_moving_ends) const;
+  double longest_distance() const;
   void add_joint(const Scene& scene, std::size_t k);
   void list_couplings();
   void evaluate_frame(int body, BodyColumns state);

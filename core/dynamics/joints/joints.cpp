@@ -207,7 +207,8 @@ bool Joints::is_closed(double gap, double last, double within) const {
 
 void Joints::warn_of_gap(double gap) {
   if (!(gap > kOpen * size_) || !warning_.empty()) return;
-  warning_ = fmt::format("the joints could not be closed: a gap of {:.3g} (m, or sine of an angle) is left{}", gap,
+  warning_ = fmt::format("the joints could not be closed: a gap of {:.3g} m (or of an angle times {:.3g} m) is left{}",
+                         gap, extent_,
                          factor_.has_redundant_rows()
                              ? "; rows that repeat others at t = 0 no longer do, as where it is a singular position"
                              : "");

@@ -40,7 +40,7 @@ class Joints : public ConstraintForces {
   // Adds an impulse to v and w at the pose of the last factorisation.
   void push(const double* impulse, MutableBodyColumns state) const { rows_.push(impulse, state); }
 
-  // The largest |g| at a state [m, or sine of an angle].
+  // The largest |g| at a state [m]. A sine counts times the longest arm.
   double gap(BodyColumns state) { return rows_.measure_gaps(state); }
 
   // Sets the function of the row of a joint's coordinate; see joint_rows.h. Call count_rows() after the last change.

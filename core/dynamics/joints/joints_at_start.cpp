@@ -22,6 +22,7 @@ constexpr double kOpenAtStart = 1e-9;  // of the extent: a gap that no rounding 
 void Joints::find_ranks(BodyColumns state) {
   count_rows(state);
   extent_ = rows_.longest_arm(), size_ = rows_.longest_moving_arm();
+  rows_.set_lever(extent_);
   if (!factor_.has_redundant_rows()) return;
   look_for_contradictions();
   if (at_start_.empty()) look_for_singularity(state);

@@ -14,6 +14,16 @@ namespace {
 
 using Pair = std::pair<int, int>;
 
+// Speeds in units of the speed that gravity adds between two samples. A flight is seen to approach above kSeen. Each
+// impact faster than kCounts has a sample above kSeen, so that roundings at kSeen decide nothing.
+constexpr double kSeen = 2, kCounts = 3;
+// In the same unit: a body that separates more slowly stays, as far as roundings can tell.
+constexpr double kParts = 0.03;
+constexpr double kTenth = 0.1;         // of the fastest impact
+constexpr double kHair = 1e-6;         // relative: a speed this near a threshold is below it
+constexpr double kNoise = 1e-9;        // of the fastest surface: roundings of a speed from two gaps
+constexpr double kRoundedGap = 1e-12;  // of a body's size and distance from the origin: a smaller gap is closed
+
 // Two bodies at a sample, and their gap along the free flight through it.
 class Flight {
  public:
@@ -112,7 +122,7 @@ class Watcher {
       : scene_(scene), trajectory_(trajectory), synchroniser_(scene, trajectory, stagger) {
     const auto& samples = trajectory.samples;
     spacing_ = samples.size() > 1 ? samples[1].time - samples[0].time : trajectory.dt;
-    slowest_ = 2 * scene.gravity.norm() * spacing_;
+    of_gravity_ = scene.gravity.norm() * spacing_;
   }
 
   std::map<Pair, std::vector<ImpactSpeeds>> impacts() {
@@ -158,20 +168,31 @@ class Watcher {
       const double turning = now.angular_velocity(i).norm() * bounding_radius(*scene_.bodies[i].shape);
       fastest_ = std::max(fastest_, now.velocity(i).norm() + turning);
     }
-    return 2 * spacing_ * (2 * fastest_ + slowest_);
+    return 2 * spacing_ * (2 * fastest_ + kSeen * of_gravity_);
+  }
+
+  double rounded_gap(const Pair& pair) const {
+    const BodyColumns now = static_cast<const BodyTable&>(bodies_).columns();
+    double size = 0;
+    for (const int i : {pair.first, pair.second}) {
+      if (std::isfinite(bounding_radius(*scene_.bodies[i].shape)))
+        size = std::max(size, now.position(i).norm() + bounding_radius(*scene_.bodies[i].shape));
+    }
+    return kRoundedGap * size;
   }
 
   void look_at_pair(const Pair& pair, double gap, bool is_alone, double time) {
     const Flight flight(scene_, static_cast<const BodyTable&>(bodies_).columns(), pair);
-    const double rate = flight.rate(0);
+    const double rate = flight.rate(0), noise = kNoise * fastest_;
+    const bool are_apart = gap > rounded_gap(pair), approach = rate < -kSeen * of_gravity_ - noise;
     Watch& watch = watched_[pair];
     watch.is_alone = watch.is_alone && is_alone;  // at each sample until it is over
-    if (rate < -slowest_ && gap > 0) {
+    if (approach && are_apart) {
       if (watch.hit) conclude(pair, watch, {}, time);
       watch = {flight, time, false, is_alone};
-    } else if (watch.approaching && rate >= -slowest_) {
+    } else if (watch.approaching && !approach) {
       watch.hit = true;
-      if (gap > 0 && rate > 0) conclude(pair, watch, flight, time);
+      if (are_apart && rate > kParts * of_gravity_ + noise) conclude(pair, watch, flight, time);
     }
   }
 
@@ -206,18 +227,18 @@ class Watcher {
   }
   bool are_spheres(const Pair& pair) const { return is_round(pair.first) && is_round(pair.second); }
 
-  static void drop_slow(std::vector<ImpactSpeeds>& list) {
+  void drop_slow(std::vector<ImpactSpeeds>& list) const {
     double fastest = 0;
     for (const ImpactSpeeds& impact : list) fastest = std::max(fastest, impact.before);
-    constexpr double kTenth = 0.1;
-    std::erase_if(list, [&](const ImpactSpeeds& impact) { return impact.before < kTenth * fastest; });
+    const double least = std::max(kCounts * of_gravity_, kTenth * fastest) * (1 + kHair);
+    std::erase_if(list, [&](const ImpactSpeeds& impact) { return impact.before <= least; });
   }
 
   const Scene& scene_;
   const Trajectory& trajectory_;
   Synchroniser synchroniser_;
-  double spacing_, slowest_;  // s between samples; m/s, what gravity adds in two of them: a slower body rests
-  double fastest_ = 0;        // m/s, that a surface has moved so far
+  double spacing_, of_gravity_;  // s between samples; m/s, the speed that gravity adds in that time
+  double fastest_ = 0;           // m/s, that a surface has moved so far
   BodyTable bodies_;
   std::map<Pair, Watch> watched_;
   std::map<Pair, std::vector<ImpactSpeeds>> found_;

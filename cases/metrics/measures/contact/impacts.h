@@ -17,11 +17,15 @@ struct ImpactSpeeds {
   double after = 0;   // m/s, the speed of separation at the touch; 0 if they stay together
 };
 
-// By pair (a < b), in order of time. Three kinds of impacts are left out:
+// By pair (a < b), in order of time. Four kinds of impacts are left out:
 // - those near a third body, because several impulses may add up to one speed;
 // - of bodies with corners all but the first, because the next may be of another corner;
 // - those slower than a tenth of the pair's fastest. A ball that comes to rest makes any number of them, and no finite
 //   step resolves the last.
+// - those that touch no faster than three times the speed that gravity adds between two samples. A body at rest gets
+//   two thirds of that within the two samples in which its contact is resolved, and roundings would decide whether it
+//   has an impact.
+// No rounding decides what counts: speeds and gaps that a whole number of steps leaves lie away from every threshold.
 std::map<std::pair<int, int>, std::vector<ImpactSpeeds>> impacts_of(const Scene& scene, const Trajectory& trajectory,
                                                                     double leapfrog_stagger);
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/dynamics/collision/side_by_side.h"
+
 namespace rigor {
 namespace {
 
@@ -13,7 +15,9 @@ using Kind = ContactFeature::Kind;
 
 constexpr double kOnEdge = 1e-7;    // of a body's size: how near an edge a point counts as on it
 constexpr double kAligned = 1e-12;  // 1 - the cosine between a normal and a side's: 1.4e-6 rad
-constexpr double kParallel = 0.1;   // the sine between lines whose cross product is no normal
+// The sine between edges whose cross product is no normal. If a line has a radius, the radii are the length of the
+// common perpendicular, and any angle will do.
+constexpr double kParallelEdges = 0.1;
 
 // What a shape may touch with at one of its surface's points.
 struct Choices {
@@ -302,7 +306,8 @@ FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pos
   of_b = take_ball(part_b, pose_b, outward_b, of_a.point).value_or(of_b);
   if (of_a.line && of_b.line) {
     const Vec3 across = (pose_a.R * of_a.line->direction).cross(pose_b.R * of_b.line->direction);
-    if (across.norm() > kParallel) return {*of_a.line, *of_b.line, across.dot(point.normal) < 0 ? -1.0 : 1.0};
+    const double parallel = of_a.line->radius + of_b.line->radius > 0 ? kParallelLines : kParallelEdges;
+    if (across.norm() > parallel) return {*of_a.line, *of_b.line, across.dot(point.normal) < 0 ? -1.0 : 1.0};
   }
   // If two sides lie on each other, the one with a corner there gives the point.
   if (of_b.plane && !(of_a.plane && of_b.point.is_vertex && !of_a.point.is_vertex)) return {of_a.point, *of_b.plane};

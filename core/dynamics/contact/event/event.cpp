@@ -43,6 +43,11 @@ constexpr double kForNoForces = 400;  // the same, where in the end no forces ar
 // integrator takes 0.04 s at this number, and grows as its cube.
 constexpr std::size_t kMostTogether = 128;
 
+// Relative. Parts that end where a slow slip limits the step are no events, and cost nothing of the budget. If the slip
+// changes by more than this in each part, the run takes some 10/kSteady of them. A slip that stays slow would take any
+// number.
+constexpr double kSteady = 2e-4;
+
 constexpr int kMostPieces = 200;  // of the time to the next event, while bodies are not seen to stay apart
 
 bool is_finite(BodyColumns state) {
@@ -87,8 +92,9 @@ class EventStepper : public ContactStepper {
       is_smooth_ = is_smooth_ && end == t + dt;
       part_ = {t, done, end == t + dt ? dt : end - t};
       const long work_before = work_so_far();
+      follows_slip_ = false;
       done = saved_ > 0 ? take_part(state) : take_crowded_step(state, crowded_step_);
-      saved_ -= kForEachPart + static_cast<double>(work_so_far() - work_before);
+      if (!follows_slip_) saved_ -= kForEachPart + static_cast<double>(work_so_far() - work_before);
     }
     note(persistent_contact_.take_projection_warning());
   }
@@ -155,7 +161,8 @@ class EventStepper : public ContactStepper {
     }
     start_ = BodyColumns(state);
     persistent_contact_.let_go_motors(state);
-    if (impacts_.resolve(state, touching_)) is_smooth_ = false;
+    has_impact_ = impacts_.resolve(state, touching_);
+    if (has_impact_) is_smooth_ = false;
     if (!impacts_.tied().empty()) ties_.push_back({part_.t + part_.from, impacts_.tied()});
     if (!impacts_.solver_warning().empty()) {
       copy_columns(std::as_const(start_).columns(), state);
@@ -171,8 +178,13 @@ class EventStepper : public ContactStepper {
     end_ = BodyColumns(state);
     pairs_.clear();
     if (persistent_contact_.is_at_rest(state)) return part_.to;
-    const double longest = std::min(longest_, persistent_contact_.choose_step(state, part_.length()));
+    const double of_slips = persistent_contact_.choose_step(state, part_.length()),
+                 rate = persistent_contact_.fastest_damping();
+    const bool may_follow =
+        !has_impact_ && of_slips < part_.length() && std::abs(rate - last_damping_) > kSteady * rate;
+    const double longest = std::min(longest_, of_slips);
     if (longest < part_.length()) part_.to = part_.from + longest;
+    last_damping_ = rate;
     longest_ = kInfinity;
     attempt(part_.length());
     shorten_until_bounded();
@@ -192,6 +204,7 @@ class EventStepper : public ContactStepper {
       clear = h, clear_ = std::as_const(end_).columns();
       ahead_.pop_back();
     }
+    follows_slip_ = may_follow && part_.to == part_.from + of_slips;
     return commit(state, part_.to);
   }
 
@@ -333,8 +346,10 @@ class EventStepper : public ContactStepper {
   std::optional<double> crowded_from_;                 // s
   bool are_many_ = false;                              // somewhere, more than kMostTogether
   Part part_;
-  double longest_ = kInfinity;  // s, of the next part
-  int instants_ = 0;            // skipped in this step
+  double longest_ = kInfinity;                      // s, of the next part
+  double last_damping_ = 0;                         // 1/s, by friction, when the last part began
+  bool has_impact_ = false, follows_slip_ = false;  // the part at hand; and it ends where a slip limits its length
+  int instants_ = 0;                                // skipped in this step
   bool is_smooth_ = true;
   BodyTable start_, end_, clear_;
   double reach_ = 0;           // s, from start_ to end_

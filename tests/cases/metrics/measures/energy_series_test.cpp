@@ -156,6 +156,17 @@ BOOST_AUTO_TEST_CASE(contact_of_which_the_truth_keeps_its_energy_is_held_to_it) 
   BOOST_TEST(energy_series({scene, run, &unknown, 0}, 0).only_gains_count);
 }
 
+// A truth that ends before the first impact keeps its energy, and an impact may take some after that.
+BOOST_AUTO_TEST_CASE(a_truth_of_a_part_of_the_run_does_not_say_that_impacts_keep_the_energy) {
+  const Scene scene = ball_and_ground({0.5, 0});
+  const Trajectory run = at_speeds(scene, {2, 2, 1, 1});
+  const TruthSamples truth = truth_of(at_speeds(scene, {2, 2, 2, 2}), 3);
+  const EnergySeries series = energy_series({scene, run, &truth, 0}, 0);
+  BOOST_TEST(series.only_gains_count);
+  BOOST_TEST((series.found == std::vector<double>{4, 4, 1, 1}));
+  BOOST_TEST((series.expected == std::vector<double>{4, 4, 1, 1}));
+}
+
 BOOST_AUTO_TEST_CASE(what_is_driven_or_damped_is_held_to_the_truths_change_up_to_its_horizon) {
   Scene damped = bead();
   damped.joints[0].damping = 1;

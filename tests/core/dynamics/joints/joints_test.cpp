@@ -99,6 +99,100 @@ BOOST_AUTO_TEST_CASE(a_singular_position_at_the_start_is_named_at_once) {
   BOOST_TEST(warning_at(0.8) == "");
 }
 
+// A crank, a rod and a slider, in units in which all lengths are `scale` times as large, and moved out of place.
+struct MovedCrank {
+  explicit MovedCrank(double scale) {
+    const double inertia = scale * scale;
+    const Vec3 arm = scale * Vec3(0.6, 0.8, 0), foot = scale * Vec3(1.2, 0, 0);
+    scene.bodies = {test::body("crank", 1, inertia * Vec3(0.125, 0.25, 0.25), 0.5 * arm),
+                    test::body("rod", 2, inertia * Vec3(0.125, 0.5, 0.5), 0.5 * (arm + foot)),
+                    test::body("slider", 1, inertia * Vec3(1, 1, 1), foot)};
+    scene.joints = {{kWorld, 0, HingeJoint{{0, 0, 0}, Vec3::UnitZ()}},
+                    {0, 1, HingeJoint{arm, Vec3::UnitZ()}},
+                    {1, 2, HingeJoint{foot, Vec3::UnitZ()}},
+                    {kWorld, 2, SliderJoint{Vec3::UnitX()}}};
+    const System system(scene);
+    Joints joints(scene, system);
+    set_initial_state(scene, closed.columns());
+    for (int i = 0; i < 3; ++i) {
+      const MutableBodyColumns state = closed.columns();
+      state.set_position(i, state.position(i) + scale * 0x1p-6 * Vec3(i - 1, 0.5 * i, 0.25));
+      const Quat turn = rotation_by(0x1p-5 * Vec3(0.5, i - 1, 1));
+      state.set_orientation(i, (turn * state.orientation(i)).normalized());
+      if (state.has_rotation()) state.set_rotation(i, matrix_of(state.orientation(i)));
+    }
+    joints.project(closed.columns());
+    gap = joints.gap(closed.columns());
+    warning = joints.warning();
+  }
+
+  Scene scene;
+  BodyTable closed{3};
+  double gap = 0;  // m
+  std::string warning;
+};
+
+// Powers of two scale each number exactly, so that the same bits must come out. Other units leave roundings. Rows that
+// keep an angle have gaps without a unit, which no tolerance in metres may judge.
+BOOST_AUTO_TEST_CASE(closing_the_joints_does_not_depend_on_the_unit_of_length) {
+  const MovedCrank own(1);
+  BOOST_TEST(own.gap < 1e-15);
+  for (const double scale : {0x1p-30, 0x1p-10, 0x1p-3, 0x1p4, 0x1p10, 0x1p30, 0.1, 10.0, 1e6}) {
+    const MovedCrank other(scale);
+    int exponent = 0;
+    const double most = std::frexp(scale, &exponent) == 0.5 ? 0 : 4e-15;
+    BOOST_TEST(other.warning == "", scale);
+    BOOST_TEST(other.gap / scale < 2e-15, scale);
+    for (int i = 0; i < 3; ++i) {
+      const BodyColumns here = std::as_const(other.closed).columns(), there = std::as_const(own.closed).columns();
+      BOOST_TEST((here.position(i) / scale - there.position(i)).norm() <= most, scale << ", body " << i);
+      BOOST_TEST((here.orientation(i).coeffs() - there.orientation(i).coeffs()).norm() <= most,
+                 scale << ", body " << i);
+    }
+  }
+}
+
+// A wheel on an arm, tilted out of its axle about its own centre: all gaps are sines.
+BOOST_AUTO_TEST_CASE(a_tilt_is_closed_in_any_unit_of_length) {
+  for (const double scale : {1e-9, 1e-3, 1.0, 1e3, 1e9}) {
+    Scene scene;
+    scene.bodies = {test::body("arm", 1, scale * scale * Vec3(0.1, 0.1, 0.1), {0.5 * scale, 0, 0}),
+                    test::body("wheel", 1, scale * scale * Vec3(0.1, 0.1, 0.1), {scale, 0, 0})};
+    scene.joints = {{kWorld, 0, HingeJoint{{0, 0, 0}, Vec3::UnitZ()}},
+                    {0, 1, HingeJoint{{scale, 0, 0}, Vec3::UnitZ()}}};
+    const System system(scene);
+    Joints joints(scene, system);
+    BodyTable state(2);
+    set_initial_state(scene, state.columns());
+    state.columns().set_orientation(1, rotation_by({1e-7, 0, 0}));
+    if (state.columns().has_rotation()) state.columns().set_rotation(1, matrix_of(rotation_by({1e-7, 0, 0})));
+    joints.project(state.columns());
+    const Vec3 axle = state.columns().orientation(1) * Vec3::UnitZ();
+    const Vec3 of_arm = state.columns().orientation(0) * Vec3::UnitZ();
+    BOOST_TEST(axle.cross(of_arm).norm() < 1e-15, scale << ": " << axle.cross(of_arm).norm());
+    BOOST_TEST(joints.gap(state.columns()) / scale < 1e-15);
+    BOOST_TEST(joints.warning() == "", scale);
+  }
+}
+
+// Two particles on a rod without mass have no arms: the rod's own length is the scale.
+BOOST_AUTO_TEST_CASE(a_distance_between_particles_is_closed_in_any_unit_of_length) {
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    Scene scene;
+    scene.bodies = {test::body("one", 1, {1, 1, 1}), test::body("other", 1, {1, 1, 1}, {0, 3 * scale, 0})};
+    scene.joints = {{0, 1, DistanceJoint{{0, 0, 0}, {0, 0, 0}}}};
+    const System system(scene);
+    Joints joints(scene, system);
+    BodyTable state(2);
+    set_initial_state(scene, state.columns());
+    state.columns().set_position(0, {0.2 * scale, -0.1 * scale, 0});
+    joints.project(state.columns());
+    const double length = (state.columns().position(1) - state.columns().position(0)).norm();
+    BOOST_TEST(std::abs(length / scale - 3) < 2e-15, scale << ": " << length / scale - 3);
+    BOOST_TEST(joints.warning() == "");
+  }
+}
+
 // The mass-weighted least-norm projection: two bodies on one ball joint, separated by a gap, each move by their share
 // of the inverse masses, because the anchor is at both centres.
 BOOST_AUTO_TEST_CASE(projection_moves_each_body_by_its_inverse_mass) {

@@ -243,7 +243,7 @@ double PersistentContact::choose_step(BodyColumns state, double length) {
     turns = turns || (!in_contact_.adaptive && rate * length > kEasy && turns_here);
     if (turns || std::isfinite(rate)) fastest = std::max(fastest, rate);
   }
-  follows_turning_slip_ = turns;
+  follows_turning_slip_ = turns, fastest_damping_ = fastest;
   const double shortest = (follows_turning_slip_ ? kFollowing : kShortest) * scales().time;
   const double followed = follows_turning_slip_ ? kFollowed : kStable;
   const double of_slips = fastest > 0 ? std::max(shortest, followed / fastest) : kForever;

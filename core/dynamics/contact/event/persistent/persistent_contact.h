@@ -33,6 +33,8 @@ class PersistentContact {
   // turns, its error grows earlier, so an adaptive method takes over. Jointed bodies that rotate far need short steps,
   // too.
   double choose_step(BodyColumns state, double length);
+  // 1/s: how fast friction damps the slowest slip, as of the last choose_step(); 0 without slips.
+  double fastest_damping() const { return fastest_damping_; }
   // Whether nothing moves, and nothing will.
   bool is_at_rest(BodyColumns state) const;
   // Whether the body rests together with everything that it touches, while others move. It rests until something else
@@ -98,6 +100,7 @@ class PersistentContact {
   ContactModes modes_;
   std::unique_ptr<Stepper> free_stepper_, contact_stepper_, adaptive_stepper_;
   bool follows_turning_slip_ = false;  // by adaptive_stepper_
+  double fastest_damping_ = 0;         // 1/s
   WrenchColumns loads_;
   Columns beside_joints_;
   MassWeightedProjection projection_;

@@ -1,7 +1,9 @@
 // Contact that lasts: it keeps the integrator's order, and its modes change where the laws of friction say so.
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
+#include "cases/truth/solved/events/equivalent_scene.h"
 #include "core/dynamics/model/energy.h"
 #include "tests/core/dynamics/contact/contact_runs.h"
 
@@ -53,6 +55,26 @@ void check_energy(const Scene& scene, ContactRun& run, double dt, double t, doub
     last = std::min(last, now);
   }
 }
+
+// Six boxes side by side on a slope, whose gravity is tilted instead; three have too little friction.
+struct BoxesOnSlope {
+  BoxesOnSlope(double slope, double share) : theta(std::atan(slope)) {
+    std::vector<Body> boxes;
+    for (int i = 0; i < 6; ++i)
+      boxes.push_back(solid("box " + std::to_string(i), Box{{0.4, 0.4, 0.1}}, {0, 1.0 * i, 0.05}, 10));
+    scene = on_floor(boxes, {0, 0}, kG * Vec3(std::sin(theta), 0, -std::cos(theta)));
+    const double shares[] = {share, 0.95, 0.99, 1.01, 1.05, 1 / share};
+    for (int i = 0; i < 6; ++i) scene.contact_pairs.push_back({i, 6, {0, shares[i] * slope}});
+  }
+  // m, down the slope after 1 s.
+  double due(int i) const {
+    const double pull = kG * (std::sin(theta) - scene.contact_pairs[i].law.friction * std::cos(theta));
+    return 0.5 * std::max(0.0, pull);
+  }
+
+  double theta;  // rad
+  Scene scene;
+};
 
 }  // namespace
 
@@ -136,6 +158,28 @@ BOOST_AUTO_TEST_CASE(a_box_on_the_verge_of_sliding_slides_straight) {
   // Roundings of 1e-17 m/s across the slope are damped, not grown.
   BOOST_TEST(std::abs(run.state().position(0).y()) < 1e-12);
   BOOST_TEST(run.state().angular_velocity(0).norm() < 1e-12);
+}
+
+// A slip that begins slowly limits the steps for long. That must not count as events that crowd.
+BOOST_AUTO_TEST_CASE(boxes_on_both_sides_of_the_threshold_slide_or_stick_without_crowding) {
+  for (const auto& [slope, share] : {std::pair(0.2, 0.8), {0.5, 0.9}, {1.0, 0.8}, {1.7, 0.8}, {1.7, 0.999}}) {
+    const BoxesOnSlope boxes(slope, share);
+    for (const auto& [length, time, mirrored] :
+         {std::tuple(1.0, 1.0, false), {10.0, 1.0, false}, {0.1, 0.3, true}, {1.0, 4.0, true}}) {
+      Equivalence how;
+      how.length = length, how.time = time, how.is_mirrored = mirrored;
+      ContactRun run(equivalent(boxes.scene, how), "event", mirrored ? "rk4" : "velocity-verlet");
+      run.run(time / 30, 30);
+      BodyTable seen(7);
+      to_original(how, run.state(), seen.columns());
+      BOOST_TEST_CONTEXT("tan " << slope << ", share " << share << ", length " << length << ", time " << time) {
+        BOOST_TEST(!run.reduced_order());
+        // A slip below 1e-7 m/s counts as rest: 3.3e-9 m in the longest step, and three of them.
+        for (int i = 0; i < 6; ++i)
+          BOOST_TEST(std::abs(std::as_const(seen).columns().position(i).x() - boxes.due(i)) < 1e-8, i);
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
