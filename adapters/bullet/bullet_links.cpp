@@ -5,7 +5,7 @@
 namespace rigor::bullet {
 namespace {
 
-constexpr bool kCollidesWithParent = false;
+constexpr bool kCollidesWithParent = true;  // the world's rule keeps pairs apart (bullet_link_shapes.h)
 
 // The joint's point for both ends: its anchor, or the child's centre.
 Vec3 point_of(const Joint& joint, const LinkFrame& child) {

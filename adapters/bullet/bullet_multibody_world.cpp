@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "adapters/common/option_values.h"
+
 namespace rigor {
 namespace {
 
@@ -12,12 +14,15 @@ using bullet::to_rigor;
 
 constexpr bool kMaySleep = false;
 constexpr double kUnlimited = 1e30;
+constexpr int kCorners = 4;  // of a box's face
 
 }  // namespace
 
 BulletMultibodyWorld::BulletMultibodyWorld(const Scene& scene, const Settings& settings)
-    : rows_(scene.bodies.size()), loads_(scene), coordinates_(scene.joints.size()) {
+    : rows_(scene.bodies.size()), loads_(scene), coordinates_(scene.joints.size()), shapes_(scene) {
   world_.setGravity(to_bullet(scene.gravity));
+  btContactSolverInfo& solver = world_.getSolverInfo();
+  solver.m_numIterations = static_cast<int>(number_option(settings, "iterations", solver.m_numIterations));
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Body& body = scene.bodies[i];
     Row& row = rows_[i];
@@ -28,20 +33,41 @@ BulletMultibodyWorld::BulletMultibodyWorld(const Scene& scene, const Settings& s
     row.q_WP_start = (body.orientation * Quat(row.frame.R_BP)).normalized();
   }
   for (const bullet::Tree& tree : bullet::trees_of(scene)) add_tree(scene, tree, settings.track == Track::matched);
-  add_limits(scene, settings.track == Track::matched);
+  const bool matched = settings.track == Track::matched;
+  add_shapes(scene, matched);
+  add_limits(scene, matched);
   add_motors(scene);
   read_bodies();
 }
 
+void BulletMultibodyWorld::add_shapes(const Scene& scene, bool matched) {
+  shapes_.enter(world_);
+  if (anything_can_touch(scene)) {
+    // A box on a plane touches with all its corners at once. As shipped Bullet finds one of them in a step.
+    if (matched) configuration_.setPlaneConvexMultipointIterations(kCorners, kCorners);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const Body& body = scene.bodies[i];
+      const Row& row = rows_[i];
+      const int index = static_cast<int>(i);
+      if (!body.collides) continue;
+      if (row.moves) {
+        shapes_.add_moving(world_, body, index, row.frame, *row.tree, row.link, !matched);
+      } else {
+        shapes_.add_fixed(world_, body, index, !matched);
+      }
+    }
+  }
+  for (const auto& tree : trees_) shapes_.complete(world_, *tree);
+}
+
 // Bullet pushes back a share "erp" of an overshoot per step, by a speed that stays; on the matched track it is 0. The
-// stock limit has an impulse of at most 100 N s or N m s.
+// share of an overlap of bodies is m_erp2. The stock limit has an impulse of at most 100 N s or N m s.
 void BulletMultibodyWorld::add_limits(const Scene& scene, bool matched) {
-  if (matched) world_.getSolverInfo().m_erp = world_.getSolverInfo().m_erp2 = 0;
+  if (matched) world_.getSolverInfo().m_erp = 0;
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     const Joint& joint = scene.joints[k];
     if (!joint.has_limits()) continue;
     const Coordinate& at = coordinates_[k];
-    make_findable(at);
     const double low = std::max(at.sign > 0 ? joint.lower : -joint.upper, -kUnlimited),
                  high = std::min(at.sign > 0 ? joint.upper : -joint.lower, kUnlimited);
     limits_.push_back(std::make_unique<btMultiBodyJointLimitConstraint>(at.tree, at.link, low, high));
@@ -50,25 +76,10 @@ void BulletMultibodyWorld::add_limits(const Scene& scene, bool matched) {
   }
 }
 
-// Bullet finds a constraint by the island that its link's collider is in.
-void BulletMultibodyWorld::make_findable(const Coordinate& coordinate) {
-  for (int link = 0; link < coordinate.tree->getNumLinks(); ++link) {
-    btMultiBodyLinkCollider*& collider = coordinate.tree->getLink(link).m_collider;
-    if (collider) continue;
-    colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(coordinate.tree, link));
-    collider = colliders_.back().get();
-    collider->setCollisionShape(&no_shape_);
-    collider->setActivationState(DISABLE_DEACTIVATION);
-    constexpr int kNone = 0;
-    world_.addCollisionObject(collider, kNone, kNone);
-  }
-}
-
 void BulletMultibodyWorld::add_motors(const Scene& scene) {
   for (const Motor& motor : scene.motors) {
     if (!motor.speed) continue;  // an effort is one of the loads
     const Coordinate& at = coordinates_[static_cast<std::size_t>(motor.joint)];
-    make_findable(at);
     drives_.push_back({motor, std::make_unique<btMultiBodyJointMotor>(at.tree, at.link, at.sign * *motor.speed, 0)});
     world_.addMultiBodyConstraint(drives_.back().row.get());
   }
@@ -84,7 +95,7 @@ void BulletMultibodyWorld::set_motors(double dt) {
 BulletMultibodyWorld::~BulletMultibodyWorld() {
   for (const Drive& drive : drives_) world_.removeMultiBodyConstraint(drive.row.get());
   for (const auto& limit : limits_) world_.removeMultiBodyConstraint(limit.get());
-  for (const auto& collider : colliders_) world_.removeCollisionObject(collider.get());
+  shapes_.leave(world_);
   for (const auto& tree : trees_) world_.removeMultiBody(tree.get());
 }
 
@@ -158,6 +169,7 @@ void BulletMultibodyWorld::step(double dt) {
   set_motors(dt);
   if (!feedback_.empty()) note_bodies();
   world_.stepSimulation(dt, 0);  // no sub-steps
+  last_dt_ = dt;
   clock_.advance(dt);
   read_bodies();
 }
@@ -257,9 +269,17 @@ SettingsInForce BulletMultibodyWorld::settings_in_force() const {
       {"sub-steps", "none: one step of dt"},
       {"springs and timed forces", "user forces, recomputed before each step"},
   };
+  // Bullet has no const getter for what its solver works with.
+  const btContactSolverInfo& solver = const_cast<btMultiBodyDynamicsWorld&>(world_).getSolverInfo();
+  if (shapes_.are_any()) {
+    in_force.emplace_back("iterations", fmt::format("{}", solver.m_numIterations));
+    in_force.emplace_back(
+        "contacts", fmt::format("an overlap is pushed out by {:g} of it a step, by a speed that stays", solver.m_erp2));
+    in_force.emplace_back("friction directions", solver.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS
+                                                     ? "two, fixed in the world, limited by the cone"
+                                                     : "one, fixed in the world");
+  }
   if (!limits_.empty()) {
-    // Bullet has no const getter for what its solver works with.
-    const btContactSolverInfo& solver = const_cast<btMultiBodyDynamicsWorld&>(world_).getSolverInfo();
     in_force.emplace_back("limits",
                           fmt::format("stop what is past them, without rebound, by at most {:g} N s or N m s; "
                                       "pushed back a step: {:g} of it",

@@ -1,6 +1,6 @@
 // A scene as Bullet's btMultiBody: reduced coordinates (joint angles and displacements), accelerations by
-// Featherstone's articulated-body algorithm, so that joints hold to rounding. Trees only, without contacts. A joint of
-// the scene is one of Bullet's:
+// Featherstone's articulated-body algorithm, so that joints hold to rounding. Trees only. A joint of the scene is one
+// of Bullet's:
 //   ball spherical    hinge revolute    slider prismatic    fixed fixed
 //   universal         two revolute ones with a link between them that has neither mass nor inertia; only the inertia
 //                     of all that hangs on a joint is ever divided by, and that is never zero here
@@ -18,12 +18,13 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <memory>
 #include <vector>
 
+#include "adapters/bullet/bullet_contacts.h"
 #include "adapters/bullet/bullet_convert.h"
+#include "adapters/bullet/bullet_link_shapes.h"
 #include "adapters/bullet/bullet_links.h"
 #include "adapters/bullet/bullet_tree.h"
 #include "adapters/common/external_loads.h"
@@ -33,7 +34,7 @@
 
 namespace rigor {
 
-class BulletMultibodyWorld : public World, public ReportsReactions {
+class BulletMultibodyWorld : public World, public ReportsReactions, public ReportsContacts {
  public:
   BulletMultibodyWorld(const Scene& scene, const Settings& settings);
   ~BulletMultibodyWorld() override;
@@ -44,9 +45,11 @@ class BulletMultibodyWorld : public World, public ReportsReactions {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return ""; }  // nothing is solved by iteration
-  Capabilities capabilities() override { return {.reactions = this}; }
+  Capabilities capabilities() override { return {.reactions = this, .contacts = this}; }
   void ask_for_reactions() override;
   std::vector<ReportedReaction> reactions() const override;
+  void ask_for_contacts() override {}  // Bullet always keeps them
+  std::vector<ReportedContact> contacts() const override { return bullet::contacts_of(dispatcher_, last_dt_); }
 
  private:
   struct Row {  // a body of the scene
@@ -67,7 +70,7 @@ class BulletMultibodyWorld : public World, public ReportsReactions {
   void add_tree(const Scene& scene, const bullet::Tree& tree, bool matched);
   void add_branch(const Scene& scene, const bullet::Branch& branch, btMultiBody& tree, int first_link);
   bullet::JointEnds ends_at_start(const Scene& scene, const bullet::Branch& branch) const;
-  void make_findable(const Coordinate& coordinate);
+  void add_shapes(const Scene& scene, bool matched);
   void add_limits(const Scene& scene, bool matched);
   void add_motors(const Scene& scene);
   void set_motors(double dt);
@@ -78,6 +81,7 @@ class BulletMultibodyWorld : public World, public ReportsReactions {
   std::vector<Row> rows_;
   ExternalLoads loads_;
   Clock clock_;
+  double last_dt_ = 0;                                 // s
   std::vector<std::pair<int, HangingJoint>> hanging_;  // by joint
   std::vector<btMultiBodyJointFeedback> feedback_;     // of the same, once asked
   BodyTable before_;                                   // the last step, once there was one
@@ -89,8 +93,7 @@ class BulletMultibodyWorld : public World, public ReportsReactions {
   std::vector<Coordinate> coordinates_;  // by joint
   std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> limits_;
   std::vector<Drive> drives_;
-  btEmptyShape no_shape_;
-  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;  // that touch nothing
+  bullet::LinkShapes shapes_;
   // by tree: bodies, base first; kWorld for links without a body of the scene
   std::vector<std::vector<int>> body_of_link_;
   btDefaultCollisionConfiguration configuration_;

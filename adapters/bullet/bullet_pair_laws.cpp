@@ -42,9 +42,9 @@ void install_pair_laws() {
   static_cast<void>(installed);
 }
 
-void follow_laws(btRigidBody& body, const ContactLaws& laws, int index) {
-  body.setUserPointer(const_cast<ContactLaws*>(&laws));  // Bullet keeps it as void*; it is only read through
-  body.setUserIndex(index);
+void follow_laws(btCollisionObject& object, const ContactLaws& laws, int index) {
+  object.setUserPointer(const_cast<ContactLaws*>(&laws));  // Bullet keeps it as void*; it is only read through
+  object.setUserIndex(index);
 }
 
 }  // namespace rigor::bullet

@@ -11,7 +11,7 @@ namespace rigor::bullet {
 // Once in a process; any number of times is the same.
 void install_pair_laws();
 
-// The body's contacts follow the laws from now on; the laws must outlive the body.
-void follow_laws(btRigidBody& body, const ContactLaws& laws, int index);
+// The object's contacts follow the laws from now on; the laws must outlive the object.
+void follow_laws(btCollisionObject& object, const ContactLaws& laws, int index);
 
 }  // namespace rigor::bullet

@@ -210,29 +210,6 @@ std::vector<ReportedReaction> BulletWorld::reactions() const {
   return clock_.time() > 0 ? joints_->reactions() : std::vector<ReportedReaction>();
 }
 
-// The manifolds are those of the step's start, with the impulses that the step has given them. Bullet's normal points
-// from its second body to its first.
-std::vector<ReportedContact> BulletWorld::contacts() const {
-  std::vector<ReportedContact> contacts;
-  if (last_dt_ == 0) return contacts;
-  for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
-    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
-    const int first = manifold.getBody0()->getUserIndex(), second = manifold.getBody1()->getUserIndex();
-    for (int k = 0; k < manifold.getNumContacts(); ++k) {
-      const btManifoldPoint& at = manifold.getContactPoint(k);
-      // The solver leaves out points that are farther apart, and their impulses are those of an earlier step.
-      const bool is_solved = at.getDistance() <= manifold.getContactProcessingThreshold();
-      const btVector3 impulse = is_solved ? at.m_appliedImpulse * at.m_normalWorldOnB +
-                                                at.m_appliedImpulseLateral1 * at.m_lateralFrictionDir1 +
-                                                at.m_appliedImpulseLateral2 * at.m_lateralFrictionDir2
-                                          : btVector3(0, 0, 0);
-      contacts.push_back({second, first, to_rigor(at.getPositionWorldOnB()), to_rigor(at.m_normalWorldOnB),
-                          at.getDistance(), to_rigor(impulse) / last_dt_});
-    }
-  }
-  return contacts;
-}
-
 const btRigidBody* BulletWorld::first_moving() const {
   for (const Row& row : rows_) {
     if (row.moves) return row.body.get();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/bullet/bullet_contacts.h"
 #include "adapters/bullet/bullet_convert.h"
 #include "adapters/bullet/bullet_joints.h"
 #include "adapters/common/external_loads.h"
@@ -32,7 +33,7 @@ class BulletWorld : public World, public ReportsReactions, public ReportsContact
   void ask_for_reactions() override { joints_->ask_for_reactions(); }
   std::vector<ReportedReaction> reactions() const override;
   void ask_for_contacts() override {}  // Bullet always keeps them
-  std::vector<ReportedContact> contacts() const override;
+  std::vector<ReportedContact> contacts() const override { return bullet::contacts_of(dispatcher_, last_dt_); }
 
  private:
   struct Row {

@@ -27,6 +27,7 @@ const std::vector<Fault>& contact_report_faults() {
         on_each("contact force of a sub-step, not of the step", [](ReportedContact& c) { c.force *= 0.25; }),
         on_each("contact force without friction",
                 [](ReportedContact& c) { c.force = c.force.dot(c.normal) * c.normal; }),
+        on_each("contact gap with the wrong sign", [](ReportedContact& c) { c.gap *= -1; }),
         on_each("contact normal from b to a", [](ReportedContact& c) { c.normal *= -1; }),
         on_each("contact normal not unit", [](ReportedContact& c) { c.normal *= 2; }),
     };

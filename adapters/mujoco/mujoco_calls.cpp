@@ -29,6 +29,9 @@ std::vector<std::string> mujoco_calls(const Settings& settings, const std::strin
     calls.push_back(
         "for (int i = 0; i < m->ngeom; ++i) m->geom_solimp[mjNIMP*i] = m->geom_solimp[mjNIMP*i + 1] = 0.999;");
   }
+  if (settings.options.contains("contact-time"))
+    calls.push_back(fmt::format("for (int i = 0; i < m->ngeom; ++i) m->geom_solref[mjNREF*i] = {};",
+                                settings.options.at("contact-time")));
   calls.push_back(fmt::format("m->opt.timestep = {}; mj_step(m, d);", dt));
   return calls;
 }

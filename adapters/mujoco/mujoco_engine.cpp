@@ -24,9 +24,11 @@ const Features kMujocoContacts = [] {
 }();
 
 std::vector<OptionInfo> options_of_all() {
-  return {{"cone", "the friction cone, or a pyramid in it", {"elliptic", "pyramidal"}},
-          {"impratio", "how much stiffer friction is than contact", {}, 1e-3, 1e6},
-          {"iterations", "of the solver, at most", {}, 1, 10000, true}};
+  return {
+      {"cone", "the friction cone, or a pyramid in it", {"elliptic", "pyramidal"}},
+      {"impratio", "how much stiffer friction is than contact", {}, 1e-3, 1e6},
+      {"contact-time", "time constant of contacts, s; as shipped 0.02, and never less than two steps", {}, 1e-6, 10},
+      {"iterations", "of the solver, at most", {}, 1, 10000, true}};
 }
 
 MethodInfo euler() {
@@ -79,6 +81,7 @@ EngineInfo MujocoEngine::info() const {
                                                Feature::joint_damper,
                                                Feature::joint_limit,
                                                Feature::joint_limit_beyond_half_turn,
+                                               Feature::joints_with_contacts,
                                                Feature::joints_with_dampers,
                                                Feature::motor_effort,
                                                Feature::motor_servo,

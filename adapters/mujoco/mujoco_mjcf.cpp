@@ -92,7 +92,8 @@ class Writer {
     };
     number("iterations", "iterations", 200);
     number("impratio", "impratio", 100);
-    add("/>\n");
+    // As shipped, bodies that share a joint never touch. Here the scene alone says which pairs do.
+    add("><flag filterparent=\"disable\"/></option>\n");
   }
 
   // The memory for contacts and constraints is set once. In a heap a shape touches at most a dozen others, with up to

@@ -7,6 +7,7 @@
 
 #include "adapters/mujoco/mujoco_mjcf.h"
 #include "core/dynamics/model/loads/loads.h"
+#include "core/engine/option_values.h"
 
 namespace rigor {
 namespace {
@@ -59,6 +60,10 @@ void set_impedance(mjtNum* solimp, int count) {
   for (int i = 0; i < count; ++i) solimp[mjNIMP * i] = solimp[mjNIMP * i + 1] = kContactImpedance;
 }
 
+void set_time_constant(mjtNum* solref, int count, double time) {
+  for (int i = 0; i < count; ++i) solref[mjNREF * i] = time;
+}
+
 std::string solref_in_words(const mjtNum* solref, const mjtNum* solimp) {
   return fmt::format("solref {:g} {:g}, solimp {:g} {:g} {:g}", solref[0], solref[1], solimp[0], solimp[1], solimp[2]);
 }
@@ -79,6 +84,11 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
   if (matched_) {
     set_impedance(made_.model->geom_solimp, made_.model->ngeom);
     set_impedance(made_.model->pair_solimp, made_.model->npair);
+  }
+  if (settings.options.contains("contact-time")) {
+    const double time = number_option(settings, "contact-time", 0);
+    set_time_constant(made_.model->geom_solref, made_.model->ngeom, time);
+    set_time_constant(made_.model->pair_solref, made_.model->npair, time);
   }
   // Constants that follow from the inertias, worked out at the pose of t = 0, which the data then holds again.
   mj_setConst(made_.model.get(), data_.get());

@@ -7,12 +7,16 @@ namespace rigor {
 // One declaration and one row a metric, alphabetical; each is defined in the file of its name.
 MetricRow angular_momentum_drift();
 MetricRow angular_velocity_error();
+MetricRow centre_of_pressure_error();
 MetricRow collapse_time();
 MetricRow contact_balance();
 MetricRow contact_force_error();
+MetricRow contact_gap_error();
+MetricRow contact_moment_error();
 MetricRow cost();
 MetricRow coulomb_residual();
 MetricRow creep();
+MetricRow dissipation_residual();
 MetricRow energy_drift();
 MetricRow energy_drift_synchronised();
 MetricRow energy_gain();
@@ -21,6 +25,7 @@ MetricRow ensemble_p_value();
 MetricRow force_peak();
 MetricRow force_ripple();
 MetricRow friction_anisotropy();
+MetricRow hover();
 MetricRow impact_time_error();
 MetricRow internal_energy_drift();
 MetricRow joint_gap();
@@ -38,6 +43,7 @@ MetricRow reaction_torque_error();
 MetricRow reported_reaction_error();
 MetricRow reported_reaction_torque_error();
 MetricRow restitution_error();
+MetricRow signorini_residual();
 MetricRow stop_distance_error();
 MetricRow survival();
 MetricRow tube();
@@ -51,12 +57,16 @@ const std::vector<MetricRow>& metrics() {
   static const std::vector<MetricRow> table = {
       angular_momentum_drift(),
       angular_velocity_error(),
+      centre_of_pressure_error(),
       collapse_time(),
       contact_balance(),
       contact_force_error(),
+      contact_gap_error(),
+      contact_moment_error(),
       cost(),
       coulomb_residual(),
       creep(),
+      dissipation_residual(),
       energy_drift(),
       energy_drift_synchronised(),
       energy_gain(),
@@ -65,6 +75,7 @@ const std::vector<MetricRow>& metrics() {
       force_peak(),
       force_ripple(),
       friction_anisotropy(),
+      hover(),
       impact_time_error(),
       internal_energy_drift(),
       joint_gap(),
@@ -82,6 +93,7 @@ const std::vector<MetricRow>& metrics() {
       reported_reaction_error(),
       reported_reaction_torque_error(),
       restitution_error(),
+      signorini_residual(),
       stop_distance_error(),
       survival(),
       tube(),

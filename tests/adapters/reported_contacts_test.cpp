@@ -16,8 +16,9 @@ std::vector<std::string> reporting() {
   std::vector<std::string> runs;
   const auto infos = engines().infos();
   for (const char* run :
-       {"core:velocity-verlet,contact=impulse", "core:semi-implicit-euler,contact=impulse", "ode", "ode:quickstep",
-        "bullet", "bullet:mlcp", "bullet@stock", "mujoco", "mujoco:implicit", "dart"}) {
+       {"core:velocity-verlet,contact=impulse", "core:semi-implicit-euler,contact=impulse",
+        "core:velocity-verlet,contact=event", "core:dormand-prince,contact=event", "ode", "ode:quickstep", "bullet",
+        "bullet:mlcp", "bullet:multibody", "bullet@stock", "mujoco", "mujoco:implicit", "dart"}) {
     const std::string name = run, engine = name.substr(0, name.find_first_of(":@"));
     if (std::any_of(infos.begin(), infos.end(), [&](const EngineInfo& info) { return info.name == engine; }))
       runs.push_back(name);
@@ -153,7 +154,9 @@ BOOST_AUTO_TEST_CASE(contact_forces_and_gravity_explain_each_change_of_momentum)
       }
       BOOST_TEST_CONTEXT(named.name << ", " << engine << ", largest force " << largest << " N") {
         BOOST_TEST(largest > kG);
-        BOOST_TEST(worst < 1e-9 * std::max(largest, 2 * kG));
+        // Events stop a contact that parts more slowly than 5e-7 m/s, with no force for it: 3 kg within a step.
+        const double stopped = engine.find("contact=event") == std::string::npos ? 0 : 3 * 5e-7 / kStep;
+        BOOST_TEST(worst < 1e-9 * std::max(largest, 2 * kG) + stopped);
         // m: an arm that is taken at another instant of the step, or at the middle of an overlap.
         BOOST_TEST(worst_spin < 0.01 * largest);
       }

@@ -73,6 +73,16 @@ double TriedWorld::time() {
   return now.time;
 }
 
+bool TriedWorld::asks_for_contacts() {
+  sent_ += "; ask for contacts";
+  return ask_for_contacts(*world_);
+}
+
+std::vector<ReportedContact> TriedWorld::contacts() {
+  sent_ += "; contacts";
+  return reported_contacts(*world_);
+}
+
 Body round_body() {
   Body body;
   body.name = "body", body.mass = 3;
@@ -115,7 +125,7 @@ const std::vector<ConformanceCheck>& conformance_checks() {
   static const std::vector<ConformanceCheck> table = [] {
     std::vector<ConformanceCheck> all;
     for (const auto& part : {conformance::seam_checks(), conformance::motion_checks(), conformance::load_checks(),
-                             conformance::constraint_checks()})
+                             conformance::constraint_checks(), conformance::contact_checks()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -35,6 +35,9 @@ class TriedWorld {
   TriedWorld& step(double dt, int count = 1);
   BodyTable state();
   double time();
+  // Switches reports of contact forces on; false if it has none.
+  bool asks_for_contacts();
+  std::vector<ReportedContact> contacts();  // of the last step
   const std::string& sent() const { return sent_; }
 
  private:
@@ -56,5 +59,6 @@ std::vector<ConformanceCheck> seam_checks();
 std::vector<ConformanceCheck> motion_checks();
 std::vector<ConformanceCheck> load_checks();
 std::vector<ConformanceCheck> constraint_checks();
+std::vector<ConformanceCheck> contact_checks();
 
 }  // namespace rigor::conformance

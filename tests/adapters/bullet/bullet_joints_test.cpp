@@ -260,7 +260,7 @@ BOOST_AUTO_TEST_CASE(what_a_way_cannot_do_is_refused_with_the_reason) {
   BOOST_TEST(
       why_not("bullet:multibody", loop) ==
       "bullet:multibody has no joint-loop, which the ball of 'b' and 'world' asks for; its method: semi-implicit "
-      "Euler in the reduced coordinates of trees (Featherstone); limits do not bounce");
+      "Euler in the reduced coordinates of trees (Featherstone); limits do not bounce, nor do contacts");
   BOOST_CHECK_THROW(load_run("bullet:multibody", loop), InputError);
 
   Scene limited = test::with_joint(HingeJoint{kAnchor, kAxis}, test::Ends::from_world);

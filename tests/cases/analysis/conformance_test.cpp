@@ -1,10 +1,12 @@
 // rigor conform: every engine of the table conforms, and each of these mistakes is found by the check that is about it.
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <map>
 
 #include "adapters/engines.h"
 #include "adapters/faults/broken_engine.h"
+#include "adapters/faults/faults.h"
 #include "cases/analysis/conformance/conformance.h"
 #include "core/engine/run_name.h"
 
@@ -202,6 +204,19 @@ BOOST_AUTO_TEST_CASE(each_mistake_is_found_and_told_with_what_was_sent_what_came
       BOOST_TEST_REQUIRE(found.contains(mistake.found_by));
       const CheckResult& result = found.at(mistake.found_by);
       BOOST_TEST((!result.sent.empty() && !result.came.empty() && !result.due.empty()));
+    }
+  }
+}
+
+// With every engine that reports contacts, for the reports of each have a form of their own.
+BOOST_AUTO_TEST_CASE(each_wrong_report_of_contacts_is_found) {
+  for (const char* name : {"ode", "bullet", "mujoco", "core:velocity-verlet,contact=impulse"}) {
+    const std::string run = name, engine = run.substr(0, run.find(':'));
+    const auto infos = engines().infos();
+    if (std::none_of(infos.begin(), infos.end(), [&](const EngineInfo& info) { return info.name == engine; })) continue;
+    for (const Fault& fault : contact_report_faults()) {
+      const BrokenEngine broken(engines().find(engine), fault);
+      BOOST_TEST(broken_by(trial_of(broken, run)).contains("contact-forces"), run << ": " << fault.name);
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cases/metrics/measures/contact/pair_forces.h"
+#include "cases/metrics/measures/contact/pair_wrenches.h"
 #include "core/dynamics/model/system.h"
 #include "tests/cases/truth/closed_form/contact/contact_scenes.h"
 
@@ -135,6 +136,141 @@ BOOST_AUTO_TEST_CASE(forces_on_bodies_are_what_loads_do_not_explain) {
   const auto forces = forces_on_bodies(scene, std::as_const(before).columns(), std::as_const(after).columns(), 0, 1);
   BOOST_TEST((forces[kBall] - Vec3(1, 0, kWeight)).norm() < 1e-12);
   BOOST_TEST(forces[kGround].norm() == 0);
+}
+
+// A box of 2 kg, 1 m wide and 0.5 m high, on level ground.
+Scene box_on_ground(double friction) {
+  Scene scene = ball_on_ground(friction);
+  scene.bodies[kBall] = test::on_its_own("box", Box{{1, 1, 0.5}}, 2, {3, 0, 0.25});
+  return scene;
+}
+
+ReportedContact under_box(double x, double y, const Vec3& force) {
+  return {kGround, kBall, Vec3(3 + x, y, 0), Vec3::UnitZ(), 0, force};
+}
+
+BOOST_AUTO_TEST_CASE(a_load_that_is_carried_off_centre_has_a_moment_and_a_centre_of_pressure) {
+  const Scene scene = box_on_ground(0.5);
+  // 15 N at one edge and 5 N at the other: 20 N act at 0.25 m from the centre.
+  const Trajectory run = standing(scene, 5, [](int) {
+    return std::vector{under_box(0.5, 0, {0, 0, 15}), under_box(-0.5, 0, {0, 0, 5})};
+  });
+  BOOST_TEST(value_of("contact_force_error", scene, run) < 1e-12);
+  BOOST_TEST(std::abs(value_of("contact_moment_error", scene, run) - 5) < 1e-12);
+  BOOST_TEST(std::abs(value_of("centre_of_pressure_error", scene, run) - 0.25) < 1e-12);
+  const Trajectory even = standing(scene, 5, [](int) {
+    return std::vector{under_box(0.5, 0, {0, 0, 10}), under_box(-0.5, 0, {0, 0, 10})};
+  });
+  BOOST_TEST(value_of("contact_moment_error", scene, even) < 1e-12);
+  BOOST_TEST(value_of("centre_of_pressure_error", scene, even) < 1e-12);
+}
+
+// A push of 6 N on the box at the height of its centre asks for friction of 6 N at its base. The moment of that, 1.5 N
+// m about the centre, needs the weight of 20 N at 0.075 m before it.
+BOOST_AUTO_TEST_CASE(friction_moves_the_centre_of_pressure) {
+  Scene scene = box_on_ground(0.5);
+  scene.forces = {{.body = kBall, .force = Vec3(6, 0, 0)}};
+  const auto at = [&](double x) {
+    const Trajectory run = standing(scene, 5, [=](int) { return std::vector{under_box(x, 0, {-6, 0, 20})}; });
+    return std::pair(value_of("contact_moment_error", scene, run), value_of("centre_of_pressure_error", scene, run));
+  };
+  BOOST_TEST(at(0.075).first < 1e-12);
+  BOOST_TEST(at(0.075).second < 1e-12);
+  BOOST_TEST(std::abs(at(0).first - 1.5) < 1e-12);
+  BOOST_TEST(std::abs(at(0).second - 0.075) < 1e-12);
+}
+
+// A body that is pushed along and spun.
+BOOST_AUTO_TEST_CASE(moments_on_bodies_are_what_loads_do_not_explain) {
+  Scene scene = box_on_ground(0);
+  scene.bodies[kBall].inertia = Vec3(1, 2, 3).asDiagonal();
+  scene.forces = {{.body = kBall, .force = Vec3(0, 4, 0), .torque = Vec3(0, 0, 1), .point = Vec3::Zero()}};
+  BodyTable before(2), after(2);
+  set_initial_state(scene, before.columns());
+  set_initial_state(scene, after.columns());
+  after.columns().set_velocity(kBall, {0, 2, 0});
+  after.columns().set_position(kBall, {3, 1, 0.25});
+  after.columns().set_angular_velocity(kBall, {0, 0, 5});
+  const Vec3 moment =
+      moments_on_bodies(scene, std::as_const(before).columns(), std::as_const(after).columns(), 0, 1)[kBall];
+  // In 1 s the angular momentum about the origin becomes 15 of spin and (-1, 0, 12) of orbit. The mean position is
+  // (3, 1/3, 1/4): gravity has the moment (-20/3, 60, 0) there, the push (-1, 0, 12 + 1).
+  BOOST_TEST((moment - Vec3(20.0 / 3, -60, 14)).norm() < 1e-12, moment.transpose());
+}
+
+BOOST_AUTO_TEST_CASE(a_force_across_a_gap_breaks_signorinis_law) {
+  const Scene scene = ball_on_ground(0.5);
+  const auto residual = [&](double gap, double force) {
+    const Trajectory run = standing(scene, 3, [=](int) {
+      ReportedContact contact = under_ball({3, 0, force});
+      contact.gap = gap;
+      return std::vector{contact};
+    });
+    return value_of("signorini_residual", scene, run);
+  };
+  BOOST_TEST(residual(0, kWeight) == 0);
+  BOOST_TEST(residual(0.01, 0) == 0);
+  BOOST_TEST(std::abs(residual(0.01, kWeight) - 0.2) < 1e-12);
+  BOOST_TEST(std::abs(residual(-0.02, kWeight) - 0.4) < 1e-12);
+}
+
+// The box slides with (3, 4, 0) m/s. Its friction of 10 N would take 50 W.
+BOOST_AUTO_TEST_CASE(friction_that_does_not_oppose_the_sliding_dissipates_too_little) {
+  Scene scene = box_on_ground(0.5);
+  scene.bodies[kBall].velocity = {3, 4, 0};
+  const auto residual = [&](const Vec3& friction) {
+    const Trajectory run =
+        standing(scene, 3, [=](int) { return std::vector{under_box(0, 0, friction + Vec3(0, 0, kWeight))}; });
+    return value_of("dissipation_residual", scene, run);
+  };
+  BOOST_TEST(residual({-6, -8, 0}) < 1e-12);
+  BOOST_TEST(std::abs(residual({-8, 6, 0}) - 50) < 1e-12);  // across
+  BOOST_TEST(std::abs(residual({0, 0, 0}) - 50) < 1e-12);
+  BOOST_TEST(std::abs(residual({6, 8, 0}) - 100) < 1e-12);  // it drives
+}
+
+BOOST_AUTO_TEST_CASE(hover_is_the_gap_weighted_by_the_force) {
+  Scene scene = ball_on_ground(0.5);
+  scene.bodies[kBall].position.z() = 0.503;
+  const Trajectory run = standing(scene, 4, [](int) { return std::vector{under_ball({0, 0, kWeight})}; });
+  BOOST_TEST(std::abs(value_of("hover", scene, run) - 0.003) < 1e-12);
+  scene.bodies[kBall].position.z() = 0.497;  // an overlap does not hover
+  BOOST_TEST(value_of("hover", scene, standing(scene, 4, [](int) {
+                        return std::vector{under_ball({0, 0, 20})};
+                      })) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_reported_gap_is_compared_with_the_geometry) {
+  Scene scene = ball_on_ground(0.5);
+  scene.bodies[kBall].position.z() = 0.497;
+  const auto error = [&](double gap) {
+    const Trajectory run = standing(scene, 4, [=](int) {
+      ReportedContact contact = under_ball({0, 0, kWeight});
+      contact.gap = gap;
+      return std::vector{contact};
+    });
+    return value_of("contact_gap_error", scene, run);
+  };
+  BOOST_TEST(error(-0.003) < 1e-12);
+  BOOST_TEST(std::abs(error(0.003) - 0.006) < 1e-12);
+}
+
+// Two balls of 2 kg on a rod fall on the ground: together they need both forces, and each alone does not.
+BOOST_AUTO_TEST_CASE(bodies_that_a_joint_holds_together_are_balanced_as_one) {
+  Scene scene = ball_on_ground(0.5);
+  scene.bodies.push_back(test::on_its_own("other", Sphere{0.5}, 2, {0, 0, 1.5}));
+  scene.joints = {{.a = kBall, .b = 2, .type = FixedJoint{}}};
+  const auto left = [&](double force) {
+    return value_of("contact_balance", scene, standing(scene, 3, [=](int) {
+                      return std::vector{under_ball({0, 0, force})};
+                    }));
+  };
+  BOOST_TEST(left(2 * kWeight) < 1e-12);
+  BOOST_TEST(std::abs(left(kWeight) - kWeight) < 1e-12);
+  scene.joints.push_back({.a = kWorld, .b = 2, .type = BallJoint{Vec3::Zero()}});
+  const Trajectory run = standing(scene, 3, [](int) { return std::vector<ReportedContact>(); });
+  BOOST_TEST(result_of("contact_balance", scene, run).not_applicable ==
+             "joints or springs hold every body to the world");
 }
 
 BOOST_AUTO_TEST_CASE(a_run_without_reports_says_so) {

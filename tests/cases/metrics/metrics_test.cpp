@@ -31,8 +31,10 @@ BOOST_AUTO_TEST_CASE(each_row_states_what_its_metric_needs) {
                                                                    "unexplained_spin", "unexplained_velocity"}));
   BOOST_TEST(need(&MetricNeeds::ensemble) == (std::vector<std::string>{"ensemble_distance", "ensemble_p_value"}));
   for (const MetricRow& row : metrics()) {
+    const std::vector<std::string> others = {"centre_of_pressure_error", "coulomb_residual", "dissipation_residual",
+                                             "hover", "signorini_residual"};
     BOOST_TEST(row.needs.contacts == (row.name.starts_with("contact_") || row.name.starts_with("force_") ||
-                                      row.name == "coulomb_residual"),
+                                      std::find(others.begin(), others.end(), row.name) != others.end()),
                row.name);
     BOOST_TEST(row.is_compared == (row.name != "cost" && row.name != "ensemble_p_value"), row.name);
   }
@@ -55,7 +57,13 @@ bool is_of_contact_or_joints(const std::string& metric) {
   const std::vector<std::string> names = {"collapse_time",
                                           "creep",
                                           "contact_balance",
+                                          "centre_of_pressure_error",
                                           "contact_force_error",
+                                          "contact_gap_error",
+                                          "contact_moment_error",
+                                          "dissipation_residual",
+                                          "hover",
+                                          "signorini_residual",
                                           "coulomb_residual",
                                           "force_peak",
                                           "force_ripple",

@@ -1,5 +1,6 @@
-// MuJoCo 3 (npm @mujoco/mujoco, double precision): each request one step of dt. A scene is handed over as MJCF.
-import { Diverged, Unsupported, add, oneLaw, principal, pose, rotate, back, serve } from "./serve.mjs";
+// MuJoCo 3 (npm @mujoco/mujoco, double precision): each request one step of dt. A scene is handed over as MJCF, with
+// joints as those of trees of bodies.
+import { Diverged, Unsupported, add, back, cross, directionIn, oneLaw, pointIn, pose, principal, rotate, serve, times } from "./serve.mjs";
 import loadMujoco from "@mujoco/mujoco";
 
 const mujoco = await loadMujoco({ print: console.error, printErr: console.error });
@@ -18,34 +19,72 @@ function geomOf({ shape, collides }) {
   }
 }
 
-function bodyOf(body, index) {
-  const { x, q } = pose({ body: [body] }, body.name);
-  const open = `<body name="b${index}" pos="${x.join(" ")}" quat="${q.join(" ")}">`;
+// For each body its parent (-1: the world or a fixed body) and the joint between them (null: it floats free).
+function treeOf(scene) {
+  const places = new Map(scene.body.map(({ name, fixed }, i) => [name, fixed ? -1 : i])), at = (name) => places.get(name) ?? -1;
+  const links = scene.body.map(({ fixed }) => (fixed ? null : { parent: -1, joint: null, below: [] })), reached = new Set(), roots = [];
+  const left = new Set(scene.joint ?? []);
+  const hang = (parent) => {
+    for (const joint of [...left]) {
+      const ends = [at(joint.a), at(joint.b)];
+      if (!ends.includes(parent)) continue;
+      left.delete(joint);
+      const body = ends[0] === parent ? ends[1] : ends[0];
+      if (body < 0 || reached.has(body)) throw new Unsupported("joints close a loop");
+      Object.assign(links[body], { parent, joint }), reached.add(body), (parent < 0 ? roots : links[parent].below).push(body);
+      hang(body);
+    }
+  };
+  hang(-1);
+  links.forEach((link, i) => link && !reached.has(i) && (reached.add(i), roots.push(i), hang(i)));
+  return { links, roots };
+}
+
+function jointOf(scene, { joint }, index) {
+  if (!joint) return "<freejoint/>";
+  const body = pose(scene, scene.body[index].name), list = (v) => v.join(" ");
+  const at = joint.anchor ? `pos="${list(pointIn(body, joint.anchor))}"` : "", along = joint.axis ? `axis="${list(directionIn(body, joint.axis))}"` : "";
+  return { ball: `<joint type="ball" ${at}/>`, hinge: `<joint type="hinge" ${at} ${along}/>`, slider: `<joint type="slide" ${along}/>`, fixed: "" }[joint.type];
+}
+
+function bodyOf(scene, { links }, index) {
+  const body = scene.body[index], { x, q } = pose(scene, body.name), link = links[index];
+  const above = link?.parent >= 0 ? pose(scene, scene.body[link.parent].name) : { x: [0, 0, 0], q: [1, 0, 0, 0] };
+  const open = `<body name="b${index}" pos="${pointIn(above, x).join(" ")}" quat="${times(back(above.q), q).join(" ")}">`;
   if (body.fixed) return `${open}${geomOf(body)}</body>`;
   const { moments, frame } = principal(body.inertia);
-  return `${open}<freejoint/><inertial pos="0 0 0" mass="${body.mass}" diaginertia="${moments.join(" ")}" quat="${frame.join(" ")}"/>${geomOf(body)}</body>`;
+  return `${open}${jointOf(scene, link, index)}<inertial pos="0 0 0" mass="${body.mass}" diaginertia="${moments.join(" ")}" quat="${frame.join(" ")}"/>${geomOf(body)}
+    ${link.below.map((one) => bodyOf(scene, { links }, one)).join("\n")}</body>`;
 }
 
-function mjcf(scene, method, matched) {
+// As shipped, bodies that share a joint never touch. Here all do, for a scene that keeps pairs apart is not supported.
+function mjcf(scene, tree, method, matched) {
   const { friction } = oneLaw(scene), as_true = matched ? 'cone="elliptic" impratio="100" iterations="200" tolerance="1e-15"' : "";
+  const fixed = scene.body.flatMap((body, i) => (body.fixed ? [i] : []));
   return `<mujoco><compiler angle="radian" balanceinertia="false" boundmass="0" boundinertia="0" autolimits="false"/>
-    <option gravity="${scene.gravity.join(" ")}" integrator="${kIntegrators[method]}" ${as_true}/>
+    <option gravity="${scene.gravity.join(" ")}" integrator="${kIntegrators[method]}" ${as_true}><flag filterparent="disable"/></option>
     <default><geom friction="${friction} 0 0" condim="${friction > 0 ? 3 : 1}"/></default>
-    <worldbody>${scene.body.map(bodyOf).join("\n")}</worldbody></mujoco>`;
+    <worldbody>${[...fixed, ...tree.roots].map((i) => bodyOf(scene, tree, i)).join("\n")}</worldbody></mujoco>`;
 }
 
-// Where a body's numbers begin: of a free joint seven in qpos, and six in qvel, its angular velocity in the body's frame.
-function places(scene) {
-  let moving = 0;
-  return scene.body.map((body) => (body.fixed ? -1 : moving++));
+const idsOf = (model, scene) => scene.body.map((_, i) => mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY.value, `b${i}`));
+
+// The speeds of a body's joint at t = 0, against its parent, as MuJoCo counts them; a ball turns in the body's frame.
+function speedsOf(scene, { parent, joint }, index) {
+  const body = scene.body[index], rest = { velocity: [0, 0, 0], angular_velocity: [0, 0, 0] }, above = parent < 0 ? rest : scene.body[parent];
+  if (!joint) return [...body.velocity, ...rotate(back(pose(scene, body.name).q), body.angular_velocity)];
+  const dot = (u, v) => u.reduce((sum, x, i) => sum + x * v[i], 0), w = add(body.angular_velocity, above.angular_velocity, -1);
+  const arm = parent < 0 ? [0, 0, 0] : add(pose(scene, body.name).x, pose(scene, above.name).x, -1);
+  const v = add(add(body.velocity, above.velocity, -1), cross(above.angular_velocity, arm), -1);
+  return { ball: () => directionIn(pose(scene, body.name), w), hinge: () => [dot(w, joint.axis)], slider: () => [dot(v, joint.axis)], fixed: () => [] }[joint.type]();
 }
 
 // Those of the step's start, with the forces held over the step. Rows of a contact's frame are in W, and the first is the
-// normal, from the first body to the second. Body 0 is the world.
-function contactsOf(model, data, wrench) {
+// normal, from the first body to the second.
+function contactsOf(model, data, ids, wrench) {
   const found = [];
   for (let k = 0; k < data.ncon; ++k) {
-    const at = data.contact.get(k), frame = Array.from(at.frame), body = (geom) => model.geom_bodyid[geom] - 1;
+    const at = data.contact.get(k), frame = Array.from(at.frame), body = (geom) => ids.indexOf(model.geom_bodyid[geom]);
     mujoco.mj_contactForce(model, data, k, wrench);
     const force = Array.from(wrench.GetView()).slice(0, 3), row = (r) => frame.slice(3 * r, 3 * r + 3);
     found.push({
@@ -60,7 +99,8 @@ function contactsOf(model, data, wrench) {
 serve({
   info: {
     name: "mujoco-js", version: mujoco.mj_versionString(), precision: "double", calls: ["run", "contacts"],
-    features: ["wrench", "fixed-body", "friction:none", "friction:coulomb", "contact:plane-sphere", "contact:box-plane",
+    features: ["wrench", "fixed-body", "friction:none", "friction:coulomb", "joint:ball", "joint:fixed", "joint:hinge",
+               "joint:slider", "joints-with-contacts", "contact:plane-sphere", "contact:box-plane",
                "contact:capsule-plane", "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere",
                "contact:box-capsule", "contact:capsule-capsule"],
     methods: [
@@ -70,32 +110,41 @@ serve({
     ],
   },
   load(scene, { method, track }) {
-    const model = mujoco.MjModel.from_xml_string(mjcf(scene, method, track === "matched")), data = new mujoco.MjData(model);
-    const at = places(scene), wrench = new mujoco.DoubleBuffer(6);
-    scene.body.forEach((body, i) => {
-      if (at[i] < 0) return;
-      data.qvel.set(body.velocity, 6 * at[i]);
-      data.qvel.set(rotate(back(pose(scene, body.name).q), body.angular_velocity), 6 * at[i] + 3);
-    });
+    const tree = treeOf(scene), model = mujoco.MjModel.from_xml_string(mjcf(scene, tree, method, track === "matched")), data = new mujoco.MjData(model);
+    const ids = idsOf(model, scene), wrench = new mujoco.DoubleBuffer(6);
+    scene.body.forEach(({ fixed }, i) => fixed || data.qvel.set(speedsOf(scene, tree.links[i], i), model.body_dofadr[ids[i]]));
+    // Of a free body the joint has all; of a jointed one the pose and speed follow from its parents.
+    const free = (i) => {
+      const q = model.jnt_qposadr[model.body_jntadr[ids[i]]], v = model.body_dofadr[ids[i]];
+      const p = Array.from(data.qpos.subarray(q, q + 7)), u = Array.from(data.qvel.subarray(v, v + 6));
+      return [...p, ...u.slice(0, 3), ...rotate(p.slice(3), u.slice(3))];
+    };
+    const jointed = (i) => {
+      mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY.value, ids[i], wrench, 0);  // angular, then linear
+      const u = Array.from(wrench.GetView()), x = Array.from(data.xpos.subarray(3 * ids[i], 3 * ids[i] + 3));
+      return [...x, ...data.xquat.subarray(4 * ids[i], 4 * ids[i] + 4), ...u.slice(3), ...u.slice(0, 3)];
+    };
     return {
       settings: { integrator: kIntegrators[method], cone: track === "matched" ? "elliptic" : "as shipped" },
       step(dt, wrenches) {
         const before = data.time;
         model.opt.timestep = dt;
         data.xfrc_applied.fill(0);
-        wrenches?.forEach((wrench, i) => data.xfrc_applied.set(wrench, 6 * (i + 1)));  // body 0 is the world
+        wrenches?.forEach((wrench, i) => data.xfrc_applied.set(wrench, 6 * ids[i]));
         mujoco.mj_step(model, data);
         // MuJoCo restarts silently after a blow-up.
         if (!(data.time > before)) throw new Diverged("MuJoCo found its state unstable and reset it");
       },
-      rows: () => scene.body.map((body, i) => {
-        if (at[i] < 0) return [...pose(scene, body.name).x, ...pose(scene, body.name).q, 0, 0, 0, 0, 0, 0];
-        const p = Array.from(data.qpos.subarray(7 * at[i], 7 * at[i] + 7)), v = Array.from(data.qvel.subarray(6 * at[i], 6 * at[i] + 6));
-        return [...p, ...v.slice(0, 3), ...rotate(p.slice(3), v.slice(3))];
-      }),
+      rows() {
+        if (scene.joint) mujoco.mj_kinematics(model, data), mujoco.mj_comPos(model, data), mujoco.mj_comVel(model, data);
+        return scene.body.map((body, i) => {
+          if (body.fixed) return [...pose(scene, body.name).x, ...pose(scene, body.name).q, 0, 0, 0, 0, 0, 0];
+          return scene.joint ? jointed(i) : free(i);
+        });
+      },
       contacts() {
         if (method === "rk4") throw new Unsupported("of RK4 the forces of the last stage alone are known, which are no mean over the step");
-        return contactsOf(model, data, wrench);
+        return contactsOf(model, data, ids, wrench);
       },
       free: () => (wrench.delete(), data.delete(), model.delete()),
     };

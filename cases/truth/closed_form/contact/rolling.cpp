@@ -150,11 +150,13 @@ class Roller {
 std::unique_ptr<Truth> make_rolling(const Scene& scene, double duration) {
   check_needs(scene, kRolling, kRollingIsFor,
               {contact_feature<Cylinder, Plane>(), contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(),
-               Feature::friction_none, Feature::friction_coulomb, Feature::friction_infinite, Feature::restitution});
+               Feature::friction_none, Feature::friction_coulomb, Feature::friction_infinite, Feature::restitution,
+               Feature::contact_filter});
   const Ground ground(scene, kRolling, kRollingIsFor);
   std::vector<SweptDisk> sweeps;
   const auto motion_of = [&](const Body& body) {
     const int index = static_cast<int>(&body - scene.bodies.data());
+    if (!scene.contact_law(index, ground.body()).collides) ground.refuse(body, "passes through the plane");
     Roller roller(body, ground, scene.contact_law(index, ground.body()).friction);
     auto motion = std::make_unique<PhasedMotion>(roller.phases(duration), std::abs(ground.gap_under(body)));
     sweeps.push_back({&body, motion->way(duration), bounding_radius(*body.shape)});

@@ -97,6 +97,8 @@ void CrowdedSteps::stop_overlaps(MutableBodyColumns state, double h) {
     has_settled = solver_.solve(state, cones_, ConeSolver::Means::sweeps);
   }
   if (!has_settled) solver_warning_ = kNotSettled;
+  impulses_.clear();
+  for (const ConeConstraint& cone : cones_) impulses_.push_back(cone.frame * cone.impulse);
 }
 
 // The search begins with the impulses of the last step.
@@ -118,7 +120,12 @@ void CrowdedSteps::solve_where_they_came_to(MutableBodyColumns state) {
   solver_.prepare(state, cones_);
   if (!solver_.solve(state, cones_)) solver_warning_ = kNotSettled;
   const double before = kinetic_energy(system_, std::as_const(free_).columns());
-  if (kinetic_energy(system_, state) > before * (1 + kNewEnergy)) copy_columns(std::as_const(free_).columns(), state);
+  if (kinetic_energy(system_, state) > before * (1 + kNewEnergy)) {
+    copy_columns(std::as_const(free_).columns(), state);
+  } else {
+    for (std::size_t i = 0; i < touching_.size(); ++i)
+      impulses_[i] += cones_[i].frame * (cones_[i].impulse - touching_[i].cone.impulse);
+  }
   for (std::size_t i = 0; i < touching_.size(); ++i) touching_[i].cone = cones_[i];
 }
 

@@ -24,6 +24,9 @@ class CrowdedSteps {
   // Steps from t over h [s] or less, so that no body moves by more than its inradius. Returns the length. Some overlap
   // remains to be closed.
   double take(MutableBodyColumns state, double t, double h);
+  // The contacts of the last step, and the impulse on the body a of each [N s, in W].
+  const std::vector<ContactPoint>& contacts() const { return touching_; }
+  const std::vector<Vec3>& impulses() const { return impulses_; }
   // Empty if the impulses of the last step settled.
   const std::string& solver_warning() const { return solver_warning_; }
   // The number of these steps so far.
@@ -43,6 +46,7 @@ class CrowdedSteps {
   std::vector<ContactPoint> touching_, before_;  // of the step, and of the one before
   double length_before_ = 1;                     // s, of that
   std::vector<ConeConstraint> cones_;
+  std::vector<Vec3> impulses_;
   BodyTable free_;  // the state without contact
   double seconds_ = 0;
   long steps_ = 0;

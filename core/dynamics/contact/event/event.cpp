@@ -24,6 +24,7 @@
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/event/clearance.h"
 #include "core/dynamics/contact/event/crowded_steps.h"
+#include "core/dynamics/contact/event/event_forces.h"
 #include "core/dynamics/contact/event/persistent/persistent_contact.h"
 #include "core/engine/option_values.h"
 
@@ -79,6 +80,7 @@ class EventStepper : public ContactStepper {
     solver_warning_.clear();
     is_smooth_ = true;
     if (!(dt > 0)) return step_without_contact(state, t, dt);
+    forces_.begin_step();
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
     note_jam();
@@ -97,7 +99,10 @@ class EventStepper : public ContactStepper {
       if (!follows_slip_) saved_ -= kForEachPart + static_cast<double>(work_so_far() - work_before);
     }
     note(persistent_contact_.take_projection_warning());
+    forces_.end_step(dt);
   }
+
+  ReportsContacts* contact_reports() override { return &forces_; }
 
   std::string solver_warning() const override { return solver_warning_; }
   bool was_smooth() const override { return is_smooth_; }
@@ -168,6 +173,8 @@ class EventStepper : public ContactStepper {
       copy_columns(std::as_const(start_).columns(), state);
       return take_crowded_step(state, crowded_step_);
     }
+    for (std::size_t i = 0; i < touching_.size() && forces_.is_asked(); ++i)
+      forces_.add(touching_[i], touching_[i].cone, state, touching_[i].cone.frame * impacts_.impulses()[i]);
     if (!persistent_contact_.select(state, touching_, part_.t + part_.from, part_.length())) return skip_instant(state);
     return advance(state);
   }
@@ -177,7 +184,10 @@ class EventStepper : public ContactStepper {
     start_ = BodyColumns(state);
     end_ = BodyColumns(state);
     pairs_.clear();
-    if (persistent_contact_.is_at_rest(state)) return part_.to;
+    if (persistent_contact_.is_at_rest(state)) {
+      if (forces_.is_asked()) persistent_contact_.visit_forces_at_rest(state, part_.length(), see_force_);
+      return part_.to;
+    }
     const double of_slips = persistent_contact_.choose_step(state, part_.length()),
                  rate = persistent_contact_.fastest_damping();
     const bool may_follow =
@@ -254,6 +264,9 @@ class EventStepper : public ContactStepper {
   double commit(MutableBodyColumns state, double done) {
     copy_columns(std::as_const(end_).columns(), state);
     note(persistent_contact_.solver_warning());
+    if (forces_.is_asked())
+      persistent_contact_.visit_forces(std::as_const(start_).columns(), part_.t + part_.from, done - part_.from,
+                                       see_force_);
     contact_points_.note_turns(state, done - part_.from);
     persistent_contact_.close_joints(state);
     if (persistent_contact_.points().empty()) return done;
@@ -277,6 +290,8 @@ class EventStepper : public ContactStepper {
     if (patience_ > 1 && longest > instant_) note("events crowd more than its patience allows");
     if (!crowded_from_ && longest > instant_) crowded_from_ = part_.t + part_.from;
     const double h = crowded_.take(state, part_.t + part_.from, std::min(part_.length(), longest));
+    for (std::size_t i = 0; i < crowded_.contacts().size() && forces_.is_asked(); ++i)
+      forces_.add(crowded_.contacts()[i], crowded_.contacts()[i].cone, state, crowded_.impulses()[i]);
     contact_points_.note_turns(state, h);
     persistent_contact_.forget_points();
     pairs_ = contact_points_.candidates(state);
@@ -338,6 +353,11 @@ class EventStepper : public ContactStepper {
   PersistentContact persistent_contact_;
   Impacts impacts_;
   CrowdedSteps crowded_;
+  EventForces forces_;
+  const PersistentContact::SeeForce see_force_ = [this](const PersistentPoint& point, BodyColumns then,
+                                                        double seconds) {
+    forces_.add(point.contact, point.cone(), then, seconds * (point.frame * point.force));
+  };
   Clearance clearance_;
   double patience_;
   double moving_;                                      // bodies

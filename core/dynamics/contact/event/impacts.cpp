@@ -43,12 +43,16 @@ bool Impacts::resolve(MutableBodyColumns state, std::vector<ContactPoint>& conta
   solver_.prepare(state, points_);
   if (watches_ties_) start_ = BodyColumns(state);
   const bool have_rebounded = take_rounds(state, contact_points);
-  if (watches_ties_) find_ties(state, contact_points);
+  if (!watches_ties_) return have_rebounded;
+  const std::vector<Vec3> impulses = impulses_;
+  find_ties(state, contact_points);
+  impulses_ = impulses;
   return have_rebounded;
 }
 
 bool Impacts::take_rounds(MutableBodyColumns state, const std::vector<ContactPoint>& contact_points) {
   rebound_ = false;
+  impulses_.assign(points_.size(), Vec3::Zero());
   for (ConeConstraint& point : points_) point.impulse.setZero(), point.grips = false;
   for (int round = 0;; ++round) {
     if (round == kRoundsOfInfinity) let_infinite_friction_grip();
@@ -69,7 +73,7 @@ void Impacts::let_infinite_friction_grip() {
 
 // Fills chosen_ with this round's points; false if none approaches.
 bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact_points, bool all) {
-  chosen_.clear();
+  chosen_.clear(), places_.clear();
   bool any_impact = false;
   for (std::size_t i = 0; i < contact_points.size(); ++i) {
     ConeConstraint& point = points_[i];
@@ -83,7 +87,7 @@ bool Impacts::choose(BodyColumns state, const std::vector<ContactPoint>& contact
     rebound_ = rebound_ || (is_impact && approach > restitution_threshold_) || jams;
     point.target_velocity = rebounds ? contact_points[i].restitution * approach : 0;
     if (jams) point.target_velocity = std::max(point.target_velocity, kJammed * unit);
-    if (is_impact || all || contact_points[i].restitution == 0) chosen_.push_back(point);
+    if (is_impact || all || contact_points[i].restitution == 0) chosen_.push_back(point), places_.push_back(i);
   }
   return any_impact;
 }
@@ -145,22 +149,25 @@ bool Impacts::decides(const std::pair<int, int>& first, BodyColumns result,
 void Impacts::solve_round(MutableBodyColumns state) {
   before_ = BodyColumns(state);
   const double energy = kinetic_energy(system_, state);
+  std::vector<ConeConstraint> points;
   const auto attempt = [&](double share) {
     copy_velocities(std::as_const(before_).columns(), state);
-    std::vector<ConeConstraint> points = chosen_;
+    points = chosen_;
     for (ConeConstraint& point : points) point.target_velocity *= share;
     if (!solver_.solve(state, points)) solver_warning_ = "the impulses of an impact did not settle";
     return kinetic_energy(system_, state) <= energy * (1 + kNewEnergy);
   };
   const bool rebounds =
       std::any_of(chosen_.begin(), chosen_.end(), [](const auto& p) { return p.target_velocity > 0; });
-  if (attempt(1) || !rebounds) return;
-  double low = 0, high = 1;
-  for (int k = 0; k < 50; ++k) {
-    const double share = 0.5 * (low + high);
-    (attempt(share) ? low : high) = share;
+  if (!attempt(1) && rebounds) {
+    double low = 0, high = 1;
+    for (int k = 0; k < 50; ++k) {
+      const double share = 0.5 * (low + high);
+      (attempt(share) ? low : high) = share;
+    }
+    attempt(low);
   }
-  attempt(low);
+  for (std::size_t i = 0; i < points.size(); ++i) impulses_[places_[i]] += points[i].impulse;
 }
 
 double kinetic_energy(const System& system, BodyColumns state) {

@@ -38,6 +38,8 @@ class Impacts {
   // Changes the velocities so that no touching points approach. Returns whether there were impacts above the
   // restitution threshold.
   bool resolve(MutableBodyColumns state, std::vector<ContactPoint>& contact_points);
+  // N s, of each point in the last resolve(), in its frame.
+  const std::vector<Vec3>& impulses() const { return impulses_; }
   long work() const { return solver_.work(); }
   // The pairs of bodies that met in the last resolve(), if the result depends on which of them meets first. Found only
   // after watch_ties().
@@ -61,6 +63,8 @@ class Impacts {
   double restitution_threshold_;
   Joints* joints_;
   std::vector<ConeConstraint> points_, chosen_;
+  std::vector<std::size_t> places_;  // of the chosen points
+  std::vector<Vec3> impulses_;       // by point
   std::optional<std::pair<int, int>> only_;  // the pair that may take part; all if it is empty
   bool watches_ties_ = false;
   std::vector<std::pair<int, int>> tied_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/dynamics/contact/impulse/jointed_rows.h"
+#include "core/dynamics/contact/impulse/step_impulses.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
 
 namespace rigor {
@@ -25,15 +26,24 @@ class JointedImpulseStepper : public ContactStepper {
     if (!(dt > 0)) return integrator_->step(state, t, dt);
     const int count = sub_steps_.of(dt), updates = sub_steps_.contact_updates(dt, count);
     const double h = dt / count;
+    reports_.begin_step();
     for (int update = 0, k = 0; update < updates; ++update) {
       const int end = (update + 1) * count / updates;
       std::vector<ContactConstraint>& contacts = manifolds_.find(state, (end - k) * h);
       rows_.assign(state, contacts, parameters_.h > 0 ? h / parameters_.h : 1);
       parameters_ = sub_steps_.parameters(h);
-      for (; k < end; ++k) sub_step(state, t + k * h);
+      if (reports_.is_asked()) reports_.begin_update(contacts, state);
+      for (; k < end; ++k) {
+        sub_step(state, t + k * h);
+        if (reports_.is_asked()) rows_.add_impulses(reports_.impulses());
+      }
       rows_.store_impulses(contacts);
+      if (reports_.is_asked()) reports_.end_update();
     }
+    reports_.end_step(dt);
   }
+
+  ReportsContacts* contact_reports() override { return &reports_; }
 
   std::string solver_warning() const override {
     const std::string warning = integrator_->solver_warning();
@@ -92,6 +102,7 @@ class JointedImpulseStepper : public ContactStepper {
   SubSteps sub_steps_;
   Manifolds manifolds_;
   JointedRows rows_;
+  StepImpulses reports_;
   SolverParameters parameters_{};
   std::unique_ptr<Stepper> integrator_;
 };

@@ -65,6 +65,16 @@ void JointedRows::store_impulses(std::vector<ContactConstraint>& contacts) {
   }
 }
 
+void JointedRows::add_impulses(Vec3* impulses) const {
+  for (std::size_t i = 0; i < contacts_; ++i) {
+    const Row& row = rows_[i];
+    for (int d = 0; d < row.directions; ++d) {
+      const double of_restitution = row.impulse[d] - row.without_restitution[d];
+      impulses[i] += (row.without_restitution[d] + restitution_share_ * of_restitution) * row.J[d][0].head<3>();
+    }
+  }
+}
+
 JointedRows::Row JointedRows::contact_row(BodyColumns state, const ContactConstraint& contact) const {
   Row row{.body = {contact.a, contact.b}, .directions = 3};
   const Vec3 n = contact.normal, t = n.unitOrthogonal(), s = n.cross(t);
@@ -269,12 +279,13 @@ void JointedRows::relax() {
 
 void JointedRows::apply_restitution(BodyColumns state) {
   const std::vector<Vec6> without = velocities_;
+  for (Row& row : rows_) std::copy(std::begin(row.impulse), std::end(row.impulse), row.without_restitution);
   sweep_impacts([&](Row& row) {
     if (row.restitution == 0 || row.impulse[0] == 0) return;
     solve_normal(row, row.impulse[0] + (row.restitution * row.approach - speed(row, 0)) * row.mass);
     solve_friction(row);
   });
-  limit_energy(system_, state, energy_before_, without, velocities_);
+  restitution_share_ = limit_energy(system_, state, energy_before_, without, velocities_);
 }
 
 // Until no impact's velocity changes by more than the tolerance.

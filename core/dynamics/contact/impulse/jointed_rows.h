@@ -20,6 +20,8 @@ class JointedRows {
   // Rows for these contacts, and for limits and motors, at a pose; impulses times `impulse_scale`.
   void assign(BodyColumns state, const std::vector<ContactConstraint>& contacts, double impulse_scale);
   void store_impulses(std::vector<ContactConstraint>& contacts);
+  // Adds the impulse of the sub-step at each contact, on its body a [N s, in W].
+  void add_impulses(Vec3* impulses) const;
 
   // Gaps, approach speeds and biases of a sub-step that begins at t with `state`.
   void prepare(BodyColumns state, double t, const SolverParameters& parameters);
@@ -53,6 +55,7 @@ class JointedRows {
     TangentMass tangent_mass = {};  // kg
     double gap = 0, approach = 0, bias = 0;
     double impulse[3] = {};
+    double without_restitution[3] = {};
     bool is_impact = false;
   };
   struct Coordinate {  // of a joint: its rows follow the contacts' ones
@@ -97,6 +100,7 @@ class JointedRows {
   std::vector<Coordinate> coordinates_;
   std::vector<Vec6> velocities_, loaded_;  // by body
   double energy_before_ = 0;               // twice that of the loaded velocities, J
+  double restitution_share_ = 1;           // of the impulses of restitution, that their energy allows
   SolverParameters parameters_{};
 };
 

@@ -23,6 +23,8 @@ class StepImpulses : public ReportsContacts {
   // Adds the impacts of bodies that bounce, and the impulses of the rows, of one sub-step.
   void add_impacts(const ContactRowLayout& rows, const std::vector<Rebounds::RowImpulse>& impacts);
   void add_rows(const ContactRowLayout& rows, const std::vector<ContactConstraint>& constraints);
+  // As add_rows(), where the impulses are in other rows.
+  Vec3* impulses() { return impulses_.data(); }
   void end_update() { join_update(); }
   void end_step(double dt);
 

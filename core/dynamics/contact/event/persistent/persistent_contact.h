@@ -5,6 +5,8 @@
 // between two impacts one system of equations holds joints and points.
 #pragma once
 
+#include <functional>
+
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/event/contact_modes.h"
 #include "core/dynamics/contact/event/impacts.h"
@@ -40,6 +42,11 @@ class PersistentContact {
   // Whether the body rests together with everything that it touches, while others move. It rests until something else
   // touches it, so its points need no forces at the stages.
   bool rests(int body) const { return rests_[static_cast<std::size_t>(body)] != 0; }
+  // Visits the points with their forces from t on, for h. The sum of seconds times force is a point's impulse. `start`
+  // and t are those of the last advance, which went as far as h. The motion stays as it was.
+  using SeeForce = std::function<void(const PersistentPoint& point, BodyColumns state, double seconds)>;
+  void visit_forces(BodyColumns start, double t, double h, const SeeForce& see);
+  void visit_forces_at_rest(BodyColumns state, double h, const SeeForce& see);
   // How far the end of the last advance is from a change of what sticks, slides, touches or is driven there: negative
   // beyond it.
   double distance_from_change();
@@ -111,6 +118,7 @@ class PersistentContact {
   std::vector<PersistentPoint> old_points_, resting_points_;
   std::vector<char> rests_;  // by body
   std::vector<ProjectionTarget> targets_;
+  BodyTable sampled_;
   long passes_ = 0;
 };
 

@@ -24,9 +24,9 @@ double twice_energy_of(const System& system, BodyColumns pose, const std::vector
   return product(system, pose, velocities, velocities);
 }
 
-void limit_energy(const System& system, BodyColumns pose, double most, const std::vector<Vec6>& without,
-                  std::vector<Vec6>& with) {
-  if (twice_energy_of(system, pose, with) <= most) return;
+double limit_energy(const System& system, BodyColumns pose, double most, const std::vector<Vec6>& without,
+                    std::vector<Vec6>& with) {
+  if (twice_energy_of(system, pose, with) <= most) return 1;
   std::vector<Vec6> change = with;
   for (std::size_t i = 0; i < change.size(); ++i) change[i] -= without[i];
   // c + 2 b s + a s² = most, in [0, 1].
@@ -36,6 +36,7 @@ void limit_energy(const System& system, BodyColumns pose, double most, const std
   if (c < 0) share = -c / (b + std::sqrt(b * b - a * c));
   share = std::clamp(share, 0.0, 1.0);
   for (std::size_t i = 0; i < with.size(); ++i) with[i] = without[i] + share * change[i];
+  return share;
 }
 
 }  // namespace rigor

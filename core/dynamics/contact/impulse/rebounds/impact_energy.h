@@ -13,8 +13,9 @@ namespace rigor {
 // V·M V, twice the kinetic energy [J], of velocities (v, w) by body.
 double twice_energy_of(const System& system, BodyColumns pose, const std::vector<Vec6>& velocities);
 
-// Changes the velocities with restitution, at this pose, so that twice their energy is at most `most`.
-void limit_energy(const System& system, BodyColumns pose, double most, const std::vector<Vec6>& without,
-                  std::vector<Vec6>& with);
+// Changes the velocities with restitution, at this pose, so that twice their energy is at most `most`. Returns the
+// share s of the change that is left.
+double limit_energy(const System& system, BodyColumns pose, double most, const std::vector<Vec6>& without,
+                    std::vector<Vec6>& with);
 
 }  // namespace rigor
