@@ -105,6 +105,15 @@ BOOST_AUTO_TEST_CASE(equivalent_runs_agree_until_the_motion_is_chaotic) {
   BOOST_TEST(compared >= 0.8 * kDuration * count, compared << " s of " << count << " scenes");
 }
 
+// A box clatters between two of its edges while it slides. The last bounces are no higher than roundings of a gap,
+// which decide how many of them are resolved. Without the friction of those that are left out it was 1.15e-8 m.
+BOOST_AUTO_TEST_CASE(roundings_do_not_decide_how_a_sliding_box_comes_to_lie) {
+  test::GeneratedContacts generated(9188);
+  const EquivalentRuns runs(generated.scene);
+  BOOST_TEST(runs.end() == kDuration);
+  for (const Equivalence& how : generated.equivalences()) BOOST_TEST(runs.apart(how) <= 1e-9);
+}
+
 // In these cases many points touch at once, and forces can be shared in many ways. Runs by contact=impulse miss their
 // truth by 3e-4 to 2e-2 m, runs by contact=event must not.
 BOOST_AUTO_TEST_CASE(runs_of_stacks_and_dominoes_agree_with_their_truth) {

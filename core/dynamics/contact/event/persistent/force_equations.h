@@ -38,6 +38,11 @@ class ForceEquations {
   // Finds the multipliers. `free`: V', six a body.
   void solve(const Eigen::VectorXd& free);
   const std::vector<Row>& rows() const { return rows_; }
+  // The accelerations of the last solve() with the forces, six a body.
+  const Eigen::VectorXd& accelerations(const Eigen::VectorXd& free) {
+    find_residuals(free);
+    return acceleration_;
+  }
   // The change of accelerations of `size`, six per body, by the forces.
   Eigen::VectorXd accelerations_through_joints(Eigen::Index size) const;
 

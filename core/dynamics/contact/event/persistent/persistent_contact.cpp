@@ -25,6 +25,7 @@ constexpr double kStraight = 1e-9;    // rad: a slip that turns less in a step i
 constexpr double kTurn = 0.25;        // rad, of a body among joints in a step of an explicit method
 constexpr long kAskedInStep = 64;     // times for forces, by a method that need not divide its step much
 constexpr double kReversed = 0.1;     // of the fastest slip at any stage: stages differ by less
+constexpr double kMostOfStop = 100;   // of the fastest point that is stopped: the change of any body's speed
 constexpr double kSlow = 10;          // of the restitution threshold: a contact that parts no faster stays
 
 constexpr const char* kAdaptive = "dormand-prince";
@@ -137,7 +138,7 @@ bool PersistentContact::select_points(MutableBodyColumns state, const std::vecto
   }
   if (points.empty()) return true;
   const bool are_found = modes_.choose(state, loads_.over_step(state, t, dt));
-  stop_points(state, When::before);
+  stop_points(state, are_found ? When::before : When::without_forces);
   note_ends(state);
   if (are_found) set_resting_aside(state);
   return are_found;
@@ -323,7 +324,7 @@ void PersistentContact::stop_points(MutableBodyColumns state, When when) {
   double most = 0, speed = 0;
   for (const PersistentPoint& point : points()) {
     const ConeConstraint cone = point.cone();
-    const bool stands = point.mode == PersistentPoint::Mode::sticks || (when == When::before && point.begins_to_slip);
+    const bool stands = point.mode == PersistentPoint::Mode::sticks || (when != When::after && point.begins_to_slip);
     const int last = stands ? 2 : 0;
     for (int axis = 0; axis <= last; ++axis) {
       targets_.push_back(target_of(cone, axis, -point.velocity[axis], true));
@@ -334,12 +335,30 @@ void PersistentContact::stop_points(MutableBodyColumns state, When when) {
     }
   }
   if (most <= kStill * (scales().speed_unit() + speed)) return;
+  if (when == When::before && stop_with_friction(state, most)) return;
   const std::vector<PoseStep>& motion = projection_.project(state, targets_);
   for (std::size_t i = 0; i < motion.size(); ++i) {
     if (motion[i].isZero(0)) continue;
     state.set_velocity(i, state.velocity(i) + motion[i].head<3>());
     state.set_angular_velocity(i, state.angular_velocity(i) + motion[i].tail<3>());
   }
+}
+
+// What slides and separates too slowly to bounce would fall back, with friction at each of its impacts. Returns false,
+// and leaves the state, where friction would need a far larger impulse (a point that nearly jams).
+bool PersistentContact::stop_with_friction(MutableBodyColumns state, double most) {
+  if (!persistent_.has_friction_of_slip()) return false;
+  before_ = BodyColumns(state);
+  persistent_.stop(state);
+  const BodyColumns before = std::as_const(before_).columns();
+  const double largest = kMostOfStop * most;
+  bool is_small = true;
+  for (std::size_t i = 0; i < state.size() && is_small; ++i) {
+    const double turn = scales().length * (state.angular_velocity(i) - before.angular_velocity(i)).norm();
+    is_small = (state.velocity(i) - before.velocity(i)).norm() <= largest && turn <= largest;  // false also for NaN
+  }
+  if (!is_small) copy_columns(before, state);
+  return is_small;
 }
 
 std::string PersistentContact::solver_warning() const { return stepper().solver_warning(); }

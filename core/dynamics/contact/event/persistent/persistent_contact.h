@@ -64,8 +64,9 @@ class PersistentContact {
   // The point at which the last close_gaps() left two bodies deep in each other, because they have no room; null if
   // there is none.
   const ContactPoint* jam() const { return gaps_.jam(); }
-  // Takes the velocities away that the points must not have. `before` they move: what begins to slip does not slip yet.
-  enum class When { before, after };
+  // Takes the velocities away that the points must not have. `before` they move, what begins to slip does not slip yet,
+  // and what slides gets the friction of the impacts that are left out. `without_forces` it gets none.
+  enum class When { before, without_forces, after };
   void stop_points(MutableBodyColumns state, When when);
 
   const std::vector<Loading>& largest_loads() const { return persistent_.largest_loads(); }
@@ -91,6 +92,7 @@ class PersistentContact {
   bool is_adaptive() const { return in_contact_.adaptive || follows_turning_slip_; }
   Stepper& stepper() const;
   void set_resting_aside(BodyColumns state);
+  bool stop_with_friction(MutableBodyColumns state, double most);
 
   const ContactScales& scales() const { return persistent_.scales(); }
   double threshold_of(const ContactPoint& contact) const;
@@ -119,6 +121,7 @@ class PersistentContact {
   std::vector<char> rests_;  // by body
   std::vector<ProjectionTarget> targets_;
   BodyTable sampled_;
+  BodyTable before_;
   long passes_ = 0;
 };
 

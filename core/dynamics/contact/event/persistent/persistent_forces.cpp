@@ -104,7 +104,7 @@ void PersistentForces::place_limit(BodyColumns state, PersistentPoint& point) co
   point.velocity = Vec3(at.rate, 0, 0), point.bias = Vec3(at.bias, 0, 0);
 }
 
-void PersistentForces::add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force) {
+void PersistentForces::add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force, double bias) {
   const PersistentPoint& at = points_[point];
   const ConeConstraint cone = at.cone();
   ForceEquations::Row row;
@@ -121,7 +121,7 @@ void PersistentForces::add_row(std::size_t point, int axis, const Vec3& directio
     side.of_J = scaled(cone.row(end, direction)), side.of_P = scaled(cone.row(end, force));
   }
   if (row.square() == 0) return;
-  row.bias = at.bias[axis];
+  row.bias = bias;
   if (joints_) row.response = response_to(cone, force);
   equations_.add(std::move(row), direction == force);
 }
@@ -138,20 +138,23 @@ Eigen::VectorXd PersistentForces::response_to(const ConeConstraint& at, const Ve
   return response;
 }
 
-void PersistentForces::list_rows(const Island& island) {
+// For velocities, if no slip has begun yet: their rows have no bias.
+void PersistentForces::list_rows(const Island& island, Slips slips) {
   equations_.clear();
   for (const std::size_t i : island.points) {
     const PersistentPoint& point = points_[i];
     const Vec3 n = point.kinematics.normal;
-    if (point.mode == PersistentPoint::Mode::sticks) {
-      for (int axis = 0; axis < 3; ++axis) add_row(i, axis, point.frame.col(axis), point.frame.col(axis));
+    const Vec3 bias = slips == Slips::as_chosen ? point.bias : Vec3::Zero();
+    const bool stands = slips == Slips::not_yet && point.begins_to_slip;
+    if (point.mode == PersistentPoint::Mode::sticks || stands) {
+      for (int axis = 0; axis < 3; ++axis) add_row(i, axis, point.frame.col(axis), point.frame.col(axis), bias[axis]);
       continue;
     }
     if (point.friction() == 0) {
-      add_row(i, 0, n, n);
+      add_row(i, 0, n, n, bias[0]);
       continue;
     }
-    add_row(i, 0, n, n - point.friction() * braked_direction(point, unit_of_slip(scales())));
+    add_row(i, 0, n, n - point.friction() * braked_direction(point, unit_of_slip(scales())), bias[0]);
   }
 }
 
@@ -198,21 +201,52 @@ double PersistentForces::largest_force() const {
   return largest;
 }
 
-void PersistentForces::solve(const Island& island, BodyColumns state, const double* wrench) {
+// The island at hand, with rates of its bodies (linear and angular) in units in which M is 1.
+template <typename RatesOf>
+Eigen::VectorXd PersistentForces::take_up(const Island& island, BodyColumns state, const RatesOf& rates_of) {
   island_ = island.bodies;
   root_W_.resize(island.bodies.size());
-  Eigen::VectorXd free(6 * island.bodies.size());
+  Eigen::VectorXd rates(6 * island.bodies.size());
   for (std::size_t k = 0; k < island.bodies.size(); ++k) {
     const int body = island.bodies[k];
     const Mat3 R = state.has_rotation() ? state.rotation(body) : matrix_of(state.orientation(body).normalized());
     root_W_[k] = R * inertia_root_B_[body];
-    const auto [linear, angular] = free_acceleration(state, wrench, body);
-    free.segment<3>(6 * static_cast<Eigen::Index>(k)) = std::sqrt(system_.bodies[body].mass) * linear;
+    const auto [linear, angular] = rates_of(body);
+    rates.segment<3>(6 * static_cast<Eigen::Index>(k)) = std::sqrt(system_.bodies[body].mass) * linear;
     // The root's inverse: G⁻¹ = Gᵀ I.
-    free.segment<3>(6 * static_cast<Eigen::Index>(k) + 3) =
+    rates.segment<3>(6 * static_cast<Eigen::Index>(k) + 3) =
         inertia_root_B_[body].transpose() * (system_.bodies[body].inertia_B * (R.transpose() * angular));
   }
-  list_rows(island);
+  return rates;
+}
+
+void PersistentForces::stop(MutableBodyColumns state) {
+  find_islands();
+  if (joints_) {
+    joints_->velocity_impulse(state);  // for its factor
+    through_joints_->set_pose(state);
+  }
+  for (const Island& island : islands_) {
+    const Eigen::VectorXd before = take_up(island, state, [&](int body) {
+      return std::pair<Vec3, Vec3>(state.velocity(body), state.angular_velocity(body));
+    });
+    list_rows(island, Slips::not_yet);
+    equations_.solve(before);
+    const Eigen::VectorXd change = equations_.accelerations(before) - before;
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+      const int body = island.bodies[k];
+      if (system_.bodies[body].fixed) continue;
+      const auto at = 6 * static_cast<Eigen::Index>(k);
+      state.set_velocity(body,
+                         state.velocity(body) + std::sqrt(system_.bodies[body].inverse_mass) * change.segment<3>(at));
+      state.set_angular_velocity(body, state.angular_velocity(body) + root_W_[k] * change.segment<3>(at + 3));
+    }
+  }
+}
+
+void PersistentForces::solve(const Island& island, BodyColumns state, const double* wrench) {
+  const Eigen::VectorXd free = take_up(island, state, [&](int body) { return free_acceleration(state, wrench, body); });
+  list_rows(island, Slips::as_chosen);
   equations_.solve(free);
   for (const std::size_t i : island.points) points_[i].force.setZero();
   set_forces();

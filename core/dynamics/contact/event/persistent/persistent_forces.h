@@ -65,6 +65,10 @@ class PersistentForces : public ConstraintForces {
   // The positions and velocities of the points at `state`, and the rates of their velocities without any acceleration.
   // Part of hold().
   void place(BodyColumns state);
+  // Takes from the velocities what the points must not have, by impulses along the directions of their forces. A point
+  // that slides gets friction with its normal impulse. The small bounces that this replaces have it as well, so that it
+  // does not matter how many of them are resolved before. A slip that begins counts as sticking. Call place() before.
+  void stop(MutableBodyColumns state);
   // V' of a body under the loads alone: linear and angular.
   std::pair<Vec3, Vec3> free_acceleration(BodyColumns state, const double* wrench, int body) const;
   // Of a point at `state`, under wrench columns of everything that acts on the bodies [m/s²].
@@ -82,8 +86,11 @@ class PersistentForces : public ConstraintForces {
   using Vec6 = Eigen::Matrix<double, 6, 1>;
   void find_islands();
   void place_limit(BodyColumns state, PersistentPoint& point) const;
-  void list_rows(const Island& island);
-  void add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force);
+  enum class Slips { as_chosen, not_yet };  // those that begin
+  void list_rows(const Island& island, Slips slips);
+  template <typename RatesOf>
+  Eigen::VectorXd take_up(const Island& island, BodyColumns state, const RatesOf& rates_of);
+  void add_row(std::size_t point, int axis, const Vec3& direction, const Vec3& force, double bias);
   Eigen::VectorXd response_to(const ConeConstraint& at, const Vec3& force);
   void solve(const Island& island, BodyColumns state, const double* wrench);
   void add_wrenches_through_joints(const Island& island, Eigen::Index size);
