@@ -7,6 +7,7 @@
 #include "adapters/bullet/bullet_matched.h"
 #include "adapters/bullet/bullet_multibody_twin.h"
 #include "adapters/bullet/bullet_multibody_world.h"
+#include "adapters/bullet/bullet_options.h"
 #include "adapters/bullet/bullet_turn.h"
 #include "adapters/bullet/bullet_twin.h"
 #include "adapters/bullet/bullet_world.h"
@@ -41,21 +42,13 @@ const Features kJoints = {joint_feature<BallJoint>(),
                           Feature::motor_table,
                           Feature::joint_limit_beyond_half_turn};
 
-std::vector<OptionInfo> options_of_rigid_bodies() {
-  return {{"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
-          {"split-impulse", "penetration corrected without adding velocity", {"on", "off"}},
-          {"erp", "share of a joint's error corrected in one step", {}, 0, 1},
-          {"cfm", "constraint force mixing: softness of joints and contacts", {}, 0, 1}};
-}
-
 MethodInfo sequential_impulse() {
-  MethodInfo method = {.name = "sequential-impulse",
-                       .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
-                       .leapfrog_stagger = 0.5,
-                       .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
-                       .options = options_of_rigid_bodies()};
-  method.options.insert(method.options.begin(), {"iterations", "sweeps of the solver a step", {}, 1, 10000, true});
-  return method;
+  return {
+      .name = "sequential-impulse",
+      .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
+      .leapfrog_stagger = 0.5,
+      .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
+      .options = {bullet::kIterations, bullet::kGyroscopic, bullet::kSplitImpulse, bullet::kErpOption, bullet::kCfm}};
 }
 
 MethodInfo mlcp() {
@@ -65,7 +58,7 @@ MethodInfo mlcp() {
               "the cube of its rows, 30 ms for 500",
           .leapfrog_stagger = 0.5,
           .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
-          .options = options_of_rigid_bodies()};
+          .options = {bullet::kGyroscopic, bullet::kSplitImpulse, bullet::kErpOption, bullet::kDirectCfm}};
 }
 
 // Trees of joints, and no contacts.
@@ -99,17 +92,16 @@ std::unique_ptr<World> BulletEngine::load(const Scene& scene, const Settings& se
   return std::make_unique<BulletWorld>(scene, settings);
 }
 
-// The defaults are those that BulletWorld sets or leaves. An unnamed cfm follows from the masses, in the twin as there.
+// An unnamed cfm follows from the masses, in the engine and in its twin.
 // On the stock track jointed bodies fall asleep together, and reduced coordinates are damped; the twin repeats neither.
 std::string BulletEngine::twin(const Settings& settings) const {
   if (settings.method == "multibody") return settings.track == Track::matched ? "core:bullet-multibody-twin" : "";
-  std::string name =
-      "core:bullet-twin,gyroscopic=" + word_option(settings, "gyroscopic", "implicit-body") + ",sleeping=";
+  std::string name = "core:bullet-twin,gyroscopic=" + word_option(settings, bullet::kGyroscopic) + ",sleeping=";
   if (settings.track == Track::stock)
     return fmt::format("{}on,gyroscopic-limit={},joints=none", name, btContactSolverInfo().m_maxGyroscopicForce);
   if (settings.method != "mlcp") return name + "off,joints=none";
-  name += fmt::format("off,erp={},joints=direct", number_option(settings, "erp", bullet::kErp));
-  return settings.options.contains("cfm") ? name + ",cfm=" + settings.options.at("cfm") : name;
+  name += fmt::format("off,erp={},joints=direct", number_option(settings, bullet::kErpOption, bullet::kErp));
+  return is_named(settings, bullet::kDirectCfm) ? name + ",cfm=" + settings.options.at("cfm") : name;
 }
 
 EngineRow bullet_row() {

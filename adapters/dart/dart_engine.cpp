@@ -5,6 +5,7 @@
 #include "adapters/common/engine_row.h"
 #include "adapters/common/option_values.h"
 #include "adapters/dart/dart_calls.h"
+#include "adapters/dart/dart_options.h"
 #include "adapters/dart/dart_twin.h"
 #include "adapters/dart/dart_world.h"
 #include "core/engine/run_name.h"
@@ -34,17 +35,12 @@ const Features kDartJoints = {joint_feature<BallJoint>(),
                               Feature::motor_table,
                               Feature::motor_speed};
 
-std::vector<OptionInfo> options_of_solvers() {
-  return {{"erp", "share of a gap or an overlap corrected in one step", {}, 0, 1},
-          {"cfm", "share by which a constraint's own inverse mass is raised: softness", {}, 1e-9, 1}};
-}
-
 MethodInfo by_solver(const std::string& name, const std::string& solver) {
   return {.name = name,
           .summary = "semi-implicit Euler in the joints' coordinates, gyroscopic term explicit; contacts by " + solver,
           .leapfrog_stagger = 0.5,
           .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
-          .options = options_of_solvers()};
+          .options = {kDartErp, kDartSoftness}};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "adapters/mujoco/mujoco_calls.h"
 #include "adapters/mujoco/mujoco_export.h"
 #include "adapters/mujoco/mujoco_import.h"
+#include "adapters/mujoco/mujoco_options.h"
 #include "adapters/mujoco/mujoco_twin.h"
 #include "adapters/mujoco/mujoco_world.h"
 #include "core/engine/run_name.h"
@@ -23,11 +24,7 @@ const Features kMujocoContacts = [] {
   return contacts;
 }();
 
-std::vector<OptionInfo> options_of_all() {
-  return {{"cone", "the friction cone, or a pyramid in it", {"elliptic", "pyramidal"}},
-          {"impratio", "how much stiffer friction is than contact", {}, 1e-3, 1e6},
-          {"iterations", "of the solver, at most", {}, 1, 10000, true}};
-}
+std::vector<OptionInfo> options_of_all() { return {kMujocoCone, kMujocoImpratio, kMujocoIterations}; }
 
 MethodInfo euler() {
   return {.name = "euler",
