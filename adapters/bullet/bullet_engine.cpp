@@ -11,6 +11,7 @@
 #include "adapters/bullet/bullet_turn.h"
 #include "adapters/bullet/bullet_twin.h"
 #include "adapters/bullet/bullet_world.h"
+#include "adapters/common/coordinate_features.h"
 #include "adapters/common/engine_row.h"
 #include "adapters/common/option_values.h"
 #include "core/engine/run_name.h"
@@ -24,23 +25,11 @@ const Features kBulletContacts = contacts_among<Box, Capsule, Convex, Cylinder, 
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
-const Features kJoints = {joint_feature<BallJoint>(),
-                          joint_feature<CylindricalJoint>(),
-                          joint_feature<FixedJoint>(),
-                          joint_feature<HingeJoint>(),
-                          joint_feature<SliderJoint>(),
-                          joint_feature<UniversalJoint>(),
-                          Feature::joint_spring,
-                          Feature::joint_damper,
-                          Feature::joints_with_dampers,
-                          Feature::joints_with_contacts,
-                          Feature::joint_limit,
-                          Feature::motor_effort,
-                          Feature::motor_speed,
-                          Feature::joint_friction,
-                          Feature::motor_servo,
-                          Feature::motor_table,
-                          Feature::joint_limit_beyond_half_turn};
+const Features kJoints =
+    joined(kCoordinateFeatures, {joint_feature<BallJoint>(), joint_feature<CylindricalJoint>(),
+                                 joint_feature<FixedJoint>(), joint_feature<HingeJoint>(), joint_feature<SliderJoint>(),
+                                 joint_feature<UniversalJoint>(), Feature::joints_with_contacts, Feature::joint_limit,
+                                 Feature::motor_speed, Feature::joint_friction, Feature::joint_limit_beyond_half_turn});
 
 MethodInfo sequential_impulse() {
   return {

@@ -2,6 +2,7 @@
 
 #include <dart/config.hpp>
 
+#include "adapters/common/coordinate_features.h"
 #include "adapters/common/engine_row.h"
 #include "adapters/common/option_values.h"
 #include "adapters/dart/dart_calls.h"
@@ -18,22 +19,11 @@ const Features kDartContacts = {contact_feature<Box, Box>(), contact_feature<Box
                                 contact_feature<Box, Sphere>(), contact_feature<Plane, Sphere>(),
                                 contact_feature<Sphere, Sphere>()};
 
-const Features kDartJoints = {joint_feature<BallJoint>(),
-                              joint_feature<FixedJoint>(),
-                              joint_feature<HingeJoint>(),
-                              joint_feature<SliderJoint>(),
-                              joint_feature<UniversalJoint>(),
-                              Feature::joint_spring,
-                              Feature::joint_damper,
-                              Feature::joint_limit,
-                              Feature::joint_limit_beyond_half_turn,
-                              Feature::joints_with_contacts,
-                              Feature::joints_with_dampers,
-                              Feature::motor_effort,
-                              Feature::joint_friction,
-                              Feature::motor_servo,
-                              Feature::motor_table,
-                              Feature::motor_speed};
+const Features kDartJoints =
+    joined(kCoordinateFeatures, {joint_feature<BallJoint>(), joint_feature<FixedJoint>(), joint_feature<HingeJoint>(),
+                                 joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(), Feature::joint_limit,
+                                 Feature::joint_limit_beyond_half_turn, Feature::joints_with_contacts,
+                                 Feature::joint_friction, Feature::motor_speed});
 
 MethodInfo by_solver(const std::string& name, const std::string& solver) {
   return {.name = name,

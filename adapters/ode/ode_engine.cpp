@@ -4,6 +4,7 @@
 #include <ode/ode.h>
 #include <ode/version.h>
 
+#include "adapters/common/coordinate_features.h"
 #include "adapters/common/engine_row.h"
 #include "adapters/common/option_values.h"
 #include "adapters/ode/ode_calls.h"
@@ -25,24 +26,11 @@ const Features kOdeContacts = joined(contacts_among<Box, Capsule, Plane, Sphere>
 std::vector<OptionInfo> options_of_both() { return {kOdeGyroscopic, kOdeRotation, kOdeErp, kOdeCfm}; }
 
 Features joints_of_all_kinds() {
-  return {joint_feature<BallJoint>(),
-          joint_feature<CylindricalJoint>(),
-          joint_feature<DistanceJoint>(),
-          joint_feature<FixedJoint>(),
-          joint_feature<HingeJoint>(),
-          joint_feature<SliderJoint>(),
-          joint_feature<UniversalJoint>(),
-          Feature::joint_spring,
-          Feature::joint_damper,
-          Feature::joint_limit,
-          Feature::motor_effort,
-          Feature::motor_speed,
-          Feature::joint_friction,
-          Feature::motor_servo,
-          Feature::motor_table,
-          Feature::joints_with_contacts,
-          Feature::joints_with_dampers,
-          Feature::joint_limit_beyond_half_turn};
+  return joined(kCoordinateFeatures,
+                {joint_feature<BallJoint>(), joint_feature<CylindricalJoint>(), joint_feature<DistanceJoint>(),
+                 joint_feature<FixedJoint>(), joint_feature<HingeJoint>(), joint_feature<SliderJoint>(),
+                 joint_feature<UniversalJoint>(), Feature::joint_limit, Feature::motor_speed, Feature::joint_friction,
+                 Feature::joints_with_contacts, Feature::joint_limit_beyond_half_turn});
 }
 
 MethodInfo by_size() {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "adapters/common/coordinate_features.h"
 #include "adapters/common/engine_row.h"
 #include "adapters/common/option_values.h"
 #include "adapters/simbody/simbody_calls.h"
@@ -48,11 +49,11 @@ EngineInfo SimbodyEngine::info() const {
   return {.name = "simbody",
           .version = simbody_version(),
           .precision = "double",
-          .features = {Feature::spring, Feature::timed_force, Feature::fixed_body, joint_feature<BallJoint>(),
-                       joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(), joint_feature<CylindricalJoint>(),
-                       joint_feature<HingeJoint>(), joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(),
-                       Feature::joint_spring, Feature::joint_damper, Feature::joints_with_dampers,
-                       Feature::motor_effort, Feature::motor_servo, Feature::motor_table},
+          .features =
+              joined(kCoordinateFeatures,
+                     {Feature::spring, Feature::timed_force, Feature::fixed_body, joint_feature<BallJoint>(),
+                      joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(), joint_feature<CylindricalJoint>(),
+                      joint_feature<HingeJoint>(), joint_feature<SliderJoint>(), joint_feature<UniversalJoint>()}),
           .methods = methods()};
 }
 
